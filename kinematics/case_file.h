@@ -1,0 +1,36 @@
+// Case files: YAML in, exact Problem out (docs/case-format.md).
+#pragma once
+
+#include <string>
+
+#include "kinematics/problem.h"
+
+namespace taut {
+
+enum class Strategy { kAStar, kGreedyBestFirst };
+enum class Cost { kRotation, kGreatCircle, kParameters };
+enum class Expectation { kNone, kProved, kRefuted, kUndecided };
+
+/// How to search; floating point, since a search proves nothing. Lengths and angles share one scale, see
+/// atlas/wrench_feasible_manifold.h.
+struct PlannerOptions {
+  Strategy strategy = Strategy::kAStar;
+  Cost cost = Cost::kRotation;
+  double radius = 0.15;   ///< chart radius r [rad]
+  double epsilon = 0.15;  ///< largest distance from chart to manifold [rad]
+  int max_charts = 200000;
+};
+
+struct Case {
+  Problem problem;
+  PlannerOptions planner;
+  Expectation expect = Expectation::kNone;
+  std::string description;  ///< the file's leading comment block, for reports
+};
+
+/// @throws InputError with file, line, field, the value seen and what was expected.
+[[nodiscard]] Case load_case(const std::string& path);
+/// As load_case, from text; `name` stands for the file in messages.
+[[nodiscard]] Case parse_case(const std::string& text, const std::string& name);
+
+}  // namespace taut

@@ -1,0 +1,73 @@
+// Expressions that a user writes in a case file, evaluated on any scalar.
+//
+// Grammar: docs/certificate-format.md. Parsed once (Boost.Spirit X3) into a tape of operations on numbered slots;
+// the tape is evaluated on doubles, intervals, multiprecision intervals and centred forms alike, and a centred
+// form or a dual number differentiates it.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinematics/problem.h"
+#include "kinematics/scalar.h"
+
+namespace taut {
+
+enum class Op : unsigned char {
+  kConstant,  ///< constants[a]
+  kParameter, ///< parameters[a]
+  kAdd, kSubtract, kMultiply, kDivide, kNegate,
+  kPower,     ///< slot a to the integer power b
+  kSqrt, kSin, kCos, kTan, kExp, kLog, kAtan2,
+};
+
+struct Instruction {
+  Op op;
+  int a = 0;
+  int b = 0;
+};
+
+/// Several expressions over the same parameters, on one tape; equal subexpressions are computed once.
+class ExpressionTape {
+ public:
+  /// @throws InputError naming the expression, the column, what was seen and what was expected.
+  ExpressionTape(const std::vector<ExpressionText>& expressions, const std::vector<std::string>& parameters,
+                 const std::map<std::string, DecimalText>& constants);
+
+  [[nodiscard]] const std::vector<Instruction>& instructions() const { return instructions_; }
+  /// Slot of each expression's value.
+  [[nodiscard]] const std::vector<int>& outputs() const { return outputs_; }
+  /// Decimals of the constants; "pi" stands for the number.
+  [[nodiscard]] const std::vector<DecimalText>& constants() const { return constants_; }
+  /// Whether output i depends on parameter j.
+  [[nodiscard]] bool depends_on(int output, int parameter) const;
+
+ private:
+  std::vector<Instruction> instructions_;
+  std::vector<int> outputs_;
+  std::vector<DecimalText> constants_;
+};
+
+/// A tape with its constants made in scalar S.
+template <class S>
+class Evaluator {
+ public:
+  explicit Evaluator(const ExpressionTape& tape);
+  /// values.size() == number of outputs. `parameters` in the order given to the tape.
+  void evaluate(std::span<const S> parameters, std::span<S> values) const;
+
+ private:
+  std::vector<Instruction> instructions_;
+  std::vector<int> outputs_;
+  std::vector<S> constants_;
+};
+
+/// Value of a constant expression (no parameters) in scalar S.
+template <class S>
+[[nodiscard]] S evaluate_constant(const ExpressionText& expression);
+
+}  // namespace taut
+
+#include "kinematics/expression_impl.h"

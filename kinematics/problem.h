@@ -1,0 +1,80 @@
+// The exact problem: robot, load, space of poses and query, as exact decimals and expressions in SI units.
+//
+// A Problem is what a case file means, after units are resolved and before anything is rounded. It is written
+// into every certificate (docs/certificate-format.md, "problem") and every number of it is still the decimal that the
+// user typed, scaled exactly. Scalars of any kind (double, intervals, multiprecision) are made from it by
+// model.h; nothing here computes with floating point.
+#pragma once
+
+#include <array>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+inline constexpr int kCables = 6;
+
+/// A decimal literal such as "-0.0210" or "1e-4": exactly that rational number.
+using DecimalText = std::string;
+/// An expression in the grammar of docs/certificate-format.md.
+using ExpressionText = std::string;
+
+/// An open interval of admissible values; lower < upper.
+struct Limits {
+  DecimalText lower;
+  DecimalText upper;
+  bool operator==(const Limits&) const = default;
+};
+
+struct RobotText {
+  std::array<std::array<DecimalText, 3>, kCables> base_anchors_m;      ///< a_i in W [m]
+  std::array<std::array<DecimalText, 3>, kCables> platform_anchors_m;  ///< b_i in P [m]
+  std::array<Limits, kCables> tension_N;                               ///< 0 <= lower < upper [N]
+  std::array<Limits, kCables> length_m;                                ///< 0 <= lower < upper [m]
+};
+
+struct LoadText {
+  std::array<DecimalText, 3> point_m;                   ///< p_m in P [m]
+  std::array<DecimalText, 6> wrench;                    ///< w0: force [N], moment about P_m [N m], axes of W
+  std::array<std::array<DecimalText, 6>, 6> ellipsoid;  ///< E, symmetric positive definite [1/N^2, 1/(N m)^2]
+};
+
+enum class ParameterKind { kReal, kPeriodic, kRange };
+
+struct Parameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::kReal;
+  ExpressionText range_lower;  ///< constant expressions; empty unless kRange. SI.
+  ExpressionText range_upper;
+};
+
+/// Poses (p, R) as a function of the parameters; R = Rz(phi) Ry(theta) Rz(sigma - phi).
+struct SpaceText {
+  std::vector<Parameter> parameters;
+  std::map<std::string, DecimalText> constants;
+  /// Indices of the parameters that are phi and theta themselves, where (phi, theta) ~ (phi + pi, -theta).
+  std::optional<std::array<int, 2>> flip;
+  /// px, py, pz [m], phi, theta, sigma [rad].
+  std::array<ExpressionText, 6> pose;
+};
+
+inline constexpr std::array<const char*, 6> kPoseNames = {"px", "py", "pz", "phi", "theta", "sigma"};
+
+struct Problem {
+  std::string name;
+  RobotText robot;
+  LoadText load;
+  SpaceText space;
+  /// Waypoints of the query: one constant expression a parameter (SI).
+  std::vector<std::vector<ExpressionText>> query;
+};
+
+/// The `problem` object of a certificate.
+[[nodiscard]] nlohmann::json to_json(const Problem& problem);
+/// Inverse of to_json. @throws InputError naming the key for anything missing, unknown, or of the wrong type.
+[[nodiscard]] Problem problem_from_json(const nlohmann::json& json);
+
+}  // namespace taut

@@ -1,0 +1,60 @@
+// The scalar concept: what the equations of kinematics/ may ask of a number.
+//
+// double, Interval (certify/interval.h), MpInterval (certify/mp_interval.h) and the centred forms over them all
+// model it. Functions are found by argument-dependent lookup; ScalarTraits makes constants.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <string>
+#include <utility>
+
+namespace taut {
+
+/// Constants of scalar S. For an enclosing scalar each result contains the exact value.
+template <class S>
+struct ScalarTraits;
+
+/// {sin x, cos x} at once.
+template <class S>
+struct SinCos {
+  S sin;
+  S cos;
+};
+
+template <>
+struct ScalarTraits<double> {
+  static double from_decimal(const std::string& text);  ///< nearest binary64
+  static double pi() { return 3.14159265358979323846; }
+};
+
+inline double sqr(double x) { return x * x; }
+inline SinCos<double> sincos(double x) { return {std::sin(x), std::cos(x)}; }
+inline double pow_int(double x, int n) { return std::pow(x, n); }
+using std::atan2;
+using std::cos;
+using std::exp;
+using std::log;
+using std::sin;
+using std::sqrt;
+using std::tan;
+
+template <class S>
+concept Scalar = std::copyable<S> && requires(S x, S y, const std::string& text, double d, int n) {
+  { S(d) };  // exact
+  { x + y } -> std::convertible_to<S>;
+  { x - y } -> std::convertible_to<S>;
+  { x* y } -> std::convertible_to<S>;
+  { x / y } -> std::convertible_to<S>;
+  { -x } -> std::convertible_to<S>;
+  { sqr(x) } -> std::convertible_to<S>;
+  { sqrt(x) } -> std::convertible_to<S>;
+  { sincos(x) } -> std::convertible_to<SinCos<S>>;
+  { tan(x) } -> std::convertible_to<S>;
+  { exp(x) } -> std::convertible_to<S>;
+  { log(x) } -> std::convertible_to<S>;
+  { atan2(x, y) } -> std::convertible_to<S>;
+  { pow_int(x, n) } -> std::convertible_to<S>;
+};
+
+}  // namespace taut
