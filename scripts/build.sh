@@ -1,0 +1,70 @@
+# Sourced by ./taut, ./taut-check and ./test, with `root` set to the source tree: builds build/release when it is
+# out of date. Anything that goes wrong here exits with 4, taut's code for an internal failure.
+# shellcheck shell=bash
+# shellcheck disable=SC2154  # root
+
+build=$root/build/release
+log=$root/build/release.log
+stamp=$build/.built # as old as the start of the last good build; holds the path of the tree that it was made from
+
+# Whether the programs are there and newer than all that they are made of. A few milliseconds: every start pays it.
+# Directories count too, so that a file added or removed is seen.
+is_current() {
+  local built_from newer
+  [[ -x $build/cli/taut && -x $build/certify/checker/taut-check && -r $stamp ]] || return
+  read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
+  newer=$(find "$root"/{kinematics,atlas,certify,reports,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} \
+    -newer "$stamp" -print -quit 2>/dev/null) || return
+  [[ -z $newer ]]
+}
+
+# build_release_now [CMAKE_OPTION…] -- [TARGET…]; no target means all.
+build_release_now() {
+  local options=()
+  while [[ $1 != -- ]]; do
+    options+=("$1")
+    shift
+  done
+  shift
+  if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$root
+    [[ -n ${HOME:-} ]] || export CCACHE_DIR=$root/build/ccache
+  fi
+  # A tree that was moved or copied can't go on with the old directory.
+  if [[ -f $build/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+    rm -rf "$build"
+  fi
+  mkdir -p "$build"
+  echo "$root" >"$stamp.new"
+  cd "$root" || return
+  cmake --preset release "${options[@]}" && cmake --build "$build" --parallel "$(nproc)" ${1:+--target "$@"} &&
+    mv "$stamp.new" "$stamp"
+}
+
+# under_lock COMMAND…: runs it while no other start builds this tree; output to stderr and to the log.
+# A subshell, so that the lock's descriptor is gone when it ends.
+under_lock() (
+  set -o pipefail
+  mkdir -p "$root/build" && exec 9>"$root/build/.lock" || exit 4
+  flock 9
+  "$@" 2>&1 </dev/null | tee "$log" >&2
+)
+
+build_programs() {
+  is_current && return # another start has built it while this one waited
+  echo "building taut in $build (first use, or newer sources) ..."
+  local tests=()
+  [[ -f $build/CMakeCache.txt ]] || tests=(-DTAUT_TESTS=OFF) # ./test turns them on
+  "$root/scripts/install-packages" build && build_release_now "${tests[@]}" -- taut taut-check
+}
+
+build_all() {
+  "$root/scripts/install-packages" build test && build_release_now -DTAUT_TESTS=ON --
+}
+
+# or_exit_4 COMMAND…
+or_exit_4() {
+  "$@" && return
+  echo "${0##*/}: the build failed; its output is above and in $log" >&2
+  exit 4
+}
