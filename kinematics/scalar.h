@@ -28,6 +28,9 @@ struct ScalarTraits<double> {
   static double pi() { return 3.14159265358979323846; }
 };
 
+/// Bounds as doubles: of an enclosing scalar, below and above all its members.
+inline double lower_bound(double x) { return x; }
+inline double upper_bound(double x) { return x; }
 inline double sqr(double x) { return x * x; }
 inline SinCos<double> sincos(double x) { return {std::sin(x), std::cos(x)}; }
 inline double pow_int(double x, int n) { return std::pow(x, n); }

@@ -1,0 +1,126 @@
+// The heart: enclosures of lengths, tensions and margins over one box of one segment.
+//
+// Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any approximation of
+// D(m)^-1. With A0 = C D(m) and A1 ⊇ C D'(T), the mean value theorem gives, entry by entry,
+//   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                       (a)
+// If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
+//   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                                (b)
+// As D^-1 = P C, the force densities λ = P C w and the rows of Z = P C L have the slopes
+//   λ' = −P (C D') P C w,   Z' = −P (C D') P C L,   P (C D') P in A1 ± W,   W = |A1| Q + Q (|A1| + |A1| Q).          (c)
+// Values at m from (b) with N0 = |I − A0|, slopes from (c): centred forms of λ and Z, so of the tensions
+//   f0_i = d_i λ_i,  v_ii = d_i |Z_i|, and of the margins  f0_i − v_ii − f_lo, f_hi − f0_i − v_ii, d_i − d_lo, d_hi − d_i.
+// Proof of each step: docs/theory.md, "A box".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "certify/centered.h"
+#include "certify/interval.h"
+#include "certify/margin.h"
+#include "certify/mp_interval.h"
+#include "kinematics/geometry.h"
+#include "kinematics/segment.h"
+
+namespace taut {
+
+/// [k/2^depth, (k+1)/2^depth] within [0, 1].
+struct DyadicBox {
+  static constexpr int kMaxDepth = 52;  ///< ends and midpoints are binary64 numbers up to here
+  std::uint64_t k = 0;
+  int depth = 0;
+
+  [[nodiscard]] double lower() const;  ///< exact
+  [[nodiscard]] double upper() const;  ///< exact
+  [[nodiscard]] double mid() const;    ///< exact
+  [[nodiscard]] DyadicBox left() const { return {2 * k, depth + 1}; }
+  [[nodiscard]] DyadicBox right() const { return {2 * k + 1, depth + 1}; }
+  bool operator==(const DyadicBox&) const = default;
+};
+
+/// The problem ready for scalar I: constants enclosed, pose expressions compiled.
+template <class I>
+struct ProofModel {
+  Model<I> model;
+  Evaluator<Centered<I>> pose;
+};
+
+/// At working_precision(). @throws InputError where E can't be proved positive definite.
+[[nodiscard]] ProofModel<MpInterval> make_mp_proof_model(const Problem& problem);
+/// The binary64 enclosure of make_mp_proof_model at 256 bits.
+[[nodiscard]] ProofModel<Interval> make_proof_model(const Problem& problem);
+
+/// What is known over one box.
+template <class I>
+struct BoxEnclosure {
+  bool regular = false;                        ///< ρ < 1: J is non-singular on all of T, given positive lengths
+  std::array<Centered<I>, kCables> length;     ///< d_i [m]
+  std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
+  std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]; only where regular
+  I offset;                                    ///< contains t − m for all t in T
+};
+
+/// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
+template <class I>
+[[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b,
+                                          const DyadicBox& box);
+
+/// Several margins of one box; positive throughout if the claim holds on it.
+template <class I>
+struct MarginList {
+  static constexpr std::size_t kCapacity = 64;
+  struct Entry {
+    MarginId id;
+    Centered<I> value;  ///< [N] or [m]
+  };
+  std::array<Entry, kCapacity> entries;
+  std::size_t size = 0;
+
+  void add(MarginId id, const Centered<I>& value) { entries[size++] = {id, value}; }
+  [[nodiscard]] const Entry* begin() const { return entries.data(); }
+  [[nodiscard]] const Entry* end() const { return entries.data() + size; }
+};
+
+/// One kind of margin, from what is known over a box. A new kind is a new source in margin_sources().
+template <class I>
+using MarginSource = void (*)(const Model<I>&, const BoxEnclosure<I>&, MarginList<I>&);
+
+template <class I>
+void length_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins);
+/// Nothing unless `box` is regular.
+template <class I>
+void tension_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins);
+
+/// What the prover concludes from one box with one scalar.
+struct BoxVerdict {
+  enum class Kind {
+    kProved,        ///< all margins positive on all of T, J non-singular on it
+    kRefuted,       ///< `worst` is proved not positive at the midpoint
+    kSplit,         ///< the midpoint is fine; the box is too wide
+    kPrecision,     ///< at the midpoint itself this scalar can't tell
+    kNearSingular,  ///< ρ < 1 could not be had: T is too wide, or D comes close to singular
+    kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
+  };
+  Kind kind = Kind::kFault;
+  MarginId worst;           ///< the margin that decided, or stood in the way
+  double tension_N = 0;     ///< proved lower bounds over the box; only if kProved
+  double length_m = 0;
+  double wrench_scale = 0;
+};
+
+/// Never throws for mathematical reasons.
+[[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Waypoint& a, const Waypoint& b,
+                                   const DyadicBox& box);
+[[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b,
+                                   const DyadicBox& box);
+
+/// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
+[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b, double s);
+
+extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Waypoint&, const Waypoint&,
+                                                   const DyadicBox&);
+extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Waypoint&, const Waypoint&,
+                                                     const DyadicBox&);
+
+}  // namespace taut

@@ -1,0 +1,95 @@
+// Centred forms: a function of one variable t over an interval T, enclosed at its midpoint and by its slope.
+//
+// Claim.  Centered<I>{at_mid, slope, range} stands for a function x, differentiable on T, with
+//   x(m) in at_mid,   x'(t) in slope and x(t) in range for every t in T,   m the midpoint of T,
+// and every operation keeps that. By the mean value theorem x(t) is in at_mid + slope (t − m): second-order tight, while
+// `range` alone is first-order. tighten() intersects the two.
+//
+// The prover evaluates pose, rotation and force densities on this scalar; a clearance between bodies or any other
+// quantity of the pose would be evaluated on it just the same.
+#pragma once
+
+#include <string>
+
+#include "kinematics/scalar.h"
+
+namespace taut {
+
+template <class I>
+struct Centered {
+  I at_mid;
+  I slope;
+  I range;
+
+  Centered() = default;
+  Centered(I mid, I slope_over, I range_over)
+      : at_mid(std::move(mid)), slope(std::move(slope_over)), range(std::move(range_over)) {}
+  /// A constant.
+  explicit(false) Centered(const I& constant) : at_mid(constant), slope(0.0), range(constant) {}
+  explicit(false) Centered(double constant) : Centered(I(constant)) {}
+
+  friend Centered operator+(const Centered& a, const Centered& b) {
+    return {a.at_mid + b.at_mid, a.slope + b.slope, a.range + b.range};
+  }
+  friend Centered operator-(const Centered& a, const Centered& b) {
+    return {a.at_mid - b.at_mid, a.slope - b.slope, a.range - b.range};
+  }
+  friend Centered operator-(const Centered& a) { return {-a.at_mid, -a.slope, -a.range}; }
+  friend Centered operator*(const Centered& a, const Centered& b) {
+    return {a.at_mid * b.at_mid, a.slope * b.range + a.range * b.slope, a.range * b.range};
+  }
+  friend Centered operator/(const Centered& a, const Centered& b) { return a * reciprocal(b); }
+
+  friend Centered operator+(const Centered& a, const I& k) { return {a.at_mid + k, a.slope, a.range + k}; }
+  friend Centered operator-(const Centered& a, const I& k) { return {a.at_mid - k, a.slope, a.range - k}; }
+  friend Centered operator*(const Centered& a, const I& k) { return {a.at_mid * k, a.slope * k, a.range * k}; }
+
+  friend Centered reciprocal(const Centered& a) {
+    const I inverse = reciprocal(a.range);
+    return {reciprocal(a.at_mid), -(a.slope * sqr(inverse)), inverse};
+  }
+  friend Centered sqr(const Centered& a) {
+    const I product = a.slope * a.range;
+    return {sqr(a.at_mid), product + product, sqr(a.range)};
+  }
+  friend Centered sqrt(const Centered& a) {
+    const I root = sqrt(a.range);
+    return {sqrt(a.at_mid), a.slope / (root + root), root};
+  }
+  friend SinCos<Centered> sincos(const Centered& a) {
+    const SinCos<I> mid = sincos(a.at_mid);
+    const SinCos<I> range = sincos(a.range);
+    return {{mid.sin, range.cos * a.slope, range.sin}, {mid.cos, -(range.sin * a.slope), range.cos}};
+  }
+  friend Centered tan(const Centered& a) {
+    const SinCos<Centered> sc = sincos(a);
+    return sc.sin / sc.cos;
+  }
+  friend Centered sin(const Centered& a) { return sincos(a).sin; }
+  friend Centered cos(const Centered& a) { return sincos(a).cos; }
+  friend Centered exp(const Centered& a) {
+    const I range = exp(a.range);
+    return {exp(a.at_mid), range * a.slope, range};
+  }
+  friend Centered log(const Centered& a) { return {log(a.at_mid), a.slope / a.range, log(a.range)}; }
+  friend Centered atan2(const Centered& y, const Centered& x) {
+    return {atan2(y.at_mid, x.at_mid),
+            (x.range * y.slope - y.range * x.slope) / (sqr(x.range) + sqr(y.range)), atan2(y.range, x.range)};
+  }
+  friend Centered pow_int(const Centered& a, int n) {
+    if (n == 0) return Centered(1.0);
+    const I derivative = I(static_cast<double>(n)) * pow_int(a.range, n - 1);
+    return {pow_int(a.at_mid, n), derivative * a.slope, pow_int(a.range, n)};
+  }
+
+  /// Intersects `range` with the mean-value form; `offset` encloses t − m for all t in T.
+  void tighten(const I& offset) { range = intersect(range, at_mid + slope * offset); }
+};
+
+template <class I>
+struct ScalarTraits<Centered<I>> {
+  static Centered<I> from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
+  static Centered<I> pi() { return ScalarTraits<I>::pi(); }
+};
+
+}  // namespace taut

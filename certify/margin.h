@@ -1,0 +1,24 @@
+// Margins: what a claim is a conjunction of.
+//
+// A margin is a function of the pose that must be positive. The prover knows no particular ones: it walks a list of margin
+// sources (box_proof.h), each of which turns the enclosures of a box into margins. More kinds (clearance
+// between bodies, inertial wrenches) are more sources.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace taut {
+
+enum class MarginKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax };
+
+struct MarginId {
+  MarginKind kind = MarginKind::kTensionMin;
+  int cable = 0;  ///< 0…5; printed from 1
+  bool operator==(const MarginId&) const = default;
+};
+
+/// "tension_min", "tension_max", "length_min", "length_max".
+[[nodiscard]] const char* name(MarginKind kind);
+
+}  // namespace taut

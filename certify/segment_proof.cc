@@ -1,0 +1,127 @@
+#include "certify/segment_proof.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace taut {
+
+Prover::Prover(const Problem& problem, ProofOptions options)
+    : problem_(problem), options_(std::move(options)), fast_(make_proof_model(problem)) {
+  for (const mpfr_prec_t bits : options_.ladder_bits) {
+    const PrecisionScope precision(bits);
+    fine_.push_back(make_mp_proof_model(problem));
+  }
+}
+
+BoxVerdict Prover::judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box) const {
+  if (rung == 0) return judge_box(fast_, a, b, box);
+  const PrecisionScope precision(options_.ladder_bits[rung - 1]);
+  return judge_box(fine_[rung - 1], a, b, box);
+}
+
+BoxVerdict Prover::judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const {
+  BoxVerdict verdict;
+  for (std::size_t rung = 0; rung <= fine_.size(); ++rung) {
+    verdict = judge_at(rung, a, b, box);
+    if (verdict.kind == BoxVerdict::Kind::kProved || verdict.kind == BoxVerdict::Kind::kRefuted) break;
+  }
+  return verdict;
+}
+
+SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
+  using Kind = BoxVerdict::Kind;
+  struct Task {
+    DyadicBox box;
+    std::size_t rung;
+  };
+  SegmentProof proof;
+  proof.tension_N = proof.length_m = proof.wrench_scale = std::numeric_limits<double>::infinity();
+  const auto give_up = [&](const DyadicBox& box, std::string reason) {
+    proof.verdict = Verdict::kUndecided;
+    proof.open_box = box;
+    proof.reason = std::move(reason);
+  };
+
+  std::vector<Task> stack = {{{0, 0}, 0}};
+  while (!stack.empty()) {
+    const auto [box, rung] = stack.back();
+    stack.pop_back();
+    if (++proof.boxes_judged > options_.max_boxes) {
+      give_up(box, "the budget of boxes is spent");
+      return proof;
+    }
+    if (interrupt != nullptr && interrupt->load(std::memory_order_relaxed)) {
+      give_up(box, "interrupted");
+      return proof;
+    }
+    if (rung > 0) ++proof.boxes_multiprecision;
+    const BoxVerdict verdict = judge_at(rung, a, b, box);
+
+    const bool higher_rung = rung < fine_.size();
+    const bool may_split = box.depth < options_.max_depth;
+    const auto split = [&] {
+      stack.push_back({box.right(), rung});
+      stack.push_back({box.left(), rung});
+    };
+    const auto climb = [&] { stack.push_back({box, rung + 1}); };
+    switch (verdict.kind) {
+      case Kind::kProved:
+        proof.boxes.push_back(box);
+        proof.tension_N = std::min(proof.tension_N, verdict.tension_N);
+        proof.length_m = std::min(proof.length_m, verdict.length_m);
+        proof.wrench_scale = std::min(proof.wrench_scale, verdict.wrench_scale);
+        break;
+      case Kind::kRefuted:
+        proof.verdict = Verdict::kRefuted;
+        proof.witness = SegmentWitness{false, verdict.worst, box.mid(), 0};
+        return proof;
+      case Kind::kSplit:
+        if (!may_split) {
+          give_up(box, std::string("bisection depth reached at margin ") + name(verdict.worst.kind) + " of cable " +
+                           std::to_string(verdict.worst.cable + 1));
+          return proof;
+        }
+        split();
+        break;
+      case Kind::kPrecision:
+        if (higher_rung) {
+          climb();
+        } else if (may_split) {
+          split();
+        } else {
+          give_up(box, std::string("precision reached at margin ") + name(verdict.worst.kind) + " of cable " +
+                           std::to_string(verdict.worst.cable + 1) + ": it vanishes or nearly so");
+          return proof;
+        }
+        break;
+      case Kind::kNearSingular:
+      case Kind::kFault:
+        if (box.depth < options_.singular_depth) {
+          split();
+        } else if (higher_rung) {
+          climb();
+        } else if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth) {
+          const PrecisionScope precision(options_.ladder_bits.back());
+          const int sign_lower = determinant_sign(fine_.back(), a, b, box.lower());
+          const int sign_upper = determinant_sign(fine_.back(), a, b, box.upper());
+          if (sign_lower * sign_upper < 0) {
+            proof.verdict = Verdict::kRefuted;
+            proof.witness = SegmentWitness{true, {}, box.lower(), box.upper()};
+            return proof;
+          }
+          split();
+        } else if (may_split && box.depth < 2 * options_.singular_depth) {
+          split();
+        } else {
+          give_up(box, verdict.kind == Kind::kFault ? "the pose or an equation is not defined on all of the box"
+                                                    : "the force Jacobian is singular or nearly so");
+          return proof;
+        }
+        break;
+    }
+  }
+  proof.verdict = Verdict::kProved;
+  return proof;
+}
+
+}  // namespace taut

@@ -1,0 +1,76 @@
+// Proves or refutes one segment: boxes from box_proof.h, bisection, and a ladder of precisions.
+//
+// Each box is first judged in binary64 intervals; where the midpoint itself can't be told apart from its limit, in MPFR
+// intervals of growing precision. Verdicts are three: undecided is not unsafe.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certify/box_proof.h"
+
+namespace taut {
+
+enum class Verdict { kProved, kRefuted, kUndecided };
+
+struct ProofOptions {
+  /// Precisions of the ladder's MPFR rungs [bits].
+  std::vector<mpfr_prec_t> ladder_bits = {128, 256, 512};
+  int max_depth = 48;        ///< at most DyadicBox::kMaxDepth − 1
+  int max_boxes = 200'000;   ///< boxes judged in one segment
+  /// Depth from which a box that can't be inverted climbs the ladder and is examined for a change of sign of det J.
+  int singular_depth = 16;
+};
+
+/// What refutes a segment, itself proved: a margin that is not positive at s, or det D of opposite signs at s and s_other.
+struct SegmentWitness {
+  bool singular = false;
+  MarginId margin;
+  double s = 0;        ///< dyadic
+  double s_other = 0;  ///< dyadic; only if singular
+};
+
+struct SegmentProof {
+  Verdict verdict = Verdict::kUndecided;
+  std::vector<DyadicBox> boxes;  ///< cover [0, 1] in order; only if proved
+  double tension_N = 0;          ///< proved lower bounds along the segment; only if proved
+  double length_m = 0;
+  double wrench_scale = 0;
+  std::optional<SegmentWitness> witness;  ///< only if refuted
+  DyadicBox open_box;                     ///< only if undecided: the smallest box left
+  std::string reason;                     ///< only if undecided
+  int boxes_judged = 0;                   ///< including those that were split
+  int boxes_multiprecision = 0;
+};
+
+/// A problem ready to be proved about, at every rung of the ladder. Immutable; share it between threads.
+class Prover {
+ public:
+  /// @throws InputError if the problem can't be enclosed (E not positive definite).
+  explicit Prover(const Problem& problem, ProofOptions options = {});
+
+  /// Claim (docs/certificate-format.md): for every s in [0, 1] and every wrench in K at γ(s), J is non-singular and all
+  /// tensions and lengths are strictly inside their limits. Thread-safe; restores the caller's rounding mode.
+  [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b) const;
+
+  /// One box, at the cheapest rung that decides it.
+  [[nodiscard]] BoxVerdict judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const;
+
+  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] const ProofModel<Interval>& model() const { return fast_; }
+
+  /// Set to make prove() return undecided soon, from any thread.
+  std::atomic<bool>* interrupt = nullptr;
+
+ private:
+  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box) const;
+
+  Problem problem_;
+  ProofOptions options_;
+  ProofModel<Interval> fast_;
+  std::vector<ProofModel<MpInterval>> fine_;  ///< one a rung of the ladder
+};
+
+}  // namespace taut

@@ -1,0 +1,75 @@
+// Cables and force densities at a pose (design: no square root but in the lengths).
+//
+//   d_i = p + R b_i − a_i                                                    cable vector A_i→B_i                 (1)
+//   D   = columns (d_i ; (R (b_i − p_m)) × d_i)                              force-density matrix about P_m
+//   D λ = w,  f_i = d_i λ_i                                                  equilibrium in the load frame F3     (4)
+//
+// J = D diag(1/d_i), so J is non-singular exactly where D is and all lengths are positive. D is polynomial in p and R.
+// The scalar S of the pose may be a centred form or a dual number over the model's scalar K.
+#pragma once
+
+#include "kinematics/model.h"
+
+namespace taut {
+
+template <class S>
+struct CableGeometry {
+  std::array<Vector3<S>, kCables> p_AB_W;  ///< d_i, axes of W [m]
+  Matrix6<S> force_density;                ///< D
+};
+
+template <class S>
+[[nodiscard]] Matrix3<S> rotation(const S& phi, const S& theta, const S& sigma) {
+  const SinCos<S> f = sincos(phi);
+  const SinCos<S> t = sincos(theta);
+  const SinCos<S> g = sincos(sigma - phi);
+  const S cf_ct = f.cos * t.cos;
+  const S sf_ct = f.sin * t.cos;
+  Matrix3<S> r_WP;
+  r_WP(0, 0) = cf_ct * g.cos - f.sin * g.sin;
+  r_WP(0, 1) = -(cf_ct * g.sin) - f.sin * g.cos;
+  r_WP(0, 2) = f.cos * t.sin;
+  r_WP(1, 0) = sf_ct * g.cos + f.cos * g.sin;
+  r_WP(1, 1) = f.cos * g.cos - sf_ct * g.sin;
+  r_WP(1, 2) = f.sin * t.sin;
+  r_WP(2, 0) = -(t.sin * g.cos);
+  r_WP(2, 1) = t.sin * g.sin;
+  r_WP(2, 2) = t.cos;
+  return r_WP;
+}
+
+template <class S, class K>
+[[nodiscard]] CableGeometry<S> cable_geometry(const Model<K>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP) {
+  CableGeometry<S> g;
+  for (int i = 0; i < kCables; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const Vector3<K>& b = model.p_PB[n];
+    const Vector3<K>& m = model.p_MB[n];
+    Vector3<S>& d = g.p_AB_W[n];
+    Vector3<S> arm;  // R (b_i − p_m): from P_m to B_i, axes of W
+    for (int axis = 0; axis < 3; ++axis) {
+      arm(axis) = r_WP(axis, 0) * m(0) + r_WP(axis, 1) * m(1) + r_WP(axis, 2) * m(2);
+      const S reach = r_WP(axis, 0) * b(0) + r_WP(axis, 1) * b(1) + r_WP(axis, 2) * b(2);
+      d(axis) = p_WP(axis) - model.p_WA[n](axis) + reach;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const int j = (axis + 1) % 3;
+      const int k = (axis + 2) % 3;
+      g.force_density(axis, i) = d(axis);
+      g.force_density(3 + axis, i) = arm(j) * d(k) - arm(k) * d(j);
+    }
+  }
+  return g;
+}
+
+template <class S, class K>
+[[nodiscard]] CableGeometry<S> cable_geometry(const Model<K>& model, const Pose<S>& pose) {
+  return cable_geometry(model, pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma));
+}
+
+template <class S>
+[[nodiscard]] S length(const Vector3<S>& d) {
+  return sqrt(sqr(d(0)) + sqr(d(1)) + sqr(d(2)));
+}
+
+}  // namespace taut

@@ -1,0 +1,70 @@
+// The problem in numbers of one scalar: anchors, limits, load and the pose as a function of the parameters.
+//
+// Model<double> is an approximation, Model<MpInterval> an enclosure of the exact Problem. Frames: W world, P platform,
+// M the load point (origin P_m, axes of P for anchors, axes of W for wrenches).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "kinematics/expression.h"
+#include "kinematics/problem.h"
+#include "kinematics/scalar.h"
+
+namespace taut {
+
+template <class S>
+using Vector3 = Eigen::Matrix<S, 3, 1>;
+template <class S>
+using Matrix3 = Eigen::Matrix<S, 3, 3>;
+template <class S>
+using Vector6 = Eigen::Matrix<S, 6, 1>;
+template <class S>
+using Matrix6 = Eigen::Matrix<S, 6, 6>;
+
+/// p [m] and the tilt-and-torsion angles [rad]: R_WP = Rz(phi) Ry(theta) Rz(sigma − phi).
+template <class S>
+struct Pose {
+  Vector3<S> p_WP;
+  S phi;
+  S theta;
+  S sigma;
+};
+
+template <class S>
+struct Model {
+  std::array<Vector3<S>, kCables> p_WA;  ///< base anchors a_i [m]
+  std::array<Vector3<S>, kCables> p_PB;  ///< platform anchors b_i [m]
+  std::array<Vector3<S>, kCables> p_MB;  ///< b_i − p_m, from the load point, axes of P [m]
+  Vector3<S> p_PM;                       ///< load point p_m [m]
+  std::array<S, kCables> tension_lower, tension_upper;  ///< [N]
+  std::array<S, kCables> length_lower, length_upper;    ///< [m]
+  Vector6<S> wrench;                                    ///< w0 about P_m, axes of W [N, N m]
+  Matrix6<S> ellipsoid;                                 ///< E
+  /// L with E^-1 = L L^T, upper triangular: the semi-axes of K, so that K = {w0 + L z : |z| <= 1}.
+  Matrix6<S> ellipsoid_root;
+  bool ellipsoid_is_diagonal = false;  ///< E, hence L, is exactly diagonal
+  double characteristic_length = 0;    ///< mean |b_i| [m], scales lengths against angles in searches
+};
+
+/// E^-1 = L L^T from E = M M^T (Cholesky), L = M^-T. For an enclosing scalar, positive diagonal enclosures prove that E is
+/// positive definite. @throws InputError where a pivot is not positive.
+template <class S>
+[[nodiscard]] Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid);
+
+template <class S>
+[[nodiscard]] Model<S> make_model(const Problem& problem);
+
+/// The tape of the six pose expressions px, py, pz, phi, theta, sigma over the problem's parameters.
+[[nodiscard]] ExpressionTape pose_tape(const Problem& problem);
+
+template <class S>
+[[nodiscard]] Pose<S> evaluate_pose(const Evaluator<S>& pose, std::span<const S> parameters) {
+  std::array<S, 6> values;
+  pose.evaluate(parameters, values);
+  return {Vector3<S>(values[0], values[1], values[2]), values[3], values[4], values[5]};
+}
+
+}  // namespace taut
+
+#include "kinematics/model_impl.h"

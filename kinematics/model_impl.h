@@ -1,0 +1,88 @@
+// Bodies of model.h.
+#pragma once
+
+#include "kinematics/input_error.h"
+
+namespace taut {
+
+template <class S>
+Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid) {
+  // E = M M^T, M lower triangular.
+  Matrix6<S> m;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) m(i, j) = S(0.0);
+  }
+  for (int j = 0; j < 6; ++j) {
+    S pivot = ellipsoid(j, j);
+    for (int k = 0; k < j; ++k) pivot = pivot - sqr(m(j, k));
+    if (!(lower_bound(pivot) > 0)) {
+      throw InputError("load.ellipsoid: got a matrix that is not (provably) positive definite");
+    }
+    m(j, j) = sqrt(pivot);
+    for (int i = j + 1; i < 6; ++i) {
+      S sum = ellipsoid(i, j);
+      for (int k = 0; k < j; ++k) sum = sum - m(i, k) * m(j, k);
+      m(i, j) = sum / m(j, j);
+    }
+  }
+  // L = M^-T: row i of M^-1 by forward substitution, transposed.
+  Matrix6<S> root;
+  for (int column = 0; column < 6; ++column) {
+    for (int i = 0; i < 6; ++i) {
+      if (i < column) {
+        root(column, i) = S(0.0);
+        continue;
+      }
+      S sum = S(i == column ? 1.0 : 0.0);
+      for (int k = column; k < i; ++k) sum = sum - m(i, k) * root(column, k);
+      root(column, i) = sum / m(i, i);
+    }
+  }
+  return root;
+}
+
+template <class S>
+Model<S> make_model(const Problem& problem) {
+  using Traits = ScalarTraits<S>;
+  Model<S> model;
+  const auto vector = [](const std::array<DecimalText, 3>& text) {
+    return Vector3<S>(Traits::from_decimal(text[0]), Traits::from_decimal(text[1]), Traits::from_decimal(text[2]));
+  };
+  model.p_PM = vector(problem.load.point_m);
+  double reach = 0;
+  for (int i = 0; i < kCables; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    model.p_WA[n] = vector(problem.robot.base_anchors_m[n]);
+    model.p_PB[n] = vector(problem.robot.platform_anchors_m[n]);
+    for (int axis = 0; axis < 3; ++axis) model.p_MB[n](axis) = model.p_PB[n](axis) - model.p_PM(axis);
+    model.tension_lower[n] = Traits::from_decimal(problem.robot.tension_N[n].lower);
+    model.tension_upper[n] = Traits::from_decimal(problem.robot.tension_N[n].upper);
+    model.length_lower[n] = Traits::from_decimal(problem.robot.length_m[n].lower);
+    model.length_upper[n] = Traits::from_decimal(problem.robot.length_m[n].upper);
+    double square = 0;
+    for (const auto& text : problem.robot.platform_anchors_m[n]) {
+      square += sqr(ScalarTraits<double>::from_decimal(text));
+    }
+    reach += std::sqrt(square) / kCables;
+  }
+  model.characteristic_length = reach;
+  model.ellipsoid_is_diagonal = true;
+  for (int i = 0; i < 6; ++i) {
+    model.wrench(i) = Traits::from_decimal(problem.load.wrench[static_cast<std::size_t>(i)]);
+    for (int j = 0; j < 6; ++j) {
+      const DecimalText& text = problem.load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      model.ellipsoid(i, j) = Traits::from_decimal(text);
+      if (i != j && text != "0") model.ellipsoid_is_diagonal = false;  // canonical decimals: zero is "0"
+    }
+  }
+  model.ellipsoid_root = ellipsoid_root(model.ellipsoid);
+  return model;
+}
+
+inline ExpressionTape pose_tape(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : problem.space.parameters) names.push_back(parameter.name);
+  return ExpressionTape({problem.space.pose.begin(), problem.space.pose.end()}, names, problem.space.constants);
+}
+
+}  // namespace taut
