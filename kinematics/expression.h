@@ -19,8 +19,11 @@ enum class Op : unsigned char {
   kConstant,  ///< constants[a]
   kParameter, ///< parameters[a]
   kAdd, kSubtract, kMultiply, kDivide, kNegate,
-  kPower,     ///< slot a to the integer power b
-  kSqrt, kSin, kCos, kTan, kExp, kLog, kAtan2,
+  kPower,     ///< slot a to the integer power b > 1
+  kSqrt,
+  kSin,       ///< computes the cosine too, into the next slot: a kSin is always followed by a kCos of the same a
+  kCos,       ///< already computed by the kSin before it
+  kTan, kExp, kLog, kAtan2,
 };
 
 struct Instruction {
@@ -32,6 +35,9 @@ struct Instruction {
 /// Several expressions over the same parameters, on one tape; equal subexpressions are computed once.
 class ExpressionTape {
  public:
+  /// Bounds the stack that an evaluation takes; the paper's sphere needs some 30.
+  static constexpr int kMaxInstructions = 256;
+
   /// @throws InputError naming the expression, the column, what was seen and what was expected.
   ExpressionTape(const std::vector<ExpressionText>& expressions, const std::vector<std::string>& parameters,
                  const std::map<std::string, DecimalText>& constants);

@@ -1,0 +1,46 @@
+// Exact decimal numbers: what a number typed in a case file means.
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <compare>
+#include <string>
+#include <string_view>
+
+namespace taut {
+
+/// mantissa · 10^exponent, exactly; the mantissa has no trailing zero, so each value has one representation.
+///
+/// Invariant: zero, or at most kMaxDigits digits and 10^-kMaxMagnitude <= |value| < 10^kMaxMagnitude. So the text
+/// of every Decimal can be read back, and its nearest binary64 is finite and normal.
+class Decimal {
+ public:
+  static constexpr int kMaxDigits = 1000;    ///< Nobody types more; bounds the cost of hostile input.
+  static constexpr int kMaxMagnitude = 300;  ///< Within binary64's normal range, 2.2e-308 to 1.8e308.
+
+  Decimal() = default;
+
+  /// Reads an optional sign, digits with an optional point (at least one digit), and an optional exponent: "-0.021",
+  /// ".5", "+1E-4". Nothing else, no white space. @throws InputError with the text seen and what was expected.
+  [[nodiscard]] static Decimal parse(std::string_view text);
+
+  /// 10^n. @throws InputError beyond the limits.
+  [[nodiscard]] static Decimal power_of_ten(int n);
+
+  /// The one canonical text: "-0.1905256", "10000", "0"; "1.25e-9" below 1e-7 and "1e21" from 1e21 on.
+  [[nodiscard]] std::string text() const;
+
+  [[nodiscard]] int sign() const { return mantissa_.sign(); }
+  /// @throws InputError where the product passes the limits.
+  [[nodiscard]] Decimal operator*(const Decimal& other) const;
+  [[nodiscard]] bool operator==(const Decimal& other) const = default;
+  [[nodiscard]] std::strong_ordering operator<=>(const Decimal& other) const;
+  [[nodiscard]] boost::multiprecision::cpp_rational rational() const;
+
+ private:
+  Decimal(boost::multiprecision::cpp_int mantissa, int exponent);
+
+  boost::multiprecision::cpp_int mantissa_ = 0;
+  int exponent_ = 0;
+};
+
+}  // namespace taut
