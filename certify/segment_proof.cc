@@ -73,7 +73,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
         break;
       case Kind::kRefuted:
         proof.verdict = Verdict::kRefuted;
-        proof.witness = SegmentWitness{false, verdict.worst, box.mid(), 0};
+        proof.witness = SegmentWitness{false, verdict.worst, box};
         return proof;
       case Kind::kSplit:
         if (!may_split) {
@@ -106,7 +106,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
           const int sign_upper = determinant_sign(fine_.back(), a, b, box.upper());
           if (sign_lower * sign_upper < 0) {
             proof.verdict = Verdict::kRefuted;
-            proof.witness = SegmentWitness{true, {}, box.lower(), box.upper()};
+            proof.witness = SegmentWitness{true, {}, box};
             return proof;
           }
           split();
@@ -122,6 +122,23 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
   }
   proof.verdict = Verdict::kProved;
   return proof;
+}
+
+MpInterval Prover::quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box, MarginId margin) const {
+  const PrecisionScope precision(options_.ladder_bits.back());
+  const BoxEnclosure<MpInterval> enclosure = enclose_box(fine_.back(), a, b, box);
+  const auto n = static_cast<std::size_t>(margin.cable);
+  const MpInterval& length = enclosure.length[n].at_mid;
+  switch (margin.kind) {
+    case MarginKind::kTensionMin:
+      return length * (enclosure.density[n].at_mid - enclosure.variation[n].at_mid);
+    case MarginKind::kTensionMax:
+      return length * (enclosure.density[n].at_mid + enclosure.variation[n].at_mid);
+    case MarginKind::kLengthMin:
+    case MarginKind::kLengthMax:
+      break;
+  }
+  return length;
 }
 
 }  // namespace taut

@@ -24,12 +24,12 @@ struct ProofOptions {
   int singular_depth = 16;
 };
 
-/// What refutes a segment, itself proved: a margin that is not positive at s, or det D of opposite signs at s and s_other.
+/// What refutes a segment, itself proved: a margin that is not positive at the midpoint of `box`, or det D of opposite
+/// signs at its two ends.
 struct SegmentWitness {
   bool singular = false;
-  MarginId margin;
-  double s = 0;        ///< dyadic
-  double s_other = 0;  ///< dyadic; only if singular
+  MarginId margin;  ///< unless singular
+  DyadicBox box;
 };
 
 struct SegmentProof {
@@ -57,6 +57,10 @@ class Prover {
 
   /// One box, at the cheapest rung that decides it.
   [[nodiscard]] BoxVerdict judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const;
+
+  /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the highest precision.
+  [[nodiscard]] MpInterval quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                                           MarginId margin) const;
 
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] const ProofModel<Interval>& model() const { return fast_; }

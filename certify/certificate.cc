@@ -1,0 +1,156 @@
+#include "certify/certificate.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "certify/checker/claims.h"
+#include "kinematics/input_error.h"
+
+namespace taut {
+
+using nlohmann::json;
+
+std::string sha256(const json& value) {
+  const std::string canonical = value.dump(-1, ' ', true);
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  if (EVP_Digest(canonical.data(), canonical.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("OpenSSL could not compute SHA-256");
+  }
+  std::string hex;
+  for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
+  return hex;
+}
+
+std::string hex_float(double x) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%a", x);
+  return text.data();
+}
+
+std::string dyadic(double s) {
+  int depth = 0;
+  while (s != std::floor(s)) {
+    s *= 2;
+    ++depth;
+  }
+  const auto k = static_cast<std::uint64_t>(s);
+  return depth == 0 ? std::to_string(k) : fmt::format("{}/{}", k, std::uint64_t{1} << depth);
+}
+
+namespace {
+
+json to_json(const Margins& m) {
+  return {{"tension_N", m.tension_N}, {"length_m", m.length_m}, {"wrench_scale", m.wrench_scale}};
+}
+
+json to_json(const PathPoint& p) {
+  if (!p.on_segment) return {{"waypoint", p.index}};
+  return {{"segment", p.index}, {"s", dyadic(p.s)}};
+}
+
+json to_json(const PathWitness& w) {
+  if (w.singular) return {{"kind", "singular"}, {"at", to_json(w.at)}, {"to", to_json(w.to)}};
+  return {{"kind", name(w.margin.kind)},
+          {"at", to_json(w.at)},
+          {"cable", w.margin.cable + 1},
+          {"value", {w.value_lower, w.value_upper}},
+          {"limit", w.limit}};
+}
+
+json path_json(const Path& path) {
+  json waypoints = json::array();
+  for (const Waypoint& waypoint : path.waypoints) {
+    json x = json::array();
+    for (const double value : waypoint.x) x.push_back(hex_float(value));
+    waypoints.push_back({{"x", std::move(x)}, {"half_turns", waypoint.half_turns}});
+  }
+  return {{"interpolation", "straight-in-parameters"}, {"waypoints", std::move(waypoints)}};
+}
+
+json segments_json(const PathProof& proof) {
+  json segments = json::array();
+  for (std::size_t k = 0; k < proof.segments.size(); ++k) {
+    json boxes = json::array();
+    for (const DyadicBox& box : proof.segments[k].boxes) boxes.push_back({dyadic(box.lower()), dyadic(box.upper())});
+    segments.push_back({{"from", k},
+                        {"to", k + 1},
+                        {"boxes", std::move(boxes)},
+                        {"margins", to_json(proof.segment_margins[k])}});
+  }
+  return segments;
+}
+
+json undecided_json(const PathProof& proof) {
+  json result = {{"reason", proof.reason}, {"segment", nullptr}, {"box", nullptr}};
+  if (proof.open_segment >= 0) {
+    const DyadicBox& box = proof.segments[static_cast<std::size_t>(proof.open_segment)].open_box;
+    result["segment"] = proof.open_segment;
+    result["box"] = {dyadic(box.lower()), dyadic(box.upper())};
+  }
+  return result;
+}
+
+}  // namespace
+
+json make_certificate(const Problem& problem, const Path& path, const PathProof& proof, json illustration) {
+  const bool proved = proof.verdict == Verdict::kProved;
+  const bool refuted = proof.verdict == Verdict::kRefuted;
+  json certificate = {
+      {"format", "taut-certificate"},
+      {"version", 1},
+      {"generator", {{"name", "taut"}, {"version", TAUT_VERSION}}},
+      {"verdict", proved ? "proved" : refuted ? "refuted" : "undecided"},
+      {"claim", proved ? checker::kProvedClaim : refuted ? checker::kRefutedClaim : checker::kUndecidedClaim},
+      {"problem", to_json(problem)},
+      {"path", path_json(path)},
+      {"segments", proved ? segments_json(proof) : json::array()},
+      {"margins", proved ? to_json(proof.margins) : json::object()},
+      {"witness", refuted ? to_json(*proof.witness) : json()},
+      {"undecided", proved || refuted ? json() : undecided_json(proof)},
+      {"illustration", std::move(illustration)},
+  };
+  certificate["problem_sha256"] = sha256(certificate["problem"]);
+  certificate["path_sha256"] = sha256(certificate["path"]);
+  const std::string digest = sha256(certificate);
+  certificate["footer"] = {{"waypoints", path.waypoints.size()},
+                           {"segments", certificate["segments"].size()},
+                           {"boxes", proved ? proof.boxes : 0},
+                           {"sha256", digest}};
+  return certificate;
+}
+
+Path path_from_json(const json& path) {
+  try {
+    Path result;
+    for (const json& entry : path.at("waypoints")) {
+      Waypoint waypoint;
+      for (const json& text : entry.at("x")) {
+        const std::string literal = text.get<std::string>();
+        std::size_t used = 0;
+        const double value = std::stod(literal, &used);
+        if (used != literal.size() || !std::isfinite(value)) {
+          throw InputError(fmt::format("path: got '{}', expected a finite binary64", literal));
+        }
+        waypoint.x.push_back(value);
+      }
+      waypoint.half_turns = entry.at("half_turns").get<std::vector<int>>();
+      if (waypoint.half_turns.size() != waypoint.x.size()) {
+        throw InputError("path: half_turns and x differ in length");
+      }
+      result.waypoints.push_back(std::move(waypoint));
+    }
+    return result;
+  } catch (const json::exception& error) {
+    throw InputError(std::string("path: ") + error.what());
+  } catch (const std::logic_error& error) {
+    throw InputError(std::string("path: not a number: ") + error.what());
+  }
+}
+
+}  // namespace taut

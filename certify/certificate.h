@@ -1,0 +1,27 @@
+// Writes certificates (docs/certificate-format.md): the theorem, its exact inputs, and the boxes that prove it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "certify/path_proof.h"
+
+namespace taut {
+
+/// SHA-256 of the canonical JSON of `value`, 64 lower-case hex digits.
+[[nodiscard]] std::string sha256(const nlohmann::json& value);
+
+/// "-0x1.2666666666666p+1": reads back bit for bit.
+[[nodiscard]] std::string hex_float(double x);
+
+/// "3/8": exact. @pre s = k/2^n in [0, 1]
+[[nodiscard]] std::string dyadic(double s);
+
+/// The whole certificate, footer included. `illustration` is floating-point data for pictures and proves nothing.
+[[nodiscard]] nlohmann::json make_certificate(const Problem& problem, const Path& path, const PathProof& proof,
+                                              nlohmann::json illustration);
+
+/// Waypoints of a certificate's `path`. @throws InputError for anything malformed.
+[[nodiscard]] Path path_from_json(const nlohmann::json& path);
+
+}  // namespace taut

@@ -1,0 +1,157 @@
+#include "certify/path_proof.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/input_error.h"
+
+namespace taut {
+namespace {
+
+constexpr int kMarginDigits = 6;
+constexpr int kWitnessDigits = 17;
+
+/// `digits` significant digits, rounded in the given direction.
+DecimalText decimal(const BigFloat& x, int digits, mpfr_rnd_t direction) {
+  char* text = nullptr;
+  if (direction == MPFR_RNDD) {
+    mpfr_asprintf(&text, "%.*RDe", digits - 1, x.get());
+  } else {
+    mpfr_asprintf(&text, "%.*RUe", digits - 1, x.get());
+  }
+  DecimalText result = text;
+  mpfr_free_str(text);
+  return result;
+}
+
+DecimalText decimal_below(double x) { return decimal(BigFloat(x), kMarginDigits, MPFR_RNDD); }
+
+Margins margins_below(const SegmentProof& proof) {
+  return {decimal_below(proof.tension_N), decimal_below(proof.length_m), decimal_below(proof.wrench_scale)};
+}
+
+const DecimalText& limit_text(const Problem& problem, MarginId margin) {
+  const auto cable = static_cast<std::size_t>(margin.cable);
+  switch (margin.kind) {
+    case MarginKind::kTensionMin:
+      return problem.robot.tension_N[cable].lower;
+    case MarginKind::kTensionMax:
+      return problem.robot.tension_N[cable].upper;
+    case MarginKind::kLengthMin:
+      return problem.robot.length_m[cable].lower;
+    case MarginKind::kLengthMax:
+      break;
+  }
+  return problem.robot.length_m[cable].upper;
+}
+
+PathWitness make_witness(const Prover& prover, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                         MarginId margin, PathPoint at) {
+  PathWitness witness;
+  witness.at = at;
+  witness.margin = margin;
+  witness.limit = limit_text(prover.problem(), margin);
+  const MpInterval value = prover.quantity_at_mid(a, b, box, margin);
+  witness.value_lower = decimal(value.lower(), kWitnessDigits, MPFR_RNDD);
+  witness.value_upper = decimal(value.upper(), kWitnessDigits, MPFR_RNDU);
+  return witness;
+}
+
+}  // namespace
+
+PathProof prove_path(const Prover& prover, const Path& path) {
+  PathProof result;
+  const auto& waypoints = path.waypoints;
+  if (waypoints.size() < 2) {
+    if (waypoints.size() == 1) result.witness = refute_waypoint(prover, waypoints[0], 0, result.reason);
+    if (result.witness) result.verdict = Verdict::kRefuted;
+    if (result.reason.empty()) result.reason = "the path has no segment";
+    return result;
+  }
+  result.segments.resize(waypoints.size() - 1);
+  tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
+    result.segments[k] = prover.prove(waypoints[k], waypoints[k + 1]);
+  });
+  result.verdict = Verdict::kProved;
+  for (std::size_t k = 0; k < result.segments.size(); ++k) {
+    const SegmentProof& segment = result.segments[k];
+    result.boxes += static_cast<long>(segment.boxes.size());
+    result.boxes_judged += segment.boxes_judged;
+    if (segment.verdict == Verdict::kRefuted && result.verdict != Verdict::kRefuted) {
+      result.verdict = Verdict::kRefuted;
+      const SegmentWitness& witness = *segment.witness;
+      const PathPoint at{true, static_cast<int>(k), witness.singular ? witness.box.lower() : witness.box.mid()};
+      if (witness.singular) {
+        result.witness = PathWitness{};
+        result.witness->singular = true;
+        result.witness->at = at;
+        result.witness->to = {true, static_cast<int>(k), witness.box.upper()};
+      } else {
+        result.witness = make_witness(prover, waypoints[k], waypoints[k + 1], witness.box, witness.margin, at);
+      }
+    } else if (segment.verdict == Verdict::kUndecided && result.verdict == Verdict::kProved) {
+      result.verdict = Verdict::kUndecided;
+      result.reason = segment.reason;
+      result.open_segment = static_cast<int>(k);
+    }
+  }
+  if (result.verdict != Verdict::kProved) return result;
+  const SegmentProof* tension = &result.segments[0];
+  const SegmentProof* length = tension;
+  const SegmentProof* scale = tension;
+  for (const SegmentProof& segment : result.segments) {
+    result.segment_margins.push_back(margins_below(segment));
+    if (segment.tension_N < tension->tension_N) tension = &segment;
+    if (segment.length_m < length->length_m) length = &segment;
+    if (segment.wrench_scale < scale->wrench_scale) scale = &segment;
+  }
+  result.margins = {decimal_below(tension->tension_N), decimal_below(length->length_m),
+                    decimal_below(scale->wrench_scale)};
+  return result;
+}
+
+std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
+                                           std::string& undecided) {
+  const DyadicBox whole;
+  const BoxVerdict verdict = prover.judge(waypoint, waypoint, whole);
+  if (verdict.kind == BoxVerdict::Kind::kProved) return std::nullopt;
+  if (verdict.kind == BoxVerdict::Kind::kRefuted) {
+    return make_witness(prover, waypoint, waypoint, whole, verdict.worst, PathPoint{false, index, 0});
+  }
+  undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
+              : verdict.kind == BoxVerdict::Kind::kFault      ? "the pose or an equation is not defined there"
+                                                              : "a margin vanishes there, or nearly so";
+  return std::nullopt;
+}
+
+double nearest_binary64(const ExpressionText& expression) {
+  constexpr mpfr_prec_t kMostBits = 4096;
+  for (mpfr_prec_t bits = 128; bits <= kMostBits; bits *= 2) {
+    const PrecisionScope precision(bits);
+    Faults<MpInterval>::clear();
+    const MpInterval value = evaluate_constant<MpInterval>(expression);
+    if (Faults<MpInterval>::raised()) break;
+    const double low = value.lower().to_double(MPFR_RNDN);
+    const double high = value.upper().to_double(MPFR_RNDN);
+    if (low == high && std::isfinite(low)) return low + 0.0;  // −0 to 0
+  }
+  throw InputError(fmt::format("query: got '{}', expected a finite number", expression));
+}
+
+std::vector<Waypoint> query_waypoints(const Problem& problem) {
+  std::vector<Waypoint> waypoints;
+  for (const auto& typed : problem.query) {
+    Waypoint waypoint;
+    for (const ExpressionText& expression : typed) {
+      waypoint.x.push_back(nearest_binary64(expression));
+      waypoint.half_turns.push_back(0);
+    }
+    waypoints.push_back(std::move(waypoint));
+  }
+  return waypoints;
+}
+
+}  // namespace taut

@@ -1,0 +1,61 @@
+// Proves a path segment by segment, on all cores, and gathers the margins of the whole.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certify/segment_proof.h"
+
+namespace taut {
+
+/// Where on a path: waypoint `index`, or the point s of segment `index`.
+struct PathPoint {
+  bool on_segment = false;
+  int index = 0;
+  double s = 0;  ///< dyadic; only on a segment
+};
+
+/// What refutes a path, proved.
+struct PathWitness {
+  PathPoint at;
+  bool singular = false;
+  PathPoint to;       ///< the second point; only if singular
+  MarginId margin;    ///< unless singular
+  DecimalText value_lower, value_upper;  ///< enclosure of f0 − v, f0 + v or d [N, m]; unless singular
+  DecimalText limit;                     ///< the limit it violates; unless singular
+};
+
+struct Margins {
+  DecimalText tension_N, length_m, wrench_scale;  ///< decimals, rounded down
+};
+
+struct PathProof {
+  Verdict verdict = Verdict::kUndecided;
+  std::vector<SegmentProof> segments;    ///< one a segment; complete only if proved
+  std::vector<Margins> segment_margins;  ///< likewise
+  Margins margins;                       ///< smallest along the path; only if proved
+  std::optional<PathWitness> witness;    ///< only if refuted
+  std::string reason;                    ///< only if undecided
+  int open_segment = -1;                 ///< only if undecided
+  long boxes = 0;
+  long boxes_judged = 0;
+};
+
+/// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
+[[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path);
+
+/// Proof attempt at one pose: nothing if the waypoint is wrench-feasible (proved), else the witness; `undecided` is set to a
+/// reason if neither could be proved.
+[[nodiscard]] std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
+                                                         std::string& undecided);
+
+/// The binary64 nearest to the exact value of a constant expression (ties to even).
+/// @throws InputError if it is not finite or can't be told at 4096 bits.
+[[nodiscard]] double nearest_binary64(const ExpressionText& expression);
+
+/// The waypoints of the query, each coordinate moved to the nearest binary64.
+[[nodiscard]] std::vector<Waypoint> query_waypoints(const Problem& problem);
+
+}  // namespace taut
