@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdlib>
+#include <optional>
 
 #include "kinematics/decimal.h"
 #include "kinematics/input_error.h"
@@ -21,10 +24,8 @@ bool is_unary(Op op) {
     case Op::kCos:
     case Op::kTan:
     case Op::kExp:
-    case Op::kLog:
-      return true;
-    default:
-      return false;
+    case Op::kLog: return true;
+    default: return false;
   }
 }
 
@@ -136,6 +137,66 @@ bool ExpressionTape::depends_on(int output, int parameter) const {
     }
   }
   return depends[outputs_[output]];
+}
+
+namespace {
+
+/// What turns() knows of a slot.
+struct Turns {
+  std::optional<int> turns;    ///< as ExpressionTape::turns
+  std::optional<int> integer;  ///< the value, where it is a small integer that was typed
+};
+
+constexpr int kMaxTurns = 1000;  // keeps products within int
+
+std::optional<int> within_limit(int k) { return std::abs(k) <= kMaxTurns ? std::optional(k) : std::nullopt; }
+
+std::optional<int> small_integer(const DecimalText& text) {
+  if (text.empty() || text.size() > 3 ||
+      !std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); }))
+    return std::nullopt;
+  return std::stoi(text);
+}
+
+}  // namespace
+
+std::optional<int> ExpressionTape::turns(int output, int parameter) const {
+  std::vector<Turns> slots;
+  for (const auto [op, a, b] : instructions_) {
+    Turns result;
+    switch (op) {
+      case Op::kConstant: result = {0, small_integer(constants_[a])}; break;
+      case Op::kParameter: result.turns = a == parameter ? 1 : 0; break;
+      case Op::kNegate:
+        if (slots[a].turns) result.turns = -*slots[a].turns;
+        if (slots[a].integer) result.integer = -*slots[a].integer;
+        break;
+      case Op::kAdd:
+        if (slots[a].turns && slots[b].turns) result.turns = within_limit(*slots[a].turns + *slots[b].turns);
+        break;
+      case Op::kSubtract:
+        if (slots[a].turns && slots[b].turns) result.turns = within_limit(*slots[a].turns - *slots[b].turns);
+        break;
+      case Op::kMultiply:
+        if (slots[a].turns == 0 && slots[b].turns == 0) {
+          result.turns = 0;
+        } else if (slots[a].integer && slots[b].turns) {
+          result.turns = within_limit(*slots[a].integer * *slots[b].turns);
+        } else if (slots[b].integer && slots[a].turns) {
+          result.turns = within_limit(*slots[b].integer * *slots[a].turns);
+        }
+        break;
+      case Op::kSin:
+      case Op::kCos:
+      case Op::kTan:
+        if (slots[a].turns) result.turns = 0;
+        break;
+      default:
+        if (slots[a].turns == 0 && (is_unary(op) || slots[b].turns == 0)) result.turns = 0;
+    }
+    slots.push_back(result);
+  }
+  return slots[outputs_[output]].turns;
 }
 
 }  // namespace taut

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class ExpressionTape {
   [[nodiscard]] const std::vector<DecimalText>& constants() const { return constants_; }
   /// Whether output i depends on parameter j.
   [[nodiscard]] bool depends_on(int output, int parameter) const;
+  /// The k for which output(parameter + 2 pi) = output(parameter) + 2 pi k for all parameters, where the form of the
+  /// expression shows one (the parameter stands only in sin, cos and tan, or alone, added, times integers); else none.
+  [[nodiscard]] std::optional<int> turns(int output, int parameter) const;
 
  private:
   std::vector<Instruction> instructions_;

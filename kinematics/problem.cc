@@ -1,0 +1,394 @@
+#include "kinematics/problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "kinematics/decimal.h"
+#include "kinematics/expression.h"
+#include "kinematics/input_error.h"
+
+namespace taut {
+namespace {
+
+using nlohmann::json;
+
+// --- Reading -----------------------------------------------------------------------------------------------------
+
+[[noreturn]] void fail(const std::string& where, const std::string& expected) { throw FieldError(where, "", expected); }
+
+[[noreturn]] void fail_value(const std::string& where, const json& value, const std::string& expected) {
+  constexpr std::size_t kShown = 60;
+  std::string seen = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  if (seen.size() > kShown) seen = seen.substr(0, kShown) + "…";
+  throw FieldError(where, seen, "expected " + expected);
+}
+
+/// Checks that `value` is an object with exactly `keys`.
+void expect_keys(const json& value, const std::string& where, std::initializer_list<const char*> keys) {
+  if (!value.is_object()) fail_value(where, value, "an object");
+  for (const char* key : keys) {
+    if (!value.contains(key)) fail(where, fmt::format("expected the key '{}'", key));
+  }
+  for (const auto& [key, member] : value.items()) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      throw FieldError(where, "'" + key + "'", "expected only known keys");
+  }
+}
+
+void read(const json& value, const std::string& where, std::string& out) {
+  if (!value.is_string()) fail_value(where, value, "a string");
+  out = value.get<std::string>();
+}
+
+template <class T, std::size_t N>
+void read(const json& value, const std::string& where, std::array<T, N>& out);
+void read(const json& value, const std::string& where, Limits& out) {
+  std::array<DecimalText, 2> pair;
+  read(value, where, pair);
+  out = {pair[0], pair[1]};
+}
+
+template <class T, std::size_t N>
+void read(const json& value, const std::string& where, std::array<T, N>& out) {
+  if (!value.is_array() || value.size() != N) fail_value(where, value, fmt::format("a list of {}", N));
+  for (std::size_t i = 0; i < N; ++i) read(value[i], fmt::format("{}[{}]", where, i), out[i]);
+}
+
+Parameter read_parameter(const json& value, const std::string& where) {
+  const bool has_range = value.is_object() && value.contains("range");
+  if (has_range) {
+    expect_keys(value, where, {"name", "kind", "range"});
+  } else {
+    expect_keys(value, where, {"name", "kind"});
+  }
+  Parameter parameter;
+  read(value["name"], where + ".name", parameter.name);
+  const json& kind = value["kind"];
+  if (kind == "real") {
+    parameter.kind = ParameterKind::kReal;
+  } else if (kind == "periodic") {
+    parameter.kind = ParameterKind::kPeriodic;
+  } else if (kind == "range") {
+    parameter.kind = ParameterKind::kRange;
+  } else {
+    fail_value(where + ".kind", kind, "\"real\", \"periodic\" or \"range\"");
+  }
+  if (has_range != (parameter.kind == ParameterKind::kRange)) {
+    fail(where, "expected 'range' exactly where the kind is \"range\"");
+  }
+  if (has_range) {
+    std::array<ExpressionText, 2> range;
+    read(value["range"], where + ".range", range);
+    std::tie(parameter.range_lower, parameter.range_upper) = std::tie(range[0], range[1]);
+  }
+  return parameter;
+}
+
+const json& expect_list(const json& value, const std::string& where) {
+  if (!value.is_array()) fail_value(where, value, "a list");
+  return value;
+}
+
+SpaceText read_space(const json& value) {
+  expect_keys(value, "space", {"parameters", "constants", "flip", "pose"});
+  SpaceText space;
+  for (const json& parameter : expect_list(value["parameters"], "space.parameters")) {
+    space.parameters.push_back(read_parameter(parameter, fmt::format("space.parameters[{}]", space.parameters.size())));
+  }
+  if (!value["constants"].is_object()) fail_value("space.constants", value["constants"], "an object");
+  for (const auto& [name, decimal] : value["constants"].items()) {
+    read(decimal, "space.constants." + name, space.constants[name]);
+  }
+  if (const json& flip = value["flip"]; !flip.is_null()) {
+    const auto is_index = [&](const json& i) {
+      return i.is_number_integer() && i >= 0 && i < static_cast<int>(space.parameters.size());
+    };
+    if (!flip.is_array() || flip.size() != 2 || !is_index(flip[0]) || !is_index(flip[1])) {
+      fail_value("space.flip", flip, "null or the indices of two parameters");
+    }
+    space.flip = {flip[0].get<int>(), flip[1].get<int>()};
+  }
+  expect_keys(value["pose"], "space.pose", {"px", "py", "pz", "phi", "theta", "sigma"});
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+    read(value["pose"][kPoseNames[i]], fmt::format("space.pose.{}", kPoseNames[i]), space.pose[i]);
+  }
+  return space;
+}
+
+// --- Writing -----------------------------------------------------------------------------------------------------
+
+json limits_to_json(const std::array<Limits, kCables>& limits) {
+  json list = json::array();
+  for (const Limits& pair : limits) list.push_back({pair.lower, pair.upper});
+  return list;
+}
+
+json parameter_to_json(const Parameter& parameter) {
+  switch (parameter.kind) {
+    case ParameterKind::kReal: return {{"name", parameter.name}, {"kind", "real"}};
+    case ParameterKind::kPeriodic: return {{"name", parameter.name}, {"kind", "periodic"}};
+    case ParameterKind::kRange: break;
+  }
+  return {{"name", parameter.name},
+          {"kind", "range"},
+          {"range", json::array({parameter.range_lower, parameter.range_upper})}};
+}
+
+// --- Validating --------------------------------------------------------------------------------------------------
+
+/// Calls `check`; what it has to complain about is at `where`.
+template <class Check>
+auto at(const std::string& where, Check check) {
+  try {
+    return check();
+  } catch (const InputError& error) {
+    fail(where, error.what());
+  }
+}
+
+Decimal decimal_at(const std::string& where, const DecimalText& text) {
+  return at(where, [&] { return Decimal::parse(text); });
+}
+
+using Point = std::array<Decimal, 3>;
+
+Point point_at(const std::string& where, const std::array<DecimalText, 3>& coordinates) {
+  Point point;
+  for (std::size_t k = 0; k < 3; ++k) point[k] = decimal_at(fmt::format("{}[{}]", where, k), coordinates[k]);
+  return point;
+}
+
+std::array<Point, kCables> validate_anchors(const std::string& where,
+                                            const std::array<std::array<DecimalText, 3>, kCables>& anchors) {
+  std::array<Point, kCables> points;
+  for (std::size_t i = 0; i < kCables; ++i) points[i] = point_at(fmt::format("{}[{}]", where, i), anchors[i]);
+  if (std::all_of(points.begin(), points.end(), [&](const Point& point) { return point == points[0]; })) {
+    throw FieldError(where, "the same point six times", "expected at least two different anchors");
+  }
+  return points;
+}
+
+void validate_limits(const std::string& where, const std::array<Limits, kCables>& limits) {
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const std::string here = fmt::format("{}[{}]", where, i);
+    const Decimal lower = decimal_at(here + "[0]", limits[i].lower);
+    const Decimal upper = decimal_at(here + "[1]", limits[i].upper);
+    if (lower.sign() < 0 || lower >= upper) {
+      throw FieldError(here, fmt::format("[{}, {}]", limits[i].lower, limits[i].upper), "expected 0 <= lower < upper");
+    }
+  }
+}
+
+void validate_robot(const RobotText& robot) {
+  const auto a = validate_anchors("robot.base_anchors", robot.base_anchors_m);
+  const auto b = validate_anchors("robot.platform_anchors", robot.platform_anchors_m);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (a[i] == a[j] && b[i] == b[j]) {
+        throw FieldError("robot", fmt::format("the same two anchors for cables {} and {}", j + 1, i + 1),
+                         "expected six different cables");
+      }
+    }
+  }
+  validate_limits("robot.tension", robot.tension_N);
+  validate_limits("robot.length", robot.length_m);
+}
+
+/// Symmetric elimination in rational arithmetic: E is positive definite exactly if every pivot is positive.
+void validate_ellipsoid(const std::array<std::array<DecimalText, 6>, 6>& ellipsoid) {
+  const std::string where = "load.ellipsoid";
+  std::array<std::array<boost::multiprecision::cpp_rational, 6>, 6> e;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      e[i][j] = decimal_at(fmt::format("{}[{}][{}]", where, i, j), ellipsoid[i][j]).rational();
+      if (j < i && e[i][j] != e[j][i]) {
+        throw FieldError(
+            where,
+            fmt::format("{} in row {}, column {} and {} opposite", ellipsoid[i][j], i + 1, j + 1, ellipsoid[j][i]),
+            "expected a symmetric matrix");
+      }
+    }
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (e[k][k] <= 0) {
+      throw FieldError(where, fmt::format("a leading {0} x {0} block that is not positive definite", k + 1),
+                       "expected a positive definite matrix");
+    }
+    for (std::size_t i = k + 1; i < 6; ++i) {
+      for (std::size_t j = i; j < 6; ++j) e[i][j] -= e[k][i] * e[k][j] / e[k][k];
+    }
+  }
+}
+
+void validate_load(const LoadText& load) {
+  point_at("load.point", load.point_m);
+  for (std::size_t i = 0; i < load.wrench.size(); ++i) decimal_at(fmt::format("load.wrench[{}]", i), load.wrench[i]);
+  validate_ellipsoid(load.ellipsoid);
+}
+
+/// Approximate value, to tell mistakes; closer calls are left to the proof.
+double constant_value_approx(const std::string& where, const ExpressionText& expression) {
+  const double value = at(where, [&] { return evaluate_constant<double>(expression); });
+  if (!std::isfinite(value))
+    throw FieldError(where, "'" + expression + "'", "expected an expression with a finite value");
+  return value;
+}
+
+std::array<double, 2> range_approx(const Parameter& parameter) {
+  const std::string here = "space.parameters." + parameter.name;
+  return {constant_value_approx(here + "[0]", parameter.range_lower),
+          constant_value_approx(here + "[1]", parameter.range_upper)};
+}
+
+void validate_flip(const SpaceText& space, const ExpressionTape& pose) {
+  const auto [phi, theta] = *space.flip;
+  const bool is_phi_theta =
+      phi != theta && space.pose[3] == space.parameters[phi].name && space.pose[4] == space.parameters[theta].name &&
+      space.parameters[phi].kind == ParameterKind::kPeriodic && space.parameters[theta].kind == ParameterKind::kReal;
+  bool is_elsewhere = false;
+  for (const int i : {0, 1, 2, 5}) is_elsewhere |= pose.depends_on(i, phi) || pose.depends_on(i, theta);
+  if (!is_phi_theta || is_elsewhere) {
+    fail("space.flip",
+         "expected a periodic and a real parameter that are pose.phi and pose.theta themselves and occur "
+         "in no other expression of the pose");
+  }
+}
+
+void validate_periods(const SpaceText& space, const ExpressionTape& pose) {
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    if (space.parameters[j].kind != ParameterKind::kPeriodic) continue;
+    for (std::size_t i = 0; i < space.pose.size(); ++i) {
+      const bool is_angle = i >= 3;
+      const std::optional<int> turns = pose.turns(static_cast<int>(i), static_cast<int>(j));
+      if (turns && (is_angle || *turns == 0)) continue;
+      throw FieldError(fmt::format("space.pose.{}", kPoseNames[i]), "'" + space.pose[i] + "'",
+                       fmt::format("expected the same {} when the periodic parameter {} grows by 2*pi, and plainly so",
+                                   is_angle ? "angle" : "value", space.parameters[j].name));
+    }
+  }
+}
+
+void validate_space(const SpaceText& space) {
+  if (space.parameters.empty()) fail("space.parameters", "expected at least one parameter");
+  std::vector<std::string> names;
+  for (const Parameter& parameter : space.parameters) {
+    names.push_back(parameter.name);
+    if (parameter.kind != ParameterKind::kRange) continue;
+    if (const auto [lower, upper] = range_approx(parameter); !(lower < upper)) {
+      throw FieldError("space.parameters." + parameter.name,
+                       fmt::format("[{}, {}]", parameter.range_lower, parameter.range_upper), "expected lower < upper");
+    }
+  }
+  at("space.parameters", [&] { return ExpressionTape({}, names, space.constants); });
+  for (const auto& [name, text] : space.constants) decimal_at("space.constants." + name, text);
+  for (std::size_t i = 0; i < space.pose.size(); ++i) {
+    at(fmt::format("space.pose.{}", kPoseNames[i]),
+       [&] { return ExpressionTape({space.pose[i]}, names, space.constants); });
+  }
+  const ExpressionTape pose = at("space.pose", [&] {
+    return ExpressionTape({space.pose.begin(), space.pose.end()}, names, space.constants);
+  });
+  validate_periods(space, pose);
+  if (space.flip) validate_flip(space, pose);
+}
+
+void validate_query(const Problem& problem) {
+  const std::vector<Parameter>& parameters = problem.space.parameters;
+  if (problem.query.size() < 2) {
+    throw FieldError("query.waypoints", fmt::format("{} waypoints", problem.query.size()), "expected at least two");
+  }
+  for (std::size_t k = 0; k < problem.query.size(); ++k) {
+    const std::vector<ExpressionText>& waypoint = problem.query[k];
+    const std::string here = fmt::format("query.waypoints[{}]", k);
+    if (waypoint.size() != parameters.size()) {
+      throw FieldError(here, fmt::format("{} values", waypoint.size()),
+                       fmt::format("expected {}, one a parameter", parameters.size()));
+    }
+    for (std::size_t j = 0; j < parameters.size(); ++j) {
+      const std::string place = fmt::format("{}.{}", here, parameters[j].name);
+      const double value = constant_value_approx(place, waypoint[j]);
+      if (parameters[j].kind != ParameterKind::kRange) continue;
+      const auto [lower, upper] = range_approx(parameters[j]);
+      constexpr double kSlack = 1e-12;  // well above the rounding of a short expression
+      const double slack = kSlack * std::max(std::abs(lower), std::abs(upper));
+      if (value < lower - slack || value > upper + slack) {
+        throw FieldError(place, "'" + waypoint[j] + "'",
+                         fmt::format("expected a value in the parameter's range [{}, {}]", parameters[j].range_lower,
+                                     parameters[j].range_upper));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+FieldError::FieldError(std::string field, std::string seen, std::string expected)
+    : InputError(fmt::format("{}: {}{}", field, seen.empty() ? "" : "got " + seen + ", ", expected)),
+      field_(std::move(field)),
+      seen_(std::move(seen)),
+      expected_(std::move(expected)) {}
+
+json to_json(const Problem& problem) {
+  json parameters = json::array();
+  for (const Parameter& parameter : problem.space.parameters) parameters.push_back(parameter_to_json(parameter));
+  json pose = json::object();
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) pose[kPoseNames[i]] = problem.space.pose[i];
+  json flip = nullptr;
+  if (problem.space.flip) flip = *problem.space.flip;
+  return {{"name", problem.name},
+          {"robot",
+           {{"base_anchors_m", problem.robot.base_anchors_m},
+            {"platform_anchors_m", problem.robot.platform_anchors_m},
+            {"tension_N", limits_to_json(problem.robot.tension_N)},
+            {"length_m", limits_to_json(problem.robot.length_m)}}},
+          {"load",
+           {{"point_m", problem.load.point_m}, {"wrench", problem.load.wrench}, {"ellipsoid", problem.load.ellipsoid}}},
+          {"space",
+           {{"parameters", std::move(parameters)},
+            {"constants", problem.space.constants},
+            {"flip", std::move(flip)},
+            {"pose", std::move(pose)}}},
+          {"query", {{"waypoints", problem.query}}}};
+}
+
+Problem problem_from_json(const json& value) {
+  expect_keys(value, "problem", {"name", "robot", "load", "space", "query"});
+  Problem problem;
+  read(value["name"], "name", problem.name);
+  const json& robot = value["robot"];
+  expect_keys(robot, "robot", {"base_anchors_m", "platform_anchors_m", "tension_N", "length_m"});
+  read(robot["base_anchors_m"], "robot.base_anchors_m", problem.robot.base_anchors_m);
+  read(robot["platform_anchors_m"], "robot.platform_anchors_m", problem.robot.platform_anchors_m);
+  read(robot["tension_N"], "robot.tension_N", problem.robot.tension_N);
+  read(robot["length_m"], "robot.length_m", problem.robot.length_m);
+  const json& load = value["load"];
+  expect_keys(load, "load", {"point_m", "wrench", "ellipsoid"});
+  read(load["point_m"], "load.point_m", problem.load.point_m);
+  read(load["wrench"], "load.wrench", problem.load.wrench);
+  read(load["ellipsoid"], "load.ellipsoid", problem.load.ellipsoid);
+  problem.space = read_space(value["space"]);
+  expect_keys(value["query"], "query", {"waypoints"});
+  for (const json& waypoint : expect_list(value["query"]["waypoints"], "query.waypoints")) {
+    const std::string here = fmt::format("query.waypoints[{}]", problem.query.size());
+    std::vector<ExpressionText>& values = problem.query.emplace_back();
+    for (const json& entry : expect_list(waypoint, here)) {
+      read(entry, fmt::format("{}[{}]", here, values.size()), values.emplace_back());
+    }
+  }
+  validate(problem);
+  return problem;
+}
+
+void validate(const Problem& problem) {
+  validate_robot(problem.robot);
+  validate_load(problem.load);
+  validate_space(problem.space);
+  validate_query(problem);
+}
+
+}  // namespace taut

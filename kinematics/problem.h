@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "kinematics/input_error.h"
+
 namespace taut {
 
 inline constexpr int kCables = 6;
@@ -72,9 +74,28 @@ struct Problem {
   std::vector<std::vector<ExpressionText>> query;
 };
 
+/// A field of a problem breaks its promise: "robot.length[2]: got [0.5, 0.1], expected 0 <= lower < upper".
+class FieldError : public InputError {
+ public:
+  FieldError(std::string field, std::string seen, std::string expected);
+  [[nodiscard]] const std::string& field() const { return field_; }
+  [[nodiscard]] const std::string& seen() const { return seen_; }  ///< may be empty
+  [[nodiscard]] const std::string& expected() const { return expected_; }
+
+ private:
+  std::string field_, seen_, expected_;
+};
+
+/// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, E symmetric and
+/// positive definite (exactly), expressions that parse, poses that plainly agree after a turn of a periodic
+/// parameter, a `flip` that is one, and at least two waypoints with one finite value a parameter, within its range
+/// up to rounding. @throws FieldError
+void validate(const Problem& problem);
+
 /// The `problem` object of a certificate.
 [[nodiscard]] nlohmann::json to_json(const Problem& problem);
-/// Inverse of to_json. @throws InputError naming the key for anything missing, unknown, or of the wrong type.
+/// Inverse of to_json. @throws FieldError naming the key for anything missing, unknown, or of the wrong type, and
+/// whatever `validate` objects to.
 [[nodiscard]] Problem problem_from_json(const nlohmann::json& json);
 
 }  // namespace taut
