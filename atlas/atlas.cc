@@ -1,0 +1,194 @@
+#include "atlas/atlas.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace taut {
+namespace {
+
+// Of two charts that see each other as neighbours, the distance between one's centre and the other's tangent space is
+// at most this fraction of the distance along it: a slope of 27 degrees, whatever epsilon allows.
+constexpr double kMaxSlope = 0.5;
+// Neighbours are up to two radii apart, where a curved manifold is four times as far from the tangent space as at one,
+// and turns twice as far.
+constexpr double kDistanceGrowth = 4.0;
+// Charts further away than this many radii have bisectors that leave the chart's ball alone.
+constexpr double kReach = 2.0;
+// Half side of the cube that a polytope begins as, in radii: all its corners are outside the ball, also for n = 1.
+constexpr double kCube = 1.25;
+// Centres closer than this fraction of a radius are one.
+constexpr double kSamePoint = 1e-9;
+
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDimension, kMaxDimension>;
+
+double absolute_determinant(const SmallMatrix& a) {
+  if (a.rows() == 1) return std::abs(a(0, 0));
+  if (a.rows() == 2) return std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+  return std::abs(a.determinant());
+}
+
+// How two frames see each other's centre.
+struct View {
+  double squared_distance;
+  TangentVector u_ab;  // b's centre from a
+  TangentVector u_ba;
+  double distance_ab;  // of b's centre from a's tangent space
+  double distance_ba;
+
+  View(const Frame& a, const Frame& b) {
+    squared_distance = (b.point - a.point).squaredNorm();
+    u_ab = a.tangent_coordinates(b.point);
+    u_ba = b.tangent_coordinates(a.point);
+    distance_ab = std::sqrt(std::max(0.0, squared_distance - u_ab.squaredNorm()));
+    distance_ba = std::sqrt(std::max(0.0, squared_distance - u_ba.squaredNorm()));
+  }
+
+  [[nodiscard]] bool near(double epsilon) const {
+    return distance_ab <= std::min(epsilon, kMaxSlope * u_ab.norm()) &&
+           distance_ba <= std::min(epsilon, kMaxSlope * u_ba.norm());
+  }
+};
+
+bool tangents_agree(const Frame& a, const Frame& b, double min_cosine) {
+  SmallMatrix product(a.tangent.cols(), b.tangent.cols());
+  for (int i = 0; i < product.rows(); ++i) {
+    for (int j = 0; j < product.cols(); ++j) product(i, j) = a.tangent.col(i).dot(b.tangent.col(j));
+  }
+  return absolute_determinant(product) >= min_cosine;
+}
+
+double cosine_of_double_angle(double cosine) { return std::max(0.0, 2 * cosine * cosine - 1); }
+
+}  // namespace
+
+void AtlasOptions::validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("AtlasOptions: ") + what);
+  };
+  require(radius > 0 && std::isfinite(radius), "radius must be positive");
+  require(epsilon > 0, "epsilon must be positive");
+  require(min_tangent_cosine > 0 && min_tangent_cosine < 1, "min_tangent_cosine must be between 0 and 1");
+  require(step > 0 && step < kReach, "step must be between 0 and 2");
+  require(max_halvings >= 0 && max_halvings <= 20, "max_halvings must be between 0 and 20");
+  require(max_charts >= 1, "max_charts must be positive");
+}
+
+Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options) : manifold_(manifold), options_(options) {
+  options_.validate();
+  if (manifold.dimension() < 1 || manifold.dimension() > kMaxDimension) {
+    throw std::invalid_argument("Atlas: manifold dimension must be between 1 and 6");
+  }
+  if (manifold.coordinate_dimension() < 1 || manifold.coordinate_dimension() > kMaxCoordinates) {
+    throw std::invalid_argument("Atlas: a point must be named by 1 to 8 coordinates");
+  }
+}
+
+std::optional<int> Atlas::add(const Coordinates& coordinates) {
+  ++frame_evaluations_;
+  if (!manifold_.frame_at(coordinates, candidate_)) return std::nullopt;
+  std::optional<int> same;
+  index_.visit(NeighbourIndex::locate(candidate_.point), 0, [&](int other) {
+    const Chart& chart = charts_[other];
+    if ((chart.frame.point - candidate_.point).norm() <= kSamePoint * options_.radius) same = other;
+  });
+  return same ? *same : insert(options_.radius);
+}
+
+int Atlas::external_vertex(const Chart& chart, const TangentVector* direction) const {
+  int best = -1;
+  double best_score = -std::numeric_limits<double>::infinity();
+  const auto& vertices = chart.polytope.vertices();
+  for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
+    const double distance = std::sqrt(vertices[v].squared_norm);
+    if (vertices[v].marked || chart.covers(distance)) continue;
+    const double score = direction ? chart.polytope.position(v).dot(*direction) / distance : distance;
+    if (score > best_score) {
+      best_score = score;
+      best = v;
+    }
+  }
+  return best;
+}
+
+bool Atlas::expand(int chart_id, int budget, const Eigen::VectorXd* target) {
+  Chart& chart = charts_[chart_id];  // a deque: stays where it is
+  if (chart.complete) return true;
+  TangentVector direction;
+  if (target) direction = chart.frame.tangent_coordinates(*target);
+  const int first_new = size();
+  while (true) {
+    const int vertex = external_vertex(chart, target ? &direction : nullptr);
+    if (vertex < 0) return chart.complete = true;
+    if (size() >= options_.max_charts || size() - first_new >= budget) return false;
+    grow_towards(chart_id, vertex);
+  }
+}
+
+// Tries the direction of an external vertex at shorter and shorter distances. The vertex is marked first: where a chart
+// comes to be, its bisector cuts the vertex off; where none can be, the mark says that it was tried.
+void Atlas::grow_towards(int parent_id, int vertex) {
+  Chart& parent = charts_[parent_id];
+  const TangentVector direction = parent.polytope.position(vertex).normalized();
+  parent.polytope.mark(vertex);
+  double distance = options_.step * parent.radius;
+  bool too_curved = false;  // at the last distance tried, rather than outside the domain
+  Coordinates coordinates;
+  for (int halvings = 0; halvings <= options_.max_halvings; ++halvings, distance /= 2) {
+    ++frame_evaluations_;
+    const bool projected = manifold_.project(parent.frame, distance * direction, coordinates);
+    if (projected && !manifold_.frame_at(coordinates, candidate_)) {
+      too_curved = false;
+      continue;
+    }
+    if (!projected || !View(parent.frame, candidate_).near(options_.epsilon) ||
+        !tangents_agree(parent.frame, candidate_, options_.min_tangent_cosine)) {
+      too_curved = true;
+      continue;
+    }
+    if (too_curved) parent.radius = distance / options_.step;
+    insert(std::min(options_.radius, 2 * parent.radius));
+    return;
+  }
+}
+
+// The candidate becomes a chart.
+int Atlas::insert(double radius) {
+  const int id = size();
+  charts_.push_back({std::move(candidate_), radius, Polytope(manifold_.dimension(), kCube * radius), false});
+  const double reach = kReach * radius;
+  const NeighbourIndex::Point place = NeighbourIndex::locate(charts_[id].frame.point);
+  index_.visit(place, reach, [&](int other) { separate(other, id); });
+  index_.insert(id, place, reach);
+  return id;
+}
+
+void Atlas::separate(int a, int b) {
+  Chart& chart_a = charts_[a];
+  Chart& chart_b = charts_[b];
+  const double reach = kReach * std::max(chart_a.radius, chart_b.radius);
+  const View view(chart_a.frame, chart_b.frame);
+  if (view.squared_distance > reach * reach) return;
+  if (!view.near(kDistanceGrowth * options_.epsilon)) return;
+  const double min_cosine = cosine_of_double_angle(options_.min_tangent_cosine);
+  if (!tangents_agree(chart_a.frame, chart_b.frame, min_cosine)) return;
+  chart_a.polytope.clip(view.u_ab, view.squared_distance / 2, b);
+  chart_b.polytope.clip(view.u_ba, view.squared_distance / 2, a);
+}
+
+bool Atlas::grow_all() {
+  for (int id = 0; id < size(); ++id) {
+    if (!expand(id)) return false;
+  }
+  return true;
+}
+
+std::vector<int> Atlas::neighbours(int chart) const {
+  std::vector<int> result = charts_[chart].polytope.cutting_facets();
+  std::erase_if(result, [&](int other) { return !charts_[other].polytope.has_facet(chart); });
+  return result;
+}
+
+}  // namespace taut

@@ -1,0 +1,97 @@
+// An atlas: charts that cover a manifold, grown one by one (multidimensional continuation).
+//
+// Chart i has a centre x_i with tangent space Phi_i, a radius r_i within which the tangent space is close to the
+// manifold, and a polytope P_i in that tangent space: what is nearer to x_i than to the charts around it.
+// A vertex of P_i outside the ball of radius r_i is *external*: nothing covers that corner yet, so a new chart is
+// made in its direction. Both polytopes of two charts on the same sheet are cut by the centres' bisector, here in the
+// tangent space of i:
+//
+//   u . u_j <= |x_j - x_i|^2 / 2,   u_j = Phi_i^T (x_j - x_i).                               (1)
+//
+// This differs from Henderson's cut in two ways. The radii have no part in it, so that a radius may shrink later
+// without touching any other chart; the price is a few more charts where radii differ. And the right side is the distance
+// in the ambient space: then the polytopes are slices of one Voronoi diagram of that space, and charts agree
+// on who touches whom but for near-ties (on a sphere, always).
+// A new centre lies in its parent's polytope, at least step * radius / 2^max_halvings from every other: a compact
+// manifold is covered by finitely many charts.
+//
+// Sources: M. E. Henderson, "Multiple parameter continuation", 2002; J. M. Porta, L. Jaillet, O. Bohigas,
+// "Randomized path planning on manifolds based on higher-dimensional continuation", 2012.
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "atlas/manifold.h"
+#include "atlas/neighbour_index.h"
+#include "atlas/polytope.h"
+
+namespace taut {
+
+/// Lengths are in the ambient space's unit.
+struct AtlasOptions {
+  double radius = 0.15;             ///< largest chart radius
+  double epsilon = 0.15;            ///< largest distance of a new centre from its parent's tangent space
+  double min_tangent_cosine = 0.8;  ///< least product of the cosines of the angles between two neighbours' tangents
+  double step = 0.95;               ///< distance from a chart to a new centre, in radii
+  int max_halvings = 3;             ///< of that distance, before a direction is given up
+  int max_charts = 200000;
+
+  /// @throws std::invalid_argument naming the field at fault.
+  void validate() const;
+};
+
+struct Chart {
+  Frame frame;
+  double radius;
+  Polytope polytope;
+  bool complete = false;  ///< no external vertex is left that has not been tried
+
+  /// Whether a point of the tangent space, at this distance from the centre, is in the ball, up to rounding.
+  [[nodiscard]] bool covers(double distance) const { return distance <= radius * (1 + 1e-9); }
+};
+
+class Atlas {
+ public:
+  /// @throws std::invalid_argument for inconsistent options or dimensions that are not supported.
+  Atlas(const Manifold& manifold, const AtlasOptions& options);
+
+  /// A chart centred at exactly these coordinates, or the chart that is centred at the same point already.
+  /// nullopt outside the domain. Ignores max_charts.
+  std::optional<int> add(const Coordinates& coordinates);
+
+  /// Makes charts around a chart until its polytope has no external vertex that can be covered, or until `budget` have
+  /// been made. With `target`, an ambient point, corners in its direction come first. New charts are the last ones.
+  /// @returns whether the chart is complete. False also at max_charts.
+  bool expand(int chart, int budget = std::numeric_limits<int>::max(), const Eigen::VectorXd* target = nullptr);
+
+  /// Expands every chart, in order of creation. @returns false at max_charts.
+  bool grow_all();
+
+  /// Charts that bound this one's polytope and are bounded by it, ascending.
+  [[nodiscard]] std::vector<int> neighbours(int chart) const;
+
+  [[nodiscard]] int size() const { return static_cast<int>(charts_.size()); }
+  [[nodiscard]] const Chart& chart(int id) const { return charts_[id]; }
+  [[nodiscard]] const Manifold& manifold() const { return manifold_; }
+  [[nodiscard]] const AtlasOptions& options() const { return options_; }
+  [[nodiscard]] long distance_evaluations() const { return index_.distance_evaluations(); }
+  [[nodiscard]] long frame_evaluations() const { return frame_evaluations_; }
+
+ private:
+  void grow_towards(int parent, int vertex);
+  int insert(double radius);
+  void separate(int a, int b);
+  int external_vertex(const Chart& chart, const TangentVector* direction) const;
+
+  const Manifold& manifold_;
+  AtlasOptions options_;
+  std::deque<Chart> charts_;
+  NeighbourIndex index_;
+  Frame candidate_;  ///< the frame about to become a chart
+  long frame_evaluations_ = 0;
+};
+
+}  // namespace taut

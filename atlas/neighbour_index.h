@@ -1,0 +1,84 @@
+// Finds the charts near a point without looking at all of them.
+//
+// Points have kDimension coordinates: any fixed choice of ambient coordinates, since leaving some out only shortens
+// distances, so that nothing near is missed. Each point has a reach of its own.
+// Source: Bentley, Saxe 1980, "Decomposable searching problems": static kd-trees of sizes 1, 2, 4, … buckets, merged
+// as a binary counter is; an insertion costs O(log^2 N), amortised.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace taut {
+
+class NeighbourIndex {
+ public:
+  static constexpr int kDimension = 8;
+  using Point = std::array<double, kDimension>;
+
+  /// The first kDimension coordinates of an ambient point, or all and zeros.
+  [[nodiscard]] static Point locate(const Eigen::VectorXd& ambient_point);
+
+  void insert(int id, const Point& point, double reach);
+
+  /// Calls visit(id) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that depends on the
+  /// insertions alone.
+  template <class Visit>
+  void visit(const Point& point, double reach, Visit&& visit) const {
+    scan(recent_, 0, recent_.size(), point, reach, visit);
+    for (const auto& tree : trees_) descend(tree, 0, tree.size(), point, reach, visit);
+  }
+
+  /// Distances computed so far: what a look-up costs, whatever the machine.
+  [[nodiscard]] long distance_evaluations() const { return distance_evaluations_; }
+
+ private:
+  /// Also, in the middle of its range, the node of that range.
+  struct Entry {
+    Point point;
+    double reach;
+    double largest_reach = 0;  ///< of the node's range
+    int id;
+    int split = 0;  ///< coordinate that divides the node's range
+  };
+  using Entries = std::vector<Entry>;
+
+  static constexpr std::size_t kBucket = 16;  ///< entries below which a scan beats a tree
+
+  static void build(Entries& entries, std::size_t begin, std::size_t end);
+
+  template <class Visit>
+  void scan(const Entries& entries, std::size_t begin, std::size_t end, const Point& point, double reach,
+            Visit&& visit) const {
+    distance_evaluations_ += static_cast<long>(end - begin);
+    for (std::size_t e = begin; e < end; ++e) {
+      const Entry& entry = entries[e];
+      double squared = 0;
+      for (int k = 0; k < kDimension; ++k) squared += (point[k] - entry.point[k]) * (point[k] - entry.point[k]);
+      const double limit = std::max(reach, entry.reach);
+      if (squared <= limit * limit) visit(entry.id);
+    }
+  }
+
+  template <class Visit>
+  void descend(const Entries& entries, std::size_t begin, std::size_t end, const Point& point, double reach,
+               Visit&& visit) const {
+    if (end - begin <= kBucket) return scan(entries, begin, end, point, reach, visit);
+    const std::size_t middle = begin + (end - begin) / 2;
+    const Entry& node = entries[middle];
+    const double limit = std::max(reach, node.largest_reach);
+    const double gap = point[node.split] - node.point[node.split];
+    if (gap <= limit) descend(entries, begin, middle, point, reach, visit);
+    if (std::abs(gap) <= limit) scan(entries, middle, middle + 1, point, reach, visit);
+    if (-gap <= limit) descend(entries, middle + 1, end, point, reach, visit);
+  }
+
+  Entries recent_;
+  std::vector<Entries> trees_;  ///< trees_[k] holds kBucket * 2^k entries or none
+  mutable long distance_evaluations_ = 0;
+};
+
+}  // namespace taut

@@ -1,0 +1,171 @@
+#include "atlas/polytope.h"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+// A vertex that a cut would move by less than this fraction of the cube's half side counts as lying on the cut.
+constexpr double kOnTheCut = 1e-12;
+
+// One end of an edge to come in a new facet. The edge is the 2-face that the cut crosses, named by its other facets.
+struct OpenEnd {
+  std::array<int, kMaxDimension> face;
+  int vertex;
+  int slot;
+};
+
+// Buffers of clip(), kept between calls.
+struct Scratch {
+  std::vector<double> excess;
+  std::vector<int> outside;
+  std::vector<Polytope::Vertex> fresh;
+  std::vector<OpenEnd> ends;
+};
+thread_local Scratch scratch;
+
+int slot_of(const std::array<int, kMaxDimension>& values, int value) {
+  return static_cast<int>(std::find(values.begin(), values.end(), value) - values.begin());
+}
+
+}  // namespace
+
+Polytope::Polytope(int dimension, double half_side) : dimension_(dimension), half_side_(half_side) {
+  vertices_.resize(std::size_t{1} << dimension);
+  vertices_.reserve(vertices_.size() + 8);
+  for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
+    Vertex& vertex = vertices_[v];
+    for (int k = 0; k < dimension; ++k) {
+      const int upper = (v >> k) & 1;
+      vertex.position[k] = upper ? half_side : -half_side;
+      vertex.facets[k] = -1 - 2 * k - upper;
+      vertex.neighbours[k] = v ^ (1 << k);
+    }
+    vertex.squared_norm = dimension * half_side * half_side;
+  }
+}
+
+bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
+  auto& [excess, outside, fresh, ends] = scratch;
+  const int n = dimension_;
+  const int count = static_cast<int>(vertices_.size());
+  const double tolerance = kOnTheCut * half_side_ * normal.norm();
+  outside.clear();
+  excess.resize(vertices_.size());
+  for (int v = 0; v < count; ++v) {
+    double value = -offset;
+    for (int k = 0; k < n; ++k) value += normal[k] * vertices_[v].position[k];
+    excess[v] = value;
+    if (value > tolerance) outside.push_back(v);
+  }
+  if (outside.empty()) return false;
+
+  // A new vertex on each edge that the cut crosses. It takes the place of a removed vertex, or a new one at the end.
+  fresh.clear();
+  const auto place_of = [&](int f) {
+    return f < static_cast<int>(outside.size()) ? outside[f] : count + f - static_cast<int>(outside.size());
+  };
+  for (const int v : outside) {
+    for (int k = 0; k < n; ++k) {
+      const int w = vertices_[v].neighbours[k];
+      if (excess[w] > tolerance) continue;
+      const double t = std::min(1.0, std::max(0.0, -excess[w] / (excess[v] - excess[w])));  // w + t (v - w)
+      Vertex vertex = vertices_[v];
+      vertex.marked = false;
+      vertex.squared_norm = 0;
+      for (int j = 0; j < n; ++j) {
+        const double at_w = vertices_[w].position[j];
+        vertex.position[j] = at_w + t * (vertex.position[j] - at_w);
+        vertex.squared_norm += vertex.position[j] * vertex.position[j];
+      }
+      vertex.facets[k] = facet;  // the edge to w is the one that leaves it
+      const int place = place_of(static_cast<int>(fresh.size()));
+      fresh.push_back(vertex);
+      // w's edges inside the cut still name vertices of the old polytope: negative until all are found.
+      Vertex& inside = vertices_[w];
+      inside.neighbours[slot_of(inside.neighbours, v)] = -1 - place;
+    }
+  }
+  for (const Vertex& vertex : fresh) {
+    const int k = slot_of(vertex.facets, facet);
+    Vertex& inside = vertices_[vertex.neighbours[k]];
+    for (int j = 0; j < n; ++j) {
+      if (inside.neighbours[j] < 0) inside.neighbours[j] = -1 - inside.neighbours[j];
+    }
+  }
+
+  // Edges within the new facet: the two new vertices on the same 2-face of the old polytope.
+  ends.clear();
+  for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
+    const auto& facets = fresh[f].facets;
+    for (int slot = 0; slot < n; ++slot) {
+      if (facets[slot] == facet) continue;
+      OpenEnd end{{}, f, slot};
+      int used = 0;
+      for (int j = 0; j < n; ++j) {
+        if (j == slot || facets[j] == facet) continue;
+        int place = used++;
+        for (; place > 0 && end.face[place - 1] > facets[j]; --place) end.face[place] = end.face[place - 1];
+        end.face[place] = facets[j];
+      }
+      ends.push_back(end);
+    }
+  }
+  std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {
+    return a.face != b.face ? a.face < b.face : a.vertex < b.vertex;
+  });
+  for (std::size_t e = 0; e + 1 < ends.size(); e += 2) {
+    fresh[ends[e].vertex].neighbours[ends[e].slot] = place_of(ends[e + 1].vertex);
+    fresh[ends[e + 1].vertex].neighbours[ends[e + 1].slot] = place_of(ends[e].vertex);
+  }
+
+  for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
+    const int place = place_of(f);
+    if (place < count) {
+      vertices_[place] = fresh[f];
+    } else {
+      vertices_.push_back(fresh[f]);
+    }
+  }
+  // Fewer new vertices than removed ones: fill each hole with the last vertex.
+  for (int hole = static_cast<int>(outside.size()) - 1; hole >= static_cast<int>(fresh.size()); --hole) {
+    const int from = static_cast<int>(vertices_.size()) - 1;
+    const int to = outside[hole];
+    if (to != from) {
+      vertices_[to] = vertices_[from];
+      for (int k = 0; k < n; ++k) {
+        Vertex& neighbour = vertices_[vertices_[to].neighbours[k]];
+        neighbour.neighbours[slot_of(neighbour.neighbours, from)] = to;
+      }
+    }
+    vertices_.pop_back();
+  }
+  return true;
+}
+
+TangentVector Polytope::position(int vertex) const {
+  return Eigen::Map<const TangentVector>(vertices_[vertex].position.data(), dimension_);
+}
+
+std::vector<int> Polytope::cutting_facets() const {
+  std::vector<int> result;
+  for (const Vertex& vertex : vertices_) {
+    for (int k = 0; k < dimension_; ++k) {
+      if (vertex.facets[k] >= 0) result.push_back(vertex.facets[k]);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+bool Polytope::has_facet(int facet) const {
+  for (const Vertex& vertex : vertices_) {
+    for (int k = 0; k < dimension_; ++k) {
+      if (vertex.facets[k] == facet) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace taut

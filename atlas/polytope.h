@@ -1,0 +1,55 @@
+// The part of a chart's tangent space that is the chart's own: a cube around the centre, clipped by neighbours.
+//
+// A bounded polytope in R^n with the origin inside, kept as a simple one: each vertex lies on exactly n facets and has
+// n edges, one leaving each of its facets. A cut through (or within rounding of) a vertex spares that vertex, which
+// keeps every degenerate case simple and the outcome a function of the order of cuts alone.
+// Source: Henderson 2002, section 4 (simple polytopes of charts); Chen, Hansen, Jaumard 1991 (on-line vertices).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "atlas/manifold.h"
+
+namespace taut {
+
+class Polytope {
+ public:
+  struct Vertex {
+    std::array<double, kMaxDimension> position{};
+    double squared_norm = 0;
+    /// The n facets it lies on, by name.
+    std::array<int, kMaxDimension> facets{};
+    /// neighbours[k]: index of the vertex at the other end of the edge that leaves facets[k].
+    std::array<int, kMaxDimension> neighbours{};
+    /// For the owner's use; new vertices are unmarked.
+    bool marked = false;
+  };
+
+  /// The cube [-half_side, half_side]^n; its facets are named -1 (u_0 = -half_side), -2 (u_0 = half_side), -3, … -2n.
+  /// @pre 1 <= dimension <= kMaxDimension, half_side > 0.
+  Polytope(int dimension, double half_side);
+
+  /// Intersects with the half-space normal . u <= offset; the new facet is named `facet`.
+  /// @returns whether anything was cut off.
+  /// @pre offset > 0, so that the origin stays inside; facet >= 0 and new.
+  /// Cost: one dot product a vertex, plus the vertices that change.
+  bool clip(const TangentVector& normal, double offset, int facet);
+
+  [[nodiscard]] int dimension() const { return dimension_; }
+  [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
+  void mark(int vertex) { vertices_[vertex].marked = true; }
+  [[nodiscard]] TangentVector position(int vertex) const;
+
+  /// Names of the cutting facets (not the cube's) that are left, ascending.
+  [[nodiscard]] std::vector<int> cutting_facets() const;
+  [[nodiscard]] bool has_facet(int facet) const;
+
+ private:
+  int dimension_;
+  double half_side_;
+  std::vector<Vertex> vertices_;
+};
+
+}  // namespace taut

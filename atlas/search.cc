@@ -1,0 +1,253 @@
+#include "atlas/search.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <unordered_set>
+
+namespace taut {
+namespace {
+
+constexpr int kNone = -1;
+constexpr int kProgressPeriod = 256;  // expansions between two reports
+// Charts that greedy search makes around a node before it looks at the best of them. Charts have exponentially many
+// neighbours in the dimension, and greed needs few.
+constexpr int kGreedyBudget = 1;
+
+struct Node {
+  bool closed = false;
+  bool edge_accepted = false;  // the edge from the parent
+  int parent = kNone;
+  double cost = 0;          // from the start; of a closed node
+  double heuristic = -1;    // negative: not computed yet
+  Image image;              // of a closed node
+  Coordinates coordinates;  // unwrapped, of a closed node
+};
+
+// A way to reach a node; or, with child == parent, a node whose surroundings are not finished.
+struct Candidate {
+  double priority;
+  double cost;  // of the child, from the start
+  double parent_cost;
+  int child;
+  int parent;
+
+  // Of equals, the one further along comes first; ids make the order total.
+  bool operator<(const Candidate& other) const {
+    if (priority != other.priority) return priority > other.priority;
+    if (cost != other.cost) return cost < other.cost;
+    if (child != other.child) return child > other.child;
+    return parent > other.parent;
+  }
+};
+
+class Search {
+ public:
+  Search(Atlas& atlas, const SearchProblem& problem, Strategy strategy)
+      : atlas_(atlas),
+        problem_(problem),
+        greedy_(strategy == Strategy::kGreedyBestFirst),
+        symmetry_(atlas.manifold().symmetry()) {}
+
+  SearchResult run() {
+    result_.status = status_of_run();
+    result_.charts = atlas_.size();
+    return std::move(result_);
+  }
+
+ private:
+  SearchStatus status_of_run() {
+    const auto start = atlas_.add(problem_.start);
+    const auto goal = atlas_.add(problem_.goal);
+    if (!start || !goal) return SearchStatus::kOutside;
+    start_ = *start;
+    goal_ = *goal;
+    nodes_.resize(atlas_.size());
+    if (start_ == goal_) return join_equal_ends();
+
+    Node& root = nodes_[start_];
+    root.coordinates = problem_.start;
+    close(start_);
+    while (!open_.empty()) {
+      if (problem_.stop.stop_requested()) return SearchStatus::kInterrupted;
+      const Candidate candidate = open_.top();
+      open_.pop();
+      if (!is_current(candidate)) continue;
+      if (candidate.child == candidate.parent) {
+        expand(candidate.child);
+        continue;
+      }
+      adopt(candidate);
+      if (candidate.child != goal_) {
+        close(candidate.child);
+        continue;
+      }
+      nodes_[goal_].closed = true;
+      closed_.push_back(goal_);
+      const int broken = first_broken_edge();
+      if (problem_.stop.stop_requested()) return SearchStatus::kInterrupted;
+      if (broken == kNone) {
+        write_path();
+        return SearchStatus::kFound;
+      }
+      repair(broken);
+    }
+    return chart_limit_hit_ ? SearchStatus::kChartLimit : SearchStatus::kExhausted;
+  }
+
+  const Coordinates& base(int node) const {
+    if (node == start_) return problem_.start;
+    if (node == goal_) return problem_.goal;
+    return atlas_.chart(node).frame.coordinates;
+  }
+
+  // Start and goal are one point, perhaps under two names: a path of one edge.
+  SearchStatus join_equal_ends() {
+    const Image image = symmetry_.nearest_image(problem_.goal, problem_.start);
+    const Coordinates end = symmetry_.apply(problem_.goal, image);
+    ++result_.edges_checked;
+    if (!problem_.edge_ok(problem_.start, end)) {
+      ++result_.edges_rejected;
+      return SearchStatus::kExhausted;
+    }
+    result_.cost = problem_.cost(problem_.start, end);
+    result_.path = {{problem_.start, {}, problem_.start}, {problem_.goal, image, end}};
+    return SearchStatus::kFound;
+  }
+
+  bool is_current(const Candidate& candidate) const {
+    const Node& parent = nodes_[candidate.parent];
+    if (!parent.closed || parent.cost != candidate.parent_cost) return false;
+    if (candidate.child == candidate.parent) return true;
+    return !nodes_[candidate.child].closed && !is_rejected(candidate.parent, candidate.child);
+  }
+
+  void adopt(const Candidate& candidate) {
+    Node& node = nodes_[candidate.child];
+    node.parent = candidate.parent;
+    node.cost = candidate.cost;
+    node.edge_accepted = false;
+    node.image = symmetry_.nearest_image(base(candidate.child), nodes_[candidate.parent].coordinates);
+    node.coordinates = symmetry_.apply(base(candidate.child), node.image);
+  }
+
+  // The node's tree edge is settled: its neighbours become candidates.
+  void close(int node) {
+    nodes_[node].closed = true;
+    closed_.push_back(node);
+    for (const int neighbour : atlas_.neighbours(node)) offer(node, neighbour);
+    expand(node);
+  }
+
+  // Makes charts around a closed node and offers them to every closed neighbour that they have.
+  void expand(int node) {
+    if (result_.nodes_expanded++ % kProgressPeriod == 0 && problem_.progress) {
+      problem_.progress({atlas_.size(), result_.nodes_expanded, lowest_heuristic_});
+    }
+    const int first_new = atlas_.size();
+    const bool complete =
+        greedy_ ? atlas_.expand(node, kGreedyBudget, &atlas_.chart(goal_).frame.point) : atlas_.expand(node);
+    nodes_.resize(atlas_.size());
+    for (int chart = first_new; chart < atlas_.size(); ++chart) {
+      for (const int neighbour : atlas_.neighbours(chart)) offer(neighbour, chart);
+    }
+    if (complete) return;
+    if (atlas_.size() >= atlas_.options().max_charts) {
+      chart_limit_hit_ = true;
+      return;
+    }
+    open_.push({heuristic(node), nodes_[node].cost, nodes_[node].cost, node, node});
+  }
+
+  void offer(int parent, int child) {
+    if (!nodes_[parent].closed || nodes_[child].closed || is_rejected(parent, child)) return;
+    const Coordinates& from = nodes_[parent].coordinates;
+    const Coordinates to = symmetry_.apply(base(child), symmetry_.nearest_image(base(child), from));
+    const double parent_cost = nodes_[parent].cost;
+    const double cost = parent_cost + problem_.cost(from, to);
+    open_.push({greedy_ ? heuristic(child) : cost + heuristic(child), cost, parent_cost, child, parent});
+  }
+
+  double heuristic(int node) {
+    double& value = nodes_[node].heuristic;
+    if (value < 0) {
+      const Coordinates& at = base(node);
+      value = problem_.heuristic(at, symmetry_.apply(problem_.goal, symmetry_.nearest_image(problem_.goal, at)));
+      lowest_heuristic_ = std::min(lowest_heuristic_, value);
+    }
+    return value;
+  }
+
+  // Puts the edges from the start to the goal to edge_ok. Returns the node below the first that fails.
+  int first_broken_edge() {
+    std::vector<int> nodes;
+    for (int node = goal_; node != start_; node = nodes_[node].parent) nodes.push_back(node);
+    for (auto it = nodes.rbegin(); it != nodes.rend(); ++it) {
+      Node& node = nodes_[*it];
+      if (node.edge_accepted) continue;
+      if (problem_.stop.stop_requested()) return kNone;
+      ++result_.edges_checked;
+      if (!problem_.edge_ok(nodes_[node.parent].coordinates, node.coordinates)) return *it;
+      node.edge_accepted = true;
+    }
+    return kNone;
+  }
+
+  // Strikes out the edge above `broken` and opens the subtree below again: all other closed nodes keep their cost, since
+  // striking out edges makes no path shorter.
+  void repair(int broken) {
+    ++result_.edges_rejected;
+    rejected_.insert(key(nodes_[broken].parent, broken));
+    std::vector<int> kept;
+    std::vector<int> subtree;
+    for (const int node : closed_) {  // parents come before their children
+      const int parent = nodes_[node].parent;
+      if (node == broken || (parent != kNone && !nodes_[parent].closed)) {
+        nodes_[node].closed = false;
+        subtree.push_back(node);
+      } else {
+        kept.push_back(node);
+      }
+    }
+    closed_ = std::move(kept);
+    for (const int node : subtree) {
+      for (const int neighbour : atlas_.neighbours(node)) offer(neighbour, node);
+    }
+  }
+
+  void write_path() {
+    for (int node = goal_; node != kNone; node = nodes_[node].parent) {
+      result_.path.push_back({base(node), nodes_[node].image, nodes_[node].coordinates});
+    }
+    std::reverse(result_.path.begin(), result_.path.end());
+    result_.cost = nodes_[goal_].cost;
+  }
+
+  static std::uint64_t key(int a, int b) {
+    return (std::uint64_t(std::uint32_t(std::min(a, b))) << 32) | std::uint32_t(std::max(a, b));
+  }
+  bool is_rejected(int a, int b) const { return !rejected_.empty() && rejected_.contains(key(a, b)); }
+
+  Atlas& atlas_;
+  const SearchProblem& problem_;
+  const bool greedy_;
+  const CoordinateSymmetry symmetry_;
+  int start_ = kNone;
+  int goal_ = kNone;
+  std::vector<Node> nodes_;  // by chart
+  std::vector<int> closed_;  // in the order of closing
+  std::priority_queue<Candidate> open_;
+  std::unordered_set<std::uint64_t> rejected_;
+  bool chart_limit_hit_ = false;
+  double lowest_heuristic_ = std::numeric_limits<double>::infinity();
+  SearchResult result_;
+};
+
+}  // namespace
+
+SearchResult search(Atlas& atlas, const SearchProblem& problem, Strategy strategy) {
+  return Search(atlas, problem, strategy).run();
+}
+
+}  // namespace taut
