@@ -1,0 +1,430 @@
+#include "certify/checker/certificate.h"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <memory>
+#include <set>
+
+#include "certify/checker/claims.h"
+#include "certify/checker/exact.h"
+
+namespace taut::checker {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kMaxNesting = 32;  ///< a certificate needs about 7
+constexpr std::int64_t kMaxHalfTurns = 1'000'000;
+
+[[noreturn]] void fail(const std::string& where, const std::string& expected) {
+  throw Malformed(where + ": expected " + expected);
+}
+
+std::string at(const std::string& where, std::size_t i) { return where + "[" + std::to_string(i) + "]"; }
+
+/// An object with exactly these keys.
+const Json& object(const Json& json, const std::string& where, std::initializer_list<const char*> keys) {
+  if (!json.is_object()) fail(where, "an object");
+  for (const char* key : keys) {
+    if (!json.contains(key)) fail(where, "the key '" + std::string(key) + "'");
+  }
+  for (const auto& item : json.items()) {
+    if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) fail(where, "no key '" + item.key() + "'");
+  }
+  return json;
+}
+
+const Json& array(const Json& json, const std::string& where) {
+  if (!json.is_array()) fail(where, "an array");
+  return json;
+}
+
+const Json& array(const Json& json, const std::string& where, std::size_t size) {
+  if (!json.is_array() || json.size() != size) fail(where, "an array of " + std::to_string(size));
+  return json;
+}
+
+const std::string& text(const Json& json, const std::string& where) {
+  if (!json.is_string()) fail(where, "a string");
+  return json.get_ref<const std::string&>();
+}
+
+std::int64_t integer(const Json& json, const std::string& where, std::int64_t lowest, std::int64_t highest) {
+  const bool fits = json.is_number_integer() && (!json.is_number_unsigned() || json.get<std::uint64_t>() <= INT64_MAX);
+  if (!fits || json.get<std::int64_t>() < lowest || json.get<std::int64_t>() > highest) {
+    fail(where, "an integer from " + std::to_string(lowest) + " to " + std::to_string(highest));
+  }
+  return json.get<std::int64_t>();
+}
+
+mpq_class decimal(const Json& json, const std::string& where) { return parse_decimal(text(json, where), where); }
+mpq_class dyadic(const Json& json, const std::string& where) { return parse_dyadic(text(json, where), where); }
+
+template <std::size_t N>
+std::array<mpq_class, N> decimals(const Json& json, const std::string& where) {
+  array(json, where, N);
+  std::array<mpq_class, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = decimal(json[i], at(where, i));
+  return result;
+}
+
+template <std::size_t Rows, std::size_t N>
+std::array<std::array<mpq_class, N>, Rows> decimal_rows(const Json& json, const std::string& where) {
+  array(json, where, Rows);
+  std::array<std::array<mpq_class, N>, Rows> result;
+  for (std::size_t i = 0; i < Rows; ++i) result[i] = decimals<N>(json[i], at(where, i));
+  return result;
+}
+
+std::array<Limits, kCables> limits(const Json& json, const std::string& where) {
+  const auto rows = decimal_rows<kCables, 2>(json, where);
+  std::array<Limits, kCables> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (rows[i][0] < 0 || rows[i][0] >= rows[i][1]) fail(at(where, i), "0 <= lower < upper");
+    result[i] = {rows[i][0], rows[i][1]};
+  }
+  return result;
+}
+
+/// Returns the constants, for the query.
+std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) {
+  const std::string where = "problem.space";
+  object(json, where, {"parameters", "constants", "flip", "pose"});
+
+  std::map<std::string, mpq_class> constants;
+  if (!json["constants"].is_object()) fail(where + ".constants", "an object");
+  for (const auto& item : json["constants"].items()) {
+    if (!Expression::is_free_name(item.key())) fail(where + ".constants", "a name, not '" + item.key() + "'");
+    constants[item.key()] = decimal(item.value(), where + ".constants." + item.key());
+  }
+
+  std::vector<std::string> names;
+  const Json& parameters = array(json["parameters"], where + ".parameters");
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const std::string here = at(where + ".parameters", j);
+    const bool is_range = parameters[j].is_object() && parameters[j].contains("range");
+    if (is_range) {
+      object(parameters[j], here, {"name", "kind", "range"});
+    } else {
+      object(parameters[j], here, {"name", "kind"});
+    }
+    Parameter parameter;
+    parameter.name = text(parameters[j]["name"], here + ".name");
+    if (!Expression::is_free_name(parameter.name) || constants.count(parameter.name) > 0 ||
+        std::count(names.begin(), names.end(), parameter.name) > 0) {
+      fail(here + ".name", "a name that nothing else has");
+    }
+    const std::string& kind = text(parameters[j]["kind"], here + ".kind");
+    if (kind == "range" && is_range) {
+      const Json& range = array(parameters[j]["range"], here + ".range", 2);
+      parameter.kind = Kind::kRange;
+      parameter.lower = Expression(text(range[0], here + ".range"), {}, constants, here + ".range[0]");
+      parameter.upper = Expression(text(range[1], here + ".range"), {}, constants, here + ".range[1]");
+    } else if (kind == "periodic" && !is_range) {
+      parameter.kind = Kind::kPeriodic;
+    } else if (kind != "real" || is_range) {
+      fail(here + ".kind", "real, periodic, or range with its ends");
+    }
+    names.push_back(parameter.name);
+    problem.parameters.push_back(std::move(parameter));
+  }
+
+  constexpr std::array<const char*, 6> kPoseNames = {"px", "py", "pz", "phi", "theta", "sigma"};
+  const Json& pose = object(json["pose"], where + ".pose", {"px", "py", "pz", "phi", "theta", "sigma"});
+  for (std::size_t c = 0; c < 6; ++c) {
+    const std::string here = where + ".pose." + kPoseNames[c];
+    problem.pose[c] = Expression(text(pose[kPoseNames[c]], here), names, constants, here);
+  }
+
+  if (!json["flip"].is_null()) {
+    const std::string here = where + ".flip";
+    array(json["flip"], here, 2);
+    const auto last = static_cast<std::int64_t>(names.size()) - 1;
+    const auto phi = static_cast<int>(integer(json["flip"][0], here, 0, last));
+    const auto theta = static_cast<int>(integer(json["flip"][1], here, 0, last));
+    if (phi == theta || pose["phi"] != names[static_cast<std::size_t>(phi)] ||
+        pose["theta"] != names[static_cast<std::size_t>(theta)]) {
+      fail(here, "the parameters that are phi and theta themselves");
+    }
+    for (std::size_t c : {0, 1, 2, 5}) {
+      if (problem.pose[c].mentions(phi) || problem.pose[c].mentions(theta)) {
+        fail(here, std::string("a pose whose ") + kPoseNames[c] + " mentions neither phi nor theta");
+      }
+    }
+    problem.flip = {phi, theta};
+  }
+  return constants;
+}
+
+Problem read_problem(const Json& json) {
+  object(json, "problem", {"name", "robot", "load", "space", "query"});
+  text(json["name"], "problem.name");
+  Problem problem;
+
+  const Json& robot =
+      object(json["robot"], "problem.robot", {"base_anchors_m", "platform_anchors_m", "tension_N", "length_m"});
+  problem.base_anchors = decimal_rows<kCables, 3>(robot["base_anchors_m"], "problem.robot.base_anchors_m");
+  problem.platform_anchors = decimal_rows<kCables, 3>(robot["platform_anchors_m"], "problem.robot.platform_anchors_m");
+  problem.tension = limits(robot["tension_N"], "problem.robot.tension_N");
+  problem.length = limits(robot["length_m"], "problem.robot.length_m");
+
+  const Json& load = object(json["load"], "problem.load", {"point_m", "wrench", "ellipsoid"});
+  problem.load_point = decimals<3>(load["point_m"], "problem.load.point_m");
+  problem.wrench = decimals<6>(load["wrench"], "problem.load.wrench");
+  problem.ellipsoid = decimal_rows<6, 6>(load["ellipsoid"], "problem.load.ellipsoid");
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (problem.ellipsoid[i][j] != problem.ellipsoid[j][i]) fail("problem.load.ellipsoid", "a symmetric matrix");
+    }
+  }
+
+  const std::map<std::string, mpq_class> constants = read_space(json["space"], problem);
+
+  object(json["query"], "problem.query", {"waypoints"});
+  const Json& waypoints = array(json["query"]["waypoints"], "problem.query.waypoints");
+  if (waypoints.empty()) fail("problem.query.waypoints", "at least one waypoint");
+  for (std::size_t k = 0; k < waypoints.size(); ++k) {
+    const std::string here = at("problem.query.waypoints", k);
+    array(waypoints[k], here, problem.parameters.size());
+    std::vector<Expression>& waypoint = problem.query.emplace_back();
+    for (std::size_t j = 0; j < waypoints[k].size(); ++j) {
+      waypoint.emplace_back(text(waypoints[k][j], at(here, j)), std::vector<std::string>{}, constants, at(here, j));
+    }
+  }
+  return problem;
+}
+
+std::vector<Waypoint> read_path(const Json& json, const Problem& problem) {
+  object(json, "path", {"interpolation", "waypoints"});
+  if (json["interpolation"] != "straight-in-parameters") fail("path.interpolation", "'straight-in-parameters'");
+  const Json& waypoints = array(json["waypoints"], "path.waypoints");
+  const std::size_t n = problem.parameters.size();
+  std::vector<Waypoint> path;
+  for (std::size_t k = 0; k < waypoints.size(); ++k) {
+    const std::string here = at("path.waypoints", k);
+    object(waypoints[k], here, {"x", "half_turns"});
+    const Json& x = array(waypoints[k]["x"], here + ".x", n);
+    const Json& half_turns = array(waypoints[k]["half_turns"], here + ".half_turns", n);
+    Waypoint& waypoint = path.emplace_back();
+    for (std::size_t j = 0; j < n; ++j) {
+      waypoint.x.push_back(parse_binary64(text(x[j], at(here + ".x", j)), at(here + ".x", j)));
+      const std::int64_t most = problem.parameters[j].kind == Kind::kPeriodic ? kMaxHalfTurns : 0;
+      waypoint.half_turns.push_back(static_cast<int>(integer(half_turns[j], at(here + ".half_turns", j), -most, most)));
+    }
+  }
+  return path;
+}
+
+Margins read_margins(const Json& json, const std::string& where) {
+  object(json, where, {"tension_N", "length_m", "wrench_scale"});
+  return {decimal(json["tension_N"], where + ".tension_N"), decimal(json["length_m"], where + ".length_m"),
+          decimal(json["wrench_scale"], where + ".wrench_scale")};
+}
+
+Segment read_segment(const Json& json, std::size_t k) {
+  const std::string here = at("segments", k);
+  object(json, here, {"from", "to", "boxes", "margins"});
+  const auto from = static_cast<std::int64_t>(k);
+  integer(json["from"], here + ".from", from, from);
+  integer(json["to"], here + ".to", from + 1, from + 1);
+  Segment segment;
+  mpq_class reached = 0;
+  const Json& boxes = array(json["boxes"], here + ".boxes");
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    const std::string where = at(here + ".boxes", b);
+    array(boxes[b], where, 2);
+    const Box box = {dyadic(boxes[b][0], where), dyadic(boxes[b][1], where)};
+    if (box.begin != reached || box.begin >= box.end) fail(where, "a box that begins where the last one ended");
+    reached = box.end;
+    segment.boxes.push_back(box);
+  }
+  if (reached != 1) fail(here + ".boxes", "boxes up to 1");
+  segment.margins = read_margins(json["margins"], here + ".margins");
+  return segment;
+}
+
+/// The worst of the segments, each exactly as one of them writes it.
+std::array<std::string, 3> read_top_margins(const Json& json, const Json& segments) {
+  read_margins(json, "margins");
+  std::array<std::string, 3> result;
+  constexpr std::array<const char*, 3> kKeys = {"tension_N", "length_m", "wrench_scale"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string where = std::string("margins.") + kKeys[i];
+    const mpq_class least = decimal(json[kKeys[i]], where);
+    bool found = false;
+    for (const Json& segment : segments) {
+      const Json& margin = segment["margins"][kKeys[i]];
+      if (decimal(margin, where) < least) fail(where, "not more than any segment's");
+      found = found || margin == json[kKeys[i]];
+    }
+    if (!found) fail(where, "the text of a segment's");
+    result[i] = text(json[kKeys[i]], where);
+  }
+  return result;
+}
+
+/// AT of the format as a place on the path.
+mpq_class read_place(const Json& json, const std::string& where, std::size_t waypoints) {
+  if (waypoints == 0) fail(where, "a path");
+  const auto last = static_cast<std::int64_t>(waypoints) - 1;
+  if (json.is_object() && json.contains("waypoint")) {
+    object(json, where, {"waypoint"});
+    return mpq_class(static_cast<long>(integer(json["waypoint"], where + ".waypoint", 0, last)));
+  }
+  object(json, where, {"segment", "s"});
+  const std::int64_t k = integer(json["segment"], where + ".segment", 0, last - 1);
+  return mpq_class(static_cast<long>(k)) + dyadic(json["s"], where + ".s");
+}
+
+Witness read_witness(const Json& json, const Problem& problem, std::size_t waypoints) {
+  if (!json.is_object() || !json.contains("kind")) fail("witness", "an object with the key 'kind'");
+  static const std::map<std::string, WitnessKind> kKinds = {{"tension_min", WitnessKind::kTensionMin},
+                                                            {"tension_max", WitnessKind::kTensionMax},
+                                                            {"length_min", WitnessKind::kLengthMin},
+                                                            {"length_max", WitnessKind::kLengthMax},
+                                                            {"singular", WitnessKind::kSingular}};
+  const auto kind = kKinds.find(text(json["kind"], "witness.kind"));
+  if (kind == kKinds.end()) fail("witness.kind", "a kind of the format");
+  Witness witness;
+  witness.kind = kind->second;
+  if (witness.kind == WitnessKind::kSingular) {
+    object(json, "witness", {"kind", "at", "to"});
+    witness.at = read_place(json["at"], "witness.at", waypoints);
+    witness.to = read_place(json["to"], "witness.to", waypoints);
+    return witness;
+  }
+  object(json, "witness", {"kind", "at", "cable", "value", "limit"});
+  witness.at = read_place(json["at"], "witness.at", waypoints);
+  witness.cable = static_cast<int>(integer(json["cable"], "witness.cable", 1, kCables)) - 1;
+  const auto value = decimals<2>(json["value"], "witness.value");
+  witness.value_lower = value[0];
+  witness.value_upper = value[1];
+  const bool of_tension = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kTensionMax;
+  const bool of_minimum = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kLengthMin;
+  const Limits& limit = (of_tension ? problem.tension : problem.length)[static_cast<std::size_t>(witness.cable)];
+  if (decimal(json["limit"], "witness.limit") != (of_minimum ? limit.lower : limit.upper)) {
+    fail("witness.limit", "the cable's limit in the problem");
+  }
+  return witness;
+}
+
+std::string read_undecided(const Json& json, std::size_t waypoints) {
+  object(json, "undecided", {"reason", "segment", "box"});
+  if (json["segment"].is_null() != json["box"].is_null()) fail("undecided", "segment and box, or neither");
+  if (!json["segment"].is_null()) {
+    integer(json["segment"], "undecided.segment", 0, static_cast<std::int64_t>(waypoints) - 2);
+    array(json["box"], "undecided.box", 2);
+    if (dyadic(json["box"][0], "undecided.box") > dyadic(json["box"][1], "undecided.box")) {
+      fail("undecided.box", "ends in order");
+    }
+  }
+  return text(json["reason"], "undecided.reason");
+}
+
+void require_digest(const Json& value, const Json& claimed, const std::string& where) {
+  if (text(claimed, where) != digest(value)) fail(where, "the digest of what the file contains: it was altered");
+}
+
+}  // namespace
+
+nlohmann::json parse_json(const std::string& text) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto inspect = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > kMaxNesting) throw Malformed("nested too deeply");
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second) {
+      throw Malformed("the key '" + value.get<std::string>() + "' appears twice in one object");
+    }
+    if (event == Json::parse_event_t::value && value.is_number_float()) throw Malformed("a number that is no integer");
+    return true;
+  };
+  try {
+    return Json::parse(text, inspect);
+  } catch (const Json::exception& error) {
+    throw Malformed(std::string("no JSON, or cut: ") + error.what());
+  }
+}
+
+std::string digest(const nlohmann::json& value) {
+  const std::string canonical = value.dump(-1, ' ', true);
+  std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
+  unsigned int size = 0;
+  if (EVP_Digest(canonical.data(), canonical.size(), bytes.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("SHA-256 is not available");
+  }
+  std::string hex;
+  for (unsigned int i = 0; i < size; ++i) {
+    hex += "0123456789abcdef"[bytes[i] >> 4U];
+    hex += "0123456789abcdef"[bytes[i] & 15U];
+  }
+  return hex;
+}
+
+Certificate read_certificate(const nlohmann::json& json) {
+  object(json, "certificate",
+         {"format", "version", "generator", "verdict", "claim", "problem", "problem_sha256", "path", "path_sha256",
+          "segments", "margins", "witness", "undecided", "illustration", "footer"});
+  if (json["format"] != "taut-certificate") fail("format", "'taut-certificate'");
+  integer(json["version"], "version", 1, 1);
+  if (!json["generator"].is_object()) fail("generator", "an object");
+
+  // Is this the whole file, as it was written?
+  const Json& footer = object(json["footer"], "footer", {"waypoints", "segments", "boxes", "sha256"});
+  Json body = json;
+  body.erase("footer");
+  require_digest(body, footer["sha256"], "footer.sha256");
+  require_digest(json["problem"], json["problem_sha256"], "problem_sha256");
+  require_digest(json["path"], json["path_sha256"], "path_sha256");
+
+  Certificate certificate;
+  static const std::map<std::string, std::pair<Verdict, const char*>> kVerdicts = {
+      {"proved", {Verdict::kProved, kProvedClaim}},
+      {"refuted", {Verdict::kRefuted, kRefutedClaim}},
+      {"undecided", {Verdict::kUndecided, kUndecidedClaim}}};
+  const auto verdict = kVerdicts.find(text(json["verdict"], "verdict"));
+  if (verdict == kVerdicts.end()) fail("verdict", "proved, refuted or undecided");
+  certificate.verdict = verdict->second.first;
+  if (json["claim"] != verdict->second.second) fail("claim", "the text that belongs to the verdict");
+
+  certificate.problem = read_problem(json["problem"]);
+  certificate.path = read_path(json["path"], certificate.problem);
+  const std::size_t waypoints = certificate.path.size();
+
+  const Json& segments = array(json["segments"], "segments");
+  if (certificate.verdict == Verdict::kProved) {
+    if (waypoints < 2) fail("path.waypoints", "at least two of a proved path");
+    array(segments, "segments", waypoints - 1);
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+      certificate.segments.push_back(read_segment(segments[k], k));
+      certificate.boxes += certificate.segments.back().boxes.size();
+    }
+    certificate.margins = read_top_margins(json["margins"], segments);
+  } else {
+    array(segments, "segments", 0);
+    object(json["margins"], "margins", {});
+  }
+
+  if (certificate.verdict == Verdict::kRefuted) {
+    certificate.witness = read_witness(json["witness"], certificate.problem, waypoints);
+  } else if (!json["witness"].is_null()) {
+    fail("witness", "null");
+  }
+  if (certificate.verdict == Verdict::kUndecided) {
+    certificate.undecided_reason = read_undecided(json["undecided"], waypoints);
+  } else if (!json["undecided"].is_null()) {
+    fail("undecided", "null");
+  }
+
+  const auto count = [&](const char* key, std::size_t n) {
+    integer(footer[key], std::string("footer.") + key, static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));
+  };
+  count("waypoints", waypoints);
+  count("segments", segments.size());
+  count("boxes", certificate.boxes);
+  return certificate;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,104 @@
+// A certificate as data: read from JSON with every rule of docs/certificate-format.md about form, before anything is proved.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certify/checker/expression.h"
+
+namespace taut::checker {
+
+inline constexpr int kCables = 6;
+
+enum class Verdict { kProved, kRefuted, kUndecided };
+enum class Kind { kReal, kPeriodic, kRange };
+
+struct Limits {
+  mpq_class lower;
+  mpq_class upper;
+};
+
+struct Parameter {
+  std::string name;
+  Kind kind = Kind::kReal;
+  Expression lower;  ///< constant; of kRange only
+  Expression upper;
+};
+
+struct Problem {
+  std::array<std::array<mpq_class, 3>, kCables> base_anchors;      ///< a_i in W [m]
+  std::array<std::array<mpq_class, 3>, kCables> platform_anchors;  ///< b_i in P [m]
+  std::array<Limits, kCables> tension;                             ///< [N]
+  std::array<Limits, kCables> length;                              ///< [m]
+  std::array<mpq_class, 3> load_point;                             ///< p_m in P [m]
+  std::array<mpq_class, 6> wrench;                                 ///< w0 about P_m: force [N], moment [N m]
+  std::array<std::array<mpq_class, 6>, 6> ellipsoid;               ///< E, symmetric
+  std::vector<Parameter> parameters;
+  std::optional<std::array<int, 2>> flip;
+  std::array<Expression, 6> pose;              ///< px py pz [m], phi theta sigma [rad]
+  std::vector<std::vector<Expression>> query;  ///< constants, one a parameter
+};
+
+struct Waypoint {
+  std::vector<double> x;
+  std::vector<int> half_turns;
+};
+
+struct Box {
+  mpq_class begin;
+  mpq_class end;
+};
+
+struct Margins {
+  mpq_class tension;       ///< [N]
+  mpq_class length;        ///< [m]
+  mpq_class wrench_scale;  ///< [1]
+};
+
+struct Segment {
+  std::vector<Box> boxes;
+  Margins margins;
+};
+
+enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
+
+/// A place on the path is one number: k + s on segment k.
+struct Witness {
+  WitnessKind kind = WitnessKind::kSingular;
+  mpq_class at;
+  mpq_class to;   ///< kSingular only; the others use what follows
+  int cable = 0;  ///< 0 to 5
+  mpq_class value_lower;
+  mpq_class value_upper;
+};
+
+struct Certificate {
+  Verdict verdict = Verdict::kUndecided;
+  Problem problem;
+  std::vector<Waypoint> path;
+  std::vector<Segment> segments;
+  std::array<std::string, 3> margins;  ///< top level, as written: tension_N, length_m, wrench_scale
+  std::optional<Witness> witness;
+  std::string undecided_reason;
+  std::size_t boxes = 0;
+};
+
+/// JSON with duplicate keys, fractional numbers, trailing text and nesting beyond 32 refused.
+/// @throws Malformed
+[[nodiscard]] nlohmann::json parse_json(const std::string& text);
+
+/// SHA-256 of the canonical form of `value`, 64 lower-case hex digits.
+[[nodiscard]] std::string digest(const nlohmann::json& value);
+
+/// Reads and checks form: keys, types, counts, digests, claim text, boxes that tile [0, 1], limits in order, E
+/// symmetric, the top-level margins those of the worst segments. Proves nothing about the robot.
+/// @throws Malformed naming the key.
+[[nodiscard]] Certificate read_certificate(const nlohmann::json& json);
+
+}  // namespace taut::checker

@@ -1,0 +1,329 @@
+#include "certify/checker/check.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "certify/checker/certificate.h"
+#include "certify/checker/pose_proof.h"
+
+namespace taut::checker {
+namespace {
+
+/// Tried in turn on each statement; the last failure counts.
+constexpr std::array<int, 3> kPrecisions = {128, 256, 512};
+/// Halvings of one box, and boxes that they may make. A prover proves a box at one go, so few are needed; at a true
+/// minimum that was claimed to 15 digits a second-order enclosure needs some 25 halvings.
+constexpr int kMaxDepth = 40;
+constexpr int kMaxPieces = 2000;
+
+enum class Answer { kYes, kNo, kUnknown };
+
+/// x >= 0?
+Answer is_nonnegative(const Interval& x) {
+  if (certainly_nonnegative(x)) return Answer::kYes;
+  return certainly_negative(x) ? Answer::kNo : Answer::kUnknown;
+}
+
+std::string digits(const Interval& x) {
+  char buffer[64];
+  mpfr_snprintf(buffer, sizeof buffer, "%.6Rg", middle(x).lower());
+  return buffer;
+}
+
+std::string show(const Box& box) { return std::string("[") + box.begin.get_str() + ", " + box.end.get_str() + "]"; }
+
+class Checker {
+ public:
+  Checker(const Certificate& certificate, CheckResult& result) : certificate_(certificate), result_(result) {}
+
+  void confirm_proved() {
+    require_ranges();
+    require_query();
+    for (std::size_t k = 0; k < certificate_.segments.size(); ++k) {
+      const Margins& margins = certificate_.segments[k].margins;
+      if (margins.tension <= 0 || margins.length <= 0 || margins.wrench_scale < 1) {
+        throw Rejected("segment " + std::to_string(k) +
+                       ": claims a margin that is not positive, or a wrench scale below 1");
+      }
+      for (const Box& box : certificate_.segments[k].boxes) {
+        escalate([&](const Model& model) { prove_box(model, k, box); });
+      }
+    }
+  }
+
+  void confirm_refuted() {
+    escalate([&](const Model& model) {
+      if (certificate_.witness->kind == WitnessKind::kSingular) {
+        confirm_sign_change(model);
+      } else {
+        confirm_violation(model);
+      }
+    });
+  }
+
+ private:
+  /// The statement, at the lowest precision that does. `prove` throws Undefined for "not at this precision".
+  template <class Prove>
+  void escalate(const Prove& prove) {
+    for (std::size_t i = 0; i < kPrecisions.size(); ++i) {
+      try {
+        if (models_[i] == nullptr) models_[i] = std::make_unique<Model>(certificate_.problem, kPrecisions[i]);
+        const WorkingPrecision precision(kPrecisions[i]);
+        prove(*models_[i]);
+        result_.bits = std::max(result_.bits, kPrecisions[i]);
+        return;
+      } catch (const Undefined& open) {
+        if (i + 1 == kPrecisions.size()) throw Rejected(std::string("not confirmed: ") + open.what());
+      }
+    }
+  }
+
+  /// The segment's claim for each s of the box: for each of finitely many pieces that cover it.
+  void prove_box(const Model& model, std::size_t k, const Box& box) {
+    struct Piece {
+      Box box;
+      int depth;
+    };
+    std::vector<Piece> open = {{box, 0}};
+    int pieces = 0;
+    std::size_t proved = 0;
+    while (!open.empty()) {
+      const Piece piece = open.back();
+      open.pop_back();
+      const std::string where = "segment " + std::to_string(k) + ", box " + show(piece.box);
+      if (++pieces > kMaxPieces) throw Undefined(where + ": after " + std::to_string(kMaxPieces) + " pieces");
+      try {
+        if (const std::optional<std::string> doubt = doubt_piece(model, k, piece.box, where)) throw Undefined(*doubt);
+        ++proved;
+      } catch (const Undefined& doubt) {
+        if (piece.depth == kMaxDepth || piece.box.begin == piece.box.end) throw Undefined(where + ": " + doubt.what());
+        const mpq_class middle = (piece.box.begin + piece.box.end) / 2;
+        open.push_back({{middle, piece.box.end}, piece.depth + 1});
+        open.push_back({{piece.box.begin, middle}, piece.depth + 1});
+      }
+    }
+    result_.pieces += proved;
+  }
+
+  /// Nothing, where the segment's claim holds for every s of the box; else what could not be shown.
+  /// @throws Rejected where the claim is certainly false at the middle of the box.
+  std::optional<std::string> doubt_piece(const Model& model, std::size_t k, const Box& box,
+                                         const std::string& where) const {
+    const Geometry geometry = model.geometry(pose(model, k, box));
+    const Tensions tensions = model.tensions(geometry);  // J is non-singular on the box
+    const Margins& claimed = certificate_.segments[k].margins;
+    const Form tension_margin{Interval(claimed.tension)};
+    const Form length_margin{Interval(claimed.length)};
+    const Form scale{Interval(claimed.wrench_scale)};
+    std::optional<std::string> doubt;
+    const auto require = [&](const char* what, std::size_t i, const Form& left, const Form& right) {
+      const Form excess = left - right;
+      const std::string statement = "cable " + std::to_string(i + 1) + ": " + what;
+      if (certainly_negative(excess.mid)) {
+        throw Rejected(where + ", " + statement + " is false at its middle, by " + digits(-excess.mid));
+      }
+      if (!certainly_nonnegative(excess.range) && !doubt) doubt = statement + " not confirmed";
+    };
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Form above = tensions.centre[i] - Form(model.tension_limit(i, false));
+      const Form below = Form(model.tension_limit(i, true)) - tensions.centre[i];
+      const Form& v = tensions.spread[i];
+      require("lower tension margin as claimed", i, above - v, tension_margin);
+      require("upper tension margin as claimed", i, below - v, tension_margin);
+      require("wrench scale as claimed, at the lower tension limit,", i, above, scale * v);
+      require("wrench scale as claimed, at the upper tension limit,", i, below, scale * v);
+      require("lower length margin as claimed", i, geometry.length[i] - Form(model.length_limit(i, false)),
+              length_margin);
+      require("upper length margin as claimed", i, Form(model.length_limit(i, true)) - geometry.length[i],
+              length_margin);
+    }
+    return doubt;
+  }
+
+  /// Segment k of the path; where the path is one waypoint only, that one.
+  Vector6<Form> pose(const Model& model, std::size_t k, const Box& box) const {
+    const std::vector<Waypoint>& path = certificate_.path;
+    return model.pose(path[k], path[std::min(k + 1, path.size() - 1)], box);
+  }
+
+  /// The pose at one place of the path.
+  Vector6<Form> pose_at(const Model& model, const mpq_class& place) const {
+    const mpz_class k =
+        place.get_num() / place.get_den();  // the last waypoint is s = 0 of a segment that does not move
+    return pose(model, k.get_ui(), {place - k, place - k});
+  }
+
+  void confirm_violation(const Model& model) const {
+    const Witness& witness = *certificate_.witness;
+    const auto i = static_cast<std::size_t>(witness.cable);
+    const Geometry geometry = model.geometry(pose_at(model, witness.at));
+    Interval value = geometry.length[i].range;
+    Interval excess;  // beyond the limit; a violation where >= 0, as limits are open
+    switch (witness.kind) {
+      case WitnessKind::kTensionMin: {
+        const Tensions tensions = model.tensions(geometry);
+        value = tensions.centre[i].range - tensions.spread[i].range;
+        excess = model.tension_limit(i, false) - value;
+        break;
+      }
+      case WitnessKind::kTensionMax: {
+        const Tensions tensions = model.tensions(geometry);
+        value = tensions.centre[i].range + tensions.spread[i].range;
+        excess = value - model.tension_limit(i, true);
+        break;
+      }
+      case WitnessKind::kLengthMin: excess = model.length_limit(i, false) - value; break;
+      case WitnessKind::kLengthMax: excess = value - model.length_limit(i, true); break;
+      case WitnessKind::kSingular: throw std::logic_error("a sign change is confirmed elsewhere");
+    }
+    require(is_nonnegative(excess), "the witness violates its limit (the quantity is about " + digits(value) + ")");
+    require(is_nonnegative(value - Interval(witness.value_lower)), "the lower end of the witness's value");
+    require(is_nonnegative(Interval(witness.value_upper) - value), "the upper end of the witness's value");
+  }
+
+  /// det D has opposite signs at two places, and D is continuous in between with all lengths positive, so that
+  /// det J = det D / (product of the lengths) vanishes somewhere. Continuity is not free: the case's expressions may
+  /// jump (1/x, tan, atan2). A Form of the geometry exists only where they don't.
+  void confirm_sign_change(const Model& model) const {
+    const Witness& witness = *certificate_.witness;
+    const auto det = [&](const mpq_class& place) { return determinant(mid(model.geometry(pose_at(model, place)).D)); };
+    const Interval product = det(witness.at) * det(witness.to);
+    if (certainly_positive(product)) throw Rejected("witness: det D has the same sign at both places");
+    if (!certainly_negative(product)) throw Undefined("witness: the signs of det D");
+    const mpq_class begin = std::min(witness.at, witness.to);
+    const mpq_class end = std::max(witness.at, witness.to);
+    for (std::size_t k = 0; k + 1 < certificate_.path.size(); ++k) {
+      const Box box = {std::max(mpq_class(begin - k), mpq_class(0)), std::min(mpq_class(end - k), mpq_class(1))};
+      if (box.begin < box.end) require_continuous(model, k, box, 0);
+    }
+  }
+
+  void require_continuous(const Model& model, std::size_t k, const Box& box, int depth) const {
+    try {
+      (void)model.geometry(pose(model, k, box));
+    } catch (const Undefined&) {
+      if (depth == kMaxDepth) throw;
+      const mpq_class middle = (box.begin + box.end) / 2;
+      require_continuous(model, k, {box.begin, middle}, depth + 1);
+      require_continuous(model, k, {middle, box.end}, depth + 1);
+    }
+  }
+
+  /// Parameters of kind range stay in their closed range: as each runs straight between waypoints, it is enough that
+  /// the waypoints do.
+  void require_ranges() {
+    for (std::size_t j = 0; j < certificate_.problem.parameters.size(); ++j) {
+      const Parameter& parameter = certificate_.problem.parameters[j];
+      if (parameter.kind != Kind::kRange) continue;
+      for (std::size_t k = 0; k < certificate_.path.size(); ++k) {
+        escalate([&](const Model&) {
+          const Interval x{mpq_class(certificate_.path[k].x[j])};
+          const std::string what = "waypoint " + std::to_string(k) + ": " + parameter.name + " in its range";
+          require(is_nonnegative(x - parameter.lower.evaluate({}).range), what);
+          require(is_nonnegative(parameter.upper.evaluate({}).range - x), what);
+        });
+      }
+    }
+  }
+
+  /// Each waypoint of the case occurs along the path, in order, the first first and the last last.
+  void require_query() {
+    const std::vector<Waypoint>& path = certificate_.path;
+    const std::size_t last = certificate_.problem.query.size() - 1;
+    std::size_t k = 0;
+    for (std::size_t c = 0; c <= last; ++c) {
+      std::vector<double> x;
+      for (const Expression& typed : certificate_.problem.query[c]) x.push_back(nearest_binary64(typed, c));
+      while (c > 0 && k < path.size() && !is_same(path[k], x)) ++k;
+      if (k == path.size() || !is_same(path[k], x) || (c == last && !is_same(path.back(), x))) {
+        throw Rejected("query waypoint " + std::to_string(c) + ": the path does not pass it, or not in its turn");
+      }
+    }
+  }
+
+  double nearest_binary64(const Expression& typed, std::size_t c) {
+    double nearest = 0;
+    escalate([&](const Model&) {
+      const Interval x = typed.evaluate({}).range;
+      nearest = mpfr_get_d(x.lower(), MPFR_RNDN);
+      if (mpfr_get_d(x.upper(), MPFR_RNDN) != nearest) {
+        throw Undefined("query waypoint " + std::to_string(c) + ": the binary64 nearest to what was typed");
+      }
+    });
+    return nearest;
+  }
+
+  /// Whether a waypoint of the path is the case's one at x: "The query" in docs/certificate-format.md.
+  [[nodiscard]] bool is_same(const Waypoint& waypoint, const std::vector<double>& x) const {
+    const auto matches = [&](const std::vector<double>& expected, int odd) {
+      for (std::size_t j = 0; j < x.size(); ++j) {
+        const bool is_odd = waypoint.half_turns[j] % 2 != 0;
+        if (waypoint.x[j] != expected[j] || is_odd != (static_cast<int>(j) == odd)) return false;
+      }
+      return true;
+    };
+    if (matches(x, -1)) return true;
+    if (!certificate_.problem.flip) return false;
+    const auto [phi, theta] = *certificate_.problem.flip;
+    std::vector<double> flipped = x;
+    flipped[static_cast<std::size_t>(theta)] *= -1;
+    return matches(flipped, phi);
+  }
+
+  static void require(Answer answer, const std::string& what) {
+    if (answer == Answer::kNo) throw Rejected("false: " + what);
+    if (answer == Answer::kUnknown) throw Undefined(what);
+  }
+
+  const Certificate& certificate_;
+  CheckResult& result_;
+  std::array<std::unique_ptr<Model>, kPrecisions.size()> models_;
+};
+
+std::string plural(std::size_t n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : what == "box" ? "es" : "s");
+}
+
+std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
+  const std::string bits = "; " + std::to_string(result.bits) + " bits";
+  if (certificate.verdict == Verdict::kRefuted) return "refuted again: the witness is confirmed" + bits;
+  return "proved again: " + plural(result.segments, "segment") + ", " + plural(result.boxes, "box") + " (" +
+         std::to_string(result.pieces) + " after splitting), tension margin >= " + certificate.margins[0] +
+         " N, length margin >= " + certificate.margins[1] + " m, wrench scale >= " + certificate.margins[2] + bits;
+}
+
+}  // namespace
+
+CheckResult check_certificate(const std::string& text, const nlohmann::json* problem) {
+  CheckResult result;
+  try {
+    const nlohmann::json json = parse_json(text);
+    const Certificate certificate = read_certificate(json);
+    result.verdict = json["verdict"].get<std::string>();
+    result.segments = certificate.segments.size();
+    result.boxes = certificate.boxes;
+    if (problem != nullptr && json["problem"] != *problem) throw Rejected("the certificate is about another problem");
+    Checker checker(certificate, result);
+    switch (certificate.verdict) {
+      case Verdict::kUndecided:
+        result.outcome = Outcome::kUndecided;
+        result.message = "the certificate claims nothing: " + certificate.undecided_reason;
+        return result;
+      case Verdict::kProved: checker.confirm_proved(); break;
+      case Verdict::kRefuted: checker.confirm_refuted(); break;
+    }
+    result.message = describe_accepted(certificate, result);
+    result.outcome = Outcome::kAccepted;
+  } catch (const Malformed& error) {
+    result.outcome = Outcome::kMalformed;
+    result.message = error.what();
+  } catch (const Rejected& error) {
+    result.outcome = Outcome::kRejected;
+    result.message = error.what();
+  }
+  return result;
+}
+
+}  // namespace taut::checker

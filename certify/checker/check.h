@@ -1,0 +1,37 @@
+// Is the claim of a certificate true? Proves it again, from the file alone.
+//
+// This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
+// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: errors.h, interval.h,
+// form.h, pose_proof.h and .cc (the mathematics), check.cc (what is proved of which poses), then exact.h,
+// expression.h and certificate.h (that the numbers are those of the file).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace taut::checker {
+
+enum class Outcome {
+  kAccepted,   ///< the claim, "proved" or "refuted", was proved again
+  kRejected,   ///< well formed, but some statement could not be confirmed
+  kUndecided,  ///< well formed, and the certificate itself claims nothing
+  kMalformed,  ///< unreadable, cut, altered, or no certificate
+};
+
+struct CheckResult {
+  Outcome outcome = Outcome::kMalformed;
+  std::string message = "nothing was checked";  ///< a sentence or two, without the outcome itself
+  std::string verdict;                          ///< the certificate's, once it was read
+  std::size_t segments = 0;
+  std::size_t boxes = 0;
+  std::size_t pieces = 0;  ///< boxes after splitting: how many were proved at one go
+  int bits = 0;            ///< the highest precision that was needed
+};
+
+/// @param text     the whole file.
+/// @param problem  where not null: what the certificate's `problem` must equal.
+/// Never throws because of what the text says. @throws std::exception only where this program or machine fails.
+/// Cost: about a millisecond a box. Thread-safe.
+[[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr);
+
+}  // namespace taut::checker

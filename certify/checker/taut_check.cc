@@ -1,0 +1,115 @@
+// taut-check CERTIFICATE [CASE] [--json] [--quiet]: proves the claim of a certificate again.
+//
+// Exit codes: 0 accepted, 1 rejected, 2 the certificate itself is undecided, 3 malformed input or wrong use,
+// 4 this program failed.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "certify/checker/check.h"
+#include "certify/checker/errors.h"
+#include "kinematics/case_file.h"
+#include "kinematics/input_error.h"
+
+namespace taut::checker {
+namespace {
+
+constexpr std::streamoff kMaxFileSize = std::streamoff{2} << 30;  ///< bytes; a certificate of 10^6 boxes has 10^8
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::vector<char> chunk(1 << 20);
+  while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0) {
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+    if (static_cast<std::streamoff>(text.size()) > kMaxFileSize) throw Malformed(path + ": larger than 2 GiB");
+  }
+  if (!file.eof()) throw Malformed(path + ": cannot be read");
+  return text;
+}
+
+const char* name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kAccepted: return "accepted";
+    case Outcome::kRejected: return "rejected";
+    case Outcome::kUndecided: return "undecided";
+    case Outcome::kMalformed: return "malformed";
+  }
+  return "?";
+}
+
+int exit_code(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kAccepted: return 0;
+    case Outcome::kRejected: return 1;
+    case Outcome::kUndecided: return 2;
+    case Outcome::kMalformed: return 3;
+  }
+  return 4;
+}
+
+CheckResult check_file(const std::string& certificate_path, const std::string& case_path) {
+  try {
+    const std::string text = read_file(certificate_path);
+    if (case_path.empty()) return check_certificate(text);
+    const nlohmann::json problem = to_json(load_case(case_path).problem);
+    return check_certificate(text, &problem);
+  } catch (const Malformed& error) {
+    return {.outcome = Outcome::kMalformed, .message = error.what(), .verdict = {}};
+  } catch (const InputError& error) {
+    return {.outcome = Outcome::kMalformed, .message = error.what(), .verdict = {}};
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Proves the claim of a certificate again, independently of the program that wrote it.", "taut-check");
+  std::string certificate_path;
+  std::string case_path;
+  bool as_json = false;
+  bool quiet = false;
+  app.add_option("CERTIFICATE", certificate_path, "certificate.json")->required();
+  app.add_option("CASE", case_path, "case that the certificate must be about");
+  app.add_flag("--json", as_json, "print one JSON object");
+  app.add_flag("--quiet", quiet, "print nothing: the exit code says it");
+  app.set_version_flag("--version", TAUT_VERSION);
+  app.footer("Exit codes: 0 accepted, 1 rejected, 2 the certificate says undecided, 3 malformed, 4 internal failure.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 3;
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  const CheckResult result = check_file(certificate_path, case_path);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (as_json && !quiet) {
+    const nlohmann::json report = {{"outcome", name(result.outcome)},
+                                   {"message", result.message},
+                                   {"verdict", result.verdict},
+                                   {"segments", result.segments},
+                                   {"boxes", result.boxes},
+                                   {"pieces", result.pieces},
+                                   {"bits", result.bits},
+                                   {"seconds", seconds}};
+    std::cout << report.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
+  } else if (!quiet) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.2f s", seconds);
+    std::cout << name(result.outcome) << ": " << result.message << ", " << time << std::endl;
+  }
+  return exit_code(result.outcome);
+}
+
+}  // namespace
+}  // namespace taut::checker
+
+int main(int argc, char** argv) {
+  try {
+    return taut::checker::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "taut-check: internal failure: " << error.what() << std::endl;
+    return 4;
+  }
+}

@@ -1,0 +1,446 @@
+#!/usr/bin/env python3
+"""Writes the certificates of this folder, in floating point and from equations of its own.
+
+It is no prover: it samples a short path, claims margins a little below what it saw, and leaves it to the checker to
+find out. Each certificate NAME.json has a NAME.txt beside it: why it is there and, after "expect: ", what the
+checker's message must contain. Only Python's standard library. Usage: make_certificates.py
+"""
+import copy, hashlib, json, math, os
+from fractions import Fraction
+from math import cos, sin, pi, sqrt
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+CLAIMS = {
+    'proved': 'For every s along the path and every wrench w in K at gamma(s): the force Jacobian J is non-singular, '
+              'the unique f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < d_hi,i, for all six '
+              'cables i = 1..6. Here gamma is the path given by its exact waypoints and interpolation law, and robot, '
+              'load and limits are the exact decimals of the problem.',
+    'refuted': 'The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension '
+               'outside its open limits, or a cable length is outside its open limits, or the force Jacobian J is '
+               'singular at some pose between the two witness poses.',
+    'undecided': 'Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.',
+}
+
+
+# ---- canonical form and digests -------------------------------------------------------------------------------------
+
+def digest(value):
+    text = json.dumps(value, sort_keys=True, separators=(',', ':'), ensure_ascii=True)
+    return hashlib.sha256(text.encode('ascii')).hexdigest()
+
+
+def seal(c):
+    """Recomputes digests and counts."""
+    c['problem_sha256'] = digest(c['problem'])
+    c['path_sha256'] = digest(c['path'])
+    c.pop('footer', None)
+    c['footer'] = {'waypoints': len(c['path']['waypoints']), 'segments': len(c['segments']),
+                   'boxes': sum(len(s['boxes']) for s in c['segments']), 'sha256': digest(c)}
+    return c
+
+
+def hex64(x):
+    """As C's %a: no trailing zeros."""
+    text = float(x).hex()
+    mantissa, exponent = text.split('p')
+    if '.' in mantissa:
+        mantissa = mantissa.rstrip('0').rstrip('.')
+    return mantissa + 'p' + exponent
+
+
+# ---- the robots -----------------------------------------------------------------------------------------------------
+
+def twice(points):
+    return [list(p) for p in points for _ in (0, 1)]
+
+
+def octahedral(base, platform, tension, length, point, wrench, diagonal):
+    return ({'base_anchors_m': twice(base), 'platform_anchors_m': [list(p) for p in platform + platform],
+             'tension_N': [list(tension)] * 6, 'length_m': [list(length)] * 6},
+            {'point_m': list(point), 'wrench': list(wrench),
+             'ellipsoid': [[diagonal[i] if i == j else '0' for j in range(6)] for i in range(6)]})
+
+
+ROBOT1 = octahedral([('0', '0.22', '0'), ('-0.1905256', '-0.11', '0'), ('0.1905256', '-0.11', '0')],
+                    [('-0.1125833', '0.065', '0'), ('0.1125833', '0.065', '0'), ('0', '-0.13', '0')],
+                    ('0.05', '0.5'), ('0.1', '0.55'), ('0.03', '0.014', '-0.021'), ('0', '0', '1', '0', '0', '0'),
+                    ['10000'] * 3 + ['1000000'] * 3)
+ROBOT2 = octahedral([('0', '0.3', '0'), ('-0.2598076', '-0.15', '0'), ('0.2598076', '-0.15', '0')],
+                    [('-0.1299038', '0.075', '0'), ('0.1299038', '0.075', '0'), ('0', '-0.15', '0')],
+                    ('0.1', '6.58'), ('0.2', '0.6'), ('0', '0', '0'), ('0', '0', '5.886', '0', '0', '0'),
+                    ['10000'] * 6)
+
+SLICE = {'parameters': [{'name': 'phi', 'kind': 'periodic'}, {'name': 'theta', 'kind': 'real'}], 'constants': {},
+         'flip': [0, 1], 'pose': {'px': '0', 'py': '0', 'pz': '0.35', 'phi': 'phi', 'theta': 'theta',
+                                  'sigma': '(34)*pi/180'}}
+SPHERE = {'parameters': [{'name': 'alpha1', 'kind': 'periodic'},
+                         {'name': 'alpha2', 'kind': 'range', 'range': ['-pi/2', 'pi/2']}],
+          'constants': {'rs': '0.13', 'zs': '0.306'}, 'flip': None,
+          'pose': {'px': 'rs*cos(alpha2)*cos(alpha1)', 'py': 'rs*cos(alpha2)*sin(alpha1)', 'pz': 'zs - rs*sin(alpha2)',
+                   'phi': 'alpha1 - pi', 'theta': 'pi/2 - alpha2', 'sigma': '0'}}
+
+
+def problem(name, robot, space, query):
+    return copy.deepcopy({'name': name, 'robot': robot[0], 'load': robot[1], 'space': space,
+                          'query': {'waypoints': query}})
+
+
+# ---- the statics, in floating point ---------------------------------------------------------------------------------
+
+def solve(A, B):
+    """A^-1 B and det A."""
+    n = len(A)
+    W = [list(A[i]) + list(B[i]) for i in range(n)]
+    det = 1.0
+    for c in range(n):
+        p = max(range(c, n), key=lambda i: abs(W[i][c]))
+        if p != c:
+            W[c], W[p], det = W[p], W[c], -det
+        det *= W[c][c]
+        W[c] = [x / W[c][c] for x in W[c]]
+        for i in range(n):
+            if i != c:
+                W[i] = [x - W[i][c] * y for x, y in zip(W[i], W[c])]
+    return [row[n:] for row in W], det
+
+
+def pose_of(space, values):
+    names = {k: getattr(math, k) for k in ('sqrt', 'sin', 'cos', 'tan', 'exp', 'log', 'atan2', 'pi')}
+    names.update({k: float(v) for k, v in space['constants'].items()})
+    names.update({p['name']: v for p, v in zip(space['parameters'], values)})
+    return [eval(space['pose'][k].replace('^', '**'), names) for k in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')]
+
+
+def geometry(pr, values):
+    """Columns of J, and lengths."""
+    px, py, pz, a, b, s = pose_of(pr['space'], values)
+    g = s - a
+    R = [[cos(a) * cos(b) * cos(g) - sin(a) * sin(g), -cos(a) * cos(b) * sin(g) - sin(a) * cos(g), cos(a) * sin(b)],
+         [sin(a) * cos(b) * cos(g) + cos(a) * sin(g), -sin(a) * cos(b) * sin(g) + cos(a) * cos(g), sin(a) * sin(b)],
+         [-sin(b) * cos(g), sin(b) * sin(g), cos(b)]]
+    turn = lambda v: [sum(R[i][j] * v[j] for j in range(3)) for i in range(3)]
+    number = lambda v: [float(x) for x in v]
+    pm = number(pr['load']['point_m'])
+    columns, lengths = [], []
+    for ai, bi in zip(pr['robot']['base_anchors_m'], pr['robot']['platform_anchors_m']):
+        ai, bi = number(ai), number(bi)
+        d = [x + y - z for x, y, z in zip((px, py, pz), turn(bi), ai)]
+        n = sqrt(sum(x * x for x in d))
+        u = [x / n for x in d]
+        r = turn([x - y for x, y in zip(bi, pm)])
+        columns.append(u + [r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]])
+        lengths.append(n)
+    return columns, lengths
+
+
+def statics(pr, values):
+    """Lengths, f0, v, det J."""
+    columns, lengths = geometry(pr, values)
+    number = lambda v: [float(x) for x in v]
+    J = [[columns[j][i] for j in range(6)] for i in range(6)]
+    inverse, det = solve(J, [[float(i == j) for j in range(6)] for i in range(6)])
+    E = [number(row) for row in pr['load']['ellipsoid']]
+    w = number(pr['load']['wrench'])
+    f0 = [sum(x * y for x, y in zip(row, w)) for row in inverse]
+    v = []
+    for row in inverse:
+        e, _ = solve(E, [[x] for x in row])
+        v.append(sqrt(sum(x * y[0] for x, y in zip(row, e))))
+    return lengths, f0, v, det
+
+
+def margins_at(pr, values):
+    lengths, f0, v, _ = statics(pr, values)
+    tension, length, scale = [], [], []
+    for i in range(6):
+        lo, hi = map(float, pr['robot']['tension_N'][i])
+        tension += [f0[i] - v[i] - lo, hi - f0[i] - v[i]]
+        scale += [(f0[i] - lo) / v[i], (hi - f0[i]) / v[i]]
+        lo, hi = map(float, pr['robot']['length_m'][i])
+        length += [lengths[i] - lo, hi - lengths[i]]
+    return min(tension), min(length), min(scale)
+
+
+# ---- certificates ---------------------------------------------------------------------------------------------------
+
+def values_of(waypoint):
+    return [float.fromhex(x) + pi * h for x, h in zip(waypoint['x'], waypoint['half_turns'])]
+
+
+def waypoint(x, half_turns=None):
+    return {'x': [hex64(v) for v in x], 'half_turns': half_turns or [0] * len(x)}
+
+
+def between(a, b, s):
+    return [(1 - s) * x + s * y for x, y in zip(values_of(a), values_of(b))]
+
+
+def dyadic(k, m):
+    f = Fraction(k, m)
+    return str(f)
+
+
+def certificate(pr, waypoints, verdict, **more):
+    c = {'format': 'taut-certificate', 'version': 1, 'generator': {'name': 'make_certificates.py', 'version': '1'},
+         'verdict': verdict, 'claim': CLAIMS[verdict], 'problem': pr,
+         'path': {'interpolation': 'straight-in-parameters', 'waypoints': waypoints}, 'segments': [], 'margins': {},
+         'witness': None, 'undecided': None, 'illustration': None}
+    c.update(more)
+    return seal(c)
+
+
+def proved(pr, waypoints, boxes=8, below=0.995):
+    keys = ('tension_N', 'length_m', 'wrench_scale')
+    segments = []
+    for k, (a, b) in enumerate(zip(waypoints, waypoints[1:])):
+        sampled = [margins_at(pr, between(a, b, i / 400)) for i in range(401)]
+        lowest = [min(m[j] for m in sampled) * below for j in range(3)]
+        assert lowest[0] > 0 and lowest[1] > 0 and lowest[2] >= 1, (pr['name'], k, lowest)
+        segments.append({'from': k, 'to': k + 1,
+                         'boxes': [[dyadic(i, boxes), dyadic(i + 1, boxes)] for i in range(boxes)],
+                         'margins': {key: '%.6e' % x for key, x in zip(keys, lowest)}})
+    margins = {key: min((s['margins'][key] for s in segments), key=float) for key in keys}
+    return certificate(pr, waypoints, 'proved', segments=segments, margins=margins)
+
+
+def enclosing(x):
+    return ['%.10f' % (x - 1e-8), '%.10f' % (x + 1e-8)]
+
+
+def write(folder, name, c, why, expect=None):
+    """`c`: a certificate, or the file's bytes."""
+    data = c if isinstance(c, bytes) else (json.dumps(c, indent=1, ensure_ascii=True) + '\n').encode('ascii')
+    base = os.path.join(HERE, folder, name)
+    with open(base + '.json', 'wb') as f:
+        f.write(data)
+    with open(base + '.txt', 'w') as f:
+        f.write(why + '\n' + ('expect: ' + expect + '\n' if expect else ''))
+
+
+def changed(c, edit, reseal=True):
+    c = copy.deepcopy(c)
+    edit(c)
+    return seal(c) if reseal else c
+
+
+def main():
+    near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
+    a, m, b = waypoint([-2.3, 1.6]), waypoint([-2.26, 1.57]), waypoint([-2.2, 1.55])
+    near_c = proved(near, [a, m, b])
+    write('accepted', 'robot1_near_start', near_c, "Two short segments of Robot 1's slice, near the paper's q_s.")
+
+    goal = problem('robot1-near-goal', ROBOT1, SLICE, [['1.7', '1.7'], ['1.65', '1.7']])
+    write('accepted', 'robot1_near_goal', proved(goal, [waypoint([1.7, 1.7]), waypoint([1.65, 1.7])], 4),
+          "A short segment near the paper's q_g.")
+
+    flat = problem('robot1-through-zero-tilt', ROBOT1, SLICE, [['-2', '0.05'], ['-2', '-0.05']])
+    write('accepted', 'robot1_through_zero_tilt', proved(flat, [waypoint([-2, 0.05]), waypoint([-2, -0.05])], 2),
+          'theta passes 0, where tilt-and-torsion angles are singular and the pose is not.')
+
+    flip = problem('robot1-flipped', ROBOT1, SLICE, [['1.2', '-0.05'], ['1.2', '0.05']])
+    write('accepted', 'robot1_flipped', proved(flip, [waypoint([1.2, 0.05], [-1, 0]), waypoint([1.2, -0.05], [-1, 0])], 2),
+          'Both waypoints are written as (phi + an odd half turn, -theta).')
+
+    still = problem('robot1-start-is-goal', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.3', '1.6']])
+    write('accepted', 'robot1_start_is_goal', proved(still, [a, a], 1), 'A plan whose start is its goal.')
+
+    turned = problem('robot1-a-turn-later', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
+    write('accepted', 'robot1_a_turn_later', proved(turned, [waypoint([-2.3, 1.6], [4, 0]),
+          waypoint([-2.2, 1.55], [4, 0])], 8), 'Both waypoints two whole turns on: the same poses.')
+
+    sphere = problem('robot2-sphere', ROBOT2, SPHERE, [['0.55', 'pi/2'], ['0.55', '1.4']])
+    sphere_c = proved(sphere, [waypoint([0.55, pi / 2]), waypoint([0.55, 1.4])], 8)
+    write('accepted', 'robot2_sphere', sphere_c,
+          "Robot 2 on the paper's sphere (16); starts at the end of a closed range, binary64(pi/2) < pi/2.")
+
+    # Refuted.
+    straight = problem('robot1-straight', ROBOT1, SLICE, [['-2.3', '1.6'], ['1.7', '1.7']])
+    ends = [waypoint([-2.3, 1.6]), waypoint([1.7, 1.7])]
+    at, worst = None, None
+    for k in range(65):
+        lengths, f0, v, det = statics(straight, between(*ends, k / 64))
+        i = min(range(6), key=lambda n: f0[n] - v[n])
+        if worst is None or f0[i] - v[i] < worst[1]:
+            at, worst = k, (i, f0[i] - v[i])
+    tension = certificate(straight, ends, 'refuted', witness={
+        'at': {'segment': 0, 's': dyadic(at, 64)}, 'kind': 'tension_min', 'cable': worst[0] + 1,
+        'value': enclosing(worst[1]), 'limit': '0.05'})
+    write('accepted', 'refuted_tension_min', tension, "The straight motion q_s to q_g: a cable would have to push.")
+
+    up = copy.deepcopy(tension)
+    best = max(((k, i, f0[i] + v[i]) for k in range(65) for _, f0, v, _ in [statics(straight, between(*ends, k / 64))]
+                for i in range(6)), key=lambda t: t[2])
+    up['witness'] = {'at': {'segment': 0, 's': dyadic(best[0], 64)}, 'kind': 'tension_max', 'cable': best[1] + 1,
+                     'value': enclosing(best[2]), 'limit': '0.5'}
+    write('accepted', 'refuted_tension_max', seal(up), 'The same motion: a cable would have to pull too hard.')
+
+    def high_slice(pz):
+        space = copy.deepcopy(SLICE)
+        space['pose']['pz'] = pz
+        return space
+    far = problem('robot1-too-far', ROBOT1, high_slice('0.6'), [['0', '0']])
+    _, lengths = geometry(far, [0.0, 0.0])
+    i = max(range(6), key=lambda n: lengths[n])
+    write('accepted', 'refuted_length_max', certificate(far, [waypoint([0, 0])], 'refuted', witness={
+        'at': {'waypoint': 0}, 'kind': 'length_max', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.55'}),
+        'A path of a single waypoint, 600 mm below the base: the cables do not reach.')
+    close = problem('robot1-in-the-base', ROBOT1, high_slice('0'), [['0', '0']])
+    _, lengths = geometry(close, [0.0, 0.0])
+    i = min(range(6), key=lambda n: lengths[n])
+    close['robot']['length_m'][i] = ['0.3', '0.55']
+    assert lengths[i] < 0.3
+    write('accepted', 'refuted_length_min', certificate(close, [waypoint([0, 0])], 'refuted', witness={
+        'at': {'waypoint': 0}, 'kind': 'length_min', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.3'}),
+        'The platform in the plane of the base, where J is singular: the length is refuted all the same.')
+
+    dets = [statics(straight, between(*ends, k / 64))[3] for k in range(65)]
+    k = next(k for k in range(64) if dets[k] * dets[k + 1] < 0)
+    singular = certificate(straight, ends, 'refuted', witness={
+        'kind': 'singular', 'at': {'segment': 0, 's': dyadic(k, 64)}, 'to': {'segment': 0, 's': dyadic(k + 1, 64)}})
+    write('accepted', 'refuted_singular', singular, 'det J changes sign between two places of the straight motion.')
+
+    # Well formed, but false: every digest is right.
+    def reject(name, c, why, expect, edit=lambda c: None):
+        write('rejected', name, changed(c, edit), why, expect)
+
+    def raise_margin(key, factor, text=None):
+        def edit(c):
+            for s in c['segments']:
+                s['margins'][key] = text or '%.6e' % (float(s['margins'][key]) * factor)
+            c['margins'][key] = min((s['margins'][key] for s in c['segments']), key=float)
+        return edit
+
+    def robot(key, i, value):
+        def edit(c):
+            c['problem']['robot'][key][i] = value
+        return edit
+
+    reject('tension_margin_too_high', near_c, 'The tension margin is claimed 1 % too high.', 'tension margin',
+           raise_margin('tension_N', 1.01))
+    reject('length_margin_too_high', near_c, 'The length margin is claimed 1 % too high.', 'length margin',
+           raise_margin('length_m', 1.01))
+    reject('wrench_scale_too_high', near_c, 'K is claimed to grow by 1 % too much.', 'wrench scale',
+           raise_margin('wrench_scale', 1.01))
+    reject('margin_zero', near_c, 'A margin of zero proves no strict inequality.', 'not positive',
+           raise_margin('tension_N', 0, '0'))
+    reject('wrench_scale_below_one', near_c, 'Less than K is covered.', 'below 1', raise_margin('wrench_scale', 0, '0.99'))
+    lo = min(statics(near, between(a, m, 0.5))[1])
+    reject('tension_limit_above', near_c, 'A cable has to pull harder than it does.', 'lower tension margin',
+           lambda c: c['problem']['robot'].update(tension_N=[['%.3f' % (lo + 0.02), '0.5']] * 6))
+    reject('length_limit_below', near_c, 'A cable is shorter than it has to be.', 'upper length margin',
+           robot('length_m', 0, ['0.1', '0.2']))
+    reject('anchor_moved', near_c, 'A base anchor 4 cm off.', 'false', robot('base_anchors_m', 0, ['0.04', '0.22', '0']))
+    reject('load_tilted', near_c, 'A side load of 0.3 N that the proof did not have.', 'false',
+           lambda c: c['problem']['load'].update(wrench=['0.3', '0', '1', '0', '0', '0']))
+    def shrink(c):
+        for i in range(6):
+            c['problem']['load']['ellipsoid'][i][i] = '100' if i < 3 else '10000'
+    reject('ellipsoid_too_large', near_c, 'E a hundred times smaller: K ten times wider.', 'false', shrink)
+    def indefinite(c):
+        for i, j in ((0, 1), (1, 0)):
+            c['problem']['load']['ellipsoid'][i][j] = '10000'
+    reject('ellipsoid_singular', near_c, 'E is only positive semidefinite: K is unbounded.', 'positive definite',
+           indefinite)
+    def move(c):
+        c['path']['waypoints'][1] = waypoint([-0.3, 1.65])
+    reject('waypoint_outside', near_c, 'The waypoint in the middle lies outside C.', 'segment 0', move)
+    def forget(c):
+        c['problem']['query']['waypoints'].insert(1, ['-2.25', '1.5'])
+    reject('query_waypoint_missed', near_c, 'The path does not pass the second of three waypoints.', 'query waypoint 1', forget)
+    def nudge(c):
+        c['path']['waypoints'][0] = waypoint([math.nextafter(-2.3, 0), 1.6])
+    reject('start_one_ulp_off', near_c, 'The path starts one ulp beside what was typed.', 'query waypoint 0', nudge)
+    def odd(c):
+        c['path']['waypoints'] = [waypoint([-2.3 - pi, 1.6], [1, 0]), waypoint([-2.2 - pi, 1.55], [1, 0])]
+        c['segments'].pop()
+        c['margins'] = dict(c['segments'][0]['margins'])
+    reject('odd_half_turn', near_c, 'An odd half turn with theta as typed is another pose.', 'query waypoint 0', odd)
+    def leave(c):
+        c['path']['waypoints'][0] = waypoint([0.55, math.nextafter(pi / 2, 2)])
+        c['problem']['query']['waypoints'][0] = ['0.55', '1.5707963267948968']
+    reject('range_left', sphere_c, 'A parameter starts one ulp outside its closed range.', 'in its range', leave)
+    reject('witness_violates_nothing', tension, 'At the witness the tension is within its limits.', 'violates',
+           lambda c: c['witness'].update(at={'segment': 0, 's': '0'}))
+    reject('witness_value_off', tension, 'The value stated is not the one at the witness.', 'value',
+           lambda c: c['witness'].update(value=['-0.0000001', '0']))
+    reject('same_sign', singular, 'det D does not change its sign between these.', 'same sign',
+           lambda c: c['witness'].update(to=c['witness']['at']))
+    # The platform is turned upside down by a jump, not by passing a singular pose: a mirror image through z = 0.
+    jump = copy.deepcopy(straight)
+    jump['space'].update(parameters=[{'name': 't', 'kind': 'real'}], flip=None,
+                         pose={'px': '0', 'py': '0', 'pz': '0.35*sqrt(t^2)/t', 'phi': '0', 'theta': '0', 'sigma': '0.6'})
+    jump['query']['waypoints'] = [['-1'], ['1']]
+    d0, d1 = statics(jump, [-1.0])[3], statics(jump, [1.0])[3]
+    assert d0 * d1 < 0, (d0, d1)
+    write('rejected', 'sign_change_by_a_jump', certificate(jump, [waypoint([-1]), waypoint([1])], 'refuted', witness={
+        'kind': 'singular', 'at': {'waypoint': 0}, 'to': {'waypoint': 1}}),
+        'det J has opposite signs at the ends, but the path jumps between them, so that no pose need be singular.',
+        'not confirmed')
+    undef = problem('undefined', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
+    undef['space']['pose']['pz'] = '0.35 + 0*sqrt(-1)'
+    bad = changed(near_c, lambda c: c.update(problem=undef))
+    write('rejected', 'undefined_expression', bad, 'sqrt(-1) is no real number, not even times 0.', 'square root')
+
+    # Against the format.
+    def malform(name, why, expect, edit, c=near_c, reseal=True):
+        write('malformed', name, changed(c, edit, reseal), why, expect)
+
+    def set_boxes(boxes):
+        def edit(c):
+            c['segments'][0]['boxes'] = boxes
+        return edit
+    malform('boxes_with_a_gap', 'A part of the segment is in no box.', 'boxes', set_boxes([['0', '1/4'], ['1/2', '1']]))
+    malform('boxes_overlapping', 'Boxes tile; they do not overlap.', 'boxes', set_boxes([['0', '3/4'], ['1/2', '1']]))
+    malform('boxes_stop_early', 'The last box does not reach 1.', 'boxes', set_boxes([['0', '1/2']]))
+    malform('boxes_empty', 'No box at all.', 'boxes', set_boxes([]))
+    malform('box_no_dyadic', 'Ends are dyadic.', 'power of two', set_boxes([['0', '1/3'], ['1/3', '1']]))
+    malform('box_not_lowest', 'Ends are in lowest terms.', 'lowest terms', set_boxes([['0', '2/4'], ['2/4', '1']]))
+    malform('margins_not_the_worst', 'The top level claims more than a segment.', 'margins',
+            lambda c: c['margins'].update(tension_N='1'))
+    malform('margins_of_no_segment', 'The top level claims a number that no segment has.', 'margins',
+            lambda c: c['margins'].update(tension_N='1e-9'))
+    malform('claim_reworded', 'The theorem is not the one of the verdict.', 'claim',
+            lambda c: c.update(claim=c['claim'].replace('every', 'some')))
+    malform('claim_of_another_verdict', 'The theorem is not the one of the verdict.', 'claim',
+            lambda c: c.update(claim=CLAIMS['refuted']))
+    malform('altered', 'A digit changed after it was sealed.', 'altered',
+            lambda c: c['margins'].update(tension_N='1e-9'), reseal=False)
+    malform('limits_reversed', 'lower < upper.', 'lower < upper', robot('tension_N', 2, ['0.5', '0.05']))
+    malform('limit_negative', 'Cables do not push.', '0 <= lower', robot('tension_N', 2, ['-0.1', '0.5']))
+    malform('ellipsoid_asymmetric', 'E is symmetric.', 'symmetric',
+            lambda c: c['problem']['load']['ellipsoid'][0].__setitem__(1, '1'))
+    malform('flip_of_others', 'phi is not the parameter that flip says.', 'flip',
+            lambda c: c['problem']['space'].update(flip=[1, 0]))
+    malform('flip_mentioned', 'sigma depends on phi, so that (phi + pi, -theta) is another pose.', 'flip',
+            lambda c: c['problem']['space']['pose'].update(sigma='phi/2'))
+    malform('half_turn_of_a_real', 'Half turns are for periodic parameters.', 'half_turns',
+            lambda c: c['path']['waypoints'][0].update(half_turns=[0, 2]))
+    malform('one_waypoint', 'A path of one waypoint has no segment to prove.', 'at least two',
+            lambda c: (c.update(segments=[], margins={}), c['path'].update(waypoints=c['path']['waypoints'][:1])))
+    malform('waypoint_decimal', 'Waypoints are binary64.', 'binary64',
+            lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, '-2.3'))
+    malform('waypoint_rounded', 'A 54th bit: no binary64.', 'binary64',
+            lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, '-0x1.26666666666668p+1'))
+    malform('waypoint_infinite', 'Finite.', 'binary64', lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, 'inf'))
+    malform('decimal_nan', 'nan is no decimal.', 'decimal', lambda c: c['problem']['load']['wrench'].__setitem__(0, 'nan'))
+    malform('number_for_string', 'Reals are strings.', 'a string',
+            lambda c: c['problem']['load']['wrench'].__setitem__(0, 0))
+    malform('fractional_number', 'No JSON number carries a real value.', 'no integer',
+            lambda c: c.update(illustration=0.5))
+    malform('unknown_key', 'Keys are fixed.', 'no key', lambda c: c.update(note='hello'))
+    malform('expression_unknown_name', 'A name that is neither parameter nor constant.', 'known name',
+            lambda c: c['problem']['space']['pose'].update(sigma='omega'))
+    malform('constant_named_pi', 'pi has a meaning already.', "not 'pi'",
+            lambda c: c['problem']['space'].update(constants={'pi': '3'}))
+    whole = json.dumps(near_c).encode('ascii')
+    write('malformed', 'cut', whole[:len(whole) // 2], 'Half a file.', 'cut')
+    write('malformed', 'empty', b'', 'Nothing.', 'cut')
+    write('malformed', 'trailing', whole + b'{}', 'Something after the end.', 'no JSON')
+    write('malformed', 'duplicate_key', whole.replace(b'"verdict": "proved"', b'"verdict": "proved", "verdict": "proved"'),
+          'Which of the two counts?', 'twice')
+    write('malformed', 'deep', b'[' * 100000, 'A nesting bomb.', 'deep')
+
+
+if __name__ == '__main__':
+    main()
