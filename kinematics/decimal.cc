@@ -89,7 +89,10 @@ Decimal Decimal::parse(std::string_view text) {
   return Decimal(negative ? cpp_int(-magnitude) : magnitude, exponent - static_cast<int>(fraction.size()));
 }
 
-Decimal Decimal::power_of_ten(int n) { return Decimal(1, n); }
+Decimal Decimal::reciprocal_of_power_of_ten() const {
+  if (mantissa_ != 1) fail(text(), "a power of ten");
+  return Decimal(1, -exponent_);
+}
 
 std::string Decimal::text() const {
   if (mantissa_ == 0) return "0";

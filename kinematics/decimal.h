@@ -23,8 +23,8 @@ class Decimal {
   /// ".5", "+1E-4". Nothing else, no white space. @throws InputError with the text seen and what was expected.
   [[nodiscard]] static Decimal parse(std::string_view text);
 
-  /// 10^n. @throws InputError beyond the limits.
-  [[nodiscard]] static Decimal power_of_ten(int n);
+  /// 1 / value, for a power of ten. @throws InputError for any other value.
+  [[nodiscard]] Decimal reciprocal_of_power_of_ten() const;
 
   /// The one canonical text: "-0.1905256", "10000", "0"; "1.25e-9" below 1e-7 and "1e21" from 1e21 on.
   [[nodiscard]] std::string text() const;

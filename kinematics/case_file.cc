@@ -1,0 +1,653 @@
+#include "kinematics/case_file.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "kinematics/decimal.h"
+#include "kinematics/expression.h"
+#include "kinematics/input_error.h"
+#include "kinematics/units.h"
+
+namespace taut {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = 1 << 20;  // a case has a page; more is a mistake
+constexpr std::size_t kMaxShown = 60;           // characters of a wrong value in a message
+
+// --- Fields: nodes of the file that know their place ---------------------------------------------------------------
+
+std::string shorten(const std::string& text) {
+  return text.size() > kMaxShown ? text.substr(0, kMaxShown) + "…" : text;
+}
+
+bool is_list_of_scalars(const YAML::Node& node) {
+  return node.IsSequence() && node.size() <= 6 &&
+         std::all_of(node.begin(), node.end(), [](const YAML::Node& item) { return item.IsScalar(); });
+}
+
+std::string describe(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + shorten(node.Scalar()) + "'";
+  if (node.IsMap()) return "a map";
+  if (is_list_of_scalars(node)) {
+    std::string items;
+    for (const YAML::Node& item : node) items += (items.empty() ? "" : ", ") + shorten(item.Scalar());
+    return "[" + items + "]";
+  }
+  return node.IsSequence() ? fmt::format("a list of {}", node.size()) : "nothing";
+}
+
+/// The file's name and where its fields are.
+class Places {
+ public:
+  explicit Places(std::string file) : file_(std::move(file)) {}
+
+  void remember(const std::string& path, const YAML::Node& node) {
+    nodes_.erase(path);  // assignment of YAML nodes would alter the tree
+    nodes_.emplace(path, node);
+  }
+
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& path, const std::string& message) const {
+    const std::string place = mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
+    throw InputError(path.empty() ? fmt::format("{}: {}", place, message)
+                                  : fmt::format("{}: {}: {}", place, path, message));
+  }
+
+  /// Says where in the file the problem's field is, or the closest thing around it.
+  [[noreturn]] void fail(const FieldError& error) const {
+    std::string path = error.field();
+    if (path.starts_with("space.")) {
+      const std::string on_surface = "space.surface" + path.substr(std::string("space").size());
+      if (nodes_.contains(on_surface)) path = on_surface;
+    }
+    std::string known = path;
+    while (!known.empty() && !nodes_.contains(known)) {
+      known.erase(std::min(known.find_last_of(".["), known.size() - 1));
+    }
+    const auto node = nodes_.find(known);
+    std::string seen = error.seen();
+    if (!seen.empty() && known == path && (node->second.IsScalar() || is_list_of_scalars(node->second))) {
+      seen = describe(node->second);
+    }
+    fail(node == nodes_.end() ? YAML::Mark::null_mark() : node->second.Mark(), path,
+         seen.empty() ? error.expected() : fmt::format("got {}, {}", seen, error.expected()));
+  }
+
+ private:
+  std::string file_;
+  std::map<std::string, YAML::Node> nodes_;
+};
+
+class Map;
+
+class Field {
+ public:
+  Field(Places& places, YAML::Node node, std::string path)
+      : places_(&places), node_(std::move(node)), path_(std::move(path)) {
+    places_->remember(path_, node_);
+  }
+
+  [[nodiscard]] const YAML::Node& node() const { return node_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+  [[noreturn]] void fail(const std::string& expected) const {
+    complain(fmt::format("got {}, expected {}", describe(node_), expected));
+  }
+  [[noreturn]] void complain(const std::string& message) const { places_->fail(node_.Mark(), path_, message); }
+  /// Under another path of the problem, too.
+  void remember_as(const std::string& path) const { places_->remember(path, node_); }
+
+  [[nodiscard]] std::string text(const std::string& expected) const {
+    if (!node_.IsScalar() || node_.Scalar().empty()) fail(expected);
+    return node_.Scalar();
+  }
+
+  [[nodiscard]] std::vector<Field> list(const std::string& expected) const {
+    if (!node_.IsSequence()) fail(expected);
+    std::vector<Field> items;
+    for (const YAML::Node& item : node_) items.emplace_back(*places_, item, fmt::format("{}[{}]", path_, items.size()));
+    return items;
+  }
+  [[nodiscard]] std::vector<Field> list(std::size_t size, const std::string& expected) const {
+    if (!node_.IsSequence() || node_.size() != size) fail(expected);
+    return list(expected);
+  }
+
+  /// All keys allowed.
+  [[nodiscard]] Map open_map(const std::string& expected) const;
+  /// No other keys than `keys` allowed.
+  [[nodiscard]] Map map(const std::vector<std::string>& keys) const;
+
+ private:
+  Places* places_;
+  YAML::Node node_;
+  std::string path_;
+};
+
+std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+class Map {
+ public:
+  Map(Field field, std::vector<std::pair<std::string, Field>> entries)
+      : field_(std::move(field)), entries_(std::move(entries)) {}
+
+  [[nodiscard]] const Field& field() const { return field_; }
+  [[nodiscard]] const std::vector<std::pair<std::string, Field>>& entries() const& { return entries_; }
+  void entries() && = delete;  // would dangle
+
+  [[nodiscard]] std::optional<Field> find(const std::string& key) const {
+    for (const auto& [name, field] : entries_) {
+      if (name == key) return field;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] Field at(const std::string& key) const {
+    if (const auto field = find(key)) return *field;
+    field_.complain(fmt::format("got no '{0}', expected the key '{0}'", key));
+  }
+
+ private:
+  Field field_;
+  std::vector<std::pair<std::string, Field>> entries_;
+};
+
+Map Field::open_map(const std::string& expected) const {
+  if (!node_.IsMap()) fail(expected);
+  std::vector<std::pair<std::string, Field>> entries;
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) places_->fail(entry.first.Mark(), path_, "got a compound key, expected a word");
+    const std::string& key = entry.first.Scalar();
+    if (!seen.insert(key).second) {
+      places_->fail(entry.first.Mark(), path_, fmt::format("got '{}' twice, expected each key once", shorten(key)));
+    }
+    entries.emplace_back(key, Field(*places_, entry.second, path_.empty() ? key : path_ + "." + key));
+  }
+  return {*this, std::move(entries)};
+}
+
+/// Number of insertions, deletions and replacements that make one word the other.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
+    }
+  }
+  return row.back();
+}
+
+Map Field::map(const std::vector<std::string>& keys) const {
+  Map result = open_map("a map with the keys " + join(keys));
+  for (const auto& entry : node_) {
+    const std::string& key = entry.first.Scalar();
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    const std::string shown = shorten(key);
+    const std::string& nearest = *std::min_element(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
+      return edit_distance(a, shown) < edit_distance(b, shown);
+    });
+    constexpr std::size_t kTypingSlip = 3;
+    const std::string hint =
+        edit_distance(nearest, shown) <= kTypingSlip ? fmt::format("did you mean '{}'? ", nearest) : "";
+    places_->fail(entry.first.Mark(), path_,
+                  fmt::format("got the unknown key '{}', {}expected {}", shown, hint, join(keys)));
+  }
+  return result;
+}
+
+// --- Values --------------------------------------------------------------------------------------------------------
+
+/// Calls `read`, whose InputErrors ("got …, expected …") are about the field's text.
+template <class Read>
+auto in_field(const Field& field, Read read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    field.complain(message.starts_with("got ")
+                       ? fmt::format("got {}{}", describe(field.node()), message.substr(message.rfind(", expected")))
+                       : message);
+  }
+}
+
+Decimal read_decimal(const Field& field) {
+  const std::string text = field.text("a decimal number such as 0.05 or 1e-4");
+  return in_field(field, [&] { return Decimal::parse(text); });
+}
+
+/// The value whose name the field gives.
+template <class T>
+T read_choice(const Field& field, const std::vector<std::pair<std::string, T>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) names.push_back(name);
+  const std::string expected = "one of " + join(names);
+  const std::string text = field.text(expected);
+  for (const auto& [name, value] : choices) {
+    if (name == text) return value;
+  }
+  field.fail(expected);
+}
+
+/// The units of bare numbers.
+class Units {
+ public:
+  Units() = default;
+  explicit Units(const Map& map) {
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+      const auto dimension = static_cast<Dimension>(i);
+      const auto field = map.find(dimension_name(dimension));
+      if (!field) continue;
+      const std::string expected = "one of " + unit_names(dimension);
+      const auto unit = find_unit(field->text(expected));
+      if (!unit || unit->dimension != dimension) field->fail(expected);
+      units_[i] = *unit;
+    }
+  }
+  [[nodiscard]] const Unit& operator[](Dimension dimension) const {
+    return units_[static_cast<std::size_t>(dimension)];
+  }
+
+ private:
+  std::array<Unit, 5> units_ = {si_unit(Dimension::kLength), si_unit(Dimension::kForce), si_unit(Dimension::kMoment),
+                                si_unit(Dimension::kMass), si_unit(Dimension::kAngle)};
+};
+
+/// The field's text without its unit, and that unit or else `bare`.
+std::pair<std::string, Unit> read_with_unit(const Field& field, const Unit& bare, const std::string& expected) {
+  auto [value, unit] = split_unit(field.text(expected));
+  if (unit && unit->dimension != bare.dimension) field.fail(expected);
+  return {value, unit.value_or(bare)};
+}
+
+/// A decimal in SI, such as "350 mm" → "0.35".
+DecimalText read_quantity(const Field& field, const Unit& bare) {
+  const std::string expected = fmt::format("a {}: a decimal number, bare ({}) or with one of the units {}",
+                                           dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
+  const auto [value, unit] = read_with_unit(field, bare, expected);
+  return in_field(field, [&, v = value, u = unit] { return decimal_to_si(v, u); });
+}
+
+bool is_decimal(const std::string& text) {
+  try {
+    static_cast<void>(Decimal::parse(text));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// What an expression may mention.
+struct Names {
+  std::vector<std::string> parameters;
+  std::map<std::string, DecimalText> constants;
+};
+
+/// An expression in SI: "zs - rs*sin(alpha2)" → "(zs - rs*sin(alpha2))*0.001".
+ExpressionText read_expression(const Field& field, const Unit& bare, const Names& names) {
+  const std::string expected =
+      fmt::format("a number or {}expression, bare ({}) or with one of the units {}",
+                  names.parameters.empty() ? "constant " : "", bare.name, unit_names(bare.dimension));
+  const auto [value, unit] = read_with_unit(field, bare, expected);
+  return in_field(field, [&, v = value, u = unit]() -> ExpressionText {
+    if (is_decimal(v)) return decimal_to_si(v, u);
+    static_cast<void>(
+        ExpressionTape({v}, names.parameters, names.constants));  // its complaints are about what was typed
+    return expression_to_si(v, u);
+  });
+}
+
+// --- Sections ------------------------------------------------------------------------------------------------------
+
+std::array<std::array<DecimalText, 3>, kCables> read_anchors(const Field& field, const Units& units) {
+  std::array<std::array<DecimalText, 3>, kCables> anchors;
+  const std::vector<Field> points = field.list(kCables, "a list of six points");
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const std::vector<Field> coordinates = points[i].list(3, "a point: a list of three lengths");
+    for (std::size_t k = 0; k < 3; ++k) anchors[i][k] = read_quantity(coordinates[k], units[Dimension::kLength]);
+  }
+  return anchors;
+}
+
+std::array<Limits, kCables> read_limits(const Field& field, const Unit& unit) {
+  const std::string expected = "a pair [lower, upper], or six of them";
+  const auto read_pair = [&](const Field& pair) {
+    const std::vector<Field> ends = pair.list(2, expected);
+    return Limits{read_quantity(ends[0], unit), read_quantity(ends[1], unit)};
+  };
+  std::array<Limits, kCables> limits;
+  if (is_list_of_scalars(field.node())) {
+    limits.fill(read_pair(field));
+    for (std::size_t i = 0; i < kCables; ++i) field.remember_as(fmt::format("{}[{}]", field.path(), i));
+  } else {
+    const std::vector<Field> pairs = field.list(kCables, expected);
+    std::transform(pairs.begin(), pairs.end(), limits.begin(), read_pair);
+  }
+  return limits;
+}
+
+RobotText read_robot(const Field& field, const Units& units) {
+  const Map map = field.map({"base_anchors", "platform_anchors", "tension", "length"});
+  return {.base_anchors_m = read_anchors(map.at("base_anchors"), units),
+          .platform_anchors_m = read_anchors(map.at("platform_anchors"), units),
+          .tension_N = read_limits(map.at("tension"), units[Dimension::kForce]),
+          .length_m = read_limits(map.at("length"), units[Dimension::kLength])};
+}
+
+/// A wrench's unit: forces first, then moments.
+const Unit& wrench_unit(const Units& units, std::size_t i) {
+  return units[i < 3 ? Dimension::kForce : Dimension::kMoment];
+}
+
+std::array<DecimalText, 6> read_wrench(const Map& load, const Units& units) {
+  std::array<DecimalText, 6> wrench;
+  const auto typed = load.find("wrench");
+  const auto mass_field = load.find("mass");
+  if (typed.has_value() == mass_field.has_value()) {
+    load.field().complain(
+        fmt::format("got {} of 'wrench' and 'mass', expected one of them", typed ? "both" : "neither"));
+  }
+  if (typed) {
+    if (const auto gravity = load.find("gravity")) gravity->fail("'gravity' only together with 'mass'");
+    const std::vector<Field> entries = typed->list(6, "a list of three forces and three moments");
+    for (std::size_t i = 0; i < 6; ++i) wrench[i] = read_quantity(entries[i], wrench_unit(units, i));
+    return wrench;
+  }
+  const Decimal mass = Decimal::parse(read_quantity(*mass_field, units[Dimension::kMass]));
+  if (mass.sign() <= 0) mass_field->fail("a mass above zero");
+  const std::vector<Field> gravity = load.at("gravity").list(3, "a list of three accelerations in m/s^2");
+  for (std::size_t k = 0; k < 3; ++k) {
+    wrench[k] = in_field(gravity[k], [&] { return (mass * read_decimal(gravity[k])).text(); });
+    wrench[k + 3] = "0";
+  }
+  return wrench;
+}
+
+std::array<std::array<DecimalText, 6>, 6> read_ellipsoid(const Field& field, const Units& units) {
+  std::array<std::array<DecimalText, 6>, 6> ellipsoid;
+  const auto read_entry = [&](const Field& entry, std::size_t i, std::size_t j) {
+    const Decimal per_i = wrench_unit(units, i).factor.reciprocal_of_power_of_ten();
+    const Decimal per_j = wrench_unit(units, j).factor.reciprocal_of_power_of_ten();
+    const Decimal value = read_decimal(entry);
+    return in_field(entry, [&] { return (value * per_i * per_j).text(); });
+  };
+  const Map map = field.map({"diagonal", "matrix"});
+  if (map.entries().size() != 1)
+    field.complain(fmt::format("got {} keys, expected either 'diagonal' or 'matrix'", map.entries().size()));
+  if (const auto diagonal = map.find("diagonal")) {
+    const std::vector<Field> entries = diagonal->list(6, "a list of six numbers");
+    for (auto& row : ellipsoid) row.fill("0");
+    for (std::size_t i = 0; i < 6; ++i) ellipsoid[i][i] = read_entry(entries[i], i, i);
+    return ellipsoid;
+  }
+  const std::vector<Field> rows = map.at("matrix").list(6, "a list of six rows");
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::vector<Field> entries = rows[i].list(6, "a row of six numbers");
+    for (std::size_t j = 0; j < 6; ++j) ellipsoid[i][j] = read_entry(entries[j], i, j);
+  }
+  return ellipsoid;
+}
+
+LoadText read_load(const Field& field, const Units& units) {
+  const Map map = field.map({"point", "wrench", "mass", "gravity", "ellipsoid"});
+  LoadText load;
+  load.point_m.fill("0");
+  if (const auto point = map.find("point")) {
+    const std::vector<Field> coordinates = point->list(3, "a point: a list of three lengths");
+    for (std::size_t k = 0; k < 3; ++k) load.point_m[k] = read_quantity(coordinates[k], units[Dimension::kLength]);
+  }
+  load.wrench = read_wrench(map, units);
+  load.ellipsoid = read_ellipsoid(map.at("ellipsoid"), units);
+  return load;
+}
+
+/// The space, and the units of its parameters' bare values.
+struct Space {
+  SpaceText text;
+  std::vector<Unit> units;
+};
+
+const Unit& pose_unit(const Units& units, std::size_t i) {
+  return units[i < 3 ? Dimension::kLength : Dimension::kAngle];
+}
+
+/// Makes pose coordinate i a parameter.
+void set_free(Space& space, std::size_t i, const Units& units) {
+  const std::string name = kPoseNames[i];
+  const bool is_turn = name == "phi" || name == "sigma";
+  space.text.pose[i] = name;
+  space.text.parameters.push_back({name, is_turn ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+  space.units.push_back(pose_unit(units, i));
+}
+
+/// (phi, theta) and (phi + pi, -theta) are the same pose where both are free.
+void set_flip(SpaceText& space) {
+  const auto index = [&](const std::string& name) {
+    const auto found = std::find_if(space.parameters.begin(), space.parameters.end(),
+                                    [&](const Parameter& p) { return p.name == name; });
+    return static_cast<std::size_t>(found - space.parameters.begin());
+  };
+  const std::size_t phi = index("phi"), theta = index("theta");
+  if (std::max(phi, theta) < space.parameters.size()) space.flip = {static_cast<int>(phi), static_cast<int>(theta)};
+}
+
+Space read_slice(const Field& field, const Units& units) {
+  Space space;
+  const Map map = field.map({kPoseNames.begin(), kPoseNames.end()});
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+    if (const auto fixed = map.find(kPoseNames[i])) {
+      space.text.pose[i] = read_expression(*fixed, pose_unit(units, i), {});
+      fixed->remember_as(fmt::format("space.pose.{}", kPoseNames[i]));
+    } else {
+      set_free(space, i, units);
+    }
+  }
+  if (space.text.parameters.empty()) field.complain("got all six coordinates, expected at least one to be left free");
+  set_flip(space.text);
+  return space;
+}
+
+std::pair<ExpressionText, ExpressionText> read_range(const Field& field, const Unit& unit,
+                                                     const std::string& expected) {
+  const std::vector<Field> ends = field.list(2, expected);
+  return {read_expression(ends[0], unit, {}), read_expression(ends[1], unit, {})};
+}
+
+Space read_free(const Field& field, const Units& units) {
+  Space space;
+  const Map map = field.map({"px", "py", "pz"});
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+    set_free(space, i, units);
+    if (i >= 3) continue;
+    Parameter& parameter = space.text.parameters.back();
+    const Field range = map.at(kPoseNames[i]);
+    parameter.kind = ParameterKind::kRange;
+    std::tie(parameter.range_lower, parameter.range_upper) =
+        read_range(range, pose_unit(units, i), "a range [lower, upper]");
+    range.remember_as("space.parameters." + parameter.name);
+  }
+  set_flip(space.text);
+  return space;
+}
+
+Space read_surface(const Field& field, const Units& units) {
+  Space space;
+  Names names;
+  const Map map = field.map({"parameters", "constants", "pose"});
+  const std::string expected = "'periodic', 'real' or a range [lower, upper]";
+  const Map parameters = map.at("parameters").open_map("a map of names to " + expected);
+  for (const auto& [name, kind] : parameters.entries()) {
+    Parameter parameter{name, ParameterKind::kRange, "", ""};
+    if (kind.node().IsScalar()) {
+      parameter.kind = kind.node().Scalar() == "periodic" ? ParameterKind::kPeriodic : ParameterKind::kReal;
+      if (parameter.kind == ParameterKind::kReal && kind.node().Scalar() != "real") kind.fail(expected);
+    } else {
+      std::tie(parameter.range_lower, parameter.range_upper) = read_range(kind, si_unit(Dimension::kAngle), expected);
+    }
+    names.parameters.push_back(name);
+    space.text.parameters.push_back(std::move(parameter));
+    space.units.push_back(si_unit(Dimension::kAngle));
+  }
+  if (const auto field_of_constants = map.find("constants")) {
+    const Map constants = field_of_constants->open_map("a map of names to numbers");
+    for (const auto& [name, value] : constants.entries()) {
+      names.constants[name] = read_decimal(value).text();
+    }
+  }
+  if (names.parameters.empty()) parameters.field().complain("got no parameter, expected at least one");
+  in_field(parameters.field(), [&] { return ExpressionTape({}, names.parameters, names.constants); });
+  const Map pose = map.at("pose").map({kPoseNames.begin(), kPoseNames.end()});
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+    space.text.pose[i] = read_expression(pose.at(kPoseNames[i]), pose_unit(units, i), names);
+  }
+  space.text.constants = names.constants;
+  return space;
+}
+
+Space read_space(const Field& field, const Units& units) {
+  const Map map = field.map({"slice", "surface", "implicit", "free"});
+  if (map.entries().size() != 1) {
+    field.complain(
+        fmt::format("got {} kinds of space, expected one of slice, surface, implicit, free", map.entries().size()));
+  }
+  const auto& [kind, space] = map.entries().front();
+  if (kind == "slice") return read_slice(space, units);
+  if (kind == "surface") return read_surface(space, units);
+  if (kind == "free") return read_free(space, units);
+  space.complain(
+      "got 'implicit', expected slice, surface or free: implicit spaces are not supported yet by this version");
+}
+
+std::vector<std::vector<ExpressionText>> read_query(const Field& field, const Space& space) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : space.text.parameters) names.push_back(parameter.name);
+  std::vector<std::vector<ExpressionText>> waypoints;
+  for (const Field& item : field.map({"waypoints"}).at("waypoints").list("a list of at least two waypoints")) {
+    const Map waypoint = item.map(names);
+    std::vector<ExpressionText>& values = waypoints.emplace_back();
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      values.push_back(read_expression(waypoint.at(names[j]), space.units[j], {}));
+    }
+  }
+  return waypoints;
+}
+
+double read_positive(const Field& field) {
+  const Decimal value = read_decimal(field);
+  if (value.sign() <= 0) field.fail("a number above zero");
+  return ScalarTraits<double>::from_decimal(value.text());
+}
+
+int read_count(const Field& field, int largest) {
+  const std::string expected = fmt::format("a whole number from 1 to {}", largest);
+  const std::string text = field.text(expected);
+  if (text.find_first_not_of("0123456789") != std::string::npos || text.size() > 9) field.fail(expected);
+  const int value = std::stoi(text);
+  if (value < 1 || value > largest) field.fail(expected);
+  return value;
+}
+
+PlannerOptions read_planner(const Field& field) {
+  const Map map = field.map({"strategy", "cost", "radius", "epsilon", "max_charts"});
+  PlannerOptions planner;
+  if (const auto strategy = map.find("strategy")) {
+    planner.strategy =
+        read_choice<Strategy>(*strategy, {{"astar", Strategy::kAStar}, {"greedy", Strategy::kGreedyBestFirst}});
+  }
+  if (const auto cost = map.find("cost")) {
+    planner.cost = read_choice<Cost>(
+        *cost,
+        {{"rotation", Cost::kRotation}, {"great_circle", Cost::kGreatCircle}, {"parameters", Cost::kParameters}});
+  }
+  if (const auto radius = map.find("radius")) planner.radius = read_positive(*radius);
+  if (const auto epsilon = map.find("epsilon")) planner.epsilon = read_positive(*epsilon);
+  if (const auto max_charts = map.find("max_charts")) planner.max_charts = read_count(*max_charts, 100'000'000);
+  return planner;
+}
+
+std::string read_name(const Field& field) {
+  constexpr std::size_t kMaxLength = 200;
+  const std::string expected = fmt::format("a name of 1 to {} characters on one line", kMaxLength);
+  const std::string name = field.text(expected);
+  const bool is_line = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+  if (!is_line || name.size() > kMaxLength) field.fail(expected);
+  return name;
+}
+
+Case read_case(const Field& root) {
+  const Map map = root.map({"taut", "name", "units", "robot", "load", "space", "query", "planner", "expect"});
+  if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
+    version.fail("1, the case format that this version reads");
+  }
+  Units units;
+  if (const auto field = map.find("units")) units = Units(field->map({"length", "force", "moment", "mass", "angle"}));
+  Case result;
+  result.problem.name = read_name(map.at("name"));
+  result.problem.robot = read_robot(map.at("robot"), units);
+  result.problem.load = read_load(map.at("load"), units);
+  const Space space = read_space(map.at("space"), units);
+  result.problem.space = space.text;
+  result.problem.query = read_query(map.at("query"), space);
+  if (const auto planner = map.find("planner")) result.planner = read_planner(*planner);
+  if (const auto expect = map.find("expect")) {
+    result.expect = read_choice<Expectation>(
+        *expect,
+        {{"proved", Expectation::kProved}, {"refuted", Expectation::kRefuted}, {"undecided", Expectation::kUndecided}});
+  }
+  return result;
+}
+
+/// The comment lines that the file begins with, without their marks.
+std::string leading_comment(const std::string& text) {
+  std::istringstream lines(text);
+  std::string comment;
+  for (std::string line; std::getline(lines, line) && line.starts_with('#');) {
+    line.erase(0, line.starts_with("# ") ? 2 : 1);
+    comment += (comment.empty() ? "" : "\n") + line;
+  }
+  return comment;
+}
+
+}  // namespace
+
+Case parse_case(const std::string& text, const std::string& name) {
+  Places places(name);
+  if (text.size() > kMaxFileBytes) {
+    throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes));
+  }
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() != 1) {
+      throw InputError(fmt::format("{}: got {} YAML documents, expected one", name, documents.size()));
+    }
+    Case result = read_case(Field(places, documents.front(), ""));
+    validate(result.problem);
+    result.description = leading_comment(text);
+    return result;
+  } catch (const FieldError& error) {
+    places.fail(error);
+  } catch (const YAML::Exception& error) {
+    places.fail(error.mark, "", fmt::format("got text that is not YAML ({}), expected a case file", error.msg));
+  }
+}
+
+Case load_case(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMaxFileBytes + 1, '\0');
+  if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && !file.eof()) {
+    throw InputError(fmt::format("{}: got no readable file, expected a case file", path));
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return parse_case(text, path);
+}
+
+}  // namespace taut

@@ -1,0 +1,106 @@
+#include "kinematics/units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+namespace taut {
+namespace {
+
+const std::vector<Unit>& units() {
+  static const std::vector<Unit> all = [] {
+    const auto d = [](const char* text) { return Decimal::parse(text); };
+    std::vector<Unit> list = {
+        {Dimension::kLength, "m", d("1")},        {Dimension::kLength, "mm", d("1e-3")},
+        {Dimension::kLength, "cm", d("1e-2")},    {Dimension::kLength, "km", d("1e3")},
+        {Dimension::kLength, "in", d("0.0254")},  {Dimension::kLength, "ft", d("0.3048")},
+        {Dimension::kForce, "N", d("1")},         {Dimension::kForce, "mN", d("1e-3")},
+        {Dimension::kForce, "kN", d("1e3")},      {Dimension::kForce, "MN", d("1e6")},
+        {Dimension::kMass, "kg", d("1")},         {Dimension::kMass, "g", d("1e-3")},
+        {Dimension::kMass, "t", d("1e3")},        {Dimension::kAngle, "rad", d("1")},
+        {Dimension::kAngle, "deg", d("1"), true},
+    };
+    // Inches and feet are left out of moments: 1/0.0254 is no decimal, and E divides by the moment's unit.
+    std::vector<Unit> moments;
+    for (const Unit& force : list) {
+      for (const Unit& length : list) {
+        if (force.dimension != Dimension::kForce || length.dimension != Dimension::kLength) continue;
+        if (length.name == "in" || length.name == "ft") continue;
+        moments.push_back({Dimension::kMoment, force.name + "*" + length.name, force.factor * length.factor});
+      }
+    }
+    list.insert(list.end(), moments.begin(), moments.end());
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace
+
+const char* dimension_name(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::kLength: return "length";
+    case Dimension::kForce: return "force";
+    case Dimension::kMoment: return "moment";
+    case Dimension::kMass: return "mass";
+    case Dimension::kAngle: return "angle";
+  }
+  return "";
+}
+
+std::string unit_names(Dimension dimension) {
+  std::string names;
+  for (const Unit& unit : units()) {
+    if (unit.dimension == dimension) names += (names.empty() ? "" : ", ") + unit.name;
+  }
+  return names;
+}
+
+std::optional<Unit> find_unit(std::string_view name) {
+  const auto found = std::find_if(units().begin(), units().end(), [&](const Unit& unit) { return unit.name == name; });
+  return found == units().end() ? std::nullopt : std::optional(*found);
+}
+
+Unit si_unit(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::kLength: return *find_unit("m");
+    case Dimension::kForce: return *find_unit("N");
+    case Dimension::kMoment: return *find_unit("N*m");
+    case Dimension::kMass: return *find_unit("kg");
+    case Dimension::kAngle: break;
+  }
+  return *find_unit("rad");
+}
+
+std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text) {
+  const auto may_end_value = [](std::string_view value) {
+    if (value.ends_with(' ') || value.ends_with(')')) return true;
+    return !value.empty() && value.find_first_not_of("0123456789.eE+-") == std::string_view::npos;
+  };
+  const Unit* longest = nullptr;
+  for (const Unit& unit : units()) {
+    const std::size_t size = unit.name.size();
+    if (text.size() <= size || !text.ends_with(unit.name)) continue;
+    if (!may_end_value(std::string_view(text).substr(0, text.size() - size))) continue;
+    if (!longest || size > longest->name.size()) longest = &unit;
+  }
+  if (!longest) return {text, std::nullopt};
+  std::string value = text.substr(0, text.size() - longest->name.size());
+  while (value.ends_with(' ')) value.pop_back();
+  return {value, *longest};
+}
+
+std::string decimal_to_si(const std::string& text, const Unit& unit) {
+  const Decimal value = Decimal::parse(text) * unit.factor;
+  return unit.is_degree && value.sign() != 0 ? fmt::format("({})*pi/180", value.text()) : value.text();
+}
+
+std::string expression_to_si(const std::string& text, const Unit& unit) {
+  if (unit.is_degree) return fmt::format("({})*pi/180", text);
+  const std::string factor = unit.factor.text();
+  return factor == "1" ? text : fmt::format("({})*{}", text, factor);
+}
+
+}  // namespace taut

@@ -1,0 +1,41 @@
+// Units of a case file, as exact decimal factors to SI.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "kinematics/decimal.h"
+
+namespace taut {
+
+enum class Dimension { kLength, kForce, kMoment, kMass, kAngle };
+
+/// A unit of known dimension: value in SI = value · factor, except that a degree is pi/180.
+struct Unit {
+  Dimension dimension;
+  std::string name;
+  Decimal factor;
+  bool is_degree = false;
+};
+
+/// "length", "force", …, as the keys of `units:`.
+[[nodiscard]] const char* dimension_name(Dimension dimension);
+/// The names of all its units, for messages: "m, mm, cm, …".
+[[nodiscard]] std::string unit_names(Dimension dimension);
+
+[[nodiscard]] std::optional<Unit> find_unit(std::string_view name);
+/// m, N, N*m, kg, rad.
+[[nodiscard]] Unit si_unit(Dimension dimension);
+
+/// "34 deg" → {"34", degree}; the text itself and nothing where it doesn't end in a unit that follows a space, a closing
+/// parenthesis or a number.
+[[nodiscard]] std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text);
+
+/// A decimal of that unit in SI: canonical text, or "(34)*pi/180" for degrees. @throws InputError
+[[nodiscard]] std::string decimal_to_si(const std::string& text, const Unit& unit);
+/// An expression of that unit in SI: "(x)*0.001"; the text itself where the factor is one.
+[[nodiscard]] std::string expression_to_si(const std::string& text, const Unit& unit);
+
+}  // namespace taut
