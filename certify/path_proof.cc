@@ -62,7 +62,7 @@ PathWitness make_witness(const Prover& prover, const Waypoint& a, const Waypoint
 
 }  // namespace
 
-PathProof prove_path(const Prover& prover, const Path& path) {
+PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known) {
   PathProof result;
   const auto& waypoints = path.waypoints;
   if (waypoints.size() < 2) {
@@ -73,7 +73,8 @@ PathProof prove_path(const Prover& prover, const Path& path) {
   }
   result.segments.resize(waypoints.size() - 1);
   tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
-    result.segments[k] = prover.prove(waypoints[k], waypoints[k + 1]);
+    const SegmentProof* earlier = known ? known(waypoints[k], waypoints[k + 1]) : nullptr;
+    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(waypoints[k], waypoints[k + 1]);
   });
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {

@@ -1,0 +1,219 @@
+#include "atlas/wrench_feasible_manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/geometry.h"
+#include "kinematics/jet.h"
+#include "kinematics/statics.h"
+
+namespace taut {
+namespace {
+
+CoordinateSymmetry symmetry_of(const SpaceText& space) {
+  CoordinateSymmetry symmetry;
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    symmetry.periodic[j] = space.parameters[j].kind == ParameterKind::kPeriodic;
+  }
+  symmetry.flip = space.flip;
+  return symmetry;
+}
+
+/// Written for up to N parameters; fewer leave the last partial derivatives unused.
+template <int N>
+class WrenchFeasibleManifold final : public Manifold {
+ public:
+  WrenchFeasibleManifold(const Problem& problem, MetricWeights weights)
+      : n_(static_cast<int>(problem.space.parameters.size())),
+        weights_(weights),
+        symmetry_(symmetry_of(problem.space)),
+        model_(make_model<double>(problem)),
+        pose_(pose_tape(problem)) {
+    for (const Parameter& parameter : problem.space.parameters) {
+      ranges_.push_back(parameter.kind == ParameterKind::kRange
+                            ? std::array<double, 2>{evaluate_constant<double>(parameter.range_lower),
+                                                    evaluate_constant<double>(parameter.range_upper)}
+                            : std::array<double, 2>{-HUGE_VAL, HUGE_VAL});
+    }
+  }
+
+  [[nodiscard]] int dimension() const override { return n_; }
+  [[nodiscard]] int ambient_dimension() const override { return kPoseSize + 2 * n_ + 3 * kCables; }
+  [[nodiscard]] int coordinate_dimension() const override { return n_; }
+  [[nodiscard]] CoordinateSymmetry symmetry() const override { return symmetry_; }
+
+  [[nodiscard]] bool project(const Frame& frame, const TangentVector& u, Coordinates& coordinates) const override {
+    coordinates = frame.coordinates + frame.lift * u;
+    // A range is closed: what lies a little outside is moved to its end.
+    for (int j = 0; j < n_; ++j) {
+      const auto& range = ranges_[static_cast<std::size_t>(j)];
+      coordinates[j] = std::clamp(coordinates[j], range[0], range[1]);
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool frame_at(const Coordinates& coordinates, Frame& frame) const override {
+    using J = Jet<double, N>;
+    std::array<J, N> parameters;
+    for (int j = 0; j < n_; ++j) {
+      const auto& range = ranges_[static_cast<std::size_t>(j)];
+      if (!(range[0] <= coordinates[j] && coordinates[j] <= range[1])) return false;
+      parameters[static_cast<std::size_t>(j)] = J(coordinates[j], j);
+    }
+    const Pose<J> pose = evaluate_pose(pose_, std::span<const J>(parameters.data(), static_cast<std::size_t>(n_)));
+    const Matrix3<J> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
+    const CableGeometry<J> geometry = cable_geometry(model_, pose.p_WP, r_WP);
+
+    frame.coordinates = coordinates;
+    frame.point.resize(ambient_dimension());
+    frame.tangent.resize(ambient_dimension(), n_);
+    int row = 0;
+    const auto put = [&](const J& x, double weight) {
+      frame.point[row] = weight * x.value;
+      for (int k = 0; k < n_; ++k) frame.tangent(row, k) = weight * x.partial[static_cast<std::size_t>(k)];
+      ++row;
+    };
+    // First what tells poses apart best: the neighbour index looks at these.
+    for (int i = 0; i < 3; ++i) put(r_WP(i, 2), std::sqrt(0.5));
+    for (int i = 0; i < 3; ++i) put(pose.p_WP(i), 1.0 / model_.characteristic_length);
+    for (int i = 0; i < 3; ++i) put(r_WP(i, 0), std::sqrt(0.5));
+    for (int i = 0; i < 3; ++i) put(r_WP(i, 1), std::sqrt(0.5));
+    for (int j = 0; j < n_; ++j) put_parameter(j, parameters[static_cast<std::size_t>(j)], put);
+    if (!put_slacks(geometry, put)) return false;
+    return orthonormalise(frame);
+  }
+
+ private:
+  static constexpr int kPoseSize = 12;
+
+  template <class Put>
+  void put_parameter(int j, const Jet<double, N>& x, Put&& put) const {
+    const double weight = weights_.parameter;
+    const bool flips = symmetry_.flip.has_value();
+    if (flips && j == (*symmetry_.flip)[1]) {  // θ changes sign with a flip: its square root is in R already
+      put(Jet<double, N>(0.0), 0.0);
+      put(Jet<double, N>(0.0), 0.0);
+    } else if (symmetry_.periodic[static_cast<std::size_t>(j)]) {
+      const double multiple = flips && j == (*symmetry_.flip)[0] ? 2.0 : 1.0;
+      const auto sc = sincos(x * multiple);
+      put(sc.cos, weight / multiple);
+      put(sc.sin, weight / multiple);
+    } else {
+      put(x, weight);
+      put(Jet<double, N>(0.0), 0.0);
+    }
+  }
+
+  /// The κ log of the slack variables and their derivatives; false where a margin is within the clearance or D is singular.
+  template <class Put>
+  bool put_slacks(const CableGeometry<Jet<double, N>>& geometry, Put&& put) const {
+    using J = Jet<double, N>;
+    std::array<J, kCables> lengths;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      lengths[i] = length(geometry.p_AB_W[i]);
+      if (!(model_.length_lower[i] < lengths[i].value && lengths[i].value < model_.length_upper[i])) return false;
+    }
+    Matrix6<double> d;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) d(i, j) = geometry.force_density(i, j).value;
+    }
+    Matrix6<double> y;
+    double determinant = 0;
+    if (!invert(d, y, determinant)) return false;
+    const Vector6<double> density = y * model_.wrench;
+    Matrix6<double> z;
+    if (model_.ellipsoid_is_diagonal) {
+      z.noalias() = y * model_.ellipsoid_root.diagonal().asDiagonal();
+    } else {
+      z.noalias() = y * model_.ellipsoid_root;
+    }
+    const Matrix6<double> zz = z * z.transpose();
+    std::array<J, kCables> densities;   // λ_i
+    std::array<J, kCables> variations;  // |z_i| = v_ii / d_i
+    for (int i = 0; i < kCables; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      densities[c].value = density[i];
+      variations[c].value = std::sqrt(zz(i, i));
+      const double margin_low = lengths[c].value * (density[i] - variations[c].value) - model_.tension_lower[c];
+      const double margin_high = model_.tension_upper[c] - lengths[c].value * (density[i] + variations[c].value);
+      if (!(margin_low > 0 && margin_high > 0)) return false;
+    }
+    for (std::size_t k = 0; k < N; ++k) {
+      if (static_cast<int>(k) >= n_) break;
+      // λ' = −Y D' λ and |z_i|' = z_i·z_i'/|z_i| with Z' = −Y D' Z.
+      Matrix6<double> slope;
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) slope(i, j) = geometry.force_density(i, j).partial[k];
+      }
+      const Matrix6<double> m = y * slope;
+      const Vector6<double> density_slope = m * density;
+      for (int i = 0; i < kCables; ++i) {
+        const auto c = static_cast<std::size_t>(i);
+        densities[c].partial[k] = -density_slope[i];
+        variations[c].partial[k] = -m.row(i).dot(zz.col(i)) / variations[c].value;
+      }
+    }
+    bool clear = true;
+    const auto put_margin = [&](const J& relative) {
+      if (!(relative.value > weights_.clearance)) {
+        clear = false;
+        return;
+      }
+      put(log(relative), weights_.slack);  // −log of the slack variable
+    };
+    for (std::size_t i = 0; i < kCables && clear; ++i) {
+      const double half = 0.5 * (model_.length_upper[i] - model_.length_lower[i]);
+      const J room = (lengths[i] - model_.length_lower[i]) * (-lengths[i] + model_.length_upper[i]);
+      put_margin(room * (1.0 / (half * half)));
+    }
+    for (std::size_t i = 0; i < kCables && clear; ++i) {
+      const double half = 0.5 * (model_.tension_upper[i] - model_.tension_lower[i]);
+      const J low = lengths[i] * (densities[i] - variations[i]) - model_.tension_lower[i];
+      const J high = -(lengths[i] * (densities[i] + variations[i])) + model_.tension_upper[i];
+      put_margin(low * (1.0 / half));
+      if (clear) put_margin(high * (1.0 / half));
+    }
+    return clear;
+  }
+
+  /// Gram–Schmidt on the columns of dx/dλ = Φ T; then dλ/du = T^-1.
+  bool orthonormalise(Frame& frame) const {
+    frame.lift.setZero(n_, n_);
+    for (int k = 0; k < n_; ++k) {
+      frame.lift(k, k) = 1.0;
+      for (int j = 0; j < k; ++j) {
+        const double overlap = frame.tangent.col(j).dot(frame.tangent.col(k));
+        frame.tangent.col(k) -= overlap * frame.tangent.col(j);
+        frame.lift.col(k) -= overlap * frame.lift.col(j);
+      }
+      const double size = frame.tangent.col(k).norm();
+      if (!(size > 1e-9) || !std::isfinite(size)) return false;
+      frame.tangent.col(k) /= size;
+      frame.lift.col(k) /= size;
+    }
+    return true;
+  }
+
+  int n_;
+  MetricWeights weights_;
+  CoordinateSymmetry symmetry_;
+  Model<double> model_;
+  Evaluator<Jet<double, N>> pose_;
+  std::vector<std::array<double, 2>> ranges_;
+};
+
+}  // namespace
+
+std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, MetricWeights weights) {
+  switch (problem.space.parameters.size()) {
+    case 1:
+    case 2:
+      return std::make_unique<WrenchFeasibleManifold<2>>(problem, weights);
+    case 3:
+      return std::make_unique<WrenchFeasibleManifold<3>>(problem, weights);
+    default:
+      return std::make_unique<WrenchFeasibleManifold<6>>(problem, weights);
+  }
+}
+
+}  // namespace taut

@@ -1,0 +1,41 @@
+// The wrench-feasible C-space as a manifold for the atlas.
+//
+// The navigation manifold F(x) = 0 (kinematics/navigation_manifold.h) is a graph over the pose, and its components and their
+// derivatives are closed form. So a chart needs one 6x6 inverse and no iteration: coordinates are the parameters of
+// the case's space, and a point over tangent coordinates u has the parameters λ_c + lift·u.
+//
+// The metric is a choice; it decides how many charts there are. Distances are measured between the vectors
+//
+//   ( R / √2,  p / ℓ,  ω λ̂,  κ log g,  κ log s,  κ log t )
+//
+//   R      rotation matrix: over √2, an angle of 1 rad has length 1
+//   p, ℓ   position over the mean |b_i|: moving by the platform's size counts as 1 rad
+//   λ̂      the parameters themselves, periodic ones as (cos, sin): keeps the embedding regular where the
+//          parametrisation is not (θ = 0, a pole of a sphere); for a flip, φ enters as (cos 2φ, sin 2φ)/2
+//   g, s, t  slack variables of the paper's (10)–(12), scaled to 1 at mid-range: half range / distance to the limit. They
+//          grow without bound towards a limit, so that charts shrink there and never reach across it. Measured by
+//          their logarithms: halving the distance to a limit counts as κ log 2, wherever. (The slacks themselves, as in
+//          the paper, make M so long towards its boundary that nearly all charts would lie there.)
+//
+// The domain ends where a margin falls to `clearance` of half its range; a proof needs no clearance, a search that ends does.
+//
+// x, d, f0 and v_i add nothing that tells poses apart and are left out (weight 0). So r and ε are, to a user, radians.
+#pragma once
+
+#include <memory>
+
+#include "atlas/manifold.h"
+#include "kinematics/model.h"
+
+namespace taut {
+
+struct MetricWeights {
+  double parameter = 0.1;  ///< ω
+  double slack = 0.05;     ///< κ
+  double clearance = 1e-2; ///< least distance to a limit, over half its range
+};
+
+/// The manifold of the problem's space. @throws InputError if the problem has no model in doubles.
+[[nodiscard]] std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, MetricWeights weights = {});
+
+}  // namespace taut

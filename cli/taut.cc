@@ -1,0 +1,254 @@
+// taut: plans motions of cable-driven hexapods and proves them. Command line and exit codes; decides nothing itself.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "certify/certificate.h"
+#include "cli/files.h"
+#include "cli/plan.h"
+#include "kinematics/geometry.h"
+#include "kinematics/input_error.h"
+#include "reports/html_report.h"
+
+namespace taut {
+namespace {
+
+enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInputExit = 3, kInternalExit = 4 };
+
+std::atomic<bool> interrupt_requested = false;
+extern "C" void request_interrupt(int /*signal*/) { interrupt_requested = true; }
+
+ExitCode exit_code(Verdict verdict) {
+  return verdict == Verdict::kProved ? kProvedExit : verdict == Verdict::kRefuted ? kRefutedExit : kUndecidedExit;
+}
+
+/// Shortest decimal that reads back as the same binary64.
+std::string shortest(double x) { return fmt::format("{}", x); }
+
+// ---- path.csv --------------------------------------------------------------------------------------------------------
+
+/// One waypoint a line: λ = x + π·half_turns, and the pose there (rounded). x reads back bit for bit.
+std::string path_csv(const Problem& problem, const Path& path) {
+  const Evaluator<double> pose_of(pose_tape(problem));
+  std::string csv = "waypoint";
+  for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",x.{}", parameter.name);
+  for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",half_turns.{}", parameter.name);
+  csv += ",px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n";
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    const Waypoint& waypoint = path.waypoints[k];
+    csv += std::to_string(k);
+    std::vector<double> parameters;
+    for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+      csv += "," + shortest(waypoint.x[j]);
+      parameters.push_back(waypoint.x[j] + ScalarTraits<double>::pi() * waypoint.half_turns[j]);
+    }
+    for (const int half_turns : waypoint.half_turns) csv += "," + std::to_string(half_turns);
+    const Pose<double> pose = evaluate_pose(pose_of, std::span<const double>(parameters));
+    for (const double value :
+         {pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta, pose.sigma}) {
+      csv += "," + shortest(value);
+    }
+    csv += "\n";
+  }
+  return csv;
+}
+
+// ---- taut plan -------------------------------------------------------------------------------------------------------
+
+struct PlanArguments {
+  std::string case_path;
+  std::string out;
+  bool json = false;
+};
+
+/// A line on stderr that overwrites itself, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
+  ~ProgressLine() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void show(const PlanProgress& progress) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!enabled_ || now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    shown_ = true;
+    fmt::print(stderr, "\r\033[Kplanning: {} charts", progress.charts);
+    std::fflush(stderr);
+  }
+
+ private:
+  bool enabled_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+/// Turns a signal into a stop request, which a signal handler may not make itself.
+class Interruption {
+ public:
+  Interruption() {
+    std::signal(SIGINT, request_interrupt);
+    std::signal(SIGTERM, request_interrupt);
+    watcher_ = std::jthread([this](const std::stop_token& finished) {
+      std::mutex mutex;
+      std::unique_lock lock(mutex);
+      std::condition_variable_any wake;
+      while (!finished.stop_requested()) {
+        wake.wait_for(lock, finished, std::chrono::milliseconds(50), [] { return interrupt_requested.load(); });
+        if (interrupt_requested) {
+          source_.request_stop();
+          return;
+        }
+      }
+    });
+  }
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::jthread watcher_;  // last: joins before the rest goes
+};
+
+std::string sentence(const Plan& plan) {
+  const PathProof& proof = plan.proof;
+  switch (proof.verdict) {
+    case Verdict::kProved:
+      return fmt::format(
+          "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} segments in {} "
+          "boxes.\nProved margins: tension {} N, length {} m, wrench_scale {}.",
+          proof.segments.size(), proof.boxes, proof.margins.tension_N, proof.margins.length_m,
+          proof.margins.wrench_scale);
+    case Verdict::kRefuted: {
+      const PathWitness& w = *proof.witness;
+      if (w.singular) return "refuted: the force Jacobian is singular at some pose of the path.";
+      return fmt::format("refuted: at the query's pose, cable {} has {} in [{}, {}], beyond its limit {}.",
+                         w.margin.cable + 1, name(w.margin.kind), w.value_lower, w.value_upper, w.limit);
+    }
+    case Verdict::kUndecided:
+      break;
+  }
+  return fmt::format("undecided: {}.", proof.reason);
+}
+
+int run_plan(const PlanArguments& arguments) {
+  const Case case_ = load_case(arguments.case_path);
+  const std::filesystem::path out =
+      arguments.out.empty() ? std::filesystem::path("out") / std::filesystem::path(arguments.case_path).stem()
+                            : std::filesystem::path(arguments.out);
+  make_directories(out);
+
+  const Interruption interruption;
+  Plan result;
+  {
+    ProgressLine line(!arguments.json);
+    result = plan(case_, [&](const PlanProgress& progress) { line.show(progress); }, interruption.token());
+  }
+  const nlohmann::json certificate =
+      make_certificate(case_.problem, result.path, result.proof, std::move(result.illustration));
+  write_whole(out / "path.csv", path_csv(case_.problem, result.path));
+  write_whole(out / "certificate.json", certificate.dump(1, ' ', true) + "\n");
+  write_whole(out / "report.html", html_report(certificate));
+
+  const PlanStatistics& s = result.statistics;
+  if (arguments.json) {
+    const nlohmann::json summary = {{"verdict", certificate["verdict"]},
+                                    {"segments", result.proof.segments.size()},
+                                    {"boxes", result.proof.boxes},
+                                    {"charts", s.charts},
+                                    {"nodes_expanded", s.nodes_expanded},
+                                    {"edges_checked", s.edges_checked},
+                                    {"edges_rejected", s.edges_rejected},
+                                    {"cost", s.cost},
+                                    {"plan_seconds", s.plan_seconds},
+                                    {"prove_seconds", s.prove_seconds},
+                                    {"margins", certificate["margins"]},
+                                    {"witness", certificate["witness"]},
+                                    {"undecided", certificate["undecided"]},
+                                    {"out", out.string()}};
+    fmt::print("{}\n", summary.dump(1));
+  } else {
+    fmt::print("{}\n", sentence(result));
+    if (s.charts > 0) {
+      fmt::print("{} charts, {} expanded; {} edges put to the prover, {} rejected; cost {:.4g}. Planned in {:.2f} ms, "
+                 "proved in {:.2f} ms.\n",
+                 s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, 1e3 * s.plan_seconds,
+                 1e3 * s.prove_seconds);
+    }
+    fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
+  }
+  return exit_code(result.proof.verdict);
+}
+
+// ---- taut report -----------------------------------------------------------------------------------------------------
+
+int run_report(const std::string& certificate_path, const std::string& out) {
+  nlohmann::json certificate;
+  try {
+    certificate = nlohmann::json::parse(read_whole(certificate_path));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", certificate_path, error.what()));
+  }
+  const std::filesystem::path target =
+      out.empty() ? std::filesystem::path(certificate_path).parent_path() / "report.html" : std::filesystem::path(out);
+  write_whole(target, html_report(certificate));
+  fmt::print("Written: {}\n", target.string());
+  return kProvedExit;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Plans motions of cable-driven hexapods and proves what it plans.", "taut");
+  app.set_version_flag("--version", std::string("taut ") + TAUT_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or untrustworthy machine.");
+
+  PlanArguments plan_arguments;
+  CLI::App* plan_command = app.add_subcommand("plan", "plan, prove, write path.csv, certificate.json, report.html");
+  plan_command->add_option("CASE", plan_arguments.case_path, "case file (docs/case-format.md)")->required();
+  plan_command->add_option("--out", plan_arguments.out, "directory for the results (default: out/CASE's name)");
+  plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
+
+  std::string certificate_path;
+  std::string report_out;
+  CLI::App* report_command = app.add_subcommand("report", "write the report again from the certificate alone");
+  report_command->add_option("CERTIFICATE", certificate_path, "certificate.json")->required();
+  report_command->add_option("--out", report_out, "file to write (default: report.html beside the certificate)");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInputExit;
+  }
+  if (*plan_command) {
+    rounding_self_test();
+    return run_plan(plan_arguments);
+  }
+  return run_report(certificate_path, report_out);
+}
+
+}  // namespace
+}  // namespace taut
+
+int main(int argc, char** argv) {
+  try {
+    return taut::run(argc, argv);
+  } catch (const taut::InputError& error) {
+    fmt::print(stderr, "taut: {}\n", error.what());
+    return taut::kBadInputExit;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "taut: internal failure: {}\n", error.what());
+    return taut::kInternalExit;
+  }
+}

@@ -1,0 +1,177 @@
+// Bodies of navigation_manifold.h.
+#pragma once
+
+#include "kinematics/jet.h"
+
+namespace taut {
+
+template <class S>
+bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTangent<S>& result) {
+  using J = Jet<S, 6>;
+  using Layout = NavigationLayout;
+  const Pose<J> jet_pose{Vector3<J>(J(pose.p_WP(0), 0), J(pose.p_WP(1), 1), J(pose.p_WP(2), 2)), J(pose.phi, 3),
+                         J(pose.theta, 4), J(pose.sigma, 5)};
+  const CableGeometry<J> geometry = cable_geometry(model, jet_pose);
+
+  // Y = D^-1 with its slopes −Y D' Y.
+  Matrix6<S> d;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) d(i, j) = geometry.force_density(i, j).value;
+  }
+  Matrix6<S> y;
+  S determinant;
+  if (!invert(d, y, determinant)) return false;
+  Matrix6<J> inverse;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) inverse(i, j) = J(y(i, j));
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
+    Matrix6<S> product;  // D' Y
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) {
+        S sum = S(0.0);
+        for (int l = 0; l < 6; ++l) sum = sum + geometry.force_density(i, l).partial[k] * y(l, j);
+        product(i, j) = sum;
+      }
+    }
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) {
+        S sum = S(0.0);
+        for (int l = 0; l < 6; ++l) sum = sum + y(i, l) * product(l, j);
+        inverse(i, j).partial[k] = -sum;
+      }
+    }
+  }
+
+  const auto put = [&](int row, const J& x) {
+    result.point(row) = x.value;
+    for (int k = 0; k < 6; ++k) result.tangent(row, k) = x.partial[static_cast<std::size_t>(k)];
+  };
+  for (int axis = 0; axis < 3; ++axis) put(Layout::kPosition + axis, jet_pose.p_WP(axis));
+  put(Layout::kAngles, jet_pose.phi);
+  put(Layout::kAngles + 1, jet_pose.theta);
+  put(Layout::kAngles + 2, jet_pose.sigma);
+
+  std::array<J, kCables> lengths;
+  std::array<std::array<J, 6>, kCables> z;  // rows of Y L
+  for (int i = 0; i < kCables; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    for (int axis = 0; axis < 3; ++axis) put(Layout::kCableVectors + 3 * i + axis, geometry.p_AB_W[n](axis));
+    lengths[n] = length(geometry.p_AB_W[n]);
+    put(Layout::kLengths + i, lengths[n]);
+    for (int j = 0; j < 6; ++j) {
+      J sum = inverse(i, 0) * model.ellipsoid_root(0, j);
+      for (int l = 1; l <= j; ++l) sum = sum + inverse(i, l) * model.ellipsoid_root(l, j);
+      z[n][static_cast<std::size_t>(j)] = sum;
+    }
+  }
+  for (int i = 0; i < kCables; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    J density = inverse(i, 0) * model.wrench(0);
+    for (int l = 1; l < 6; ++l) density = density + inverse(i, l) * model.wrench(l);
+    const J tension = lengths[n] * density;
+    put(Layout::kTensions + i, tension);
+
+    // Column i of B^-1 over sqrt((B^-1)_ii) = d_i |z_i|.
+    J square = sqr(z[n][0]);
+    for (std::size_t l = 1; l < 6; ++l) square = square + sqr(z[n][l]);
+    const J norm = sqrt(square);
+    for (int j = 0; j < kCables; ++j) {
+      const auto m = static_cast<std::size_t>(j);
+      J product = z[m][0] * z[n][0];
+      for (std::size_t l = 1; l < 6; ++l) product = product + z[m][l] * z[n][l];
+      put(Layout::kVariations + 6 * i + j, lengths[m] * product / norm);
+    }
+    const J variation = lengths[n] * norm;
+
+    const S half_length = (model.length_upper[n] - model.length_lower[n]) * S(0.5);
+    const S half_tension = (model.tension_upper[n] - model.tension_lower[n]) * S(0.5);
+    const J room = (lengths[n] - model.length_lower[n]) * (-lengths[n] + model.length_upper[n]);
+    put(Layout::kLengthSlack + i, J(half_length * half_length) / room);
+    put(Layout::kLowSlack + i, J(half_tension) / (tension - variation - model.tension_lower[n]));
+    put(Layout::kHighSlack + i, J(half_tension) / (-(tension + variation) + model.tension_upper[n]));
+  }
+  return true;
+}
+
+template <class S>
+Eigen::Matrix<S, kNavigationEquations, 1> navigation_residual(const Model<S>& model, const NavigationPoint<S>& x) {
+  using Layout = NavigationLayout;
+  Eigen::Matrix<S, kNavigationEquations, 1> f;
+  int row = 0;
+  const Vector3<S> p_WP(x(0), x(1), x(2));
+  const Matrix3<S> r_WP = rotation(x(Layout::kAngles), x(Layout::kAngles + 1), x(Layout::kAngles + 2));
+  const CableGeometry<S> geometry = cable_geometry(model, p_WP, r_WP);
+  const auto cable_vector = [&](int i, int axis) { return x(Layout::kCableVectors + 3 * i + axis); };
+  const auto cable_length = [&](int i) { return x(Layout::kLengths + i); };
+
+  for (int i = 0; i < kCables; ++i) {  // (1)
+    for (int axis = 0; axis < 3; ++axis) {
+      f(row++) = cable_vector(i, axis) - geometry.p_AB_W[static_cast<std::size_t>(i)](axis);
+    }
+  }
+  for (int i = 0; i < kCables; ++i) {  // (2)
+    f(row++) = sqr(cable_length(i)) - sqr(cable_vector(i, 0)) - sqr(cable_vector(i, 1)) - sqr(cable_vector(i, 2));
+  }
+
+  // J from x's own cable vectors and lengths.
+  Matrix6<S> j;
+  for (int i = 0; i < kCables; ++i) {
+    Vector3<S> arm;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3<S>& m = model.p_MB[static_cast<std::size_t>(i)];
+      arm(axis) = r_WP(axis, 0) * m(0) + r_WP(axis, 1) * m(1) + r_WP(axis, 2) * m(2);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const int k = (axis + 1) % 3;
+      const int l = (axis + 2) % 3;
+      j(axis, i) = cable_vector(i, axis) / cable_length(i);
+      j(3 + axis, i) = (arm(k) * cable_vector(i, l) - arm(l) * cable_vector(i, k)) / cable_length(i);
+    }
+  }
+  for (int axis = 0; axis < 6; ++axis) {  // (4)
+    S sum = -model.wrench(axis);
+    for (int i = 0; i < kCables; ++i) sum = sum + j(axis, i) * x(Layout::kTensions + i);
+    f(row++) = sum;
+  }
+
+  Matrix6<S> b;  // J^T E J
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
+      S sum = S(0.0);
+      for (int k = 0; k < 6; ++k) {
+        for (int l = 0; l < 6; ++l) {
+          if (model.ellipsoid_is_diagonal && k != l) continue;
+          sum = sum + j(k, r) * model.ellipsoid(k, l) * j(l, c);
+        }
+      }
+      b(r, c) = sum;
+    }
+  }
+  for (int i = 0; i < kCables; ++i) {
+    const auto v = [&](int k) { return x(Layout::kVariations + 6 * i + k); };
+    S quadratic = S(0.0);
+    for (int r = 0; r < 6; ++r) {
+      S sum = S(0.0);
+      for (int k = 0; k < 6; ++k) sum = sum + b(r, k) * v(k);
+      if (r != i) f(row++) = sum;  // (5)
+      quadratic = quadratic + v(r) * sum;
+    }
+    f(row++) = quadratic - S(1.0);  // (6)
+  }
+  for (int i = 0; i < kCables; ++i) {  // (10)–(12)
+    const auto n = static_cast<std::size_t>(i);
+    const S half_length = (model.length_upper[n] - model.length_lower[n]) * S(0.5);
+    const S half_tension = (model.tension_upper[n] - model.tension_lower[n]) * S(0.5);
+    const S tension = x(Layout::kTensions + i);
+    const S variation = x(Layout::kVariations + 7 * i);
+    f(row++) = x(Layout::kLengthSlack + i) * (cable_length(i) - model.length_lower[n]) *
+                   (model.length_upper[n] - cable_length(i)) -
+               half_length * half_length;
+    f(row++) = x(Layout::kLowSlack + i) * (tension - variation - model.tension_lower[n]) - half_tension;
+    f(row++) = x(Layout::kHighSlack + i) * (model.tension_upper[n] - tension - variation) - half_tension;
+  }
+  return f;
+}
+
+}  // namespace taut
