@@ -1,0 +1,83 @@
+// A certificate as the report reads it (docs/certificate-format.md): types instead of JSON, nothing checked but its
+// form. Numbers that the report only prints stay the strings that they are.
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinematics/problem.h"
+#include "kinematics/segment.h"
+
+namespace taut {
+
+struct MarginsView {
+  std::string tension_N;
+  std::string length_m;
+  std::string wrench_scale;
+};
+
+struct SegmentView {
+  int from = 0;
+  int to = 0;
+  std::size_t boxes = 0;
+  MarginsView margins;
+};
+
+/// A point of the path: waypoint `index`, or s on segment `index`.
+struct PathPointView {
+  int index = 0;
+  std::optional<std::string> s;  ///< dyadic; absent at a waypoint
+  double position = 0;           ///< index + s, approximately
+};
+
+struct WitnessView {
+  std::string kind;
+  PathPointView at;
+  std::optional<PathPointView> to;  ///< kind "singular" only; the rest is then empty
+  int cable = 0;                    ///< 1…6
+  std::string value_lower;
+  std::string value_upper;
+  std::string limit;
+};
+
+struct UndecidedView {
+  std::string reason;
+  std::optional<int> segment;
+  std::string box_lower;
+  std::string box_upper;
+  double lower = 0;  ///< of the box, approximately
+  double upper = 1;
+};
+
+/// Polygon of a chart in the plane of the parameters.
+struct ChartView {
+  std::vector<double> centre;
+  std::vector<std::array<double, 2>> corners;
+};
+
+struct CertificateView {
+  std::string generator;  ///< name and version
+  std::string verdict;    ///< "proved", "refuted" or "undecided"
+  std::string claim;
+  Problem problem;
+  Path path;
+  std::string interpolation;
+  std::string problem_sha256;
+  std::string path_sha256;
+  std::string footer_sha256;
+  std::size_t boxes = 0;
+  std::vector<SegmentView> segments;
+  std::optional<MarginsView> margins;
+  std::optional<WitnessView> witness;
+  std::optional<UndecidedView> undecided;
+  std::vector<ChartView> charts;
+  std::map<std::string, std::string> stats;  ///< of the search, as printed
+};
+
+/// @throws InputError for a missing key or a wrong type. Does not compare digests: that is taut-check's.
+[[nodiscard]] CertificateView read_certificate(const nlohmann::json& certificate);
+
+}  // namespace taut

@@ -1,0 +1,34 @@
+// The report's pictures. All of them are floating-point samples of what the certificate is about.
+#pragma once
+
+#include "reports/certificate_view.h"
+#include "reports/markup.h"
+#include "reports/samples.h"
+
+namespace taut {
+
+struct Scene {
+  explicit Scene(const nlohmann::json& certificate);
+
+  CertificateView view;
+  Sampler sampler;
+  std::vector<PathSample> samples;  ///< along the whole path
+};
+
+/// "rad", "m" or "": the unit of parameter j, where it can be told.
+[[nodiscard]] std::string unit(const SpaceText& space, std::size_t j);
+/// "[rad]"; nothing for "".
+[[nodiscard]] std::string in_brackets(const std::string& unit);
+
+/// The robot at the first and the last waypoint, and at the witness if there is one, seen from the side.
+[[nodiscard]] Html robot_figure(const Scene& scene);
+/// f0 ± v of each cable along the path, between its limits.
+[[nodiscard]] Html tension_figure(const Scene& scene);
+/// Length of each cable along the path, between its limits.
+[[nodiscard]] Html length_figure(const Scene& scene);
+/// Position and orientation of the platform along the path.
+[[nodiscard]] Html pose_figure(const Scene& scene);
+/// The plane of two parameters with the feasible set, the atlas and the path; nothing unless there are two.
+[[nodiscard]] Html slice_figure(const Scene& scene);
+
+}  // namespace taut

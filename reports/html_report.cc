@@ -1,0 +1,541 @@
+#include "reports/html_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "kinematics/decimal.h"
+#include "reports/figures.h"
+#include "reports/style.h"
+
+namespace taut {
+
+namespace {
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr std::size_t kLongTable = 14;  ///< rows; longer tables are folded on the screen
+
+// ---- Numbers and names, as text.
+
+/// The same number, without exponent where it is readable.
+std::string plain(const DecimalText& decimal) { return Decimal::parse(decimal).text(); }
+
+/// Exactly the same length, in millimetres.
+std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metres) * Decimal::parse("1000")).text(); }
+
+std::string plural(std::size_t count, const std::string& noun) {
+  const std::string ending = noun.ends_with('x') ? "es" : "s";
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);
+}
+
+/// "-2.3", "-2.3 + 2π": reads back exactly.
+std::string coordinate_text(double x, int half_turns) {
+  std::string text = fmt::format("{}", x);
+  if (half_turns != 0) {
+    const int count = std::abs(half_turns);
+    text += fmt::format(" {} {}π", half_turns > 0 ? "+" : "−", count == 1 ? "" : std::to_string(count));
+  }
+  return text;
+}
+
+/// "(phi, theta) = (-2.3, 1.6)"
+std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint) {
+  std::string names;
+  std::string values;
+  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+    const char* comma = j == 0 ? "" : ", ";
+    names += comma + view.problem.space.parameters[j].name;
+    values += comma + coordinate_text(waypoint.x[j], waypoint.half_turns[j]);
+  }
+  return fmt::format("({}) = ({})", names, values);
+}
+
+std::string point_text(const CertificateView& view, const PathPointView& point) {
+  if (!point.s)
+    return fmt::format("waypoint {}, {}", point.index, waypoint_text(view, view.path.waypoints[point.index]));
+  return fmt::format("s = {} of segment {}, between waypoints {} and {}", *point.s, point.index, point.index,
+                     point.index + 1);
+}
+
+/// "px = 0 mm, py = …, sigma = 34°": rounded.
+std::string pose_text(const Pose<double>& pose) {
+  return fmt::format("p = ({:.4g}, {:.4g}, {:.4g}) mm, φ = {:.4g}°, θ = {:.4g}°, σ = {:.4g}°", pose.p_WP(0) * 1000,
+                     pose.p_WP(1) * 1000, pose.p_WP(2) * 1000, pose.phi * kDegrees, pose.theta * kDegrees,
+                     pose.sigma * kDegrees);
+}
+
+/// " (0.05 N to 0.5 N)" where it is the same for all six cables.
+std::string common_limits(const std::array<Limits, kCables>& limits, bool length) {
+  if (!std::all_of(limits.begin(), limits.end(), [&](const Limits& l) { return l == limits[0]; })) return "";
+  const auto text = [&](const DecimalText& value) { return length ? millimetres(value) : plain(value); };
+  return fmt::format(" ({} to {} {})", text(limits[0].lower), text(limits[0].upper), length ? "mm" : "N");
+}
+
+/// The segment that a margin of the whole path comes from.
+std::string where_least(const CertificateView& view, std::string MarginsView::*margin) {
+  const auto least = std::find_if(view.segments.begin(), view.segments.end(), [&](const SegmentView& segment) {
+    return segment.margins.*margin == (*view.margins).*margin;
+  });
+  return least == view.segments.end() ? "no segment" : fmt::format("segment {}", least->from);
+}
+
+// ---- The verdict, in sentences.
+
+std::string closest_text(const Scene& scene) {
+  const Model<double>& model = scene.sampler.model();
+  const std::optional<Closest> tension = closest_tension(model, scene.samples);
+  const std::optional<Closest> length = closest_length(model, scene.samples);
+  if (!tension || !length) return "";
+  const int last = std::max(0, static_cast<int>(scene.view.path.waypoints.size()) - 2);
+  const auto segment = [&](const Closest& c) { return std::min(static_cast<int>(c.position), last); };
+  const auto limit = [](const Closest& c) { return c.upper ? "upper" : "lower"; };
+  return fmt::format(
+      "In floating-point samples of the path, cable {} comes closest to a tension limit: within {:.2g} N of its {} "
+      "limit, {:.2g} % of the way between its limits, in segment {}. Cable {} comes closest to a length limit: within "
+      "{:.3g} mm of its {} limit, in segment {}.",
+      tension->cable + 1, tension->margin, limit(*tension), 100 * tension->fraction, segment(*tension),
+      length->cable + 1, 1000 * length->margin, limit(*length), segment(*length));
+}
+
+std::vector<std::string> proved_text(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  const RobotText& robot = view.problem.robot;
+  std::vector<std::string> result = {"Proved: this motion is wrench-feasible, from its first pose to its last."};
+  if (!view.path.waypoints.empty()) {
+    result.push_back(
+        fmt::format("At every pose on the way from {} to {}, and for every load in the given ellipsoid of wrenches, "
+                    "the six cables of "
+                    "\u201C{}\u201D balance the load with each tension strictly within its limits{}, each cable length "
+                    "is strictly within "
+                    "its limits{}, and no singular pose is met. The motion has {}; it was proved as a whole, in {} "
+                    "without gaps, not "
+                    "at samples.",
+                    waypoint_text(view, view.path.waypoints.front()), waypoint_text(view, view.path.waypoints.back()),
+                    view.problem.name, common_limits(robot.tension_N, false), common_limits(robot.length_m, true),
+                    plural(view.segments.size(), "segment"), plural(view.boxes, "box")));
+  }
+  result.push_back(
+      fmt::format("Proved reserves along the whole motion: every tension stays at least {} N inside its limits (least "
+                  "in {}), every "
+                  "length at least {} mm (least in {}), and the load ellipsoid could grow {}-fold before a tension "
+                  "limit is reached "
+                  "(least in {}).",
+                  plain(view.margins->tension_N), where_least(view, &MarginsView::tension_N),
+                  millimetres(view.margins->length_m), where_least(view, &MarginsView::length_m),
+                  plain(view.margins->wrench_scale), where_least(view, &MarginsView::wrench_scale)));
+  if (const std::string closest = closest_text(scene); !closest.empty()) result.push_back(closest);
+  return result;
+}
+
+std::vector<std::string> refuted_text(const Scene& scene) {
+  const WitnessView& witness = *scene.view.witness;
+  std::vector<std::string> result = {"Refuted: this motion is not wrench-feasible."};
+  const std::string at = point_text(scene.view, witness.at);
+  const Pose<double> pose = scene.sampler.at(scene.view.path, witness.at.position).pose;
+  if (witness.to) {
+    result.push_back(fmt::format(
+        "The determinant of the force Jacobian has opposite signs at {} and at {}. Somewhere between these two poses "
+        "the motion therefore passes a singular pose, where the cables can't balance every load.",
+        at, point_text(scene.view, *witness.to)));
+    result.push_back(fmt::format("The first of the two poses, rounded: {}. The second: {}.", pose_text(pose),
+                                 pose_text(scene.sampler.at(scene.view.path, witness.to->position).pose)));
+    return result;
+  }
+  const bool length = witness.kind.starts_with("length");
+  const bool upper = witness.kind.ends_with("max");
+  const auto text = [&](const DecimalText& value) { return length ? millimetres(value) : plain(value); };
+  const char* unit = length ? "mm" : "N";
+  const std::string subject =
+      length ? fmt::format("cable {} has a length", witness.cable)
+             : fmt::format("some load in the given ellipsoid of wrenches gives cable {} a tension", witness.cable);
+  result.push_back(fmt::format("At {}, {} of {} {} {}: not {} its {} limit of {} {}.", at, subject,
+                               upper ? "at least" : "at most",
+                               upper ? text(witness.value_lower) : text(witness.value_upper), unit,
+                               upper ? "below" : "above", upper ? "upper" : "lower", text(witness.limit), unit));
+  result.push_back(fmt::format("That value was proved to lie between {} and {} {}. The pose, rounded: {}.",
+                               text(witness.value_lower), text(witness.value_upper), unit, pose_text(pose)));
+  return result;
+}
+
+std::vector<std::string> undecided_text(const Scene& scene) {
+  const UndecidedView& open = *scene.view.undecided;
+  std::vector<std::string> result = {"Undecided: nothing is claimed about this motion."};
+  result.push_back(
+      fmt::format("It was neither proved nor refuted; that does not mean that it is unsafe. Reason: {}", open.reason));
+  if (open.segment) {
+    result.push_back(fmt::format(
+        "What is open lies on segment {}, between waypoints {} and {}{}.", *open.segment, *open.segment,
+        *open.segment + 1,
+        open.box_lower.empty() ? "" : fmt::format(", from s = {} to s = {}", open.box_lower, open.box_upper)));
+  }
+  return result;
+}
+
+std::vector<std::string> verdict_text(const Scene& scene) {
+  if (scene.view.verdict == "proved") return proved_text(scene);
+  return scene.view.verdict == "refuted" ? refuted_text(scene) : undecided_text(scene);
+}
+
+// ---- Sections.
+
+Html section(const char* id, const char* title, const Html& body) {
+  return html("<section id=\"{}\"><h2>{}</h2>\n{}</section>\n", id, title, body);
+}
+
+Html tile(const std::string& value, const Html& words) {
+  return html("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", value, words);
+}
+
+Html header(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  Html sentences;
+  for (const std::string& sentence : verdict_text(scene)) sentences += html("<p>{}</p>\n", sentence);
+  Html tiles;
+  if (view.margins) {
+    tiles = html(
+        "<div class=\"tiles\">\n{}{}{}{}</div>\n",
+        tile(plain(view.margins->tension_N) + " N", html("tension_N: least distance of a tension from its limits")),
+        tile(millimetres(view.margins->length_m) + " mm", html("length_m: least distance of a length from its limits")),
+        tile(plain(view.margins->wrench_scale) + " ×",
+             html("wrench_scale: growth of the load ellipsoid that is still safe")),
+        tile(fmt::format("{} / {}", view.segments.size(), view.boxes), html("segments / boxes that were proved")));
+  }
+  return html(
+      "<header>\n<p class=\"kind\">Motion report for a cable-driven hexapod</p>\n<h1><bdi>{}</bdi></h1>\n"
+      "<div class=\"verdict {}\">{}</div>\n{}</header>\n",
+      view.problem.name, view.verdict, sentences, tiles);
+}
+
+Html formulas(const CertificateView& view) {
+  if (view.verdict == "undecided") return {};
+  const Html path = html(
+      "<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose((1 − s) λ<sub>k</sub> + s λ<sub>k+1</sub>),&ensp;s ∈ [0, 1]"
+      "</p>\n<p>K <span class=\"up\">=</span> {{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 "
+      "}}</p>\n");
+  if (view.verdict == "refuted") {
+    return html(
+        "<div class=\"formulas\">{}"
+        "<p>∃ k, s ∈ [0, 1], i, w ∈ K :&ensp; det J(γ<sub>k</sub>(s)) = 0 &ensp;<span class=\"up\">or</span>&ensp; "
+        "f<sub>i</sub> ∉ (f<sub>lo,i</sub>, f<sub>hi,i</sub>) <span class=\"up\">with</span> J f = w "
+        "&ensp;<span class=\"up\">or</span>&ensp; d<sub>i</sub> ∉ (d<sub>lo,i</sub>, d<sub>hi,i</sub>)</p></div>\n",
+        path);
+  }
+  return html(
+      "<div class=\"formulas\">{}"
+      "<p>∀ k ∈ {{0, …, {}}} &ensp;∀ s ∈ [0, 1] &ensp;∀ w ∈ K &ensp;∀ i ∈ {{1, …, 6}}, "
+      "<span class=\"up\">at the pose</span> γ<sub>k</sub>(s):</p>\n"
+      "<p>&emsp;det J ≠ 0, &emsp; J f = w ⟹ f<sub>lo,i</sub> &lt; f<sub>i</sub> &lt; f<sub>hi,i</sub>, &emsp; "
+      "d<sub>lo,i</sub> &lt; d<sub>i</sub> &lt; d<sub>hi,i</sub></p>\n"
+      "<p><span class=\"up\">which is the same as</span>&ensp; f<sub>lo,i</sub> &lt; f<sub>0,i</sub> − v<sub>i</sub>, "
+      "&ensp; f<sub>0,i</sub> + v<sub>i</sub> &lt; f<sub>hi,i</sub>, &ensp;<span class=\"up\">where</span>&ensp; "
+      "f<sub>0</sub> = J<sup>−1</sup> w<sub>0</sub>, &ensp; B = J<sup>T</sup> E J, &ensp; v<sub>i</sub> = "
+      "√(B<sup>−1</sup>)<sub>ii</sub></p></div>\n",
+      path, view.segments.empty() ? 0 : view.segments.size() - 1);
+}
+
+Html theorem(const CertificateView& view) {
+  const std::vector<Column> columns = {{html("Symbol")}, {html("Meaning")}, {html("Unit")}};
+  const auto row = [](const Html& symbol, const Html& meaning, const Html& unit) {
+    return std::vector<Html>{html("<i>{}</i>", symbol), meaning, unit};
+  };
+  const Html symbols = table(
+      columns,
+      {row(html("γ<sub>k</sub>(s)"),
+           html("pose of the platform at the point s of segment k, from waypoint k to waypoint k + 1"), html("")),
+       row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
+           html("m, rad")),
+       row(html("p, R"),
+           html("position of the platform's origin; its orientation R = R<sub>z</sub>(φ) R<sub>y</sub>(θ) "
+                "R<sub>z</sub>(σ − φ)"),
+           html("m, rad")),
+       row(html("a<sub>i</sub>, b<sub>i</sub>"),
+           html("anchors of cable i on the base (world axes) and on the platform (platform axes)"), html("m")),
+       row(html("d<sub>i</sub>"), html("length of cable i, |p + R b<sub>i</sub> − a<sub>i</sub>|"), html("m")),
+       row(html("u<sub>i</sub>"), html("direction of cable i, from base to platform"), html("1")),
+       row(html("J"),
+           html("force Jacobian: column i is (u<sub>i</sub> ; (R (b<sub>i</sub> − p<sub>m</sub>)) × u<sub>i</sub>), "
+                "about the load point"),
+           html("1, m")),
+       row(html("f<sub>i</sub>"), html("tension of cable i"), html("N")),
+       row(html("w, w<sub>0</sub>"),
+           html("wrench (force, moment about the load point) that the cables balance; its centre value"),
+           html("N, N·m")),
+       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches in it"), html("1/N², 1/(N·m)²")),
+       row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
+           html("least and greatest tension of cable i over all wrenches in K"), html("N")),
+       row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
+           html("limits of tension and length; they are themselves excluded"), html("N, m"))});
+  return section(
+      "theorem", "What is claimed",
+      html("<blockquote>{}</blockquote>\n{}{}", view.claim, formulas(view), folded(false, html("Symbols"), symbols)));
+}
+
+Html assumptions() {
+  return section(
+      "assumptions", "What is assumed, and what is not covered",
+      html("<p>The claim is about a mathematical model. Whoever signs this report vouches that the machine "
+           "agrees with it.</p>\n<ul>\n"
+           "<li>Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no "
+           "pulleys.</li>\n"
+           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load ellipsoid contains "
+           "them.</li>\n"
+           "<li>Anchors, limits, load and ellipsoid are exactly the numbers below. Tolerances of manufacture, "
+           "measurement and control are not covered.</li>\n"
+           "<li>The controller follows the path exactly as the interpolation law states, between waypoints too.</li>\n"
+           "<li>Waypoints are the binary64 numbers below; a typed coordinate that is no such number is moved by at "
+           "most half a unit in its last place.</li>\n"
+           "<li>Collisions of cables, platform and surroundings are not examined.</li>\n"
+           "<li>Whether the numbers are those of a built machine is outside the proof. Where a case says that its "
+           "geometry is a reconstruction, the claim is about the reconstruction.</li>\n</ul>\n"));
+}
+
+Html inputs(const CertificateView& view) {
+  const auto digest = [](const std::string& text) { return html("<span class=\"digest\">{}</span>", text); };
+  const auto row = [](const Html& what, const Html& value) { return std::vector<Html>{what, value}; };
+  return section(
+      "inputs", "Inputs and digests",
+      table({{html("What")}, {html("Value")}},
+            {row(html("case"), html("<bdi>{}</bdi>", view.problem.name)),
+             row(html("made by"), html("{}", view.generator)), row(html("problem_sha256"), digest(view.problem_sha256)),
+             row(html("path_sha256"), digest(view.path_sha256)),
+             row(html("footer.sha256"), digest(view.footer_sha256))}) +
+          html("<p class=\"note\">SHA-256 of the canonical JSON of the problem, of the path, and of the whole "
+               "certificate without its footer. This report prints them; taut-check compares them.</p>\n"));
+}
+
+Html triple(const std::array<DecimalText, 3>& metres) {
+  return html("({}, {}, {})", millimetres(metres[0]), millimetres(metres[1]), millimetres(metres[2]));
+}
+
+Html robot_tables(const Problem& problem) {
+  std::vector<std::vector<Html>> cables;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Limits& tension = problem.robot.tension_N[i];
+    const Limits& length = problem.robot.length_m[i];
+    cables.push_back({html("{}", i + 1), triple(problem.robot.base_anchors_m[i]),
+                      triple(problem.robot.platform_anchors_m[i]),
+                      html("({}, {})", plain(tension.lower), plain(tension.upper)),
+                      html("({}, {})", millimetres(length.lower), millimetres(length.upper))});
+  }
+  return table({{html("Cable"), true},
+                {html("Base anchor a [mm]")},
+                {html("Platform anchor b [mm]")},
+                {html("Tension limits [N]")},
+                {html("Length limits [mm]")}},
+               cables);
+}
+
+Html load_table(const LoadText& load) {
+  constexpr std::array<const char*, 6> kNames = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
+  std::vector<Column> columns = {{html("Component")}, {html("w<sub>0</sub>"), true}};
+  for (int j = 1; j <= 6; ++j) columns.push_back({html("E<sub>i{}</sub>", j), true});
+  std::vector<std::vector<Html>> rows;
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::vector<Html> row = {html("{} [{}]", kNames[i], i < 3 ? "N" : "N·m"), html("{}", plain(load.wrench[i]))};
+    for (std::size_t j = 0; j < 6; ++j) row.push_back(html("{}", plain(load.ellipsoid[i][j])));
+    rows.push_back(std::move(row));
+  }
+  return html(
+             "<p>Load point p<sub>m</sub> = {} mm in the platform frame. Wrenches are about that point, in the axes of "
+             "the world. E in 1/N², 1/(N·N·m) and 1/(N·m)².</p>\n",
+             triple(load.point_m)) +
+         table(columns, rows);
+}
+
+Html space_tables(const Problem& problem) {
+  const SpaceText& space = problem.space;
+  std::vector<std::vector<Html>> rows;
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    const Parameter& parameter = space.parameters[j];
+    Html range = html("any real number");
+    if (parameter.kind == ParameterKind::kPeriodic) range = html("an angle; values 2π apart are the same");
+    if (parameter.kind == ParameterKind::kRange) {
+      range = html("<code>{}</code> to <code>{}</code>", parameter.range_lower, parameter.range_upper);
+    }
+    Html typed;
+    for (const auto& waypoint : problem.query) {
+      typed += html("{}<code>{}</code>", typed.empty() ? Html() : html(", "), j < waypoint.size() ? waypoint[j] : "");
+    }
+    rows.push_back({html("<code>{}</code>", parameter.name), html("{}", unit(space, j)), range, typed});
+  }
+  std::vector<std::vector<Html>> pose;
+  for (std::size_t c = 0; c < 6; ++c) {
+    pose.push_back({html("<code>{}</code>", kPoseNames[c]), html("<code>{}</code>", space.pose[c]),
+                    html("{}", c < 3 ? "m" : "rad")});
+  }
+  Html constants;
+  for (const auto& [name, value] : space.constants) constants += html("<li><code>{} = {}</code></li>\n", name, value);
+  Html result = table({{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
+                table({{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
+  if (!constants.empty()) result += html("<p>Constants (SI):</p><ul>{}</ul>\n", constants);
+  if (space.flip) result += html("<p>(φ, θ) and (φ + π, −θ) are the same pose, and count as such.</p>\n");
+  return result;
+}
+
+Html robot(const Scene& scene) {
+  return section(
+      "robot", "Robot, load and space of poses",
+      robot_figure(scene) +
+          html("<p class=\"note\">Seen from the side, with the load pulling down; the dot is the load point. "
+               "Numbers are cables.</p>\n") +
+          robot_tables(scene.view.problem) + html("<h3>Load</h3>\n") + load_table(scene.view.problem.load) +
+          html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
+}
+
+Html path_section(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  const SpaceText& space = view.problem.space;
+  std::vector<Column> columns = {{html("Waypoint"), true}};
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    columns.push_back({html("<code>{}</code> {}", space.parameters[j].name, in_brackets(unit(space, j))), true});
+  }
+  for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"})
+    columns.push_back({html("{}", name), true});
+  std::vector<std::vector<Html>> rows;
+  for (std::size_t k = 0; k < view.path.waypoints.size(); ++k) {
+    const Waypoint& waypoint = view.path.waypoints[k];
+    std::vector<Html> row = {html("{}", k)};
+    for (std::size_t j = 0; j < waypoint.x.size(); ++j)
+      row.push_back(html("{}", coordinate_text(waypoint.x[j], waypoint.half_turns[j])));
+    const Pose<double> pose = scene.sampler.pose(resolved(waypoint));
+    for (int c = 0; c < 3; ++c) row.push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
+    for (const double angle : {pose.phi, pose.theta, pose.sigma}) row.push_back(html("{:.3f}", angle * kDegrees + 0.0));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
+  return section(
+      "path", "Path",
+      html("<p>{}, numbered from 0; segment k leads from waypoint k to waypoint k + 1. Interpolation: "
+           "<code>{}</code>. Parameters are exact: the decimals read back to the binary64 numbers of the "
+           "certificate bit for bit, and a multiple of π is added where it is written. Pose coordinates are rounded, "
+           "and angles are not wrapped.</p>\n",
+           plural(rows.size(), "waypoint"), view.interpolation) +
+          pose_figure(scene) +
+          folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "waypoint")), table(columns, rows)));
+}
+
+Html tensions(const Scene& scene) {
+  if (scene.samples.empty()) return {};
+  return section(
+      "tensions", "Tensions along the path",
+      html("<p>The band is f<sub>0</sub> ± v: all tensions that the loads in K can ask of a cable; the line is "
+           "f<sub>0</sub>, for the centre load. Shaded red: beyond the limits. Curves are floating-point samples; the "
+           "proof does not rest on them.</p>\n") +
+          tension_figure(scene));
+}
+
+Html lengths(const Scene& scene) {
+  if (scene.samples.empty()) return {};
+  return section("lengths", "Cable lengths along the path",
+                 html("<p>Shaded red: beyond the limits. Floating-point samples again.</p>\n") + length_figure(scene));
+}
+
+Html margins(const CertificateView& view) {
+  if (!view.margins) return {};
+  std::vector<std::vector<Html>> rows;
+  const auto cell = [](const std::string& value, const std::string& least) {
+    return value == least ? html("<b>{}</b>", value) : html("{}", value);
+  };
+  for (const SegmentView& segment : view.segments) {
+    rows.push_back({html("{}", segment.from), html("{} → {}", segment.from, segment.to), html("{}", segment.boxes),
+                    cell(segment.margins.tension_N, view.margins->tension_N),
+                    cell(segment.margins.length_m, view.margins->length_m),
+                    cell(segment.margins.wrench_scale, view.margins->wrench_scale)});
+  }
+  const Html all = table({{html("Segment"), true},
+                          {html("Waypoints"), true},
+                          {html("Boxes"), true},
+                          {html("tension_N [N]"), true},
+                          {html("length_m [m]"), true},
+                          {html("wrench_scale [1]"), true}},
+                         rows);
+  return section(
+      "margins", "Proved margins",
+      html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load in K, as the "
+           "certificate states them. <code>tension_N</code>: distance of a tension from its nearer limit. "
+           "<code>length_m</code>: the same for a length. <code>wrench_scale</code>: the factor by which the "
+           "semi-axes of K may grow before a tension reaches its limit; along the whole path it is at least "
+           "<b>{}</b>. The least of each column is set in bold.</p>\n",
+           plain(view.margins->wrench_scale)) +
+          folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "segment")), all));
+}
+
+Html slice(const Scene& scene) {
+  const Html figure = slice_figure(scene);
+  if (figure.empty()) return {};
+  Html stats;
+  for (const auto& [key, value] : scene.view.stats)
+    stats += html("{}{}: {}", stats.empty() ? Html() : html(" · "), key, value);
+  return section(
+      "slice", "The plane of the two parameters",
+      html("<p>C is the set of wrench-feasible poses. Colours and the line det J = 0 are floating-point samples on "
+           "a grid, and the atlas is where the planner looked: neither proves anything. A path that leaves the "
+           "picture on one side of a periodic parameter is drawn unwrapped.</p>\n") +
+          figure + (stats.empty() ? Html() : html("<p class=\"note\">Search: {}</p>\n", stats)));
+}
+
+Html recheck(const CertificateView& view) {
+  return section("recheck", "How to check this again",
+                 html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
+                      "certificate and the case file. It should exit with {}.</p>\n<pre>taut-check certificate.json "
+                      "CASE.yaml</pre>\n"
+                      "<p>A printed digest is compared without taut by</p>\n"
+                      "<pre>python3 -c 'import json,hashlib;c=json.load(open(\"certificate.json\"));c.pop(\"footer\")\n"
+                      "for v in "
+                      "(c[\"problem\"],c[\"path\"],c):print(hashlib.sha256(json.dumps(v,sort_keys=True,separators=(\","
+                      "\",\":\")).encode()).hexdigest())'</pre>\n"
+                      "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
+                      view.verdict == "undecided" ? "2, undecided" : "0, accepted"));
+}
+
+Html signature(const CertificateView& view) {
+  return html(
+      "<div class=\"sign\"><div>Name</div><div>Date</div><div>Signature</div></div>\n"
+      "<p class=\"note\">This report belongs to the certificate with footer.sha256 <span "
+      "class=\"digest\">{}</span>.</p>\n",
+      view.footer_sha256);
+}
+
+Html contents(const Scene& scene) {
+  Html links;
+  const auto link = [&](bool present, const char* id, const char* title) {
+    if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
+  };
+  const bool sampled = !scene.samples.empty();
+  link(true, "theorem", "Claim");
+  link(true, "assumptions", "Assumptions");
+  link(true, "inputs", "Digests");
+  link(true, "robot", "Robot");
+  link(true, "path", "Path");
+  link(sampled, "tensions", "Tensions");
+  link(sampled, "lengths", "Lengths");
+  link(scene.view.margins.has_value(), "margins", "Margins");
+  link(scene.view.problem.space.parameters.size() == 2, "slice", "Plane");
+  link(true, "recheck", "Check again");
+  return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
+}
+
+}  // namespace
+
+std::string html_report(const nlohmann::json& certificate) {
+  const Scene scene(certificate);
+  const Html body = header(scene) + contents(scene) + theorem(scene.view) + assumptions() + inputs(scene.view) +
+                    robot(scene) + path_section(scene) + tensions(scene) + lengths(scene) + margins(scene.view) +
+                    slice(scene) + recheck(scene.view) + signature(scene.view);
+  const Html title = html("{}: {}", scene.view.problem.name, scene.view.verdict);
+  // An empty icon keeps browsers from asking a server for one.
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+      "data:\">\n<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+      title.str(), kStyle, body.str());
+}
+
+std::string text_summary(const nlohmann::json& certificate) {
+  std::string result;
+  for (const std::string& sentence : verdict_text(Scene(certificate))) result += sentence + "\n";
+  return result;
+}
+
+}  // namespace taut

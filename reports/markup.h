@@ -1,0 +1,76 @@
+// HTML that can't be broken by what it shows: text becomes markup by escaping only.
+//
+// Certificates come from anywhere; a case may be called "<script>". So markup has a type of its own. It is made from
+// literal templates (fmt checks them at compile time), whose arguments are escaped unless they are markup already.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace taut {
+
+/// `&`, `<`, `>` and both quotes as entities; control characters, which HTML forbids, as U+FFFD.
+[[nodiscard]] std::string escape(std::string_view text);
+
+class Html {
+ public:
+  Html() = default;
+  [[nodiscard]] const std::string& str() const { return markup_; }
+  [[nodiscard]] bool empty() const { return markup_.empty(); }
+  Html& operator+=(const Html& other) {
+    markup_ += other.markup_;
+    return *this;
+  }
+  [[nodiscard]] friend Html operator+(Html a, const Html& b) { return a += b; }
+
+  /// What is put in place of an argument: numbers as they are, markup as it is, text escaped.
+  template <class T>
+  [[nodiscard]] static auto escaped(const T& value) {
+    if constexpr (std::same_as<T, Html>) {
+      return std::string_view(value.markup_);
+    } else if constexpr (std::convertible_to<const T&, std::string_view>) {
+      return escape(value);
+    } else {
+      static_assert(std::is_arithmetic_v<T>, "markup is made of markup, text and numbers");
+      return value;
+    }
+  }
+  template <class T>
+  using Escaped = decltype(escaped(std::declval<const T&>()));
+
+  /// @see html
+  template <class... Args>
+  [[nodiscard]] static Html from(fmt::format_string<Escaped<Args>...> literal, const Args&... args) {
+    Html result;
+    result.markup_ = fmt::format(literal, escaped(args)...);
+    return result;
+  }
+
+ private:
+  std::string markup_;
+};
+
+/// html("<b class=\"{}\">{}</b>", kind, text): the template is a literal, the arguments are escaped.
+template <class... Args>
+[[nodiscard]] Html html(fmt::format_string<Html::Escaped<Args>...> literal, const Args&... args) {
+  return Html::from<Args...>(literal, args...);
+}
+
+struct Column {
+  Html head;
+  bool number = false;  ///< set flush right, in figures of equal width
+};
+
+/// A table that scrolls sideways where it is wider than the page. Cells of `rows` in the order of `columns`.
+[[nodiscard]] Html table(const std::vector<Column>& columns, const std::vector<std::vector<Html>>& rows);
+
+/// `body`, folded under `summary` where it is `long_`; printed in full either way.
+[[nodiscard]] Html folded(bool long_, const Html& summary, const Html& body);
+
+}  // namespace taut

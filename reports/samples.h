@@ -1,0 +1,55 @@
+// What a certificate's path and slice look like in floating point. For pictures: nothing here is proved.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kinematics/segment.h"
+#include "kinematics/statics.h"
+
+namespace taut {
+
+/// A pose of the path. `position` counts waypoints: k + s is the point s of segment k.
+struct PathSample {
+  double position = 0;
+  std::vector<double> parameters;
+  Pose<double> pose;
+  Statics<double> statics;
+};
+
+/// Evaluates poses and statics of one problem in floating point.
+class Sampler {
+ public:
+  explicit Sampler(const Problem& problem) : model_(make_model<double>(problem)), pose_(pose_tape(problem)) {}
+
+  [[nodiscard]] const Model<double>& model() const { return model_; }
+  [[nodiscard]] Pose<double> pose(const std::vector<double>& parameters) const;
+  [[nodiscard]] PathSample at(const Path& path, double position) const;
+  /// About `budget` poses in order, among them both ends and, where the budget allows, every waypoint.
+  [[nodiscard]] std::vector<PathSample> along(const Path& path, std::size_t budget) const;
+
+ private:
+  Model<double> model_;
+  Evaluator<double> pose_;
+};
+
+/// λ = x + π half_turns.
+[[nodiscard]] std::vector<double> resolved(const Waypoint& waypoint);
+
+/// The cable that comes closest to one of its limits, in a sample.
+struct Closest {
+  int cable = 0;        ///< 0…5
+  bool upper = false;   ///< which limit
+  double margin = 0;    ///< distance from the limit [N, m]; negative outside
+  double fraction = 0;  ///< of the width of the limits [1]
+  double position = 0;
+};
+[[nodiscard]] std::optional<Closest> closest_tension(const Model<double>& model,
+                                                     const std::vector<PathSample>& samples);
+[[nodiscard]] std::optional<Closest> closest_length(const Model<double>& model, const std::vector<PathSample>& samples);
+
+/// Which limits a pose keeps. A singular pose counts as a tension out of limits.
+enum class Feasibility { kInside, kTensionOut, kLengthOut, kBothOut };
+[[nodiscard]] Feasibility feasibility(const Model<double>& model, const Statics<double>& statics);
+
+}  // namespace taut

@@ -1,0 +1,145 @@
+// The report's style sheet: light or dark by the reader's choice, and black on white in print. Colours of sets differ in
+// lightness as well as in hue, so that they can be told apart in grey and by colour-blind readers.
+#pragma once
+
+namespace taut {
+
+inline constexpr const char* kStyle = R"css(
+:root {
+  color-scheme: light dark;
+  --paper: #fdfdfb; --ink: #1d2329; --soft: #59636e; --line: #d9dde1; --tile: #f3f4f2; --accent: #1f5f99;
+  --proved: #1b7a4b; --refuted: #b3261e; --undecided: #8a5a00;
+  --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f6e3e0; --mark: #b3261e;
+  --c1: #c2570c; --c2: #5b4a9e;
+  --inside: #7fc8a4; --tension: #cfe0f1; --length: #fbe6bd; --both: #e7e3ea; --singular: #c4161c; --chart: #26323b;
+  --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418;
+  --base: #8b949e; --platform: #cfe0f1;
+}
+@media (prefers-color-scheme: dark) {
+  :root {
+    --paper: #14181c; --ink: #e4e7ea; --soft: #9aa5b0; --line: #323a42; --tile: #1d2329; --accent: #7db7ec;
+    --proved: #58c48e; --refuted: #ff8a80; --undecided: #f0b94d;
+    --band: #2b5378; --curve: #8cc4f5; --limit: #ff8a80; --forbidden: #3a2322; --mark: #ff8a80;
+    --c1: #f0a35e; --c2: #b3a4f0;
+    --inside: #2f7d5b; --tension: #24374a; --length: #4d3f1f; --both: #2a2730; --singular: #ff6b62; --chart: #dfe6ec;
+    --path: #ffffff; --casing: #101418; --start: #101418; --goal: #ffffff;
+    --base: #77818b; --platform: #2b5378;
+  }
+}
+* { box-sizing: border-box; }
+html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 100%; }
+body {
+  max-width: 1040px; margin: 0 auto; padding: 40px 28px 72px;
+  font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif;
+}
+h1 { font-size: 30px; line-height: 1.2; margin: 6px 0 14px; letter-spacing: -0.01em; overflow-wrap: anywhere; }
+h2 { font-size: 20px; margin: 52px 0 10px; padding-top: 14px; border-top: 1px solid var(--line); }
+h3 { font-size: 15px; margin: 26px 0 6px; }
+p, ul, ol { max-width: 76ch; margin: 8px 0; }
+li { margin: 5px 0; }
+a { color: var(--accent); }
+code, pre, .digest { font: 13px/1.5 ui-monospace, "SF Mono", Menlo, "Liberation Mono", "DejaVu Sans Mono", monospace; }
+code, .digest, td { overflow-wrap: anywhere; }
+pre { background: var(--tile); padding: 12px 14px; border-radius: 6px; white-space: pre-wrap; overflow-wrap: anywhere; }
+.soft, .note { color: var(--soft); }
+.note { font-size: 14px; }
+.kind { color: var(--soft); font-size: 14px; margin: 0; }
+.verdict { border-left: 6px solid; padding: 2px 0 2px 20px; margin: 18px 0 22px; }
+.verdict p:first-child { font-size: 21px; font-weight: 650; margin-top: 0; }
+.verdict.proved { border-color: var(--proved); } .verdict.proved p:first-child { color: var(--proved); }
+.verdict.refuted { border-color: var(--refuted); } .verdict.refuted p:first-child { color: var(--refuted); }
+.verdict.undecided { border-color: var(--undecided); } .verdict.undecided p:first-child { color: var(--undecided); }
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 22px 0; }
+.tile { background: var(--tile); border-radius: 8px; padding: 12px 14px; }
+.tile b { display: block; font-size: 21px; font-weight: 620; line-height: 1.3; font-variant-numeric: tabular-nums; }
+.tile span { font-size: 13px; color: var(--soft); line-height: 1.35; display: block; }
+nav { font-size: 14px; display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 20px; }
+nav a { text-decoration: none; }
+blockquote { margin: 12px 0; padding: 12px 18px; background: var(--tile); border-radius: 8px; max-width: 84ch; }
+.formulas { font: italic 17px/1.9 "STIX Two Text", Cambria, "Liberation Serif", "DejaVu Serif", Georgia, serif; }
+.formulas p { max-width: none; margin: 10px 0; padding-left: 18px; }
+.formulas .up, .formulas sub, .formulas sup { font-style: normal; }
+sub, sup { font-size: 70%; line-height: 0; }
+.scroll { overflow-x: auto; margin: 10px 0; }
+table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; vertical-align: top; padding: 5px 18px 5px 0; border-bottom: 1px solid var(--line); }
+th { font-weight: 600; color: var(--soft); white-space: nowrap; }
+td.n, th.n { text-align: right; }
+td.n { white-space: nowrap; }
+td b { font-weight: 680; color: var(--accent); }
+td.digest { font-size: 12.5px; }
+details { margin: 10px 0; }
+summary { cursor: pointer; color: var(--accent); font-size: 14px; }
+figure { margin: 0; }
+figcaption { font-size: 13px; color: var(--soft); }
+.panels { display: grid; grid-template-columns: repeat(3, 1fr); gap: 18px 16px; margin: 14px 0; }
+.panels.two { grid-template-columns: repeat(2, 1fr); }
+.panel figcaption { font-weight: 600; color: var(--ink); margin: 0 0 2px 4px; }
+.panel figcaption > span { font-weight: 400; color: var(--soft); margin-left: 8px; }
+.slice { margin: 16px 0; }
+.slice figcaption { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 6px 0 0 44px; }
+.key { white-space: nowrap; display: inline-flex; align-items: center; gap: 7px; font-weight: 400; }
+.key svg { width: 24px; height: 10px; flex: none; }
+figure > svg { display: block; width: 100%; height: auto; }
+svg text { font: 11px system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif; fill: var(--soft); }
+svg path { fill: none; vector-effect: non-scaling-stroke; }
+svg svg { overflow: hidden; }
+.grid { stroke: var(--line); stroke-width: 0.7; }
+.frame { fill: none; stroke: var(--soft); stroke-width: 0.8; }
+.forbidden { fill: var(--forbidden); }
+.limit { stroke: var(--limit); stroke-width: 1.2; }
+svg .band { fill: var(--band); stroke: var(--band); stroke-width: 0.6; }
+.curve { stroke: var(--curve); stroke-width: 1.5; stroke-linejoin: round; }
+.curve.c1 { stroke: var(--c1); stroke-dasharray: 6 3; }
+.curve.c2 { stroke: var(--c2); stroke-dasharray: 2 2.5; }
+.mark { stroke: var(--mark); stroke-width: 1.5; stroke-dasharray: 3 3; }
+.open { fill: var(--undecided); opacity: 0.45; }
+.raster { shape-rendering: crispEdges; }
+svg .inside { fill: var(--inside); } svg .tension { fill: var(--tension); }
+svg .length { fill: var(--length); } svg .both { fill: var(--both); }
+.singular { stroke: var(--singular); stroke-width: 1.7; }
+.chart { stroke: var(--chart); stroke-width: 0.5; opacity: 0.55; }
+.casing { stroke: var(--casing); stroke-width: 5; stroke-linejoin: round; opacity: 0.85; }
+.path { stroke: var(--path); stroke-width: 2.4; stroke-linejoin: round; }
+.waypoints { fill: var(--path); }
+.start { fill: var(--start); stroke: var(--path); stroke-width: 1.6; }
+.goal { fill: var(--goal); stroke: var(--casing); stroke-width: 1.2; }
+svg .letter { font-weight: 700; font-size: 10px; text-anchor: middle; fill: var(--path); }
+svg .goal + .letter { fill: var(--casing); }
+svg .letter.dark { fill: var(--ink); }
+.witness { stroke: var(--mark); stroke-width: 3; }
+.opening { stroke: var(--undecided); stroke-width: 6; stroke-linecap: round; }
+svg .base { stroke: var(--base); stroke-width: 2; fill: var(--base); fill-opacity: 0.12; }
+svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); fill-opacity: 0.65; }
+.cable { stroke: var(--soft); stroke-width: 1.2; }
+.cable.marked { stroke: var(--mark); stroke-width: 2.6; }
+.tag { fill: var(--paper); stroke: var(--soft); stroke-width: 0.8; }
+.load { fill: var(--mark); }
+.sign { display: grid; grid-template-columns: repeat(3, 1fr); gap: 28px; margin: 56px 0 0; }
+.sign div { border-top: 1px solid var(--ink); padding-top: 6px; font-size: 13px; color: var(--soft); }
+@media (max-width: 760px) { .panels, .panels.two { grid-template-columns: 1fr; } }
+@media print {
+  @page { size: A4; margin: 16mm 15mm 18mm; }
+  :root {
+    color-scheme: light;
+    --paper: #ffffff; --ink: #000000; --soft: #454c53; --line: #c9ced3; --tile: #f3f4f2; --accent: #1f5f99;
+    --proved: #1b7a4b; --refuted: #b3261e; --undecided: #8a5a00;
+    --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f6e3e0; --mark: #b3261e;
+    --c1: #c2570c; --c2: #5b4a9e;
+    --inside: #7fc8a4; --tension: #cfe0f1; --length: #fbe6bd; --both: #e7e3ea; --singular: #c4161c; --chart: #26323b;
+    --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418; --base: #8b949e; --platform: #cfe0f1;
+  }
+  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  body { max-width: none; padding: 0; font-size: 10.5pt; }
+  nav { display: none; }
+  h1 { font-size: 20pt; } h2 { font-size: 14pt; margin-top: 26pt; }
+  h2, h3 { break-after: avoid; }
+  figure, .tile, tr, blockquote, .sign, .formulas, .verdict { break-inside: avoid; }
+  .panels { grid-template-columns: repeat(3, 1fr); gap: 10px; } .panels.two { grid-template-columns: repeat(2, 1fr); }
+  table { font-size: 8.5pt; } th, td { padding-right: 9pt; } .scroll { overflow: visible; }
+  details::details-content { content-visibility: visible; block-size: auto; }
+  a { color: inherit; text-decoration: none; }
+}
+)css";
+
+}  // namespace taut
