@@ -32,14 +32,13 @@ double absolute_determinant(const SmallMatrix& a) {
 
 // How two frames see each other's centre.
 struct View {
-  double squared_distance;
   TangentVector u_ab;  // b's centre from a
   TangentVector u_ba;
   double distance_ab;  // of b's centre from a's tangent space
   double distance_ba;
 
   View(const Frame& a, const Frame& b) {
-    squared_distance = (b.point - a.point).squaredNorm();
+    const double squared_distance = (b.point - a.point).squaredNorm();
     u_ab = a.tangent_coordinates(b.point);
     u_ba = b.tangent_coordinates(a.point);
     distance_ab = std::sqrt(std::max(0.0, squared_distance - u_ab.squaredNorm()));
@@ -154,28 +153,34 @@ void Atlas::grow_towards(int parent_id, int vertex) {
   }
 }
 
-// The candidate becomes a chart.
+// The candidate becomes a chart. It meets its neighbours nearest first: then most of the others come too late to cut.
 int Atlas::insert(double radius) {
   const int id = size();
   charts_.push_back({std::move(candidate_), radius, Polytope(manifold_.dimension(), kCube * radius), false});
+  const Eigen::VectorXd& centre = charts_[id].frame.point;
   const double reach = kReach * radius;
-  const NeighbourIndex::Point place = NeighbourIndex::locate(charts_[id].frame.point);
-  index_.visit(place, reach, [&](int other) { separate(other, id); });
+  const NeighbourIndex::Point place = NeighbourIndex::locate(centre);
+  near_.clear();
+  index_.visit(place, reach,
+               [&](int other) { near_.emplace_back((charts_[other].frame.point - centre).squaredNorm(), other); });
+  std::sort(near_.begin(), near_.end());
+  for (const auto& [squared_distance, other] : near_) separate(other, id, squared_distance);
   index_.insert(id, place, reach);
   return id;
 }
 
-void Atlas::separate(int a, int b) {
+void Atlas::separate(int a, int b, double squared_distance) {
   Chart& chart_a = charts_[a];
   Chart& chart_b = charts_[b];
-  const double reach = kReach * std::max(chart_a.radius, chart_b.radius);
+  const double reach = std::min(kReach * std::max(chart_a.radius, chart_b.radius),
+                                2 * std::max(chart_a.polytope.circumradius(), chart_b.polytope.circumradius()));
+  if (squared_distance > reach * reach) return;
   const View view(chart_a.frame, chart_b.frame);
-  if (view.squared_distance > reach * reach) return;
   if (!view.near(kDistanceGrowth * options_.epsilon)) return;
   const double min_cosine = cosine_of_double_angle(options_.min_tangent_cosine);
   if (!tangents_agree(chart_a.frame, chart_b.frame, min_cosine)) return;
-  chart_a.polytope.clip(view.u_ab, view.squared_distance / 2, b);
-  chart_b.polytope.clip(view.u_ba, view.squared_distance / 2, a);
+  chart_a.polytope.clip(view.u_ab, squared_distance / 2, b);
+  chart_b.polytope.clip(view.u_ba, squared_distance / 2, a);
 }
 
 bool Atlas::grow_all() {

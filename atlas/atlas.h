@@ -22,6 +22,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "atlas/manifold.h"
@@ -83,14 +84,15 @@ class Atlas {
  private:
   void grow_towards(int parent, int vertex);
   int insert(double radius);
-  void separate(int a, int b);
+  void separate(int a, int b, double squared_distance);
   int external_vertex(const Chart& chart, const TangentVector* direction) const;
 
   const Manifold& manifold_;
   AtlasOptions options_;
   std::deque<Chart> charts_;
   NeighbourIndex index_;
-  Frame candidate_;  ///< the frame about to become a chart
+  Frame candidate_;                           ///< the frame about to become a chart
+  std::vector<std::pair<double, int>> near_;  ///< buffer of insert(): squared distance, chart
   long frame_evaluations_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include "atlas/polytope.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 namespace taut {
 namespace {
@@ -10,7 +12,7 @@ constexpr double kOnTheCut = 1e-12;
 
 // One end of an edge to come in a new facet. The edge is the 2-face that the cut crosses, named by its other facets.
 struct OpenEnd {
-  std::array<int, kMaxDimension> face;
+  std::array<std::uint64_t, 2> face;
   int vertex;
   int slot;
 };
@@ -24,13 +26,22 @@ struct Scratch {
 };
 thread_local Scratch scratch;
 
+// Up to four facets, in ascending order, as one number.
+std::array<std::uint64_t, 2> pack(const std::array<int, kMaxDimension>& facets) {
+  const auto pair = [&](int k) {
+    return (std::uint64_t{std::uint32_t(facets[k])} << 32) | std::uint64_t{std::uint32_t(facets[k + 1])};
+  };
+  return {pair(0), pair(2)};
+}
+
 int slot_of(const std::array<int, kMaxDimension>& values, int value) {
   return static_cast<int>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
 }  // namespace
 
-Polytope::Polytope(int dimension, double half_side) : dimension_(dimension), half_side_(half_side) {
+Polytope::Polytope(int dimension, double half_side)
+    : dimension_(dimension), half_side_(half_side), circumradius_(half_side * std::sqrt(dimension)) {
   vertices_.resize(std::size_t{1} << dimension);
   vertices_.reserve(vertices_.size() + 8);
   for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
@@ -49,7 +60,9 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
   auto& [excess, outside, fresh, ends] = scratch;
   const int n = dimension_;
   const int count = static_cast<int>(vertices_.size());
-  const double tolerance = kOnTheCut * half_side_ * normal.norm();
+  const double length = normal.norm();
+  if (offset >= circumradius_ * length) return false;
+  const double tolerance = kOnTheCut * half_side_ * length;
   outside.clear();
   excess.resize(vertices_.size());
   for (int v = 0; v < count; ++v) {
@@ -100,15 +113,15 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
     const auto& facets = fresh[f].facets;
     for (int slot = 0; slot < n; ++slot) {
       if (facets[slot] == facet) continue;
-      OpenEnd end{{}, f, slot};
+      std::array<int, kMaxDimension> face{};
       int used = 0;
       for (int j = 0; j < n; ++j) {
         if (j == slot || facets[j] == facet) continue;
         int place = used++;
-        for (; place > 0 && end.face[place - 1] > facets[j]; --place) end.face[place] = end.face[place - 1];
-        end.face[place] = facets[j];
+        for (; place > 0 && face[place - 1] > facets[j]; --place) face[place] = face[place - 1];
+        face[place] = facets[j];
       }
-      ends.push_back(end);
+      ends.push_back({pack(face), f, slot});
     }
   }
   std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {
@@ -140,6 +153,10 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
     }
     vertices_.pop_back();
   }
+
+  double largest = 0;
+  for (const Vertex& vertex : vertices_) largest = std::max(largest, vertex.squared_norm);
+  circumradius_ = std::sqrt(largest);
   return true;
 }
 

@@ -34,10 +34,13 @@ class Polytope {
   /// Intersects with the half-space normal . u <= offset; the new facet is named `facet`.
   /// @returns whether anything was cut off.
   /// @pre offset > 0, so that the origin stays inside; facet >= 0 and new.
-  /// Cost: one dot product a vertex, plus the vertices that change.
+  /// Cost: constant where the half-space holds the ball of radius circumradius(); else one dot product a vertex, plus the
+  /// vertices that change.
   bool clip(const TangentVector& normal, double offset, int facet);
 
   [[nodiscard]] int dimension() const { return dimension_; }
+  /// Largest distance of a vertex from the origin.
+  [[nodiscard]] double circumradius() const { return circumradius_; }
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
   void mark(int vertex) { vertices_[vertex].marked = true; }
   [[nodiscard]] TangentVector position(int vertex) const;
@@ -49,6 +52,7 @@ class Polytope {
  private:
   int dimension_;
   double half_side_;
+  double circumradius_;
   std::vector<Vertex> vertices_;
 };
 
