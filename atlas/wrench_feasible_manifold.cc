@@ -42,16 +42,6 @@ class WrenchFeasibleManifold final : public Manifold {
   [[nodiscard]] int coordinate_dimension() const override { return n_; }
   [[nodiscard]] CoordinateSymmetry symmetry() const override { return symmetry_; }
 
-  [[nodiscard]] bool project(const Frame& frame, const TangentVector& u, Coordinates& coordinates) const override {
-    coordinates = frame.coordinates + frame.lift * u;
-    // A range is closed: what lies a little outside is moved to its end.
-    for (int j = 0; j < n_; ++j) {
-      const auto& range = ranges_[static_cast<std::size_t>(j)];
-      coordinates[j] = std::clamp(coordinates[j], range[0], range[1]);
-    }
-    return true;
-  }
-
   [[nodiscard]] bool frame_at(const Coordinates& coordinates, Frame& frame) const override {
     using J = Jet<double, N>;
     std::array<J, N> parameters;
