@@ -10,9 +10,9 @@ namespace {
 // A vertex that a cut would move by less than this fraction of the cube's half side counts as lying on the cut.
 constexpr double kOnTheCut = 1e-12;
 
-// One end of an edge to come in a new facet. The edge is the 2-face that the cut crosses, named by its other facets.
+// One end of an edge to come in a new facet. The edge lies in the 2-face that the cut crosses, named by its facets.
 struct OpenEnd {
-  std::array<std::uint64_t, 2> face;
+  std::uint64_t face;
   int vertex;
   int slot;
 };
@@ -26,12 +26,12 @@ struct Scratch {
 };
 thread_local Scratch scratch;
 
-// Up to four facets, in ascending order, as one number.
-std::array<std::uint64_t, 2> pack(const std::array<int, kMaxDimension>& facets) {
-  const auto pair = [&](int k) {
-    return (std::uint64_t{std::uint32_t(facets[k])} << 32) | std::uint64_t{std::uint32_t(facets[k + 1])};
-  };
-  return {pair(0), pair(2)};
+// Scatters a facet's name over 64 bits (the finaliser of splitmix64), so that sums of a few tell sets of facets apart.
+std::uint64_t scatter(int facet) {
+  std::uint64_t z = (std::uint64_t{std::uint32_t(facet)} + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
 }
 
 int slot_of(const std::array<int, kMaxDimension>& values, int value) {
@@ -111,17 +111,10 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
   ends.clear();
   for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
     const auto& facets = fresh[f].facets;
+    std::uint64_t all = 0;
+    for (int k = 0; k < n; ++k) all += scatter(facets[k]);
     for (int slot = 0; slot < n; ++slot) {
-      if (facets[slot] == facet) continue;
-      std::array<int, kMaxDimension> face{};
-      int used = 0;
-      for (int j = 0; j < n; ++j) {
-        if (j == slot || facets[j] == facet) continue;
-        int place = used++;
-        for (; place > 0 && face[place - 1] > facets[j]; --place) face[place] = face[place - 1];
-        face[place] = facets[j];
-      }
-      ends.push_back({pack(face), f, slot});
+      if (facets[slot] != facet) ends.push_back({all - scatter(facets[slot]), f, slot});
     }
   }
   std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {

@@ -2,9 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -73,57 +71,84 @@ bool orientations_agree(const Frame& a, const Frame& b) {
   return (a.tangent.transpose() * b.tangent).determinant() > 0;
 }
 
-// Three charts whose polygons meet.
-using Corner = std::array<int, 3>;
-
-Corner corner(int chart, int facet, int next_facet) {
-  Corner result{chart, facet, next_facet};
-  std::sort(result.begin(), result.end());
-  return result;
+void drop(Rotation& rotation, int to) {
+  const int e = find(rotation, to);
+  if (rotation[e].gap_after) rotation[(e + rotation.size() - 1) % rotation.size()].gap_after = true;
+  rotation.erase(rotation.begin() + e);
 }
 
-// An edge is kept if both charts have it, within their balls, and all three charts of each corner at its ends have that
-// corner. Where four charts nearly share one corner they may disagree which two of them touch, and both diagonals
-// could be claimed; then neither is kept, and the four are one face.
-std::vector<Rotation> rotation_system(const Atlas& atlas) {
+// Charts that bound each other, within their balls. Frames must agree on that, but nearly tied ones may not; a claim of
+// one side only is no edge.
+std::vector<Rotation> mutual_rotations(const Atlas& atlas) {
   std::vector<std::vector<Side>> polygons;
-  std::map<Corner, int> witnesses;
+  std::set<std::pair<int, int>> claims;
   for (int id = 0; id < atlas.size(); ++id) {
-    polygons.push_back(polygon(atlas.chart(id)));
-    const std::vector<Side>& sides = polygons.back();
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      ++witnesses[corner(id, sides[s].facet, sides[(s + 1) % sides.size()].facet)];
-    }
-  }
-  const auto keeps = [&](int id, std::size_t s) {
     const Chart& chart = atlas.chart(id);
-    const std::vector<Side>& sides = polygons[id];
-    const Side& side = sides[s];
-    if (side.facet < 0 || !chart.covers(distance_to_origin(side))) return false;
-    const int before = sides[(s + sides.size() - 1) % sides.size()].facet;
-    const int after = sides[(s + 1) % sides.size()].facet;
-    return (!chart.covers(side.begin.norm()) || witnesses[corner(id, before, side.facet)] == 3) &&
-           (!chart.covers(side.end.norm()) || witnesses[corner(id, side.facet, after)] == 3);
-  };
-  std::set<std::pair<int, int>> kept;
-  for (int id = 0; id < atlas.size(); ++id) {
-    for (std::size_t s = 0; s < polygons[id].size(); ++s) {
-      if (keeps(id, s)) kept.emplace(id, polygons[id][s].facet);
+    polygons.push_back(polygon(chart));
+    for (const Side& side : polygons.back()) {
+      if (side.facet >= 0 && chart.covers(distance_to_origin(side))) claims.emplace(id, side.facet);
     }
   }
-
   std::vector<Rotation> rotations(atlas.size());
   for (int id = 0; id < atlas.size(); ++id) {
     const Chart& chart = atlas.chart(id);
     Rotation& rotation = rotations[id];
     bool gap_before_first = false;
     for (const Side& side : polygons[id]) {
-      if (kept.contains({id, side.facet}) && kept.contains({side.facet, id})) {
+      if (claims.contains({id, side.facet}) && claims.contains({side.facet, id})) {
         rotation.push_back({side.facet, orientations_agree(chart.frame, atlas.chart(side.facet).frame), false});
       }
       (rotation.empty() ? gap_before_first : rotation.back().gap_after) |= !chart.covers(side.end.norm());
     }
     if (!rotation.empty()) rotation.back().gap_after |= gap_before_first;
+  }
+  return rotations;
+}
+
+// Edges b-x that leave b into the triangle a b c, where b comes right before c around a; they cross the edge a-c.
+// `mirrored`: b's frame has the other orientation.
+std::vector<int> edges_into_triangle(const Rotation& b, int a, int c, bool mirrored) {
+  std::vector<int> result;
+  const int count = static_cast<int>(b.size());
+  const int from = find(b, mirrored ? a : c);
+  const int to = find(b, mirrored ? c : a);
+  for (int e = (from + 1) % count; e != to; e = (e + 1) % count) result.push_back(b[e].to);
+  return result;
+}
+
+// Where four charts nearly share one corner, both pairs of opposite ones may claim to touch. The longer of two edges
+// that cross so goes; four charts are then two triangles again.
+bool drop_one_crossing(const Atlas& atlas, std::vector<Rotation>& rotations, int a) {
+  const auto length = [&](int i, int j) {
+    return (atlas.chart(i).frame.point - atlas.chart(j).frame.point).squaredNorm();
+  };
+  const Rotation& around = rotations[a];
+  for (std::size_t e = 0; e < around.size(); ++e) {
+    const Edge& first = around[e];
+    const Edge& second = around[(e + 1) % around.size()];
+    if (first.gap_after || find(rotations[first.to], second.to) < 0) continue;
+    for (const bool at_second : {false, true}) {  // seen in a mirror, the second comes right before the first
+      const Edge& b = at_second ? second : first;
+      const int c = at_second ? first.to : second.to;
+      const std::vector<int> crossing = edges_into_triangle(rotations[b.to], a, c, b.agrees == at_second);
+      if (crossing.empty()) continue;
+      const bool own_is_longer = length(a, c) > length(b.to, crossing.front());
+      const std::pair<int, int> ends = own_is_longer ? std::pair(a, c) : std::pair(b.to, crossing.front());
+      drop(rotations[ends.first], ends.second);
+      drop(rotations[ends.second], ends.first);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Rotation> rotation_system(const Atlas& atlas) {
+  std::vector<Rotation> rotations = mutual_rotations(atlas);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int id = 0; id < atlas.size(); ++id) {
+      while (drop_one_crossing(atlas, rotations, id)) changed = true;
+    }
   }
   return rotations;
 }
