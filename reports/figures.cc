@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPathSamples = 480;  ///< along the whole path; a page of 50 segments stays below 0.5 MB
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kMillimetres = 1000;
-constexpr double kPanelWidth = 290;  ///< of small multiples, three to a row
+constexpr double kPanelWidth = 270;  ///< of small multiples, three to a row
 constexpr double kPanelHeight = 150;
 
 Axis path_axis(const Scene& scene) {
@@ -51,11 +51,13 @@ Html forbidden(const Plot& plot, const Span& limits) {
       coordinate(plot.width()), coordinate(top), coordinate(bottom), coordinate(plot.height() - bottom));
 }
 
-/// Limits, and a little beyond; up to half of their width beyond where the data go there.
-Span view_of(const Span& limits, const Span& data) {
+/// An axis that shows the limits, and a little beyond; up to half of their width beyond where the data go there.
+Axis limited_axis(const Span& limits, const Span& data, const Html& label) {
   const double width = limits.length();
-  return {std::max(std::min(limits.lower - 0.08 * width, data.lower - 0.04 * width), limits.lower - 0.5 * width),
-          std::min(std::max(limits.upper + 0.08 * width, data.upper + 0.04 * width), limits.upper + 0.5 * width)};
+  const Span shown = {
+      std::max(std::min(limits.lower - 0.1 * width, data.lower - 0.04 * width), limits.lower - 0.5 * width),
+      std::min(std::max(limits.upper + 0.1 * width, data.upper + 0.04 * width), limits.upper + 0.5 * width)};
+  return {shown, label, 6, false, {limits.lower, limits.upper}};
 }
 
 Html panel(const Html& title, const Html& picture) {
@@ -88,7 +90,7 @@ Html tension_panel(const Scene& scene, std::size_t cable) {
     for (const PlotPoint& point : low[r]) data.include(point.y);
     for (const PlotPoint& point : high[r]) data.include(point.y);
   }
-  const Plot plot(kPanelWidth, kPanelHeight, path_axis(scene), {view_of(limits, data), html("tension [N]"), 5});
+  const Plot plot(kPanelWidth, kPanelHeight, path_axis(scene), limited_axis(limits, data, html("tension [N]")));
   Html curves = forbidden(plot, limits);
   for (std::size_t r = 0; r < low.size(); ++r) {
     std::vector<PlotPoint> band = low[r];
@@ -109,7 +111,7 @@ Html length_panel(const Scene& scene, std::size_t cable) {
     points.push_back({sample.position, sample.statics.length[cable] * kMillimetres});
     data.include(points.back().y);
   }
-  const Plot plot(kPanelWidth, kPanelHeight, path_axis(scene), {view_of(limits, data), html("length [mm]"), 5});
+  const Plot plot(kPanelWidth, kPanelHeight, path_axis(scene), limited_axis(limits, data, html("length [mm]")));
   const Html curves =
       forbidden(plot, limits) + html("<path class=\"curve\" d=\"{}\"/>", plot.polyline(points)) + marks(scene, plot);
   return panel(html("Cable {} <span>{}</span>", cable + 1, extent(data, "mm")),
@@ -134,7 +136,7 @@ Html coordinates_panel(const Scene& scene, const std::array<Html, 3>& names, con
     }
   }
   const double pad = std::max(0.06 * data.length(), 1e-3 * std::max(1.0, std::abs(data.upper)));
-  const Plot plot(460, kPanelHeight, path_axis(scene), {{data.lower - pad, data.upper + pad}, html("[{}]", unit), 5});
+  const Plot plot(430, kPanelHeight, path_axis(scene), {{data.lower - pad, data.upper + pad}, html("[{}]", unit), 5});
   Html curves;
   Html legend;
   for (int c = 0; c < 3; ++c) {
@@ -149,7 +151,7 @@ Html coordinates_panel(const Scene& scene, const std::array<Html, 3>& names, con
 // ---- The plane of two parameters.
 
 constexpr double kSliceWidth = 860;
-constexpr double kCell = 3;               ///< of the raster, in units of the picture
+constexpr double kCell = 2.5;             ///< of the raster, in units of the picture
 constexpr std::size_t kMaxCharts = 6000;  ///< drawn; more would only blacken the picture and swell the page
 
 /// Copies of a point of the plane that are the same pose: turns of periodic parameters, and the flip.
@@ -219,15 +221,13 @@ class Raster {
  public:
   Raster(const Sampler& sampler, const Plot& plot, const Span& x, const Span& y)
       : columns_(static_cast<int>(plot.width() / kCell)), rows_(static_cast<int>(plot.height() / kCell)) {
-    for (int row = 0; row <= rows_; ++row) {
-      for (int column = 0; column <= columns_; ++column) {
-        const double u = x.lower + x.length() * column / columns_;
-        const double v = y.upper - y.length() * row / rows_;
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const double u = x.lower + x.length() * (column + 0.5) / columns_;
+        const double v = y.upper - y.length() * (row + 0.5) / rows_;
         const Statics<double> s = statics(sampler.model(), sampler.pose({u, v}));
+        cells_.push_back(feasibility(sampler.model(), s));
         determinant_.push_back(s.regular ? s.determinant : 0);
-        if (row == rows_ || column == columns_) continue;
-        const Pose<double> centre = sampler.pose({u + x.length() / columns_ / 2, v - y.length() / rows_ / 2});
-        cells_.push_back(feasibility(sampler.model(), statics(sampler.model(), centre)));
       }
     }
     width_ = plot.width() / columns_;
@@ -257,15 +257,16 @@ class Raster {
   /// Where det J changes sign between neighbouring samples: marching squares.
   [[nodiscard]] Html singular_locus() const {
     std::string data;
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
+    for (int row = 0; row + 1 < rows_; ++row) {
+      for (int column = 0; column + 1 < columns_; ++column) {
         std::vector<PlotPoint> ends;
         const auto edge = [&](int column0, int row0, int column1, int row1) {
-          const double a = determinant_[row0 * (columns_ + 1) + column0];
-          const double b = determinant_[row1 * (columns_ + 1) + column1];
+          const double a = determinant_[row0 * columns_ + column0];
+          const double b = determinant_[row1 * columns_ + column1];
           if (a * b >= 0) return;
           const double t = a / (a - b);
-          ends.push_back({(column0 + t * (column1 - column0)) * width_, (row0 + t * (row1 - row0)) * height_});
+          ends.push_back(
+              {(column0 + 0.5 + t * (column1 - column0)) * width_, (row0 + 0.5 + t * (row1 - row0)) * height_});
         };
         edge(column, row, column + 1, row);
         edge(column + 1, row, column + 1, row + 1);
@@ -285,8 +286,8 @@ class Raster {
   int rows_;
   double width_ = 0;
   double height_ = 0;
-  std::vector<Feasibility> cells_;   ///< rows_ × columns_, centres
-  std::vector<double> determinant_;  ///< (rows_ + 1) × (columns_ + 1), corners
+  std::vector<Feasibility> cells_;   ///< rows_ × columns_, at the centres of cells
+  std::vector<double> determinant_;  ///< likewise
 };
 
 Html atlas(const Scene& scene, const Plot& plot, const std::vector<Image>& copies) {
@@ -336,7 +337,16 @@ Html slice_path(const Scene& scene, const Plot& plot) {
     const std::vector<double> to = scene.sampler.at(path, *open->segment + open->upper).parameters;
     result += html("<path class=\"opening\" d=\"{}\"/>", plot.polyline({{from[0], from[1]}, {to[0], to[1]}}));
   }
-  result += disc(plot, points.back(), "goal", "G") + disc(plot, points.front(), "start", "S");
+  return result;
+}
+
+/// Start, goal and witness, on top of everything.
+Html slice_marks(const Scene& scene, const Plot& plot) {
+  const Path& path = scene.view.path;
+  if (path.waypoints.empty()) return {};
+  const std::vector<double> start = resolved(path.waypoints.front());
+  const std::vector<double> goal = resolved(path.waypoints.back());
+  Html result = disc(plot, {goal[0], goal[1]}, "goal", "G") + disc(plot, {start[0], start[1]}, "start", "S");
   if (const auto& witness = scene.view.witness) {
     result += cross(plot, scene.sampler.at(path, witness->at.position).parameters);
     if (witness->to) result += cross(plot, scene.sampler.at(path, witness->to->position).parameters);
@@ -478,8 +488,10 @@ Html slice_figure(const Scene& scene) {
   if (scene.view.charts.size() > kMaxCharts) keys += html("<span>(the first {} are drawn)</span>", kMaxCharts);
   if (scene.view.witness) keys += stroke("witness", html("witness"));
   if (scene.view.undecided && scene.view.undecided->segment) keys += stroke("opening", html("left open"));
-  return html("<figure class=\"slice\">{}<figcaption>{}</figcaption></figure>\n",
-              plot.svg(picture, "The plane of the two parameters: feasible set, atlas and path"), keys);
+  return html(
+      "<figure class=\"slice\">{}<figcaption>{}</figcaption></figure>\n",
+      plot.svg(picture, "The plane of the two parameters: feasible set, atlas and path", slice_marks(scene, plot)),
+      keys);
 }
 
 std::string in_brackets(const std::string& unit) { return unit.empty() ? "" : fmt::format("[{}]", unit); }
@@ -488,11 +500,16 @@ Html robot_figure(const Scene& scene) {
   const Path& path = scene.view.path;
   if (path.waypoints.empty()) return {};
   std::vector<std::pair<Html, double>> views = {{html("Waypoint 0 (start)"), 0.0}};
+  if (const auto& witness = scene.view.witness) {
+    views.emplace_back(html("At the witness"), witness->at.position);
+  } else if (path.waypoints.size() > 2) {
+    const std::size_t middle = path.waypoints.size() / 2;
+    views.emplace_back(html("Waypoint {}", middle), static_cast<double>(middle));
+  }
   if (path.waypoints.size() > 1) {
     const std::size_t last = path.waypoints.size() - 1;
     views.emplace_back(html("Waypoint {} (goal)", last), static_cast<double>(last));
   }
-  if (const auto& witness = scene.view.witness) views.emplace_back(html("Witness"), witness->at.position);
 
   const Camera camera(scene.sampler.model().wrench);
   Eigen::AlignedBox2d bounds;

@@ -113,15 +113,15 @@ std::vector<std::string> proved_text(const Scene& scene) {
                     view.problem.name, common_limits(robot.tension_N, false), common_limits(robot.length_m, true),
                     plural(view.segments.size(), "segment"), plural(view.boxes, "box")));
   }
-  result.push_back(
-      fmt::format("Proved reserves along the whole motion: every tension stays at least {} N inside its limits (least "
-                  "in {}), every "
-                  "length at least {} mm (least in {}), and the load ellipsoid could grow {}-fold before a tension "
-                  "limit is reached "
-                  "(least in {}).",
-                  plain(view.margins->tension_N), where_least(view, &MarginsView::tension_N),
-                  millimetres(view.margins->length_m), where_least(view, &MarginsView::length_m),
-                  plain(view.margins->wrench_scale), where_least(view, &MarginsView::wrench_scale)));
+  result.push_back(fmt::format(
+      "Proved reserves along the whole motion: every tension stays at least {} N inside its limits (least "
+      "in {}), every "
+      "length at least {} mm (least in {}), and the load ellipsoid could grow at least {}-fold before a tension "
+      "limit is reached "
+      "(least in {}).",
+      plain(view.margins->tension_N), where_least(view, &MarginsView::tension_N), millimetres(view.margins->length_m),
+      where_least(view, &MarginsView::length_m), plain(view.margins->wrench_scale),
+      where_least(view, &MarginsView::wrench_scale)));
   if (const std::string closest = closest_text(scene); !closest.empty()) result.push_back(closest);
   return result;
 }
@@ -195,8 +195,8 @@ Html header(const Scene& scene) {
         "<div class=\"tiles\">\n{}{}{}{}</div>\n",
         tile(plain(view.margins->tension_N) + " N", html("tension_N: least distance of a tension from its limits")),
         tile(millimetres(view.margins->length_m) + " mm", html("length_m: least distance of a length from its limits")),
-        tile(plain(view.margins->wrench_scale) + " ×",
-             html("wrench_scale: growth of the load ellipsoid that is still safe")),
+        tile("× " + plain(view.margins->wrench_scale),
+             html("wrench_scale: factor by which the load ellipsoid may grow")),
         tile(fmt::format("{} / {}", view.segments.size(), view.boxes), html("segments / boxes that were proved")));
   }
   return html(
@@ -366,7 +366,7 @@ Html space_tables(const Problem& problem) {
   for (const auto& [name, value] : space.constants) constants += html("<li><code>{} = {}</code></li>\n", name, value);
   Html result = table({{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
                 table({{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
-  if (!constants.empty()) result += html("<p>Constants (SI):</p><ul>{}</ul>\n", constants);
+  if (!constants.empty()) result += html("<p>Constants, as the expressions use them:</p><ul>{}</ul>\n", constants);
   if (space.flip) result += html("<p>(φ, θ) and (φ + π, −θ) are the same pose, and count as such.</p>\n");
   return result;
 }
@@ -454,7 +454,8 @@ Html margins(const CertificateView& view) {
            "certificate states them. <code>tension_N</code>: distance of a tension from its nearer limit. "
            "<code>length_m</code>: the same for a length. <code>wrench_scale</code>: the factor by which the "
            "semi-axes of K may grow before a tension reaches its limit; along the whole path it is at least "
-           "<b>{}</b>. The least of each column is set in bold.</p>\n",
+           "<b>{}</b>. The least of each column is set in bold. The true margins may be larger: a bound is as sharp "
+           "as the proof needed it.</p>\n",
            plain(view.margins->wrench_scale)) +
           folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "segment")), all));
 }
@@ -473,18 +474,24 @@ Html slice(const Scene& scene) {
           figure + (stats.empty() ? Html() : html("<p class=\"note\">Search: {}</p>\n", stats)));
 }
 
+/// Canonical JSON is what Python writes with these arguments, as a certificate has no fractional number.
+constexpr const char* kDigestCommand = R"(python3 -c '
+import json, hashlib
+c = json.load(open("certificate.json")); c.pop("footer")
+for v in (c["problem"], c["path"], c):
+    text = json.dumps(v, sort_keys=True, separators=(",", ":"))
+    print(hashlib.sha256(text.encode()).hexdigest())
+')";
+
 Html recheck(const CertificateView& view) {
   return section("recheck", "How to check this again",
                  html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
                       "certificate and the case file. It should exit with {}.</p>\n<pre>taut-check certificate.json "
                       "CASE.yaml</pre>\n"
-                      "<p>A printed digest is compared without taut by</p>\n"
-                      "<pre>python3 -c 'import json,hashlib;c=json.load(open(\"certificate.json\"));c.pop(\"footer\")\n"
-                      "for v in "
-                      "(c[\"problem\"],c[\"path\"],c):print(hashlib.sha256(json.dumps(v,sort_keys=True,separators=(\","
-                      "\",\":\")).encode()).hexdigest())'</pre>\n"
+                      "<p>The printed digests can be computed without taut:</p>\n"
+                      "<pre>{}</pre>\n"
                       "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
-                      view.verdict == "undecided" ? "2, undecided" : "0, accepted"));
+                      view.verdict == "undecided" ? "2, undecided" : "0, accepted", kDigestCommand));
 }
 
 Html signature(const CertificateView& view) {

@@ -7,10 +7,10 @@ namespace taut {
 
 namespace {
 
-constexpr double kLeft = 46;    ///< room for the numbers and the label of the y axis
+constexpr double kLeft = 52;    ///< room for the numbers and the label of the y axis
 constexpr double kBottom = 38;  ///< of the x axis
 constexpr double kTop = 8;
-constexpr double kRight = 12;
+constexpr double kRight = 32;     ///< for the limits
 constexpr double kFarAway = 1e5;  ///< anything beyond is outside every picture
 
 double tick_step(const Span& span, int count, bool whole) {
@@ -18,7 +18,7 @@ double tick_step(const Span& span, int count, bool whole) {
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10 * power;
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough * 0.999) {
+    if (factor * power >= rough * 0.8) {
       step = factor * power;
       break;
     }
@@ -76,7 +76,7 @@ std::string Plot::polyline(const std::vector<PlotPoint>& points, bool closed) co
   return data;
 }
 
-Html Plot::svg(const Html& content, const std::string& description) const {
+Html Plot::svg(const Html& content, const std::string& description, const Html& overlay) const {
   Html grid;
   Html numbers;
   const double x_step = tick_step(x_.span, x_.tick_count, x_.whole);
@@ -93,16 +93,20 @@ Html Plot::svg(const Html& content, const std::string& description) const {
     numbers += html("<text x=\"-6\" y=\"{}\" text-anchor=\"end\">{}</text>", coordinate(y(value) + 3.5),
                     tick_text(value, y_step));
   }
+  for (const double value : y_.limits) {
+    numbers += html("<text class=\"bound\" x=\"{}\" y=\"{}\">{:.4g}</text>", coordinate(width_ + 4),
+                    coordinate(y(value) + 3.5), value);
+  }
   return html(
       "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\"><g transform=\"translate({} {})\">\n"
       "{}<svg width=\"{}\" height=\"{}\">{}</svg>\n"
       "<rect class=\"frame\" width=\"{}\" height=\"{}\"/>{}"
       "<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
-      "<text class=\"label\" transform=\"translate(-36 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>"
-      "</g></svg>\n",
+      "<text class=\"label\" transform=\"translate(-41 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>"
+      "{}</g></svg>\n",
       coordinate(kLeft + width_ + kRight), coordinate(kTop + height_ + kBottom), description, coordinate(kLeft),
       coordinate(kTop), grid, coordinate(width_), coordinate(height_), content, coordinate(width_), coordinate(height_),
-      numbers, coordinate(width_ / 2), coordinate(height_ + 31), x_.label, coordinate(height_ / 2), y_.label);
+      numbers, coordinate(width_ / 2), coordinate(height_ + 31), x_.label, coordinate(height_ / 2), y_.label, overlay);
 }
 
 }  // namespace taut

@@ -29,7 +29,8 @@ struct Axis {
   Span span;
   Html label;  ///< name and unit
   int tick_count = 5;
-  bool whole = false;  ///< ticks are counts
+  bool whole = false;               ///< ticks are counts
+  std::vector<double> limits = {};  ///< written at the far side
 };
 
 struct PlotPoint {
@@ -51,9 +52,9 @@ class Plot {
   /// Path data of a polyline; it breaks at points that are not finite.
   [[nodiscard]] std::string polyline(const std::vector<PlotPoint>& points, bool closed = false) const;
 
-  /// The rectangle with `content` in it, framed by ticks, their numbers and the axes' labels, as an <svg> that scales with
-  /// the page. `description` is what a screen reader says.
-  [[nodiscard]] Html svg(const Html& content, const std::string& description) const;
+  /// The rectangle with `content` in it, framed by ticks, their numbers and the axes' labels, as an <svg> that scales
+  /// with the page. `overlay` may reach beyond the rectangle; `description` is what a screen reader says.
+  [[nodiscard]] Html svg(const Html& content, const std::string& description, const Html& overlay = {}) const;
 
  private:
   double width_;

@@ -77,11 +77,12 @@ figcaption { font-size: 13px; color: var(--soft); }
 .panel figcaption { font-weight: 600; color: var(--ink); margin: 0 0 2px 4px; }
 .panel figcaption > span { font-weight: 400; color: var(--soft); margin-left: 8px; }
 .slice { margin: 16px 0; }
-.slice figcaption { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 6px 0 0 44px; }
+.slice figcaption { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 6px 0 0 52px; }
 .key { white-space: nowrap; display: inline-flex; align-items: center; gap: 7px; font-weight: 400; }
 .key svg { width: 24px; height: 10px; flex: none; }
 figure > svg { display: block; width: 100%; height: auto; }
 svg text { font: 11px system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif; fill: var(--soft); }
+svg .bound { fill: var(--limit); }
 svg path { fill: none; vector-effect: non-scaling-stroke; }
 svg svg { overflow: hidden; }
 .grid { stroke: var(--line); stroke-width: 0.7; }
