@@ -297,6 +297,21 @@ void validate_space(const SpaceText& space) {
   if (space.flip) validate_flip(space, pose);
 }
 
+/// A pose that is undefined at a waypoint, or everywhere, is a mistake; elsewhere it is the proof's affair.
+void validate_pose_at(const SpaceText& space, std::size_t waypoint, const std::vector<double>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : space.parameters) names.push_back(parameter.name);
+  std::array<double, 6> pose = {};
+  Evaluator<double>(ExpressionTape({space.pose.begin(), space.pose.end()}, names, space.constants))
+      .evaluate(parameters, pose);
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    if (!std::isfinite(pose[i])) {
+      throw FieldError(fmt::format("space.pose.{}", kPoseNames[i]), "'" + space.pose[i] + "'",
+                       fmt::format("expected an expression with a finite value at query.waypoints[{}]", waypoint));
+    }
+  }
+}
+
 void validate_query(const Problem& problem) {
   const std::vector<Parameter>& parameters = problem.space.parameters;
   if (problem.query.size() < 2) {
@@ -309,9 +324,10 @@ void validate_query(const Problem& problem) {
       throw FieldError(here, fmt::format("{} values", waypoint.size()),
                        fmt::format("expected {}, one a parameter", parameters.size()));
     }
+    std::vector<double> values;
     for (std::size_t j = 0; j < parameters.size(); ++j) {
       const std::string place = fmt::format("{}.{}", here, parameters[j].name);
-      const double value = constant_value_approx(place, waypoint[j]);
+      const double value = values.emplace_back(constant_value_approx(place, waypoint[j]));
       if (parameters[j].kind != ParameterKind::kRange) continue;
       const auto [lower, upper] = range_approx(parameters[j]);
       constexpr double kSlack = 1e-12;  // well above the rounding of a short expression
@@ -322,6 +338,7 @@ void validate_query(const Problem& problem) {
                                      parameters[j].range_upper));
       }
     }
+    validate_pose_at(problem.space, k, values);
   }
 }
 

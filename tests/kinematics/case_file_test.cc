@@ -1,0 +1,372 @@
+#include "kinematics/case_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "kinematics/input_error.h"
+
+namespace taut {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+
+const std::string kCases = std::string(TAUT_SOURCE_DIR) + "/cases/";
+
+/// A good case, each of whose sections a test may replace.
+struct Sections {
+  std::string head = "taut: 1\nname: test\n";
+  std::string units = "units: {length: mm, force: N, moment: N*m, mass: kg, angle: rad}\n";
+  std::string robot =
+      "robot:\n"
+      "  base_anchors: [[0, 220, 0], [0, 220, 0], [-190, -110, 0], [-190, -110, 0], [190, -110, 0], [190, -110, 0]]\n"
+      "  platform_anchors: [[-112, 65, 0], [112, 65, 0], [0, -130, 0], [-112, 65, 0], [112, 65, 0], [0, -130, 0]]\n";
+  std::string limits = "  tension: [0.05, 0.5]\n  length: [100, 550]\n";
+  std::string load = "load: {wrench: [0, 0, 1, 0, 0, 0], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 1]}}\n";
+  std::string space = "space: {slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}}\n";
+  std::string query = "query: {waypoints: [{phi: -2.3, theta: 1.6}, {phi: 1.7, theta: 1.7}]}\n";
+  std::string tail;
+
+  [[nodiscard]] std::string text() const { return head + units + robot + limits + load + space + query + tail; }
+};
+
+Case parse(const Sections& sections) { return parse_case(sections.text(), "test.yaml"); }
+
+void expect_rejected(const std::string& text, const std::string& message) {
+  EXPECT_THAT([&] { (void)parse_case(text, "test.yaml"); },
+              ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml"), HasSubstr(message))))
+      << text;
+}
+void expect_rejected(const Sections& sections, const std::string& message) {
+  expect_rejected(sections.text(), message);
+}
+
+TEST(CaseFile, ReadsThePapersSlice) {
+  const Case read = load_case(kCases + "robot1-slice-qs-qg.yaml");
+  const Problem& problem = read.problem;
+  EXPECT_EQ(problem.name, "robot1-slice-qs-qg");
+  EXPECT_THAT(problem.robot.base_anchors_m[2], ElementsAre("-0.1905256", "-0.11", "0"));
+  EXPECT_THAT(problem.robot.platform_anchors_m[5], ElementsAre("0", "-0.13", "0"));
+  EXPECT_EQ(problem.robot.tension_N[5], (Limits{"0.05", "0.5"}));
+  EXPECT_EQ(problem.robot.length_m[0], (Limits{"0.1", "0.55"}));
+  EXPECT_THAT(problem.load.point_m, ElementsAre("0.03", "0.014", "-0.021"));
+  EXPECT_THAT(problem.load.ellipsoid[3], ElementsAre("0", "0", "0", "1000000", "0", "0"));
+  EXPECT_THAT(problem.space.pose, ElementsAre("0", "0", "0.35", "phi", "theta", "(34)*pi/180"));
+  ASSERT_EQ(problem.space.parameters.size(), 2u);
+  EXPECT_EQ(problem.space.parameters[0].kind, ParameterKind::kPeriodic);
+  EXPECT_EQ(problem.space.parameters[1].kind, ParameterKind::kReal);
+  EXPECT_EQ(problem.space.flip, (std::array{0, 1}));
+  EXPECT_THAT(problem.query, ElementsAre(ElementsAre("-2.3", "1.6"), ElementsAre("1.7", "1.7")));
+  EXPECT_EQ(read.planner.strategy, Strategy::kAStar);
+  EXPECT_EQ(read.planner.cost, Cost::kRotation);
+  EXPECT_EQ(read.planner.radius, 0.15);
+  EXPECT_EQ(read.expect, Expectation::kProved);
+  EXPECT_THAT(read.description, HasSubstr("OUR RECONSTRUCTION"));
+}
+
+TEST(CaseFile, ReadsThePapersSphere) {
+  const Case read = load_case(kCases + "robot2-sphere-q1-q2-q3.yaml");
+  const Problem& problem = read.problem;
+  EXPECT_THAT(problem.load.wrench, ElementsAre("0", "0", "5.886", "0", "0", "0"));
+  EXPECT_EQ(problem.space.pose[2], "(zs - rs*sin(alpha2))*0.001");
+  EXPECT_EQ(problem.space.pose[3], "alpha1 - pi");
+  EXPECT_EQ(problem.space.pose[5], "0");
+  EXPECT_EQ(problem.space.constants.at("zs"), "306");
+  EXPECT_EQ(problem.space.parameters[1].range_upper, "pi/2");
+  EXPECT_EQ(problem.space.flip, std::nullopt);
+  EXPECT_THAT(problem.query[0], ElementsAre("0.55", "pi/2"));
+  EXPECT_EQ(read.planner.cost, Cost::kGreatCircle);
+}
+
+TEST(CaseFile, EveryCaseOfTheProjectReadsAndTellsItsStory) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kCases)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++files;
+    const Case read = load_case(entry.path().string());
+    EXPECT_THAT(read.description, HasSubstr("Expected: ")) << entry.path();
+    EXPECT_NE(read.expect, Expectation::kNone) << entry.path();
+  }
+  EXPECT_GE(files, 6);
+}
+
+TEST(CaseFile, ReadsTheLeadingCommentOnly) {
+  Sections sections;
+  sections.head = "# One.\n#\n#   two\ntaut: 1\n# not this\nname: x\n";
+  EXPECT_EQ(parse(sections).description, "One.\n\n  two");
+}
+
+TEST(CaseFile, TakesSiWhereNoUnitsAreGiven) {
+  Sections sections;
+  sections.units = "";
+  sections.space = "space: {slice: {px: 0, py: 0, pz: 0.35, sigma: 0}}\n";
+  const Problem problem = parse(sections).problem;
+  EXPECT_EQ(problem.space.pose[2], "0.35");
+  EXPECT_EQ(problem.robot.length_m[0].upper, "550");
+  EXPECT_THAT(problem.load.point_m, ElementsAre("0", "0", "0"));
+}
+
+TEST(CaseFile, ConvertsUnitsExactly) {
+  Sections sections;
+  sections.units = "units: {length: in, force: kN, moment: kN*mm, mass: g, angle: deg}\n";
+  sections.limits = "  tension: [50 mN, 0.0005]\n  length: [3.9, 550 mm]\n";
+  sections.load =
+      "load: {point: [1, 1 ft, 1 cm], wrench: [0, 0, 1, 0, 2 N*mm, 3], "
+      "ellipsoid: {matrix: [[4, 0, 0, 0, 1, 0], [0, 4, 0, 0, 0, 0], [0, 0, 4, 0, 0, 0], "
+      "[0, 0, 0, 4, 0, 0], [1, 0, 0, 0, 4, 0], [0, 0, 0, 0, 0, 4]]}}\n";
+  sections.space = "space: {slice: {px: 0, py: 1/3, pz: 10, sigma: pi/4 rad}}\n";
+  sections.query = "query: {waypoints: [{phi: 10, theta: 0}, {phi: 1.5 rad, theta: 90/4}]}\n";
+  const Problem problem = parse(sections).problem;
+  EXPECT_EQ(problem.robot.tension_N[0], (Limits{"0.05", "0.5"}));
+  EXPECT_EQ(problem.robot.length_m[0], (Limits{"0.09906", "0.55"}));
+  EXPECT_THAT(problem.load.point_m, ElementsAre("0.0254", "0.3048", "0.01"));
+  EXPECT_THAT(problem.load.wrench, ElementsAre("0", "0", "1000", "0", "0.002", "3"));
+  EXPECT_EQ(problem.load.ellipsoid[0][0], "0.000004");  // 4 per kN^2
+  EXPECT_EQ(problem.load.ellipsoid[0][4], "0.001");     // 1 per kN · kN*mm
+  EXPECT_EQ(problem.load.ellipsoid[4][4], "4");         // 4 per (kN*mm)^2
+  EXPECT_THAT(problem.space.pose, ElementsAre("0", "(1/3)*0.0254", "0.254", "phi", "theta", "pi/4"));
+  EXPECT_THAT(problem.query, ElementsAre(ElementsAre("(10)*pi/180", "0"), ElementsAre("1.5", "(90/4)*pi/180")));
+}
+
+TEST(CaseFile, HangsAMassExactly) {
+  Sections sections;
+  sections.load = "load: {mass: 600 g, gravity: [0.1, 0, -9.81], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 1]}}\n";
+  EXPECT_THAT(parse(sections).problem.load.wrench, ElementsAre("0.06", "0", "-5.886", "0", "0", "0"));
+}
+
+TEST(CaseFile, TakesSixPairsOfLimits) {
+  Sections sections;
+  sections.limits = "  tension: [[1, 2], [1, 3], [1, 4], [1, 5], [1, 6], [1, 7]]\n  length: [100, 550]\n";
+  EXPECT_EQ(parse(sections).problem.robot.tension_N[5], (Limits{"1", "7"}));
+}
+
+TEST(CaseFile, FreesAllSixCoordinatesInABox) {
+  Sections sections;
+  sections.space = "space: {free: {pz: [50, 600], px: [-300, 300], py: [-30 cm, 300]}}\n";
+  const std::string pose = "px: 0, py: 10, pz: 350, phi: 0, theta: 0, sigma: 0";
+  sections.query = "query: {waypoints: [{" + pose + "}, {" + pose + "}]}\n";
+  const SpaceText space = parse(sections).problem.space;
+  EXPECT_THAT(space.pose, ElementsAre("px", "py", "pz", "phi", "theta", "sigma"));
+  EXPECT_EQ(space.parameters[1].range_lower, "-0.3");
+  EXPECT_EQ(space.parameters[2].range_upper, "0.6");
+  EXPECT_EQ(space.parameters[5].kind, ParameterKind::kPeriodic);
+  EXPECT_EQ(space.flip, (std::array{3, 4}));
+  sections.query = "query: {waypoints: [{" + pose + "}, {" + pose + ", pz: 1}]}\n";
+  expect_rejected(sections, "got 'pz' twice");
+}
+
+TEST(CaseFile, RejectsABoxThatIsNone) {
+  Sections sections;
+  sections.query = "query: {waypoints: [{px: 0, py: 0, pz: 0, phi: 0, theta: 0, sigma: 0}]}\n";
+  sections.space = "space: {free: {px: [300, -300], py: [0, 1], pz: [0, 1]}}\n";
+  expect_rejected(sections, "test.yaml:10:20: space.parameters.px: got [300, -300], expected lower < upper");
+  sections.space = "space: {free: {px: [1, 1], py: [0, 1], pz: [0, 1]}}\n";
+  expect_rejected(sections, "got [1, 1], expected lower < upper");
+  sections.space = "space: {free: {px: [0, 1], py: 1, pz: [0, 1]}}\n";
+  expect_rejected(sections, "space.free.py: got '1', expected a range [lower, upper]");
+}
+
+TEST(CaseFile, FlipsOnlyWherePhiAndThetaAreFree) {
+  Sections sections;
+  sections.space = "space: {slice: {px: 0, py: 0, pz: 350, phi: 0}}\n";
+  sections.query = "query: {waypoints: [{theta: 0, sigma: 0}, {theta: 1, sigma: 1}]}\n";
+  EXPECT_EQ(parse(sections).problem.space.flip, std::nullopt);
+  sections.space = "space: {slice: {px: 0, py: 0, phi: 0, theta: pi/2, sigma: 0}}\n";
+  sections.query = "query: {waypoints: [{pz: 300}, {pz: 12 in}]}\n";
+  const Problem lift = parse(sections).problem;
+  EXPECT_EQ(lift.space.pose[4], "pi/2");
+  EXPECT_THAT(lift.query, ElementsAre(ElementsAre("0.3"), ElementsAre("0.3048")));
+}
+
+TEST(CaseFile, PlacesEachMistake) {
+  Sections sections;
+  sections.limits = "  tension: [0.05, 0.5]\n  length: [550, 100]\n";
+  expect_rejected(sections, "test.yaml:8:11: robot.length[0]: got [550, 100], expected 0 <= lower < upper");
+  sections.limits = "  tension: [0.05, oops]\n  length: [100, 550]\n";
+  expect_rejected(sections, "test.yaml:7:19: robot.tension[1]: got 'oops', expected a decimal number");
+}
+
+TEST(CaseFile, SuggestsTheKeyThatWasMeant) {
+  Sections sections;
+  sections.tail = "exepct: proved\n";
+  expect_rejected(sections, "got the unknown key 'exepct', did you mean 'expect'? expected taut, name");
+  sections.tail = "entirely_different: 1\n";
+  expect_rejected(sections, "got the unknown key 'entirely_different', expected taut, name");
+}
+
+TEST(CaseFile, MissesEachRequiredSection) {
+  const auto missing = [](std::string Sections::*section, const std::string& key) {
+    Sections sections;
+    sections.*section = "";
+    expect_rejected(sections, "expected the key '" + key + "'");
+  };
+  missing(&Sections::head, "taut");
+  missing(&Sections::limits, "tension");
+  missing(&Sections::load, "load");
+  missing(&Sections::space, "space");
+  missing(&Sections::query, "query");
+}
+
+/// One section replaced, and what is said about it.
+struct Mistake {
+  std::string Sections::*section;
+  std::string text;
+  std::string message;
+};
+
+TEST(CaseFile, RejectsEveryMistake) {
+  const std::string e = "ellipsoid: {diagonal: [1, 1, 1, 1, 1, 1]}";
+  const std::string w = "wrench: [0, 0, 1, 0, 0, 0]";
+  const std::string surface = "space: {surface: {parameters: {phi: periodic, theta: real}, pose: {px: 0, py: 0, pz: ";
+  const std::vector<Mistake> mistakes = {
+      {&Sections::head, "taut: 2\nname: x\n", "taut: got '2', expected 1"},
+      {&Sections::head, "taut: 1\nname: [x]\n", "name: got [x], expected a name"},
+      {&Sections::head, "taut: 1\nname:\n", "name: got nothing, expected a name"},
+      {&Sections::head, "taut: 1\nname: \"a\\nb\"\n", "expected a name"},
+      {&Sections::head, "taut: 1\nname: a\nname: b\n", "got 'name' twice"},
+      {&Sections::head, "taut: 1\nname: a\n? [1]\n: 2\n", "got a compound key"},
+      {&Sections::units, "units: {length: yard}\n", "units.length: got 'yard', expected one of m, mm, cm, km, in, ft"},
+      {&Sections::units, "units: {length: N}\n", "expected one of m, mm"},
+      {&Sections::units, "units: {moment: N*in}\n", "units.moment: got 'N*in'"},
+      {&Sections::units, "units: {time: s}\n", "got the unknown key 'time'"},
+      {&Sections::units, "units: mm\n", "units: got 'mm', expected a map"},
+      {&Sections::robot, "robot:\n  base_anchors: [[0, 0, 0]]\n",
+       "robot.base_anchors: got a list of 1, expected a list of six"},
+      {&Sections::limits, "  tension: [-1, 0.5]\n  length: [1, 2]\n", "robot.tension[0]: got [-1, 0.5], expected 0 <="},
+      {&Sections::limits, "  tension: [1, .nan]\n  length: [1, 2]\n", "got '.nan', expected a decimal number"},
+      {&Sections::limits, "  tension: [1, .inf]\n  length: [1, 2]\n", "got '.inf', expected a decimal number"},
+      {&Sections::limits, "  tension: [1, 1e999]\n  length: [1, 2]\n", "got '1e999', expected zero or a magnitude"},
+      {&Sections::limits, "  tension: [1, 2 mm]\n  length: [1, 2]\n", "got '2 mm', expected a force"},
+      {&Sections::limits, "  tension: [1, 1e299 MN]\n  length: [1, 2]\n", "expected zero or a magnitude"},
+      {&Sections::limits, "  tension: [1, ]\n  length: [1, 2]\n", "expected a pair [lower, upper], or six of them"},
+      {&Sections::limits, "  tension: [1, '']\n  length: [1, 2]\n", "got '', expected a force"},
+      {&Sections::limits, "  tension: 5\n  length: [1, 2]\n", "robot.tension: got '5', expected a pair"},
+      {&Sections::limits, "  tension: [[1, 2], [3, 4]]\n  length: [1, 2]\n", "robot.tension: got a list of 2"},
+      {&Sections::load, "load: {" + e + "}\n", "load: got neither of 'wrench' and 'mass'"},
+      {&Sections::load, "load: {mass: 1, " + w + ", " + e + "}\n", "load: got both of 'wrench' and 'mass'"},
+      {&Sections::load, "load: {mass: 1, " + e + "}\n", "load: got no 'gravity'"},
+      {&Sections::load, "load: {mass: 0, gravity: [0, 0, 9.81], " + e + "}\n",
+       "load.mass: got '0', expected a mass above"},
+      {&Sections::load, "load: {gravity: [0, 0, 1], " + w + ", " + e + "}\n", "load.gravity: got [0, 0, 1], expected"},
+      {&Sections::load, "load: {" + w + "}\n", "expected the key 'ellipsoid'"},
+      {&Sections::load, "load: {" + w + ", ellipsoid: {diagonal: [1, 1, 1]}}\n",
+       "load.ellipsoid.diagonal: got [1, 1, 1]"},
+      {&Sections::load, "load: {" + w + ", ellipsoid: {diagonal: [1, 1, 1, 1, 1, -1]}}\n", "positive definite"},
+      {&Sections::load, "load: {" + w + ", ellipsoid: {}}\n", "load.ellipsoid: got 0 keys"},
+      {&Sections::load, "load: {wrench: [0, 0, 1 N*m, 0, 0, 0], " + e + "}\n", "got '1 N*m', expected a force"},
+      {&Sections::space, "space: {slice: {px: 0}, free: {}}\n", "space: got 2 kinds of space"},
+      {&Sections::space, "space: {}\n", "space: got 0 kinds of space"},
+      {&Sections::space, "space: {implicit: ['px^2']}\n", "not supported yet by this version"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 1, phi: 0, theta: 0, sigma: 0}}\n",
+       "got all six coordinates"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 1/0, sigma: 0}}\n",
+       "got '1/0', expected an expression with a finite"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 350, sigma: 3 mm}}\n",
+       "got '3 mm', expected a number or constant"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 3 +, sigma: 0}}\n",
+       "space.slice.pz: expression '3 +', column 4"},
+      {&Sections::space, "space: {free: {px: [0, 1], py: [0, 1]}}\n", "space.free: got no 'pz'"},
+      {&Sections::space, surface + "0, phi: phi, theta: theta}}}\n", "space.surface.pose: got no 'sigma'"},
+      {&Sections::space, surface + "0, phi: phi, theta: theta, sigma: psi}}}\n",
+       "expected a number, one of the names phi, theta"},
+      {&Sections::space, surface + "phi, phi: phi, theta: theta, sigma: 0}}}\n",
+       "space.surface.pose.pz: got 'phi', expected the same value when the periodic parameter phi grows by 2*pi"},
+      {&Sections::space, surface + "0, phi: phi, theta: theta, sigma: 0}, constants: {k: two}}}\n",
+       "got 'two', expected a decimal"},
+      {&Sections::space, surface + "0, phi: phi, theta: theta, sigma: 0}, constants: {phi: 2}}}\n",
+       "expected to be given once"},
+      {&Sections::space, "space: {surface: {parameters: {}, pose: {}}}\n", "got no parameter"},
+      {&Sections::space, "space: {surface: {parameters: {phi: round}, pose: {}}}\n",
+       "got 'round', expected 'periodic', 'real' or"},
+      {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}]}\n", "expected at least two"},
+      {&Sections::query, "query: {waypoints: []}\n", "expected at least two"},
+      {&Sections::query, "query: {waypoints: 7}\n", "query.waypoints: got '7', expected a list"},
+      {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}, {phi: 1}]}\n", "query.waypoints[1]: got no 'theta'"},
+      {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}, {phi: 1, teta: 1}]}\n", "did you mean 'theta'?"},
+      {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}, {phi: 1, theta: log(0)}]}\n",
+       "expected an expression with a finite"},
+      {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}, {phi: 1, theta: [1]}]}\n",
+       "got [1], expected a number"},
+      {&Sections::tail, "planner: {strategy: dijkstra}\n",
+       "planner.strategy: got 'dijkstra', expected one of astar, greedy"},
+      {&Sections::tail, "planner: {cost: time}\n", "expected one of rotation, great_circle, parameters"},
+      {&Sections::tail, "planner: {radius: 0}\n", "planner.radius: got '0', expected a number above zero"},
+      {&Sections::tail, "planner: {epsilon: .inf}\n", "planner.epsilon: got '.inf', expected a decimal number"},
+      {&Sections::tail, "planner: {max_charts: 1.5}\n", "planner.max_charts: got '1.5', expected a whole number"},
+      {&Sections::tail, "planner: {max_charts: 99999999999999}\n", "expected a whole number from 1"},
+      {&Sections::tail, "expect: yes\n", "expect: got 'yes', expected one of proved, refuted, undecided"},
+      {&Sections::tail, "---\ntaut: 1\n", "got 2 YAML documents"},
+      {&Sections::tail, "expect: [proved\n", "got text that is not YAML"},
+      {&Sections::tail, "expect: *nobody\n", "got text that is not YAML"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    Sections sections;
+    sections.*mistake.section = mistake.text;
+    expect_rejected(sections, mistake.message);
+  }
+}
+
+TEST(CaseFile, RejectsFilesThatAreNoCases) {
+  for (const char* text : {"", "# nothing\n", "just words\n", "[1, 2]\n", "42\n", "\t\n", "{", "%\n"})
+    expect_rejected(text, "expected");
+  expect_rejected(std::string(2 << 20, ' '), "got more than");
+  EXPECT_THROW((void)load_case("/nonexistent/case.yaml"), InputError);
+  EXPECT_THROW((void)load_case(kCases), InputError);
+}
+
+TEST(CaseFile, IsNotBroughtDownByHostileYaml) {
+  expect_rejected(std::string(500000, '['), "expected");
+  expect_rejected(std::string(500000, '{'), "expected");
+  std::string nested = "taut: ";
+  nested.append(5000, '[').append(5000, ']').append("\n");
+  expect_rejected(nested, "expected");
+  expect_rejected("a: &a [*a]\ntaut: *a\n", "expected");
+  std::string bomb = "a0: &a0 [x, x]\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string previous = "*a" + std::to_string(i - 1);
+    std::ostringstream line;
+    line << "a" << i << ": &a" << i << " [" << previous << ", " << previous << "]\n";
+    bomb += line.str();
+  }
+  expect_rejected(bomb, "unknown key");
+}
+
+TEST(CaseFile, TakesAliases) {
+  Sections sections;
+  sections.limits = "  tension: &pair [1, 2]\n  length: *pair\n";
+  EXPECT_EQ(parse(sections).problem.robot.length_m[0], (Limits{"0.001", "0.002"}));
+}
+
+TEST(CaseFileLaws, MutatedCasesAreReadOrRejectedButNeverCrash) {
+  std::ifstream file(kCases + "robot2-sphere-q1-q2-q3.yaml");
+  std::ostringstream buffer;
+  buffer << file.rdbuf();
+  const std::string good = buffer.str();
+  EXPECT_TRUE(rc::check([&] {
+    std::string text = good;
+    for (int i = *rc::gen::inRange(1, 6); i > 0; --i) {
+      const auto at = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(text.size())));
+      const auto length = static_cast<std::size_t>(*rc::gen::inRange(0, 12));
+      text.replace(at, length, *rc::gen::container<std::string>(rc::gen::inRange(' ', '~')));
+    }
+    try {
+      const Problem problem = parse_case(text, "mutant.yaml").problem;
+      const nlohmann::json json = to_json(problem);
+      RC_ASSERT(to_json(problem_from_json(json)) == json);
+    } catch (const InputError& error) {
+      RC_ASSERT(std::string(error.what()).starts_with("mutant.yaml"));
+    }
+  }));
+}
+
+}  // namespace
+}  // namespace taut

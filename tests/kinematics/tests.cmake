@@ -1,0 +1,5 @@
+find_library(RAPIDCHECK_LIBRARY rapidcheck REQUIRED)
+taut_add_test(kinematics decimal LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
+taut_add_test(kinematics expression LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
+taut_add_test(kinematics problem LABELS unit LIBS taut::problem)
+taut_add_test(kinematics case_file LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
