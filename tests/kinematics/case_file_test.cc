@@ -99,6 +99,20 @@ TEST(CaseFile, EveryCaseOfTheProjectReadsAndTellsItsStory) {
   EXPECT_GE(files, 6);
 }
 
+std::string contents(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream buffer;
+  buffer << file.rdbuf();
+  return buffer.str();
+}
+
+TEST(CaseFile, ReadsTheExampleOfTheManual) {
+  const std::string manual = contents(std::string(TAUT_SOURCE_DIR) + "/docs/case-format.md");
+  const std::string fence = "```yaml\n";
+  const std::size_t begin = manual.find(fence) + fence.size();
+  EXPECT_EQ(parse_case(manual.substr(begin, manual.find("```", begin) - begin), "manual").problem.name, "lift");
+}
+
 TEST(CaseFile, ReadsTheLeadingCommentOnly) {
   Sections sections;
   sections.head = "# One.\n#\n#   two\ntaut: 1\n# not this\nname: x\n";
@@ -347,10 +361,7 @@ TEST(CaseFile, TakesAliases) {
 }
 
 TEST(CaseFileLaws, MutatedCasesAreReadOrRejectedButNeverCrash) {
-  std::ifstream file(kCases + "robot2-sphere-q1-q2-q3.yaml");
-  std::ostringstream buffer;
-  buffer << file.rdbuf();
-  const std::string good = buffer.str();
+  const std::string good = contents(kCases + "robot2-sphere-q1-q2-q3.yaml");
   EXPECT_TRUE(rc::check([&] {
     std::string text = good;
     for (int i = *rc::gen::inRange(1, 6); i > 0; --i) {
