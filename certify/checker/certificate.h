@@ -48,6 +48,7 @@ struct Problem {
 struct Waypoint {
   std::vector<double> x;
   std::vector<int> half_turns;
+  bool operator==(const Waypoint&) const = default;
 };
 
 struct Box {

@@ -86,7 +86,8 @@ class Checker {
       Box box;
       int depth;
     };
-    std::vector<Piece> open = {{box, 0}};
+    const bool moves = certificate_.path[k] != certificate_.path[k + 1];  // else a piece is like the whole
+    std::vector<Piece> open = {{box, moves ? 0 : kMaxDepth}};
     int pieces = 0;
     std::size_t proved = 0;
     while (!open.empty()) {
@@ -98,7 +99,7 @@ class Checker {
         if (const std::optional<std::string> doubt = doubt_piece(model, k, piece.box, where)) throw Undefined(*doubt);
         ++proved;
       } catch (const Undefined& doubt) {
-        if (piece.depth == kMaxDepth || piece.box.begin == piece.box.end) throw Undefined(where + ": " + doubt.what());
+        if (piece.depth == kMaxDepth) throw Undefined(where + ": " + doubt.what());
         const mpq_class middle = (piece.box.begin + piece.box.end) / 2;
         open.push_back({{middle, piece.box.end}, piece.depth + 1});
         open.push_back({{piece.box.begin, middle}, piece.depth + 1});

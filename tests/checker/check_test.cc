@@ -1,0 +1,121 @@
+#include "certify/checker/check.h"
+
+#include <gtest/gtest.h>
+
+#include "certify/checker/claims.h"
+#include "tests/checker/fixtures.h"
+
+namespace taut::checker {
+namespace {
+
+/// What NAME.txt expects of the message; empty if nothing.
+std::string expected_message(std::filesystem::path certificate) {
+  const std::string why = read_text(certificate.replace_extension(".txt"));
+  const std::string key = "expect: ";
+  const std::size_t begin = why.find(key);
+  return begin == std::string::npos ? "" : why.substr(begin + key.size(), why.find('\n', begin) - begin - key.size());
+}
+
+void expect_outcome(const std::string& folder, Outcome outcome, bool with_message) {
+  const auto files = certificates(folder);
+  EXPECT_GE(files.size(), 10U);
+  for (const auto& file : files) {
+    const CheckResult result = check_certificate(read_text(file));
+    EXPECT_EQ(result.outcome, outcome) << file << ": " << result.message;
+    const std::string expected = expected_message(file);
+    EXPECT_EQ(expected.empty(), !with_message) << file;
+    EXPECT_NE(result.message.find(expected), std::string::npos) << file << ": " << result.message;
+  }
+}
+
+TEST(Checker, AcceptsEveryTrueCertificate) { expect_outcome("accepted", Outcome::kAccepted, false); }
+TEST(Checker, RejectsEveryFalseCertificateAndSaysWhy) { expect_outcome("rejected", Outcome::kRejected, true); }
+TEST(Checker, RecognisesEveryMalformedCertificateAndSaysWhy) { expect_outcome("malformed", Outcome::kMalformed, true); }
+
+TEST(Checker, AcceptsAnyCanonicallyEqualText) {
+  const nlohmann::json json = accepted("robot1_near_goal");
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);
+  EXPECT_EQ(check_certificate("\n " + json.dump(4) + "\n\n").outcome, Outcome::kAccepted);
+}
+
+TEST(Checker, AnUntouchedResultProvesNothing) { EXPECT_EQ(CheckResult{}.outcome, Outcome::kMalformed); }
+
+TEST(Checker, SaysUndecidedWhereTheCertificateDoes) {
+  nlohmann::json json = accepted("robot1_near_goal");
+  json["verdict"] = "undecided";
+  json["claim"] = kUndecidedClaim;
+  json["segments"] = nlohmann::json::array();
+  json["margins"] = nlohmann::json::object();
+  json["undecided"] = {{"reason", "out of time"}, {"segment", 0}, {"box", {"1/4", "1/2"}}};
+  seal(json);
+  const CheckResult result = check_certificate(json.dump());
+  EXPECT_EQ(result.outcome, Outcome::kUndecided);
+  EXPECT_NE(result.message.find("out of time"), std::string::npos);
+  json["path"]["waypoints"] = nlohmann::json::array();
+  json["undecided"] = {{"reason", "no path was found"}, {"segment", nullptr}, {"box", nullptr}};
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kUndecided);
+}
+
+TEST(Checker, ComparesWithTheCase) {
+  const nlohmann::json json = accepted("robot1_near_goal");
+  nlohmann::json problem = json["problem"];
+  EXPECT_EQ(check_certificate(json.dump(), &problem).outcome, Outcome::kAccepted);
+  problem["robot"]["tension_N"][3][0] = "0.0500";  // the same number, another text: not what the user gave
+  const CheckResult result = check_certificate(json.dump(), &problem);
+  EXPECT_EQ(result.outcome, Outcome::kRejected);
+  EXPECT_NE(result.message.find("another problem"), std::string::npos);
+}
+
+TEST(Checker, ProvesMarginsCloseToTheTruthBySplitting) {
+  // Raise the tension margin by halving the doubt: 12 digits are confirmed, then denied.
+  nlohmann::json json = accepted("robot1_near_goal");
+  double low = 0.0176, high = 0.0179;
+  const auto outcome_of = [&](double margin) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.15f", margin);
+    json["segments"][0]["margins"]["tension_N"] = json["margins"]["tension_N"] = text;
+    seal(json);
+    return check_certificate(json.dump());
+  };
+  for (int i = 0; i < 28; ++i) {
+    const double middle = (low + high) / 2;
+    const CheckResult result = outcome_of(middle);
+    ASSERT_TRUE(result.outcome == Outcome::kAccepted || result.outcome == Outcome::kRejected);
+    (result.outcome == Outcome::kAccepted ? low : high) = middle;
+  }
+  EXPECT_LT(high - low, 1e-11);
+  const CheckResult tight = outcome_of(low);
+  EXPECT_EQ(tight.outcome, Outcome::kAccepted);
+  EXPECT_LT(tight.pieces, 100U);
+}
+
+TEST(Checker, AQueryThatCannotBeRoundedIsRejected) {
+  nlohmann::json json = accepted("robot1_near_goal");
+  json["problem"]["query"]["waypoints"][0][0] = "1.7 + sin(pi)";  // equal to 1.7, but no finite precision shows that
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);  // 1.7 is no tie: its neighbourhood is enough
+  json["problem"]["query"]["waypoints"][0][0] = "0*1.7 + sin(pi)";        // the sign, hence the neighbour, stays open
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kRejected);
+}
+
+TEST(Checker, ATieRoundsToEven) {
+  nlohmann::json json = accepted("robot1_start_is_goal");
+  for (auto& typed : json["problem"]["query"]["waypoints"])
+    typed[1] = "1.6000000000000000888178419700125232338905334472656250";
+  seal(json);  // the binary64 nearest to 1.6, all its digits
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);
+  // Half an ulp (2^-53) above it: the mantissa ends in ...a, even, so the tie falls back to it.
+  for (auto& typed : json["problem"]["query"]["waypoints"])
+    typed[1] = "1.6000000000000000888178419700125232338905334472656250 + 2^-53";
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);
+  for (auto& typed : json["problem"]["query"]["waypoints"])
+    typed[1] = "1.6000000000000000888178419700125232338905334472656250 + 2^-53 + 2^-200";
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kRejected);
+}
+
+}  // namespace
+}  // namespace taut::checker

@@ -1,0 +1,83 @@
+// What the checker's tests share: certificates of tests/certificates, and how to seal an altered one.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "certify/checker/certificate.h"
+
+namespace taut::checker {
+
+inline std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// tests/certificates/<folder>/*.json, in order.
+inline std::vector<std::filesystem::path> certificates(const std::string& folder) {
+  std::vector<std::filesystem::path> result;
+  for (const auto& entry : std::filesystem::directory_iterator(TAUT_SOURCE_DIR "/tests/certificates/" + folder)) {
+    if (entry.path().extension() == ".json") result.push_back(entry.path());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+inline nlohmann::json accepted(const std::string& name) {
+  return nlohmann::json::parse(read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/" + name + ".json"));
+}
+
+/// Makes counts and digests right again, as far as what they count is still there.
+inline void seal(nlohmann::json& certificate) {
+  if (!certificate.is_object()) return;
+  const auto size_of = [](const nlohmann::json& json) { return json.is_array() ? json.size() : 0; };
+  if (certificate.contains("problem")) certificate["problem_sha256"] = digest(certificate["problem"]);
+  std::size_t waypoints = 0;
+  if (certificate.contains("path")) {
+    certificate["path_sha256"] = digest(certificate["path"]);
+    if (certificate["path"].is_object()) waypoints = size_of(certificate["path"].value("waypoints", nlohmann::json()));
+  }
+  std::size_t boxes = 0;
+  const nlohmann::json segments = certificate.value("segments", nlohmann::json());
+  if (segments.is_array()) {
+    for (const auto& segment : segments) {
+      if (segment.is_object()) boxes += size_of(segment.value("boxes", nlohmann::json()));
+    }
+  }
+  certificate.erase("footer");
+  const std::string sha256 = digest(certificate);
+  certificate["footer"] = {
+      {"waypoints", waypoints}, {"segments", size_of(segments)}, {"boxes", boxes}, {"sha256", sha256}};
+}
+
+/// A uniformly random rational k/1024 in [lower, upper].
+inline mpq_class random_rational(std::mt19937& random, int lower, int upper) {
+  return mpq_class(std::uniform_int_distribution<int>(lower * 1024, upper * 1024)(random), 1024);
+}
+
+/// Whether every number of `inner` is in `outer`.
+inline bool contains(const Interval& outer, const Interval& inner) {
+  return mpfr_lessequal_p(outer.lower(), inner.lower()) && mpfr_lessequal_p(inner.upper(), outer.upper());
+}
+
+/// Whether the two may enclose the same number.
+inline bool meet(const Interval& a, const Interval& b) {
+  return mpfr_lessequal_p(a.lower(), b.upper()) && mpfr_lessequal_p(b.lower(), a.upper());
+}
+
+inline double width(const Interval& a) {
+  const WorkingPrecision precision(512);
+  return mpfr_get_d((hull(a, a) - middle(a)).upper(), MPFR_RNDU) * 2;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,177 @@
+// Every field of a certificate matters: alter one, and the checker must notice, or what is said must still be true.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <regex>
+#include <set>
+
+#include "certify/checker/check.h"
+#include "tests/checker/fixtures.h"
+
+namespace taut::checker {
+namespace {
+
+using Json = nlohmann::json;
+using Pointer = Json::json_pointer;
+
+struct Mutant {
+  std::string what;  ///< "/json/pointer: how"
+  Json json;
+};
+
+/// Calls `visit` with every one-place alteration of `original`.
+void for_each_mutant(const Json& original, const std::function<void(const Mutant&)>& visit) {
+  const std::function<void(const Pointer&)> walk = [&](const Pointer& at) {
+    const Json& node = original[at];
+    const auto alter = [&](const std::string& how, const Json& value) {
+      if (value == node) return;
+      Mutant mutant{at.to_string() + ": " + how, original};
+      mutant.json[at] = value;
+      visit(mutant);
+    };
+    for (const Json& value : {Json(nullptr), Json(true), Json(0), Json(""), Json("x"), Json::array(), Json::object()}) {
+      alter("becomes " + value.dump(), value);
+    }
+    if (node.is_string()) {
+      const auto text = node.get<std::string>();
+      alter("gets an x", text + "x");
+      alter("changes its sign", text[0] == '-' ? text.substr(1) : "-" + text);
+      alter("gets a leading 2", text[0] == '-' ? "-2" + text.substr(1) : "2" + text);
+      for (const char* value : {"nan", "inf", "1e400", "-1e400", "1e-400", "1e5000", "0x1p+0"}) {
+        alter(std::string("becomes ") + value, value);
+      }
+    } else if (node.is_number_integer()) {
+      for (const std::int64_t step : {-1, 1, 2}) alter("plus " + std::to_string(step), node.get<std::int64_t>() + step);
+      alter("becomes huge", std::int64_t{1} << 62);
+      alter("becomes a string", node.dump());
+    } else if (node.is_array()) {
+      Json shorter = node, longer = node, reversed = node;
+      if (!node.empty()) {
+        shorter.erase(shorter.size() - 1);
+        alter("loses its last", shorter);
+        longer.push_back(node.back());
+        alter("gets one more", longer);
+        std::reverse(reversed.begin(), reversed.end());
+        alter("is reversed", reversed);
+      }
+      for (std::size_t i = 0; i < node.size(); ++i) walk(at / i);
+    } else if (node.is_object()) {
+      Json longer = node;
+      longer["extra"] = "1";
+      alter("gets a key", longer);
+      for (const auto& item : node.items()) {
+        Json shorter = node;
+        shorter.erase(item.key());
+        alter("loses " + item.key(), shorter);
+        shorter[item.key() + "_"] = item.value();
+        alter("renames " + item.key(), shorter);
+        walk(at / item.key());
+      }
+    }
+  };
+  walk(Pointer());
+}
+
+TEST(Mutation, WithoutNewDigestsNothingPasses) {
+  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular"}) {
+    int mutants = 0;
+    for_each_mutant(accepted(name), [&](const Mutant& mutant) {
+      EXPECT_EQ(check_certificate(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
+      ++mutants;
+    });
+    EXPECT_GT(mutants, 1000);
+  }
+}
+
+/// The alterations below `root` that are accepted although they were sealed.
+std::set<std::string> accepted_mutants(const Json& original, const std::string& root) {
+  std::set<std::string> result;
+  for_each_mutant(original, [&](Mutant mutant) {
+    const bool sealed_away = mutant.what.starts_with("/footer") || mutant.what.starts_with(": loses footer") ||
+                             mutant.what.find("_sha256") != std::string::npos;
+    if (sealed_away || !mutant.what.starts_with(root)) return;
+    seal(mutant.json);
+    if (check_certificate(mutant.json.dump()).outcome == Outcome::kAccepted) result.insert(mutant.what);
+  });
+  return result;
+}
+
+TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
+  const Json original = accepted("robot1_start_is_goal");
+  struct Rule {
+    const char* why;
+    std::regex what;
+    bool of_zero = false;  ///< only where the original is "0"
+    int uses = 0;
+  };
+  std::vector<Rule> rules = {
+      {"Who wrote it, what it is called and its pictures prove nothing.",
+       std::regex("/(generator|illustration|problem/name).*")},
+      {"-0 is 0.", std::regex("/problem/.*: changes its sign"), true},
+      {"Far less than the 0.5 % between the margins claimed and the true ones.",
+       std::regex("/problem/.*: becomes 1e-400"), true},
+      {"A higher upper limit.",
+       std::regex("/problem/robot/(tension_N|length_m)/./1: (gets a leading 2|becomes 1e400)")},
+      {"A lower lower limit.", std::regex("/problem/robot/(tension_N|length_m)/./0: becomes 1e-400")},
+      {"A larger E is a smaller K.", std::regex("/problem/load/ellipsoid/(.)/\\1: (gets a leading 2|becomes 1e400)")},
+      {"Start and goal are one: the query may say so once, twice or three times.",
+       std::regex("/problem/query/waypoints: (gets one more|loses its last)")},
+      {"A constant that nothing uses.", std::regex("/problem/space/constants: gets a key")},
+      {"The path does not use the flip.", std::regex("/problem/space/flip: becomes null")},
+      {"Another robot, of which the claim holds as well (by the equations of make_certificates.py).",
+       std::regex("/problem/robot/base_anchors_m/(2/0|4/1|5/1): becomes 1e-400|"
+                  "/problem/robot/(base|platform)_anchors_m: is reversed")}};
+  for (const std::string& what : accepted_mutants(original, "")) {
+    const Pointer at(what.substr(0, what.find(": ")));
+    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule& r) {
+      return std::regex_match(what, r.what) && (!r.of_zero || original[at] == "0");
+    });
+    if (rule == rules.end()) {
+      ADD_FAILURE() << "accepted: " << what;
+    } else {
+      ++rule->uses;
+    }
+  }
+  for (const Rule& rule : rules) EXPECT_GT(rule.uses, 0) << rule.why;
+}
+
+TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {
+  EXPECT_EQ(accepted_mutants(accepted("refuted_tension_min"), "/witness"),
+            (std::set<std::string>{"/witness/value/0: becomes -1e400", "/witness/value/0: gets a leading 2",
+                                   "/witness/value/1: becomes 1e-400", "/witness/value/1: becomes 1e400",
+                                   "/witness/value/1: changes its sign"}));  // both ends of it are negative
+  EXPECT_EQ(accepted_mutants(accepted("refuted_singular"), "/witness"), std::set<std::string>{});
+}
+
+TEST(Mutation, ACutFileIsMalformed) {
+  const std::string text = read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/robot1_near_start.json");
+  const std::size_t end = text.find_last_of('}');
+  for (std::size_t length = 0; length <= end; length += 97) {
+    EXPECT_EQ(check_certificate(text.substr(0, length)).outcome, Outcome::kMalformed) << length;
+  }
+  EXPECT_EQ(check_certificate(text.substr(0, end)).outcome, Outcome::kMalformed);
+}
+
+TEST(Mutation, AFlippedBitIsMalformed) {
+  const std::string text = read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/robot1_near_goal.json");
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string flipped = text;
+    flipped[random() % text.size()] ^= static_cast<char>(1U << (random() % 8));
+    EXPECT_EQ(check_certificate(flipped).outcome, Outcome::kMalformed) << trial;
+  }
+}
+
+TEST(Mutation, HostileTextsAreMalformed) {
+  const std::string huge_integer = "{\"version\": 123456789012345678901234567890}";
+  for (const std::string& text :
+       {std::string("null"), std::string("[]"), std::string("{}"), std::string("\"taut\""), huge_integer,
+        std::string("{\"a\":1e999}"), std::string("\xff\xfe"), std::string("{\"a\":\"\xc3\"}"), std::string("[NaN]"),
+        std::string("{\"a\":1,}"), std::string("// {}"), std::string(1 << 20, '['), std::string(1 << 20, '{'),
+        std::string("\0", 1)}) {
+    EXPECT_EQ(check_certificate(text).outcome, Outcome::kMalformed) << text.substr(0, 40);
+  }
+}
+
+}  // namespace
+}  // namespace taut::checker

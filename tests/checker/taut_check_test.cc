@@ -1,0 +1,63 @@
+// The executable's surface: exit codes and what it prints.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+
+#include "tests/checker/fixtures.h"
+
+namespace taut::checker {
+namespace {
+
+struct Output {
+  int exit_code;
+  std::string text;
+};
+
+Output run(const std::string& arguments) {
+  Output result{-1, ""};
+  FILE* pipe = popen((TAUT_CHECK " " + arguments + " 2>/dev/null").c_str(), "r");
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) result.text += static_cast<char>(c);
+  const int status = pclose(pipe);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return result;
+}
+
+const std::string kFolder = TAUT_SOURCE_DIR "/tests/certificates/";
+
+TEST(TautCheck, ExitCodesSayTheOutcome) {
+  EXPECT_EQ(run(kFolder + "accepted/robot1_near_goal.json").exit_code, 0);
+  EXPECT_EQ(run(kFolder + "accepted/refuted_singular.json").exit_code, 0);
+  EXPECT_EQ(run(kFolder + "rejected/anchor_moved.json").exit_code, 1);
+  EXPECT_EQ(run(kFolder + "malformed/cut.json").exit_code, 3);
+  EXPECT_EQ(run(kFolder + "no-such-file.json").exit_code, 3);
+  EXPECT_EQ(run(kFolder).exit_code, 3);
+  EXPECT_EQ(run("").exit_code, 3);
+  EXPECT_EQ(run("--no-such-flag x").exit_code, 3);
+  EXPECT_EQ(run("--help").exit_code, 0);
+}
+
+TEST(TautCheck, AnotherCaseIsRejectedAndABrokenOneIsBadInput) {
+  const std::string certificate = kFolder + "accepted/robot1_near_goal.json ";
+  EXPECT_EQ(run(certificate + TAUT_SOURCE_DIR "/cases/robot1-slice-qs-qg.yaml").exit_code, 1);
+  EXPECT_EQ(run(certificate + kFolder + "make_certificates.py").exit_code, 3);
+  EXPECT_EQ(run(certificate + "no-such-case.yaml").exit_code, 3);
+}
+
+TEST(TautCheck, PrintsASentence) {
+  const Output proved = run(kFolder + "accepted/robot1_near_goal.json");
+  EXPECT_TRUE(proved.text.starts_with("accepted: proved again: 1 segment, 4 boxes (")) << proved.text;
+  EXPECT_TRUE(run(kFolder + "rejected/anchor_moved.json").text.starts_with("rejected: segment 0, box [0, 1/8], cable"));
+  EXPECT_EQ(run("--quiet " + kFolder + "malformed/cut.json").text, "");
+}
+
+TEST(TautCheck, PrintsJsonForMachines) {
+  const nlohmann::json report = nlohmann::json::parse(run("--json " + kFolder + "accepted/robot1_near_goal.json").text);
+  EXPECT_EQ(report["outcome"], "accepted");
+  EXPECT_EQ(report["verdict"], "proved");
+  EXPECT_EQ(report["boxes"], 4);
+  EXPECT_GE(report["pieces"], report["boxes"]);
+}
+
+}  // namespace
+}  // namespace taut::checker
