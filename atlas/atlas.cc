@@ -59,6 +59,16 @@ bool tangents_agree(const Frame& a, const Frame& b, double min_cosine) {
   return absolute_determinant(product) >= min_cosine;
 }
 
+// Whether the tangent spaces of a parent and a new centre fit each other; if so, the radius at which a manifold as
+// curved as between them has left its tangent space by epsilon.
+std::optional<double> flat_radius(const Frame& parent, const Frame& child, const AtlasOptions& options) {
+  const View view(parent, child);
+  if (!view.near(options.epsilon) || !tangents_agree(parent, child, options.min_tangent_cosine)) return std::nullopt;
+  const double left_by = std::max(view.distance_ab, view.distance_ba);
+  if (left_by == 0) return std::numeric_limits<double>::infinity();
+  return view.u_ab.norm() * std::sqrt(options.epsilon / left_by);
+}
+
 double cosine_of_double_angle(double cosine) { return std::max(0.0, 2 * cosine * cosine - 1); }
 
 }  // namespace
@@ -142,13 +152,13 @@ void Atlas::grow_towards(int parent_id, int vertex) {
       too_curved = false;
       continue;
     }
-    if (!projected || !View(parent.frame, candidate_).near(options_.epsilon) ||
-        !tangents_agree(parent.frame, candidate_, options_.min_tangent_cosine)) {
+    const std::optional<double> flat = projected ? flat_radius(parent.frame, candidate_, options_) : std::nullopt;
+    if (!flat) {
       too_curved = true;
       continue;
     }
     if (too_curved) parent.radius = distance / options_.step;
-    insert(std::min(options_.radius, 2 * parent.radius));
+    insert(std::min({options_.radius, 2 * parent.radius, *flat}));
     return;
   }
 }

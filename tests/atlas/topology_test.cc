@@ -88,6 +88,18 @@ TEST(Topology, OfATorus) {
   EXPECT_NEAR(area(atlas), expected, 0.01 * expected);
 }
 
+TEST(Topology, OfATorusWhateverTheRadiusAndEpsilon) {
+  const auto torus = testing::torus();
+  for (const double epsilon : {0.01, 0.1}) {
+    for (const double radius : {0.08, 0.119, 0.159, 0.276, 0.317}) {  // some of them have many near-ties
+      Atlas atlas(torus, options(radius, epsilon));
+      atlas.add(coordinates({1 + testing::kTubeRadius, 0, 0}));
+      ASSERT_TRUE(atlas.grow_all());
+      EXPECT_EQ(euler_characteristic(atlas), 0) << radius << ' ' << epsilon;
+    }
+  }
+}
+
 TEST(Topology, OfTheChmutovSurface) {
   const auto chmutov = testing::chmutov();
   Atlas atlas(chmutov, options(0.06, 0.01));
