@@ -80,7 +80,7 @@ figcaption { font-size: 13px; color: var(--soft); }
 .slice figcaption { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 6px 0 0 52px; }
 .key { white-space: nowrap; display: inline-flex; align-items: center; gap: 7px; font-weight: 400; }
 .key svg { width: 24px; height: 10px; flex: none; }
-figure > svg { display: block; width: 100%; height: auto; }
+figure > svg { display: block; overflow: visible; width: 100%; height: auto; }
 svg text { font: 11px system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif; fill: var(--soft); }
 svg .bound { fill: var(--limit); }
 svg path { fill: none; vector-effect: non-scaling-stroke; }

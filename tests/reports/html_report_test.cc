@@ -1,0 +1,255 @@
+#include "reports/html_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kinematics/input_error.h"
+#include "tests/reports/sample_certificates.h"
+
+namespace taut {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Whether each element is closed in the order it was opened; the first mistake in words. Quotes attributes as the
+/// report does, always.
+std::string imbalance(const std::string& page) {
+  static const std::set<std::string> kVoid = {"meta", "link", "!DOCTYPE"};
+  std::vector<std::string> open;
+  for (std::size_t i = page.find('<'); i != std::string::npos; i = page.find('<', i)) {
+    std::size_t end = i;
+    bool quoted = false;
+    while (end < page.size() && (quoted || page[end] != '>')) quoted ^= page[end++] == '"';
+    const std::string tag = page.substr(i + 1, end - i - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
+    if (tag.front() == '/') {
+      if (open.empty() || open.back() != tag.substr(1)) {
+        return "</" + tag.substr(1) + "> closes " + (open.empty() ? "nothing" : open.back());
+      }
+      open.pop_back();
+    } else if (tag.back() != '/' && !kVoid.contains(name)) {
+      open.push_back(name);
+    }
+    i = end;
+  }
+  return open.empty() ? "" : open.back() + " is never closed";
+}
+
+/// What stands in tags, without the words and attribute values between them: where markup would do harm.
+std::string tags_only(const std::string& page) {
+  std::string result;
+  bool inside = false;
+  bool quoted = false;
+  for (const char c : page) {
+    if (!inside && c == '<') inside = true;
+    if (inside && c == '"') quoted = !quoted;
+    if (inside && !quoted) result += c;
+    if (inside && !quoted && c == '>') inside = false;
+  }
+  return result;
+}
+
+/// {what it is, the page}
+const std::vector<std::pair<std::string, std::string>>& pages() {
+  static const std::vector<std::pair<std::string, std::string>> kPages = {
+      {"proved", html_report(sample::proved())},     {"refuted", html_report(sample::refuted())},
+      {"singular", html_report(sample::singular())}, {"undecided", html_report(sample::undecided())},
+      {"no path", html_report(sample::no_path())},   {"hostile", html_report(sample::hostile())}};
+  return kPages;
+}
+
+const std::string& page_of(const std::string& name) {
+  for (const auto& [candidate, page] : pages()) {
+    if (candidate == name) return page;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST(HtmlReport, SaysWhatWasProvedAndHowClose) {
+  const std::string& page = page_of("proved");
+  EXPECT_THAT(page, HasSubstr("Proved: this motion is wrench-feasible"));
+  EXPECT_THAT(page, HasSubstr("(0.05 to 0.5 N)"));
+  EXPECT_THAT(page, HasSubstr("(100 to 550 mm)"));
+  EXPECT_THAT(page, HasSubstr("2 segments"));
+  EXPECT_THAT(page, HasSubstr("in 3 boxes"));
+  EXPECT_THAT(page, HasSubstr("at least 0.0425 N inside its limits (least in segment 1)"));
+  EXPECT_THAT(page, HasSubstr("at least 10.61 mm (least in segment 0)"));
+  EXPECT_THAT(page, HasSubstr("at least 2.71-fold"));
+}
+
+TEST(HtmlReport, PrintsClaimAndDigestsAsTheCertificateStatesThem) {
+  const std::string& page = page_of("proved");
+  EXPECT_THAT(page, HasSubstr("The claim of this certificate, word by word: f_lo,i &lt; f_i &lt; f_hi,i."));
+  EXPECT_THAT(page, HasSubstr(sample::kProblemDigest));
+  EXPECT_THAT(page, HasSubstr(sample::kPathDigest));
+  EXPECT_THAT(page, HasSubstr(sample::kFooterDigest));
+  EXPECT_THAT(page, HasSubstr("taut 0.1.0"));
+}
+
+TEST(HtmlReport, PrintsExactNumbersOfRobotAndPath) {
+  const std::string& page = page_of("proved");
+  EXPECT_THAT(page, HasSubstr("(-190.5256, -110, 0)"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\">-2.3</td><td class=\"n\">1.6</td>"));
+  EXPECT_THAT(page, HasSubstr(" − 2π</td>")) << "half turns are written out";
+  EXPECT_THAT(page, HasSubstr("sigma0*pi/180"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\"><b>4.25e-02</b></td>")) << "margins stay the certificate's strings";
+}
+
+TEST(HtmlReport, NamesTheCableThatComesClosestInSamples) {
+  // By a separate program: at q_s, cable 3 has 0.05167 N and cable 5 has 10.659 mm left, the least along this path.
+  const std::string summary = text_summary(sample::proved());
+  EXPECT_THAT(summary, HasSubstr("samples of the path, cable 3 comes closest to a tension limit: within 0.052 N of its "
+                                 "lower limit, 11 % of the way between its limits, in segment 0."));
+  EXPECT_THAT(summary,
+              HasSubstr("Cable 5 comes closest to a length limit: within 10.7 mm of its upper limit, in segment 0."));
+}
+
+TEST(HtmlReport, SaysWhereARefutedMotionFails) {
+  const std::string& page = page_of("refuted");
+  EXPECT_THAT(page, HasSubstr("Refuted: this motion is not wrench-feasible."));
+  EXPECT_THAT(page,
+              HasSubstr("At s = 3/8 of segment 1, between waypoints 1 and 2, some load in the given ellipsoid of "
+                        "wrenches gives cable 3 a tension of at least 0.8123 N: not below its upper limit of 0.5 N."));
+  EXPECT_THAT(page, Not(HasSubstr("Proved:")));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"margins\"")));
+}
+
+TEST(HtmlReport, SaysBetweenWhichPosesASingularOneLies) {
+  const std::string& page = page_of("singular");
+  EXPECT_THAT(page, HasSubstr("opposite signs at waypoint 0, (phi, theta) = (-2.3, 1.6) and at s = 5/8 of segment 1"));
+}
+
+TEST(HtmlReport, RefutesByALengthInMillimetres) {
+  nlohmann::json certificate = sample::refuted();
+  certificate["witness"]["kind"] = "length_min";
+  certificate["witness"]["value"] = {"0.0991", "0.0992"};
+  certificate["witness"]["limit"] = "0.1";
+  EXPECT_THAT(html_report(certificate),
+              HasSubstr("cable 3 has a length of at most 99.2 mm: not above its lower limit of 100 mm."));
+}
+
+TEST(HtmlReport, SaysWhatIsOpen) {
+  const std::string& page = page_of("undecided");
+  EXPECT_THAT(page, HasSubstr("Undecided: nothing is claimed about this motion."));
+  EXPECT_THAT(page, HasSubstr("Reason: the determinant may vanish"));
+  EXPECT_THAT(page, HasSubstr("segment 1, between waypoints 1 and 2, from s = 1/4 to s = 3/8."));
+  EXPECT_THAT(page_of("no path"), HasSubstr("Reason: no path was found"));
+}
+
+TEST(HtmlReport, IsBalancedMarkup) {
+  for (const auto& [name, page] : pages()) EXPECT_EQ(imbalance(page), "") << name;
+  EXPECT_NE(imbalance("<p><b></p></b>"), "");
+  EXPECT_NE(imbalance("<p>"), "");
+}
+
+TEST(HtmlReport, NeedsNeitherScriptsNorNetwork) {
+  for (const auto& [name, page] : pages()) {
+    EXPECT_THAT(page, Not(HasSubstr("http://"))) << name;
+    EXPECT_THAT(page, Not(HasSubstr("https://"))) << name;
+    EXPECT_THAT(page, Not(HasSubstr("@import"))) << name;
+    EXPECT_THAT(page, Not(HasSubstr("url("))) << name;
+    EXPECT_THAT(tags_only(page), Not(HasSubstr("script"))) << name;
+    EXPECT_THAT(tags_only(page), Not(HasSubstr("src="))) << name;
+  }
+}
+
+TEST(HtmlReport, EscapesEveryStringOfTheCertificate) {
+  const std::string& page = page_of("hostile");
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  EXPECT_THAT(page, Not(HasSubstr(sample::kAttack)));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt;")) << "it is shown, not dropped";
+  nlohmann::json undecided = sample::undecided();
+  undecided["undecided"]["reason"] = sample::kAttack;
+  EXPECT_THAT(html_report(undecided), Not(HasSubstr("<script")));
+}
+
+TEST(HtmlReport, RejectsAMalformedCertificate) {
+  const auto without = [](const char* key) {
+    nlohmann::json certificate = sample::proved();
+    certificate.erase(key);
+    return certificate;
+  };
+  for (const char* key : {"verdict", "claim", "problem", "path", "segments", "margins", "footer", "format"}) {
+    EXPECT_THROW((void)html_report(without(key)), InputError) << key;
+  }
+  nlohmann::json certificate = sample::proved();
+  certificate["path"]["waypoints"][0]["x"][0] = "nan";
+  EXPECT_THROW((void)html_report(certificate), InputError);
+  certificate = sample::proved();
+  certificate["path"]["waypoints"][0]["x"].push_back("0");
+  EXPECT_THROW((void)html_report(certificate), InputError);
+  certificate = sample::refuted();
+  certificate["witness"]["at"]["segment"] = 2;
+  EXPECT_THROW((void)html_report(certificate), InputError);
+  certificate = sample::refuted();
+  certificate["witness"]["cable"] = 7;
+  EXPECT_THROW((void)html_report(certificate), InputError);
+  certificate = sample::proved();
+  certificate["margins"]["tension_N"] = "much";
+  EXPECT_THROW((void)html_report(certificate), InputError);
+  EXPECT_THROW((void)html_report(nlohmann::json::array()), InputError);
+}
+
+TEST(HtmlReport, DoesWithoutAnIllustration) {
+  nlohmann::json certificate = sample::proved();
+  certificate.erase("illustration");
+  EXPECT_THAT(html_report(certificate), HasSubstr("id=\"slice\""));
+  certificate["illustration"] = nlohmann::json::object();
+  EXPECT_THAT(html_report(certificate), HasSubstr("id=\"slice\""));
+  certificate["illustration"] = {{"charts", {{{"c", {"1", "2", "3"}}, {"p", nlohmann::json::array()}}}}};
+  EXPECT_THAT(html_report(certificate), Not(HasSubstr("charts of the atlas")));
+}
+
+TEST(HtmlReport, StaysSmallForLongPathsAndLargeAtlases) {
+  nlohmann::json certificate = sample::proved();
+  const nlohmann::json waypoint = certificate["path"]["waypoints"][0];
+  const nlohmann::json segment = certificate["segments"][0];
+  for (int k = 2; k < 50; ++k) {
+    certificate["path"]["waypoints"].push_back(waypoint);
+    certificate["segments"].push_back(segment);
+  }
+  const nlohmann::json chart = certificate["illustration"]["charts"][0];
+  for (int k = 0; k < 500; ++k) certificate["illustration"]["charts"].push_back(chart);
+  EXPECT_LT(html_report(certificate).size(), 1'000'000u);
+}
+
+TEST(HtmlReport, SurvivesAbsurdNumbers) {
+  nlohmann::json certificate = sample::proved();
+  certificate["path"]["waypoints"][1]["x"] = {"0x1p+1023", "-0x1p+1023"};
+  certificate["illustration"]["charts"][0]["c"] = {"1e300", "-1e300"};
+  certificate["path"]["waypoints"][2]["half_turns"] = {2147483647, 0};
+  const std::string page = html_report(certificate);
+  EXPECT_EQ(imbalance(page), "");
+  EXPECT_LT(page.size(), 1'000'000u);
+}
+
+TEST(HtmlReport, DrawsNoPlaneForThreeParameters) {
+  nlohmann::json certificate = sample::proved();
+  certificate["problem"]["space"]["parameters"].push_back(
+      {{"name", "z"}, {"kind", "range"}, {"range", {"0.3", "0.4"}}});
+  certificate["problem"]["space"]["pose"]["pz"] = "z";
+  for (auto& waypoint : certificate["problem"]["query"]["waypoints"]) waypoint.push_back("0.35");
+  for (auto& waypoint : certificate["path"]["waypoints"]) {
+    waypoint["x"].push_back("0x1.6666666666666p-2");
+    waypoint["half_turns"].push_back(0);
+  }
+  const std::string page = html_report(certificate);
+  EXPECT_THAT(page, Not(HasSubstr("id=\"slice\"")));
+  EXPECT_THAT(page, HasSubstr("<code>z</code> [m]"));
+  EXPECT_EQ(imbalance(page), "");
+}
+
+TEST(TextSummary, IsTheVerdictInPlainText) {
+  EXPECT_THAT(text_summary(sample::hostile()), HasSubstr(sample::kAttack)) << "plain text needs no escaping";
+  EXPECT_THAT(text_summary(sample::undecided()), testing::StartsWith("Undecided: nothing is claimed"));
+}
+
+}  // namespace
+}  // namespace taut

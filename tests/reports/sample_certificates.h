@@ -1,0 +1,121 @@
+// Certificates for the report's tests: Robot 1 on its slice. Right in form, and the first steps of a real path; digests,
+// boxes and margins are made up, since a report does not check them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace taut::sample {
+
+inline const std::string kProblemDigest(64, 'a');
+inline const std::string kPathDigest(64, 'b');
+inline const std::string kFooterDigest(64, 'c');
+
+/// Without verdict.
+inline nlohmann::json certificate() {
+  using nlohmann::json;
+  json ellipsoid = json::array();
+  for (int i = 0; i < 6; ++i) {
+    ellipsoid.push_back(json::array({"0", "0", "0", "0", "0", "0"}));
+    ellipsoid[i][i] = i < 3 ? "10000" : "1000000";
+  }
+  const json problem = json::parse(R"({
+    "name": "robot1-slice",
+    "robot": {
+      "base_anchors_m": [["0","0.22","0"], ["0","0.22","0"], ["-0.1905256","-0.11","0"], ["-0.1905256","-0.11","0"],
+                         ["0.1905256","-0.11","0"], ["0.1905256","-0.11","0"]],
+      "platform_anchors_m": [["-0.1125833","0.065","0"], ["0.1125833","0.065","0"], ["0","-0.13","0"],
+                             ["-0.1125833","0.065","0"], ["0.1125833","0.065","0"], ["0","-0.13","0"]],
+      "tension_N": [["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"]],
+      "length_m": [["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"]]},
+    "load": {"point_m": ["0.03","0.014","-0.021"], "wrench": ["0","0","1","0","0","0"], "ellipsoid": []},
+    "space": {"parameters": [{"name": "phi", "kind": "periodic"}, {"name": "theta", "kind": "real"}],
+              "constants": {"sigma0": "34"}, "flip": [0, 1],
+              "pose": {"px": "0", "py": "0", "pz": "0.35", "phi": "phi", "theta": "theta",
+                       "sigma": "sigma0*pi/180"}},
+    "query": {"waypoints": [["-2.3","1.6"], ["-2.3","1.3"]]}})");
+  json result = {{"format", "taut-certificate"},
+                 {"version", 1},
+                 {"generator", {{"name", "taut"}, {"version", "0.1.0"}}},
+                 {"verdict", ""},
+                 {"claim", "The claim of this certificate, word by word: f_lo,i < f_i < f_hi,i."},
+                 {"problem", problem},
+                 {"problem_sha256", kProblemDigest},
+                 {"path", json::parse(R"({"interpolation": "straight-in-parameters", "waypoints": [
+                 {"x": ["-0x1.2666666666666p+1", "0x1.999999999999ap+0"], "half_turns": [0, 0]},
+                 {"x": ["-0x1.263f9b9445fddp+1", "0x1.916f44c547a8cp+0"], "half_turns": [0, 0]},
+                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}]})")},
+                 {"path_sha256", kPathDigest},
+                 {"segments", json::array()},
+                 {"margins", json::object()},
+                 {"witness", nullptr},
+                 {"undecided", nullptr},
+                 {"illustration", json::parse(R"({"kind": "atlas", "parameters": ["phi", "theta"], "charts": [
+                 {"c": ["-2.3", "1.6"], "p": [["-2.3117","1.584"], ["-2.2914","1.5844"], ["-2.286","1.6051"]]}],
+                 "stats": {"charts": 1, "plan_ms": "0.5"}})")},
+                 {"footer", {{"waypoints", 3}, {"segments", 0}, {"boxes", 0}, {"sha256", kFooterDigest}}}};
+  result["problem"]["load"]["ellipsoid"] = ellipsoid;
+  return result;
+}
+
+inline nlohmann::json proved() {
+  nlohmann::json result = certificate();
+  result["verdict"] = "proved";
+  result["segments"] = nlohmann::json::parse(R"([
+      {"from": 0, "to": 1, "boxes": [["0","1/2"], ["1/2","1"]],
+       "margins": {"tension_N": "5.11e-02", "length_m": "1.061e-02", "wrench_scale": "2.92e+00"}},
+      {"from": 1, "to": 2, "boxes": [["0","1"]],
+       "margins": {"tension_N": "4.25e-02", "length_m": "1.234e-02", "wrench_scale": "2.71e+00"}}])");
+  result["margins"] = {{"tension_N", "4.25e-02"}, {"length_m", "1.061e-02"}, {"wrench_scale", "2.71e+00"}};
+  result["footer"]["segments"] = 2;
+  result["footer"]["boxes"] = 3;
+  return result;
+}
+
+inline nlohmann::json refuted() {
+  nlohmann::json result = certificate();
+  result["verdict"] = "refuted";
+  result["witness"] = nlohmann::json::parse(R"({"at": {"segment": 1, "s": "3/8"}, "kind": "tension_max", "cable": 3,
+                                                "value": ["0.8123", "0.8129"], "limit": "0.5"})");
+  return result;
+}
+
+inline nlohmann::json singular() {
+  nlohmann::json result = certificate();
+  result["verdict"] = "refuted";
+  result["witness"] =
+      nlohmann::json::parse(R"({"at": {"waypoint": 0}, "to": {"segment": 1, "s": "5/8"}, "kind": "singular"})");
+  return result;
+}
+
+inline nlohmann::json undecided() {
+  nlohmann::json result = certificate();
+  result["verdict"] = "undecided";
+  result["undecided"] = {{"reason", "the determinant may vanish"}, {"segment", 1}, {"box", {"1/4", "3/8"}}};
+  return result;
+}
+
+inline nlohmann::json no_path() {
+  nlohmann::json result = certificate();
+  result["verdict"] = "undecided";
+  result["path"]["waypoints"] = nlohmann::json::array();
+  result["undecided"] = {{"reason", "no path was found"}, {"segment", nullptr}, {"box", nullptr}};
+  result["illustration"] = nullptr;
+  return result;
+}
+
+/// Every string that a report may show tries to break out of it.
+inline const std::string kAttack = R"("'></title></style><script>alert(1)</script><img src=x onerror=alert(2)>)";
+
+inline nlohmann::json hostile() {
+  nlohmann::json result = proved();
+  for (const char* key : {"claim", "problem_sha256", "path_sha256"}) result[key] = kAttack;
+  result["generator"] = {{"name", kAttack}, {"version", kAttack}};
+  result["problem"]["name"] = kAttack;
+  result["path"]["interpolation"] = kAttack;
+  result["footer"]["sha256"] = kAttack;
+  result["illustration"]["stats"] = {{kAttack, kAttack}, {"list", {kAttack}}};
+  return result;
+}
+
+}  // namespace taut::sample

@@ -1,0 +1,20 @@
+// write_samples DIR: the reports of the sample certificates, for browser_test.sh.
+#include <filesystem>
+#include <fstream>
+
+#include "reports/html_report.h"
+#include "tests/reports/sample_certificates.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 3;
+  const std::filesystem::path directory = argv[1];
+  const auto write = [&](const char* name, const nlohmann::json& certificate) {
+    std::ofstream(directory / name) << taut::html_report(certificate);
+  };
+  write("proved.html", taut::sample::proved());
+  write("refuted.html", taut::sample::refuted());
+  write("singular.html", taut::sample::singular());
+  write("undecided.html", taut::sample::undecided());
+  write("no_path.html", taut::sample::no_path());
+  write("hostile.html", taut::sample::hostile());
+}
