@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinematics/input_error.h"
 #include "kinematics/statics.h"
 
 namespace taut {
@@ -32,7 +33,15 @@ namespace {
 
 constexpr mpfr_prec_t kModelPrecision = 256;
 
-Interval outward(const MpInterval& x) { return {lower_bound(x), upper_bound(x)}; }
+/// Intervals are bounded (interval.h), so a number beyond binary64 is refused here.
+Interval outward(const MpInterval& x) {
+  const double lower = lower_bound(x);
+  const double upper = upper_bound(x);
+  if (!std::isfinite(lower) || !std::isfinite(upper)) {
+    throw InputError("robot, load: got a number beyond the range of binary64");
+  }
+  return {lower, upper};
+}
 
 template <int Rows, int Columns>
 Eigen::Matrix<Interval, Rows, Columns> outward(const Eigen::Matrix<MpInterval, Rows, Columns>& x) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certify/big_float.h"
+#include "kinematics/input_error.h"
 
 namespace taut {
 namespace {
@@ -205,6 +206,9 @@ Interval ScalarTraits<Interval>::from_decimal(const std::string& text) {
   const double upper = mpfr_get_d(value, MPFR_RNDU);
   mpfr_clear(value);
   if (bad != 0) throw std::invalid_argument("not a decimal: " + text);
+  if (!std::isfinite(lower) || !std::isfinite(upper)) {
+    throw InputError("got '" + text + "', expected a number within the range of binary64");
+  }
   return {lower, upper};
 }
 

@@ -15,7 +15,7 @@ Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid) {
   for (int j = 0; j < 6; ++j) {
     S pivot = ellipsoid(j, j);
     for (int k = 0; k < j; ++k) pivot = pivot - sqr(m(j, k));
-    if (!(lower_bound(pivot) > 0)) {
+    if (!certainly_positive(pivot)) {
       throw InputError("load.ellipsoid: got a matrix that is not (provably) positive definite");
     }
     m(j, j) = sqrt(pivot);

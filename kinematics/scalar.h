@@ -31,6 +31,8 @@ struct ScalarTraits<double> {
 /// Bounds as doubles: of an enclosing scalar, below and above all its members.
 inline double lower_bound(double x) { return x; }
 inline double upper_bound(double x) { return x; }
+/// Three-valued comparisons have names: this one is true only if every member is positive.
+inline bool certainly_positive(double x) { return x > 0; }
 inline double sqr(double x) { return x * x; }
 inline SinCos<double> sincos(double x) { return {std::sin(x), std::cos(x)}; }
 inline double pow_int(double x, int n) { return std::pow(x, n); }

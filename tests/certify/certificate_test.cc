@@ -1,0 +1,140 @@
+#include "certify/certificate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "certify/path_proof.h"
+#include "kinematics/input_error.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using nlohmann::json;
+using testing::robot1_slice;
+
+Path short_path() {
+  return {{{{-2.3, 1.6}, {0, 0}}, {{-2.25, 1.5}, {0, 0}}, {{-2.25, 1.4}, {0, 0}}}};
+}
+
+TEST(HexFloat, ReadsBackBitForBit) {
+  for (const double x : {0.0, 1.0, -2.3, 0.1, 5e-324, 1.7976931348623157e308, std::nextafter(1.0, 2.0)}) {
+    EXPECT_EQ(std::strtod(hex_float(x).c_str(), nullptr), x);
+  }
+  EXPECT_EQ(hex_float(-2.3), "-0x1.2666666666666p+1");
+}
+
+TEST(Dyadic, IsWrittenInLowestTerms) {
+  EXPECT_EQ(dyadic(0.0), "0");
+  EXPECT_EQ(dyadic(1.0), "1");
+  EXPECT_EQ(dyadic(0.375), "3/8");
+  EXPECT_EQ(dyadic(std::ldexp(1.0, -52)), "1/4503599627370496");
+}
+
+TEST(Sha256, IsThatOfTheCanonicalText) {
+  EXPECT_EQ(sha256(json::object()), "44136fa355b3678a1146ad16f7e8649e94fb4fc21fe77e8310c060f61caaff8a");  // of {}
+}
+
+TEST(NearestBinary64, RoundsTheExactValueOfWhatWasTyped) {
+  EXPECT_EQ(nearest_binary64("-2.3"), -2.3);
+  EXPECT_EQ(nearest_binary64("pi/2"), 0x1.921fb54442d18p+0);
+  EXPECT_EQ(nearest_binary64("(34)*pi/180"), 34.0 * 3.14159265358979323846 / 180.0);
+  EXPECT_EQ(nearest_binary64("1 + 1.110223024625156540423631668090820312500e-16"), 1.0) << "a tie goes to even";
+  EXPECT_EQ(nearest_binary64("1 + 1.1102230246251565404236316680908203126e-16"), std::nextafter(1.0, 2.0));
+  EXPECT_THROW((void)nearest_binary64("1/0"), InputError);
+  EXPECT_THROW((void)nearest_binary64("sqrt(-1)"), InputError);
+}
+
+TEST(PathProof, ProvesAPathAndItsMarginsAreTheSmallestOfTheSegments) {
+  const PathProof proof = prove_path(Prover(robot1_slice()), short_path());
+  ASSERT_EQ(proof.verdict, Verdict::kProved);
+  ASSERT_EQ(proof.segment_margins.size(), 2u);
+  const auto smallest = [&](DecimalText Margins::*member) {
+    return std::min(std::stod(proof.segment_margins[0].*member), std::stod(proof.segment_margins[1].*member));
+  };
+  EXPECT_EQ(std::stod(proof.margins.tension_N), smallest(&Margins::tension_N));
+  EXPECT_EQ(std::stod(proof.margins.length_m), smallest(&Margins::length_m));
+  EXPECT_EQ(std::stod(proof.margins.wrench_scale), smallest(&Margins::wrench_scale));
+  EXPECT_GE(std::stod(proof.margins.wrench_scale), 1.0);
+}
+
+TEST(PathProof, StatedMarginsAreBelowTheBoundsThatWereProved) {
+  const PathProof proof = prove_path(Prover(robot1_slice()), short_path());
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LE(std::stod(proof.segment_margins[k].tension_N), proof.segments[k].tension_N);
+    EXPECT_LE(std::stod(proof.segment_margins[k].length_m), proof.segments[k].length_m);
+    EXPECT_LE(std::stod(proof.segment_margins[k].wrench_scale), proof.segments[k].wrench_scale);
+  }
+}
+
+TEST(PathProof, RefutesAPathWithOneBadSegmentAndEnclosesTheViolation) {
+  Path path = short_path();
+  path.waypoints.push_back({{1.7, 1.7}, {0, 0}});
+  const PathProof proof = prove_path(Prover(robot1_slice()), path);
+  ASSERT_EQ(proof.verdict, Verdict::kRefuted);
+  ASSERT_TRUE(proof.witness.has_value());
+  EXPECT_TRUE(proof.witness->at.on_segment);
+  EXPECT_EQ(proof.witness->at.index, 2);
+  EXPECT_LE(std::stod(proof.witness->value_lower), std::stod(proof.witness->value_upper));
+}
+
+TEST(PathProof, OneInfeasibleWaypointIsRefutedWithItsCable) {
+  const PathProof proof = prove_path(Prover(robot1_slice()), {{{{0.0, 1.6}, {0, 0}}}});
+  ASSERT_EQ(proof.verdict, Verdict::kRefuted);
+  EXPECT_FALSE(proof.witness->at.on_segment);
+  EXPECT_FALSE(proof.witness->limit.empty());
+}
+
+TEST(PathProof, OneFeasibleWaypointIsNoPath) {
+  const PathProof proof = prove_path(Prover(robot1_slice()), {{{{-2.3, 1.6}, {0, 0}}}});
+  EXPECT_EQ(proof.verdict, Verdict::kUndecided);
+}
+
+TEST(PathProof, AnUntouchedResultClaimsNothing) { EXPECT_EQ(PathProof{}.verdict, Verdict::kUndecided); }
+
+TEST(Certificate, StatesDigestsAndCountsOfWhatItHolds) {
+  const Problem problem = robot1_slice();
+  const PathProof proof = prove_path(Prover(problem), short_path());
+  const json certificate = make_certificate(problem, short_path(), proof, json::object());
+  EXPECT_EQ(certificate["problem_sha256"], sha256(certificate["problem"]));
+  EXPECT_EQ(certificate["path_sha256"], sha256(certificate["path"]));
+  json body = certificate;
+  body.erase("footer");
+  EXPECT_EQ(certificate["footer"]["sha256"], sha256(body));
+  EXPECT_EQ(certificate["footer"]["waypoints"], 3);
+  EXPECT_EQ(certificate["footer"]["segments"], 2);
+  EXPECT_EQ(certificate["footer"]["boxes"], proof.boxes);
+}
+
+TEST(Certificate, HoldsNoFractionalNumber) {
+  const Problem problem = robot1_slice();
+  const json certificate =
+      make_certificate(problem, short_path(), prove_path(Prover(problem), short_path()), json::object());
+  const std::function<void(const json&)> visit = [&](const json& value) {
+    EXPECT_FALSE(value.is_number_float());
+    if (value.is_structured()) {
+      for (const json& child : value) visit(child);
+    }
+  };
+  visit(certificate);
+}
+
+TEST(Certificate, ItsPathReadsBackBitForBit) {
+  const Path path = {{{{-2.3, 0.1}, {0, 0}}, {{5e-324, -0.25}, {-2, 0}}}};
+  const json certificate = make_certificate(robot1_slice(), path, PathProof{}, json::object());
+  EXPECT_EQ(path_from_json(certificate["path"]).waypoints, path.waypoints);
+}
+
+TEST(Certificate, MalformedPathsAreRefused) {
+  for (const char* text : {R"({})", R"({"waypoints":[{"x":["0x1p"],"half_turns":[0]}]})",
+                           R"({"waypoints":[{"x":["nan"],"half_turns":[0]}]})",
+                           R"({"waypoints":[{"x":["1"],"half_turns":[]}]})", R"({"waypoints":[{"x":[1],"half_turns":[0]}]})"}) {
+    EXPECT_THROW((void)path_from_json(json::parse(text)), InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace taut

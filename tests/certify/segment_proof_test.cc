@@ -1,0 +1,217 @@
+#include "certify/segment_proof.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinematics/input_error.h"
+#include "tests/oracle/oracle_at_origin.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using testing::robot1_slice;
+
+Waypoint at(std::vector<double> x) {
+  std::vector<int> none(x.size(), 0);
+  return {std::move(x), std::move(none)};
+}
+
+const Waypoint kStart = at({-2.3, 1.6});
+const Waypoint kNearStart = at({-2.25, 1.5});
+
+void expect_cover(const std::vector<DyadicBox>& boxes) {
+  ASSERT_FALSE(boxes.empty());
+  EXPECT_EQ(boxes.front().lower(), 0.0);
+  EXPECT_EQ(boxes.back().upper(), 1.0);
+  for (std::size_t k = 1; k < boxes.size(); ++k) EXPECT_EQ(boxes[k - 1].upper(), boxes[k].lower());
+}
+
+TEST(Prover, ProvesAShortSegmentAndCoversItWithBoxes) {
+  const Prover prover(robot1_slice());
+  const SegmentProof proof = prover.prove(kStart, kNearStart);
+  ASSERT_EQ(proof.verdict, Verdict::kProved) << proof.reason;
+  expect_cover(proof.boxes);
+  EXPECT_GT(proof.tension_N, 0);
+  EXPECT_GT(proof.length_m, 0);
+  EXPECT_GE(proof.wrench_scale, 1.0);
+}
+
+TEST(Prover, ProvesASegmentOfLengthZero) {
+  const SegmentProof proof = Prover(robot1_slice()).prove(kStart, kStart);
+  EXPECT_EQ(proof.verdict, Verdict::kProved);
+  EXPECT_EQ(proof.boxes.size(), 1u);
+}
+
+TEST(Prover, ProvesTheSameBothWays) {
+  const Prover prover(robot1_slice());
+  EXPECT_EQ(prover.prove(kNearStart, kStart).verdict, Verdict::kProved);
+}
+
+TEST(Prover, RefutesTheStraightMotionOfThePaperEitherWayRound) {
+  const Prover prover(robot1_slice());
+  for (const int half_turns : {0, -2}) {
+    Waypoint goal = at({1.7, 1.7});
+    goal.half_turns[0] = half_turns;
+    const SegmentProof proof = prover.prove(kStart, goal);
+    ASSERT_EQ(proof.verdict, Verdict::kRefuted);
+    ASSERT_TRUE(proof.witness.has_value());
+    EXPECT_TRUE(proof.boxes.empty() || proof.boxes.back().upper() < 1.0);
+  }
+}
+
+TEST(Prover, TheWitnessOfARefutationStandsUpToTheOracle) {
+  const Problem problem = robot1_slice();
+  const Prover prover(problem);
+  const Waypoint goal = at({1.7, 1.7});
+  const SegmentProof proof = prover.prove(kStart, goal);
+  ASSERT_EQ(proof.verdict, Verdict::kRefuted);
+  ASSERT_FALSE(proof.witness->singular);
+  const PrecisionScope precision(oracle::kBits);
+  const BigFloat s(proof.witness->box.mid());
+  const oracle::Big6 pose = {BigFloat(0.0),
+                             BigFloat(0.0),
+                             oracle::big("0.35"),
+                             BigFloat(-2.3) + s * (BigFloat(1.7) - BigFloat(-2.3)),
+                             BigFloat(1.6) + s * (BigFloat(1.7) - BigFloat(1.6)),
+                             BigFloat(34.0) * oracle::pi() / BigFloat(180.0)};
+  const auto statics = oracle::statics(problem, pose);
+  const auto i = static_cast<std::size_t>(proof.witness->margin.cable);
+  switch (proof.witness->margin.kind) {
+    case MarginKind::kTensionMin:
+      EXPECT_LE(statics.tension[i] - statics.variation[i], oracle::big(problem.robot.tension_N[i].lower));
+      break;
+    case MarginKind::kTensionMax:
+      EXPECT_GE(statics.tension[i] + statics.variation[i], oracle::big(problem.robot.tension_N[i].upper));
+      break;
+    case MarginKind::kLengthMin:
+      EXPECT_LE(statics.length[i], oracle::big(problem.robot.length_m[i].lower));
+      break;
+    case MarginKind::kLengthMax:
+      EXPECT_GE(statics.length[i], oracle::big(problem.robot.length_m[i].upper));
+      break;
+  }
+}
+
+TEST(Prover, AWholeTurnApartIsTheSameMotion) {
+  const Prover prover(robot1_slice());
+  Waypoint a = kStart;
+  Waypoint b = kNearStart;
+  a.half_turns[0] = b.half_turns[0] = 2;
+  const SegmentProof here = prover.prove(kStart, kNearStart);
+  const SegmentProof there = prover.prove(a, b);
+  ASSERT_EQ(there.verdict, Verdict::kProved);
+  EXPECT_NEAR(here.tension_N, there.tension_N, 1e-12);
+}
+
+TEST(Prover, TheFlippedImageIsTheSameMotion) {
+  const Prover prover(robot1_slice());
+  Waypoint a = at({-2.3, -1.6});
+  Waypoint b = at({-2.25, -1.5});
+  a.half_turns[0] = b.half_turns[0] = 1;
+  const SegmentProof here = prover.prove(kStart, kNearStart);
+  const SegmentProof there = prover.prove(a, b);
+  ASSERT_EQ(there.verdict, Verdict::kProved);
+  EXPECT_NEAR(here.wrench_scale, there.wrench_scale, 1e-9);
+}
+
+TEST(Prover, GoesThroughThetaZero) {
+  const Prover prover(robot1_slice());
+  EXPECT_EQ(prover.prove(at({-2.0, 0.05}), at({-2.0, -0.05})).verdict, Verdict::kProved);
+}
+
+/// The length of cable 1 of a platform that hangs still, as a limit: the margin is exactly zero.
+TEST(Prover, StaysUndecidedWhereAMarginVanishesExactly) {
+  Problem problem = testing::free_flying(robot1_slice());
+  problem.robot.base_anchors_m[0] = {"0", "0.25", "0"};
+  problem.robot.platform_anchors_m[0] = {"0", "0.25", "0"};
+  for (auto& limits : problem.robot.tension_N) limits = {"-1000", "1000"};
+  problem.robot.length_m[0].upper = "0.5";  // p = (0, 0, 0.5), R = I: cable 1 is exactly 0.5 m long
+  const Waypoint pose = at({0, 0, 0.5, 0, 0, 0});
+  const SegmentProof proof = Prover(problem).prove(pose, pose);
+  EXPECT_NE(proof.verdict, Verdict::kProved);  // the limit is open: at it is not inside
+  problem.robot.length_m[0].upper = "0.50000000000000000000000000000001";
+  EXPECT_EQ(Prover(problem).prove(pose, pose).verdict, Verdict::kProved) << "a margin of 1e-32 m is positive";
+  problem.robot.length_m[0].upper = "0.49999999999999999999999999999999";
+  EXPECT_EQ(Prover(problem).prove(pose, pose).verdict, Verdict::kRefuted);
+}
+
+TEST(Prover, DoesNotProveThroughASingularity) {
+  // Between q_s and the far side lies det J = 0; with limits this wide only the singularity stands in the way.
+  Problem problem = robot1_slice();
+  for (auto& limits : problem.robot.tension_N) limits = {"-1e12", "1e12"};
+  for (auto& limits : problem.robot.length_m) limits = {"0", "100"};
+  const Prover prover(problem);
+  const SegmentProof proof = prover.prove(kStart, at({1.7, 1.7}));
+  EXPECT_NE(proof.verdict, Verdict::kProved);
+}
+
+TEST(Prover, RefutesASingularSegmentByAChangeOfSign) {
+  // A weightless platform has no tensions at all: w0 = 0, and only det J tells.
+  Problem problem = robot1_slice();
+  problem.load.wrench = {"0", "0", "0", "0", "0", "0"};
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e300";
+  for (auto& limits : problem.robot.tension_N) limits = {"-1e9", "1e9"};
+  for (auto& limits : problem.robot.length_m) limits = {"0", "100"};
+  const Prover prover(problem);
+  const SegmentProof proof = prover.prove(kStart, at({1.7, 1.7}));
+  ASSERT_EQ(proof.verdict, Verdict::kRefuted) << proof.reason;
+  ASSERT_TRUE(proof.witness->singular);
+  const auto model = [&] {
+    const PrecisionScope precision(256);
+    return make_mp_proof_model(problem);
+  }();
+  const PrecisionScope precision(256);
+  EXPECT_EQ(determinant_sign(model, kStart, at({1.7, 1.7}), proof.witness->box.lower()) *
+                determinant_sign(model, kStart, at({1.7, 1.7}), proof.witness->box.upper()),
+            -1);
+}
+
+TEST(Prover, AnInterruptedProofIsUndecided) {
+  Prover prover(robot1_slice());
+  std::atomic<bool> stop = true;
+  prover.interrupt = &stop;
+  const SegmentProof proof = prover.prove(kStart, kNearStart);
+  EXPECT_EQ(proof.verdict, Verdict::kUndecided);
+  EXPECT_EQ(proof.reason, "interrupted");
+}
+
+TEST(Prover, ABudgetOfBoxesIsKept) {
+  ProofOptions options;
+  options.max_boxes = 1;
+  const SegmentProof proof = Prover(robot1_slice(), options).prove(kStart, at({-2.3, 1.1}));
+  EXPECT_EQ(proof.verdict, Verdict::kUndecided);
+  EXPECT_LE(proof.boxes_judged, 2);
+}
+
+TEST(Prover, RestoresTheCallersRoundingMode) {
+  const unsigned before = _mm_getcsr();
+  const Prover prover(robot1_slice());
+  (void)prover.prove(kStart, kNearStart);
+  EXPECT_EQ(_mm_getcsr() & 0x6000u, before & 0x6000u);
+}
+
+TEST(Prover, AWildlyScaledProblemIsNeverProvedByOverflow) {
+  Problem problem = robot1_slice();
+  for (auto& row : problem.load.ellipsoid) row.fill("0");
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e-600";  // K beyond binary64
+  const SegmentProof proof = Prover(problem).prove(kStart, kNearStart);
+  EXPECT_NE(proof.verdict, Verdict::kProved);
+}
+
+TEST(Prover, NumbersBeyondBinary64AreRefused) {
+  Problem problem = robot1_slice();
+  problem.robot.tension_N[0].upper = "1e400";
+  EXPECT_THROW(Prover{problem}, InputError);
+}
+
+TEST(Prover, AnEllipsoidThatIsNotPositiveDefiniteIsRefused) {
+  Problem problem = robot1_slice();
+  problem.load.ellipsoid[0][0] = "-1";
+  EXPECT_ANY_THROW(Prover{problem});
+}
+
+}  // namespace
+}  // namespace taut

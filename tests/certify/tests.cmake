@@ -1,0 +1,5 @@
+taut_add_test(certify segment_proof LABELS unit LIBS taut::certify)
+taut_add_test(certify certificate LABELS unit LIBS taut::certify)
+foreach(header interval_laws)
+  taut_add_test(certify ${header} LABELS unit laws LIBS taut::certify)
+endforeach()
