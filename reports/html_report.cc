@@ -381,36 +381,54 @@ Html robot(const Scene& scene) {
           html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
 }
 
-Html path_section(const Scene& scene) {
-  const CertificateView& view = scene.view;
-  const SpaceText& space = view.problem.space;
+/// Exact parameters and rounded pose of every waypoint: side by side, or one below the other where that is too wide.
+Html waypoint_table(const Scene& scene) {
+  constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
+  const Path& path = scene.view.path;
+  const SpaceText& space = scene.view.problem.space;
   std::vector<Column> columns = {{html("Waypoint"), true}};
   for (std::size_t j = 0; j < space.parameters.size(); ++j) {
     columns.push_back({html("<code>{}</code> {}", space.parameters[j].name, in_brackets(unit(space, j))), true});
   }
-  for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"})
-    columns.push_back({html("{}", name), true});
-  std::vector<std::vector<Html>> rows;
-  for (std::size_t k = 0; k < view.path.waypoints.size(); ++k) {
-    const Waypoint& waypoint = view.path.waypoints[k];
-    std::vector<Html> row = {html("{}", k)};
-    for (std::size_t j = 0; j < waypoint.x.size(); ++j)
-      row.push_back(html("{}", coordinate_text(waypoint.x[j], waypoint.half_turns[j])));
-    const Pose<double> pose = scene.sampler.pose(resolved(waypoint));
-    for (int c = 0; c < 3; ++c) row.push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
-    for (const double angle : {pose.phi, pose.theta, pose.sigma}) row.push_back(html("{:.3f}", angle * kDegrees + 0.0));
-    rows.push_back(std::move(row));
+  std::vector<Column> pose_columns = {{html("Waypoint"), true}};
+  for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"}) {
+    pose_columns.push_back({html("{}", name), true});
   }
-  if (rows.empty()) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
+  std::vector<std::vector<Html>> rows;
+  std::vector<std::vector<Html>> pose_rows;
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    const Waypoint& waypoint = path.waypoints[k];
+    rows.push_back({html("{}", k)});
+    for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+      rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], waypoint.half_turns[j])));
+    }
+    const Pose<double> pose = scene.sampler.pose(resolved(waypoint));
+    pose_rows.push_back({html("{}", k)});
+    for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
+    for (const double angle : {pose.phi, pose.theta, pose.sigma}) {
+      pose_rows.back().push_back(html("{:.3f}", angle * kDegrees + 0.0));
+    }
+  }
+  if (space.parameters.size() > kSideBySide) return table(columns, rows) + table(pose_columns, pose_rows);
+  columns.insert(columns.end(), pose_columns.begin() + 1, pose_columns.end());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].insert(rows[k].end(), pose_rows[k].begin() + 1, pose_rows[k].end());
+  }
+  return table(columns, rows);
+}
+
+Html path_section(const Scene& scene) {
+  const std::size_t count = scene.view.path.waypoints.size();
+  if (count == 0) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
   return section(
       "path", "Path",
       html("<p>{}, numbered from 0; segment k leads from waypoint k to waypoint k + 1. Interpolation: "
            "<code>{}</code>. Parameters are exact: the decimals read back to the binary64 numbers of the "
            "certificate bit for bit, and a multiple of π is added where it is written. Pose coordinates are rounded, "
            "and angles are not wrapped.</p>\n",
-           plural(rows.size(), "waypoint"), view.interpolation) +
+           plural(count, "waypoint"), scene.view.interpolation) +
           pose_figure(scene) +
-          folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "waypoint")), table(columns, rows)));
+          folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene)));
 }
 
 Html tensions(const Scene& scene) {
