@@ -85,7 +85,7 @@ Html tension_panel(const Scene& scene, std::size_t cable) {
   const auto low = regular_runs(scene, cable, -1);
   const auto middle = regular_runs(scene, cable, 0);
   const auto high = regular_runs(scene, cable, 1);
-  Span data = {INFINITY, -INFINITY};
+  Span data = Span::empty();
   for (std::size_t r = 0; r < low.size(); ++r) {
     for (const PlotPoint& point : low[r]) data.include(point.y);
     for (const PlotPoint& point : high[r]) data.include(point.y);
@@ -105,7 +105,7 @@ Html tension_panel(const Scene& scene, std::size_t cable) {
 Html length_panel(const Scene& scene, std::size_t cable) {
   const Model<double>& model = scene.sampler.model();
   const Span limits = {model.length_lower[cable] * kMillimetres, model.length_upper[cable] * kMillimetres};
-  Span data = {INFINITY, -INFINITY};
+  Span data = Span::empty();
   std::vector<PlotPoint> points;
   for (const PathSample& sample : scene.samples) {
     points.push_back({sample.position, sample.statics.length[cable] * kMillimetres});
@@ -127,7 +127,7 @@ Html all_cables(const Scene& scene, Html (*make)(const Scene&, std::size_t)) {
 /// Three coordinates of the pose along the path, drawn apart by dash pattern as well as by colour.
 Html coordinates_panel(const Scene& scene, const std::array<Html, 3>& names, const char* unit,
                        const std::function<double(const Pose<double>&, int)>& value) {
-  Span data = {INFINITY, -INFINITY};
+  Span data = Span::empty();
   std::array<std::vector<PlotPoint>, 3> points;
   for (const PathSample& sample : scene.samples) {
     for (int c = 0; c < 3; ++c) {
@@ -192,7 +192,7 @@ Span window(const Scene& scene, std::size_t j) {
   constexpr double kPi = 3.14159265358979323846;
   const SpaceText& space = scene.view.problem.space;
   const Parameter& parameter = space.parameters[j];
-  Span path = {INFINITY, -INFINITY};
+  Span path = Span::empty();
   for (const Waypoint& waypoint : scene.view.path.waypoints) path.include(resolved(waypoint)[j]);
   if (!(path.length() >= 0)) {  // no path: the query will do
     for (const auto& waypoint : scene.view.problem.query) path.include(evaluate_constant<double>(waypoint[j]));
@@ -301,6 +301,7 @@ Html atlas(const Scene& scene, const Plot& plot, const std::vector<Image>& copie
       const double y = plot.y(centre.y);
       if (x < -20 || x > plot.width() + 20 || y < -20 || y > plot.height() + 20) continue;
       std::vector<PlotPoint> corners;
+      corners.reserve(chart.corners.size());
       for (const auto& corner : chart.corners) corners.push_back(image.of(corner[0], corner[1]));
       data += plot.polyline(corners, true);
     }

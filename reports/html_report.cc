@@ -431,25 +431,36 @@ Html path_section(const Scene& scene) {
           folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene)));
 }
 
+/// What the marks on the plots along the path mean, where there are some.
+Html marks_text(const CertificateView& view) {
+  if (view.witness) return html(" Dashed red: {}.", view.witness->to ? "the two witness poses" : "the witness pose");
+  if (view.undecided && view.undecided->segment) return html(" Amber: what was left open.");
+  return {};
+}
+
 Html tensions(const Scene& scene) {
   if (scene.samples.empty()) return {};
   return section(
       "tensions", "Tensions along the path",
       html("<p>The band is f<sub>0</sub> ± v: all tensions that the loads in K can ask of a cable; the line is "
            "f<sub>0</sub>, for the centre load. Shaded red: beyond the limits. Curves are floating-point samples; the "
-           "proof does not rest on them.</p>\n") +
+           "proof does not rest on them.{}</p>\n",
+           marks_text(scene.view)) +
           tension_figure(scene));
 }
 
 Html lengths(const Scene& scene) {
   if (scene.samples.empty()) return {};
-  return section("lengths", "Cable lengths along the path",
-                 html("<p>Shaded red: beyond the limits. Floating-point samples again.</p>\n") + length_figure(scene));
+  return section(
+      "lengths", "Cable lengths along the path",
+      html("<p>Shaded red: beyond the limits. Floating-point samples again.{}</p>\n", marks_text(scene.view)) +
+          length_figure(scene));
 }
 
 Html margins(const CertificateView& view) {
   if (!view.margins) return {};
   std::vector<std::vector<Html>> rows;
+  rows.reserve(view.segments.size());
   const auto cell = [](const std::string& value, const std::string& least) {
     return value == least ? html("<b>{}</b>", value) : html("{}", value);
   };

@@ -2,7 +2,7 @@
 // reader's light or dark theme.
 #pragma once
 
-#include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +14,10 @@ namespace taut {
 struct Span {
   double lower = 0;
   double upper = 1;
+  /// Contains nothing yet; lower > upper.
+  [[nodiscard]] static Span empty() {
+    return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  }
   [[nodiscard]] double length() const { return upper - lower; }
   /// Widened to contain x; NaN and infinities are ignored.
   void include(double x);

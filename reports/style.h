@@ -137,8 +137,8 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   h2, h3 { break-after: avoid; }
   figure, .tile, tr, blockquote, .sign, .formulas, .verdict { break-inside: avoid; }
   .panels { grid-template-columns: repeat(3, 1fr); gap: 10px; } .panels.two { grid-template-columns: repeat(2, 1fr); }
-  table { font-size: 8.5pt; } th, td { padding-right: 9pt; }
-  td.n, th.n { font-size: 7pt; padding-right: 6pt; } td code, th code { font-size: inherit; } .scroll { overflow: visible; }
+  table { font-size: 7.5pt; } th, td { padding-right: 7pt; }
+  td code, th code, td.digest, td .digest { font-size: inherit; } .scroll { overflow: visible; }
   details::details-content { content-visibility: visible; block-size: auto; }
   a { color: inherit; text-decoration: none; }
 }

@@ -116,6 +116,7 @@ TEST(HtmlReport, SaysWhereARefutedMotionFails) {
   EXPECT_THAT(page,
               HasSubstr("At s = 3/8 of segment 1, between waypoints 1 and 2, some load in the given ellipsoid of "
                         "wrenches gives cable 3 a tension of at least 0.8123 N: not below its upper limit of 0.5 N."));
+  EXPECT_THAT(page, HasSubstr("Dashed red: the witness pose."));
   EXPECT_THAT(page, Not(HasSubstr("Proved:")));
   EXPECT_THAT(page, Not(HasSubstr("id=\"margins\"")));
 }
