@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""End to end through the command line: what a user types, what appears, and with which exit code.
+
+Usage: end_to_end_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TAUT, CHECK, SOURCE = sys.argv[1:4]
+CASES = os.path.join(SOURCE, "cases")
+EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
+
+
+def run(*arguments, **options):
+    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, **options)
+
+
+def all_cases():
+    for folder, _, files in os.walk(CASES):
+        for name in sorted(files):
+            if name.endswith(".yaml"):
+                yield os.path.join(folder, name)
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def expected(case):
+    return re.search(r"^expect:\s*(\w+)", text_of(case), re.M).group(1)
+
+
+class EndToEnd(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.out = self.directory.name
+        self.addCleanup(self.directory.cleanup)
+
+    def path(self, *parts):
+        return os.path.join(self.out, *parts)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def certificate(self, folder="."):
+        return json.loads(text_of(self.path(folder, "certificate.json")))
+
+    def test_every_case_ends_as_it_declares_and_its_certificate_is_accepted(self):
+        for number, case in enumerate(all_cases()):
+            with self.subTest(case=case):
+                out = self.path(str(number))
+                planned = run(TAUT, "plan", case, "--out", out)
+                verdict = expected(case)
+                self.assertEqual(planned.returncode, EXIT[verdict], planned.stdout + planned.stderr)
+                self.assertTrue(planned.stdout.startswith(verdict), planned.stdout)
+                self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
+                self.assertEqual(sorted(os.listdir(out)), ["certificate.json", "path.csv", "report.html"])
+                checked = run(CHECK, os.path.join(out, "certificate.json"), case)
+                self.assertEqual(checked.returncode, 2 if verdict == "undecided" else 0, checked.stdout + checked.stderr)
+
+    def test_a_certificate_of_one_case_is_not_accepted_for_another(self):
+        run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        checked = run(CHECK, self.path("certificate.json"), os.path.join(CASES, "robot1-slice-qs2-qg.yaml"))
+        self.assertEqual(checked.returncode, 1, checked.stdout + checked.stderr)
+
+    def test_the_same_case_gives_the_same_certificate(self):
+        case = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
+        run(TAUT, "plan", case, "--out", self.path("a"))
+        run(TAUT, "plan", case, "--out", self.path("b"))
+        self.assertEqual(self.certificate("a"), self.certificate("b"))
+
+    def test_path_csv_holds_the_certificates_waypoints_bit_for_bit(self):
+        run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs-qg.yaml"), "--out", self.out)
+        waypoints = self.certificate()["path"]["waypoints"]
+        with open(self.path("path.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(waypoints))
+        for row, waypoint in zip(rows, waypoints):
+            self.assertEqual([float(row["x.phi"]), float(row["x.theta"])], [float.fromhex(x) for x in waypoint["x"]])
+            self.assertEqual([int(row["half_turns.phi"]), int(row["half_turns.theta"])], waypoint["half_turns"])
+
+    def test_start_and_goal_are_the_cases_own(self):
+        run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs-qg.yaml"), "--out", self.out)
+        waypoints = self.certificate()["path"]["waypoints"]
+        self.assertEqual([float.fromhex(x) for x in waypoints[0]["x"]], [-2.3, 1.6])
+        self.assertEqual([abs(float.fromhex(x)) for x in waypoints[-1]["x"]], [1.7, 1.7])
+
+    def test_the_report_is_made_again_from_the_certificate_alone(self):
+        run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        first = text_of(self.path("report.html"))
+        os.remove(self.path("report.html"))
+        again = run(TAUT, "report", self.path("certificate.json"))
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(text_of(self.path("report.html")), first)
+
+    def test_json_output_is_one_json_object(self):
+        result = run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out, "--json")
+        summary = json.loads(result.stdout)
+        self.assertEqual(summary["verdict"], "proved")
+        self.assertEqual(summary["segments"], len(self.certificate()["segments"]))
+        self.assertEqual(summary["margins"], self.certificate()["margins"])
+
+    def test_one_lowered_anchor_in_the_certificate_is_noticed(self):
+        run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        text = text_of(self.path("certificate.json"))
+        altered = self.write("altered.json", text.replace("-0.1905256", "-0.1905257", 1))
+        self.assertEqual(run(CHECK, altered).returncode, 3)
+
+    def test_an_infeasible_start_names_cable_limit_and_amount(self):
+        case = os.path.join(CASES, "tutorial", "02-a-slack-start.yaml")
+        result = run(TAUT, "plan", case, "--out", self.out)
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stdout, r"cable [1-6] .*\[.*, .*\].*limit")
+        self.assertEqual(self.certificate()["verdict"], "refuted")
+
+    def test_bad_input_exits_with_3_says_where_and_writes_nothing(self):
+        good = text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml"))
+        mutants = {
+            "not YAML": "taut: [",
+            "empty": "",
+            "unknown key": good.replace("robot:", "robbot:"),
+            "nan": good.replace("pz: 350", "pz: .nan"),
+            "not a number": good.replace("pz: 350", "pz: up"),
+            "limits reversed": good.replace("[0.05, 0.5]", "[0.5, 0.05]"),
+            "five anchors": good.replace("    - [190.5256, -110, 0]\n", "", 1),
+            "indefinite E": good.replace("diagonal: [1e4", "diagonal: [-1e4"),
+            "waypoint lacks theta": good.replace("{phi: 1.7, theta: 1.7}", "{phi: 1.7}"),
+        }
+        for name, text in mutants.items():
+            with self.subTest(mutant=name):
+                self.assertNotEqual(text, good)
+                case = self.write("bad.yaml", text)
+                result = run(TAUT, "plan", case, "--out", self.path("never"))
+                self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+                self.assertIn("bad.yaml", result.stderr)
+                self.assertEqual(result.stdout, "")
+                self.assertFalse(os.path.exists(self.path("never")))
+
+    def test_missing_files_and_wrong_flags_exit_with_3(self):
+        case = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
+        in_the_way = self.write("file", "")
+        for arguments in (["plan", self.path("none.yaml")], ["plan"], ["plan", case, "--speed", "9"], [], ["fly"],
+                          ["plan", case, "--out", in_the_way], ["report", self.path("none.json")],
+                          ["report", self.write("no.json", "{")], ["report", self.write("list.json", "[]")]):
+            with self.subTest(arguments=arguments):
+                result = run(TAUT, *arguments, cwd=self.out)
+                self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+                self.assertNotEqual(result.stderr, "")
+
+    def test_an_interrupted_plan_is_undecided_and_leaves_whole_files(self):
+        good = text_of(os.path.join(CASES, "robot2-sphere-q1-q2-q3.yaml"))
+        case = self.write("long.yaml", re.sub(r"radius: 0.15, epsilon: 0.15", "radius: 0.002, epsilon: 0.002", good))
+        process = subprocess.Popen([TAUT, "plan", case, "--out", self.out], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        self.assertIsNone(process.poll(), "it should take longer than a second")
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 2, output)
+        self.assertEqual(self.certificate()["verdict"], "undecided")
+        self.assertEqual([name for name in os.listdir(self.out) if name.endswith(".part")], [])
+
+    def test_version(self):
+        result = run(TAUT, "--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^taut \d+\.\d+\.\d+")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
