@@ -187,7 +187,7 @@ std::vector<Image> images(const SpaceText& space) {
   return result;
 }
 
-/// What the picture shows of parameter j: the path, and all of a turn, a range, or θ from 0 to π.
+/// What the picture shows of parameter j: the path, and all of a turn, a range, or half a turn of θ.
 Span window(const Scene& scene, std::size_t j) {
   constexpr double kPi = 3.14159265358979323846;
   const SpaceText& space = scene.view.problem.space;
@@ -207,7 +207,9 @@ Span window(const Scene& scene, std::size_t j) {
     return {evaluate_constant<double>(parameter.range_lower), evaluate_constant<double>(parameter.range_upper)};
   }
   if (space.flip && (*space.flip)[1] == static_cast<int>(j)) {
-    return {path.lower < 0 ? path.lower - 0.15 : 0, path.upper > kPi ? path.upper + 0.15 : kPi};
+    constexpr double kPad = 0.15;  // [rad]
+    if (-path.lower > path.upper) return {std::min(path.lower - kPad, -kPi), path.upper > 0 ? path.upper + kPad : 0};
+    return {path.lower < 0 ? path.lower - kPad : 0, std::max(path.upper + kPad, kPi)};
   }
   for (const ChartView& chart : scene.view.charts) {
     for (const auto& corner : chart.corners) path.include(corner[j]);

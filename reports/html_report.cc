@@ -498,8 +498,10 @@ Html slice(const Scene& scene) {
   return section(
       "slice", "The plane of the two parameters",
       html("<p>C is the set of wrench-feasible poses. Colours and the line det J = 0 are floating-point samples on "
-           "a grid, and the atlas is where the planner looked: neither proves anything. A path that leaves the "
-           "picture on one side of a periodic parameter is drawn unwrapped.</p>\n") +
+           "a grid, and the atlas is where the planner looked: neither proves anything. Periodic parameters are drawn "
+           "unwrapped, so that the path is "
+           "one line.{}</p>\n",
+           scene.view.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
           figure + (stats.empty() ? Html() : html("<p class=\"note\">Search: {}</p>\n", stats)));
 }
 
