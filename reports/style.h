@@ -1,5 +1,5 @@
-// The report's style sheet: light or dark by the reader's choice, and black on white in print. Colours of sets differ in
-// lightness as well as in hue, so that they can be told apart in grey and by colour-blind readers.
+// The report's style sheet: light or dark by the reader's choice, and black on white in print. Colours of sets differ
+// in lightness as well as in hue, so that they can be told apart in grey and by colour-blind readers.
 #pragma once
 
 namespace taut {
@@ -81,7 +81,7 @@ figcaption { font-size: 13px; color: var(--soft); }
 .key { white-space: nowrap; display: inline-flex; align-items: center; gap: 7px; font-weight: 400; }
 .key svg { width: 24px; height: 10px; flex: none; }
 figure > svg { display: block; overflow: visible; width: 100%; height: auto; }
-svg text { font: 11px system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif; fill: var(--soft); }
+svg text { font-size: 11px; fill: var(--soft); }
 svg .bound { fill: var(--limit); }
 svg path { fill: none; vector-effect: non-scaling-stroke; }
 svg svg { overflow: hidden; }

@@ -1,5 +1,5 @@
-// Certificates for the report's tests: Robot 1 on its slice. Right in form, and the first steps of a real path; digests,
-// boxes and margins are made up, since a report does not check them.
+// Certificates for the report's tests: Robot 1 on its slice. Right in form, and the first steps of a real path;
+// digests, boxes and margins are made up, since a report does not check them.
 #pragma once
 
 #include <nlohmann/json.hpp>
