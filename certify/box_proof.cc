@@ -1,6 +1,7 @@
 #include "certify/box_proof.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 
@@ -11,14 +12,10 @@ namespace taut {
 
 const char* name(MarginKind kind) {
   switch (kind) {
-    case MarginKind::kTensionMin:
-      return "tension_min";
-    case MarginKind::kTensionMax:
-      return "tension_max";
-    case MarginKind::kLengthMin:
-      return "length_min";
-    case MarginKind::kLengthMax:
-      return "length_max";
+    case MarginKind::kTensionMin: return "tension_min";
+    case MarginKind::kTensionMax: return "tension_max";
+    case MarginKind::kLengthMin: return "length_min";
+    case MarginKind::kLengthMax: return "length_max";
   }
   return "?";
 }
@@ -210,17 +207,17 @@ I coordinate_difference(const Waypoint& a, const Waypoint& b, std::size_t j) {
   return difference;
 }
 
-constexpr std::size_t kMaxParameters = 16;
+/// Parameters of a space that need no allocation.
+constexpr std::size_t kFewParameters = 8;
 
 template <class I>
 Pose<Centered<I>> pose_over(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b, const I& range,
                             const I& mid) {
-  std::array<Centered<I>, kMaxParameters> parameters;
-  const std::size_t n = std::min(a.x.size(), kMaxParameters);
-  for (std::size_t j = 0; j < n; ++j) {
-    parameters[j] = parameter(waypoint_coordinate<I>(a, j), coordinate_difference<I>(a, b, j), range, mid);
+  boost::container::small_vector<Centered<I>, kFewParameters> parameters;
+  for (std::size_t j = 0; j < a.x.size(); ++j) {
+    parameters.push_back(parameter(waypoint_coordinate<I>(a, j), coordinate_difference<I>(a, b, j), range, mid));
   }
-  return evaluate_pose(problem.pose, std::span<const Centered<I>>(parameters.data(), n));
+  return evaluate_pose(problem.pose, std::span<const Centered<I>>(parameters.data(), parameters.size()));
 }
 
 }  // namespace

@@ -42,8 +42,9 @@ Interval increasing(MpfrUnary f, Interval x) {
 
 // ---- Sine and cosine -------------------------------------------------------------------------------------------------
 //
-// For |x| <= kTableEnd: x = k/32 + r with an integer k and |r| <= 1/64 + tiny; r is exact (Sterbenz for k > 0, r = x for
-// k = 0). The table holds enclosures of sin(k/32), cos(k/32), one binary64 ulp wide, from MPFR. For |r| <= 1 the Taylor
+// For |x| <= kTableEnd: x = k/32 + r with an integer k and |r| <= 1/64 + tiny. r is an interval: just below x = 1/64, where
+// rounding upward makes k = 1, it is no binary64 number; elsewhere it is exact (Sterbenz).
+// The table holds enclosures of sin(k/32), cos(k/32), one binary64 ulp wide, from MPFR. For |r| <= 1 the Taylor
 // series alternate with falling terms, so with z = r^2
 //   sin r in r (1 − z/6 (1 − z/20 (1 − [0,1] z/42))),   cos r in 1 − z/2 (1 − z/12 (1 − z/30 (1 − [0,1] z/56))).
 
@@ -87,7 +88,7 @@ const TableEntry* sine_table() {
 SinCos<Interval> sincos_table(double x) {
   const double size = std::abs(x);
   const int k = static_cast<int>(size * kStepsPerRadian + 0.5);
-  const Interval r(size - static_cast<double>(k) * (1.0 / kStepsPerRadian));  // exact
+  const Interval r = Interval(size) - Interval(static_cast<double>(k) * (1.0 / kStepsPerRadian));
   const TableEntry& entry = sine_table()[k];
   const Interval table_sin(entry.sin_lower, entry.sin_upper);
   const Interval table_cos(entry.cos_lower, entry.cos_upper);

@@ -15,6 +15,7 @@
 #include <boost/numeric/interval/policies.hpp>
 #include <boost/numeric/interval/rounding.hpp>
 #include <boost/numeric/interval/utility.hpp>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -36,7 +37,11 @@ struct MpfrEnds<BigFloat> {
 template <>
 struct MpfrEnds<double> {
   static BigFloat in(double x) { return BigFloat(x); }
-  static double out(const BigFloat& x, mpfr_rnd_t rounding) { return x.to_double(rounding); }
+  static double out(const BigFloat& x, mpfr_rnd_t rounding) {
+    const double result = x.to_double(rounding);
+    if (std::isinf(result)) mpfr_set_overflow();  // MPFR's own exponent range is wider
+    return result;
+  }
 };
 
 template <class T>
@@ -126,6 +131,21 @@ struct Faults<BoostInterval<double>> : MpfrFaults<double> {};
 
 // The scalar concept for Boost's intervals; in their namespace so that argument-dependent lookup finds it.
 namespace boost::numeric {
+
+// Boost's own quotient and root are silent where they leave their domain: 0 / [−1, 1] = 0, sqrt([−1, 4]) = [0, 2]. These are
+// more specialised, hence preferred, and raise a fault there.
+template <class T>
+[[nodiscard]] taut::BoostInterval<T> operator/(const taut::BoostInterval<T>& x, const taut::BoostInterval<T>& y) {
+  using I = taut::BoostInterval<T>;
+  if (zero_in(y)) taut::Faults<I>::raise();
+  return operator/<T, typename I::traits_type>(x, y);
+}
+template <class T>
+[[nodiscard]] taut::BoostInterval<T> sqrt(const taut::BoostInterval<T>& x) {
+  using I = taut::BoostInterval<T>;
+  if (!(x.lower() >= T(0))) taut::Faults<I>::raise();
+  return sqrt<T, typename I::traits_type>(x);
+}
 
 template <class T, class P>
 [[nodiscard]] interval<T, P> sqr(const interval<T, P>& x) {

@@ -78,13 +78,18 @@ struct OracleStatics {
 /// pose: px, py, pz [m], phi, theta, sigma [rad]. Call within PrecisionScope(kBits).
 inline OracleStatics statics(const Problem& problem, const Big6& pose) {
   const auto& [px, py, pz, phi, theta, sigma] = pose;
-  const auto rz = [](const BigFloat& t, const Big3& x) {
-    return Big3{cosine(t) * x[0] - sine(t) * x[1], sine(t) * x[0] + cosine(t) * x[1], x[2]};
+  struct Turn {
+    explicit Turn(const BigFloat& t) : c(cosine(t)), s(sine(t)) {}
+    BigFloat c, s;
   };
-  const auto ry = [](const BigFloat& t, const Big3& x) {
-    return Big3{cosine(t) * x[0] + sine(t) * x[2], x[1], cosine(t) * x[2] - sine(t) * x[0]};
+  const Turn tilt_direction(phi), tilt(theta), torsion(sigma - phi);
+  const auto rz = [](const Turn& t, const Big3& x) {
+    return Big3{t.c * x[0] - t.s * x[1], t.s * x[0] + t.c * x[1], x[2]};
   };
-  const auto rotate = [&](const Big3& x) { return rz(phi, ry(theta, rz(sigma - phi, x))); };
+  const auto ry = [](const Turn& t, const Big3& x) {
+    return Big3{t.c * x[0] + t.s * x[2], x[1], t.c * x[2] - t.s * x[0]};
+  };
+  const auto rotate = [&](const Big3& x) { return rz(tilt_direction, ry(tilt, rz(torsion, x))); };
   const auto vector = [](const std::array<DecimalText, 3>& t) { return Big3{big(t[0]), big(t[1]), big(t[2])}; };
 
   OracleStatics result;

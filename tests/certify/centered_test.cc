@@ -1,0 +1,164 @@
+// Centred forms against 300-bit samples: value at the midpoint, slope and range of composite functions.
+#include "certify/centered.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/enclosing.h"
+
+namespace taut::testing {
+namespace {
+
+template <class A>
+class CenteredForm : public ::testing::Test {
+ protected:
+  /// F over many intervals T within [lower, upper].
+  template <class F>
+  static void expect_enclosures(double lower, double upper) {
+    using I = typename A::I;
+    constexpr int kIntervals = std::is_same_v<A, Fast> ? 400 : 100;
+    Operands operands(20261121);
+    for (int n = 0; n < kIntervals; ++n) {
+      // Multiples of 2^-40, so that T, its midpoint and its radius are exact.
+      const auto grid = [](double x) { return std::ldexp(std::nearbyint(std::ldexp(x, 40)), -40); };
+      const double mid = grid(operands.uniform(lower, upper));
+      double radius = grid(std::exp(operands.uniform(-25, 0.5)));
+      if (operands.pick(10) == 0) radius = 0;
+      if (mid - radius < lower || mid + radius > upper) radius = 0;
+      Centered<I> value;
+      Centered<I> tightened;
+      const bool sound = A::run([&] {
+        value = F::of(Centered<I>(I(mid), I(1.0), I(mid - radius, mid + radius)));
+        tightened = value;
+        tightened.tighten(I(-radius, radius));
+      });
+      if (!sound) {  // T is too wide for a quotient, a root or a logarithm
+        ASSERT_GT(radius, 1e-2) << mid;
+        continue;
+      }
+      const PrecisionScope precision(kExactBits);
+      const std::string where = hex(mid) + " +- " + hex(radius);
+      ASSERT_TRUE(holds(value.at_mid, F::of(BigFloat(mid)))) << where;
+      const BigFloat step(0x1p-70);
+      const BigFloat error(1e-30);  // step^2, times a third derivative below 1e10
+      for (int k = 0; k < 8; ++k) {
+        const double t = k == 0 ? mid - radius : k == 1 ? mid + radius : mid + radius * operands.uniform(-1, 1);
+        const BigFloat x(t);
+        const BigFloat exact = F::of(x);
+        ASSERT_TRUE(holds(value.range, exact)) << where << " at " << hex(t);
+        ASSERT_TRUE(holds(tightened.range, exact)) << where << " at " << hex(t);
+        const BigFloat slope = (F::of(x + step) - F::of(x - step)) / (step + step);
+        ASSERT_TRUE(holds(value.slope, slope, error))
+            << where << " at " << hex(t) << ": " << digits(slope) << " is not in " << print(value.slope);
+      }
+    }
+  }
+};
+using Arithmetics = ::testing::Types<Fast, Mp53, Mp128>;
+TYPED_TEST_SUITE(CenteredForm, Arithmetics);
+
+struct Polynomial {
+  template <class S>
+  static S of(const S& t) {
+    return sqr(t) * t - S(2.0) * t + S(0.5) - (-t);
+  }
+};
+struct Trigonometric {
+  template <class S>
+  static S of(const S& t) {
+    return sin(t * S(3.0)) * cos(t) + tan(t * S(0.25));
+  }
+};
+struct Root {
+  template <class S>
+  static S of(const S& t) {
+    return sqrt(sqr(t) + S(0.5)) * sqrt(S(4.0) - t);
+  }
+};
+struct Quotient {
+  template <class S>
+  static S of(const S& t) {
+    return (t + S(1.0)) / (sqr(t) + S(2.0)) - t / (S(5.0) + t);
+  }
+};
+struct ExponentialAndLogarithm {
+  template <class S>
+  static S of(const S& t) {
+    return exp(t * S(0.5)) * log(sqr(t) + S(1.5)) - exp(-sqr(t));
+  }
+};
+struct Angle {
+  template <class S>
+  static S of(const S& t) {
+    return atan2(sin(t), cos(t) + S(1.5)) + atan2(S(2.0) + t * t, t);
+  }
+};
+struct Powers {
+  template <class S>
+  static S of(const S& t) {
+    return pow_int(t, 3) + pow_int(sqr(t) + S(1.0), -2) - pow_int(t, 1) + pow_int(t, 0) + pow_int(t, 6);
+  }
+};
+struct Everything {
+  template <class S>
+  static S of(const S& t) {
+    const S u = sqrt(S(1.0) + sqr(sin(t)));
+    const S v = atan2(u, exp(-t)) / (u + pow_int(cos(t), 2));
+    return log(u + v * v) * tan(v * S(0.25)) - pow_int(v, 3) / S(3.0);
+  }
+};
+
+TYPED_TEST(CenteredForm, EnclosesPolynomials) { this->template expect_enclosures<Polynomial>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesTrigonometricFunctions) { this->template expect_enclosures<Trigonometric>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesRoots) { this->template expect_enclosures<Root>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesQuotients) { this->template expect_enclosures<Quotient>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesExponentialsAndLogarithms) {
+  this->template expect_enclosures<ExponentialAndLogarithm>(-3, 3);
+}
+TYPED_TEST(CenteredForm, EnclosesAngles) { this->template expect_enclosures<Angle>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesPowers) { this->template expect_enclosures<Powers>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesCompositions) { this->template expect_enclosures<Everything>(-3, 3); }
+
+TYPED_TEST(CenteredForm, LeavingADomainIsAFault) {
+  using I = typename TypeParam::I;
+  const auto faults = [](auto f) { return !TypeParam::run(f); };
+  const Centered<I> across_zero(I(0.5), I(1.0), I(-0.5, 1.5));
+  const Centered<I> constant_across_zero(I(-0.5, 1.5));
+  for (const Centered<I>& x : {across_zero, constant_across_zero}) {
+    Centered<I> y;
+    EXPECT_TRUE(faults([&] { y = sqrt(x); }));
+    EXPECT_TRUE(faults([&] { y = log(x); }));
+    EXPECT_TRUE(faults([&] { y = reciprocal(x); }));
+    EXPECT_TRUE(faults([&] { y = Centered<I>(0.0) / x; }));
+    EXPECT_TRUE(faults([&] { y = pow_int(x, -1); }));
+    EXPECT_TRUE(faults([&] { y = atan2(x, -sqr(x)); }));
+  }
+}
+
+// The slope at 0 of a root is unbounded, so a range that reaches 0 is a fault too unless it is a constant.
+TYPED_TEST(CenteredForm, RootThatReachesZeroIsAFault) {
+  using I = typename TypeParam::I;
+  Centered<I> y;
+  EXPECT_FALSE(TypeParam::run([&] { y = sqrt(Centered<I>(I(0.5), I(1.0), I(0.0, 1.0))); }));
+}
+
+TYPED_TEST(CenteredForm, TighteningCancelsWhatTheRangeAloneCannot) {
+  using I = typename TypeParam::I;
+  Centered<I> zero;
+  Centered<I> parabola;
+  double plain = 0;
+  ASSERT_TRUE(TypeParam::run([&] {
+    const Centered<I> t(I(0.5), I(1.0), I(0.5 - 0x1p-10, 0.5 + 0x1p-10));
+    zero = t - t;
+    zero.tighten(I(-0x1p-10, 0x1p-10));
+    parabola = t - sqr(t);  // slope 0 at the midpoint
+    plain = 0;
+  }));
+  plain = spread(parabola.range);
+  ASSERT_TRUE(TypeParam::run([&] { parabola.tighten(I(-0x1p-10, 0x1p-10)); }));
+  EXPECT_EQ(spread(zero.range), 0.0);
+  EXPECT_GT(plain, 1e-3);
+  EXPECT_LT(spread(parabola.range), 1e-5) << "second order in the radius";
+}
+
+}  // namespace
+}  // namespace taut::testing
