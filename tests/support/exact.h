@@ -40,6 +40,7 @@ inline BigFloat pow_int(const BigFloat& x, int n) {
   mpfr_pow_si(result.get(), x.get(), n, MPFR_RNDN);
   return result;
 }
+inline bool certainly_positive(const BigFloat& x) { return x > BigFloat(0.0); }
 template <>
 struct ScalarTraits<BigFloat> {
   static BigFloat from_decimal(const std::string& text) {
