@@ -383,8 +383,17 @@ namespace {
 
 bool is_tension(MarginKind kind) { return kind == MarginKind::kTensionMin || kind == MarginKind::kTensionMax; }
 
+/// Half the range between the limits that a margin is measured from, roughly.
 template <class I>
-BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box) {
+double half_range(const Model<I>& model, MarginId id) {
+  const auto n = static_cast<std::size_t>(id.cable);
+  return is_tension(id.kind) ? 0.5 * (lower_bound(model.tension_upper[n]) - upper_bound(model.tension_lower[n]))
+                             : 0.5 * (lower_bound(model.length_upper[n]) - upper_bound(model.length_lower[n]));
+}
+
+template <class I>
+BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                 double clearance) {
   static constexpr std::array<MarginSource<I>, 2> kSources = {length_margins<I>, tension_margins<I>};
   const BoxEnclosure<I> enclosure = enclose_box(problem, a, b, box);
   MarginList<I> margins;
@@ -395,11 +404,14 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
   bool all_positive = true;
   bool midpoint_positive = true;
   bool refuted = false;
+  bool too_close = false;
   double lowest = std::numeric_limits<double>::infinity();
   MarginId refuted_id;
   for (const auto& [id, value] : margins) {
     const double bound = lower_bound(value.range);
-    if (!(bound > 0)) all_positive = false;
+    const double required = clearance > 0 ? clearance * half_range(problem.model, id) : 0.0;  // >= 0: limits are ordered
+    if (!(bound > 0 && bound > required)) all_positive = false;
+    if (clearance > 0 && upper_bound(value.at_mid) <= required) too_close = true;
     if (!certainly_positive(value.at_mid)) midpoint_positive = false;
     if (!refuted && certainly_nonpositive(value.at_mid)) {
       refuted = true;
@@ -426,6 +438,8 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
   if (refuted) {
     verdict.kind = Kind::kRefuted;
     verdict.worst = refuted_id;
+  } else if (too_close) {
+    verdict.kind = Kind::kTooClose;
   } else if (!enclosure.regular) {
     verdict.kind = Kind::kNearSingular;
   } else if (all_positive) {
@@ -438,16 +452,17 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
 
 }  // namespace
 
-BoxVerdict judge_box(const ProofModel<Interval>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box) {
+BoxVerdict judge_box(const ProofModel<Interval>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                     double clearance) {
   BoxVerdict verdict;
-  if (!run_upward([&] { verdict = judge(problem, a, b, box); })) verdict.kind = BoxVerdict::Kind::kFault;
+  if (!run_upward([&] { verdict = judge(problem, a, b, box, clearance); })) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
 
-BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b,
-                     const DyadicBox& box) {
+BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                     double clearance) {
   Faults<MpInterval>::clear();
-  BoxVerdict verdict = judge(problem, a, b, box);
+  BoxVerdict verdict = judge(problem, a, b, box, clearance);
   if (Faults<MpInterval>::raised()) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }

@@ -95,7 +95,8 @@ void tension_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginLi
 /// What the prover concludes from one box with one scalar.
 struct BoxVerdict {
   enum class Kind {
-    kProved,        ///< all margins positive on all of T, J non-singular on it
+    kProved,        ///< all margins positive (beyond the clearance) on all of T, J non-singular on it
+    kTooClose,      ///< the midpoint is within the clearance of a limit, though not beyond it
     kRefuted,       ///< `worst` is proved not positive at the midpoint
     kSplit,         ///< the midpoint is fine; the box is too wide
     kPrecision,     ///< at the midpoint itself this scalar can't tell
@@ -109,11 +110,12 @@ struct BoxVerdict {
   double wrench_scale = 0;
 };
 
-/// Never throws for mathematical reasons.
+/// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins have to
+/// exceed c times half the range between the limits (in floating point; what is proved remains that they are positive).
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Waypoint& a, const Waypoint& b,
-                                   const DyadicBox& box);
+                                   const DyadicBox& box, double clearance = 0);
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b,
-                                   const DyadicBox& box);
+                                   const DyadicBox& box, double clearance = 0);
 
 /// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
 [[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b, double s);

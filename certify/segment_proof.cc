@@ -13,22 +13,23 @@ Prover::Prover(const Problem& problem, ProofOptions options)
   }
 }
 
-BoxVerdict Prover::judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box) const {
-  if (rung == 0) return judge_box(fast_, a, b, box);
+BoxVerdict Prover::judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                            double clearance) const {
+  if (rung == 0) return judge_box(fast_, a, b, box, clearance);
   const PrecisionScope precision(options_.ladder_bits[rung - 1]);
-  return judge_box(fine_[rung - 1], a, b, box);
+  return judge_box(fine_[rung - 1], a, b, box, clearance);
 }
 
 BoxVerdict Prover::judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const {
   BoxVerdict verdict;
   for (std::size_t rung = 0; rung <= fine_.size(); ++rung) {
-    verdict = judge_at(rung, a, b, box);
+    verdict = judge_at(rung, a, b, box, 0);
     if (verdict.kind == BoxVerdict::Kind::kProved || verdict.kind == BoxVerdict::Kind::kRefuted) break;
   }
   return verdict;
 }
 
-SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
+SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearance) const {
   using Kind = BoxVerdict::Kind;
   struct Task {
     DyadicBox box;
@@ -55,7 +56,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
       return proof;
     }
     if (rung > 0) ++proof.boxes_multiprecision;
-    const BoxVerdict verdict = judge_at(rung, a, b, box);
+    const BoxVerdict verdict = judge_at(rung, a, b, box, clearance);
 
     const bool higher_rung = rung < fine_.size();
     const bool may_split = box.depth < options_.max_depth;
@@ -74,6 +75,9 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b) const {
       case Kind::kRefuted:
         proof.verdict = Verdict::kRefuted;
         proof.witness = SegmentWitness{false, verdict.worst, box};
+        return proof;
+      case Kind::kTooClose:
+        give_up(box, "closer to a limit than the clearance asked for");
         return proof;
       case Kind::kSplit:
         if (!may_split) {

@@ -52,8 +52,9 @@ class Prover {
   explicit Prover(const Problem& problem, ProofOptions options = {});
 
   /// Claim (docs/certificate-format.md): for every s in [0, 1] and every wrench in K at γ(s), J is non-singular and all
-  /// tensions and lengths are strictly inside their limits. Thread-safe; restores the caller's rounding mode.
-  [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b) const;
+  /// tensions and lengths are strictly inside their limits. With a clearance (judge_box) the proof also fails, as
+  /// undecided, where the segment comes closer to a limit than that. Thread-safe; restores the caller's rounding mode.
+  [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0) const;
 
   /// One box, at the cheapest rung that decides it.
   [[nodiscard]] BoxVerdict judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const;
@@ -69,7 +70,8 @@ class Prover {
   std::atomic<bool>* interrupt = nullptr;
 
  private:
-  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box) const;
+  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+                                    double clearance) const;
 
   Problem problem_;
   ProofOptions options_;

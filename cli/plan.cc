@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 
+#include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
 #include "kinematics/geometry.h"
 #include "kinematics/input_error.h"
@@ -115,16 +116,14 @@ Image compose(Image first, const Image& second) {
   return first;
 }
 
-/// Appends a leg of the search, seen in the image that the path has reached; its first vertex is there already.
-void append_leg(Path& path, const std::vector<PathVertex>& leg, const Image& reached,
+/// Appends a leg, seen in the image that the path has reached; its first vertex is there already. Vertices between the
+/// query's waypoints are ours to choose; the goal is kept exact.
+void append_leg(Path& path, const std::vector<Coordinates>& leg, const PathVertex& goal, const Image& reached,
                 const std::optional<std::array<int, 2>>& flip) {
-  for (std::size_t k = 1; k < leg.size(); ++k) {
-    // Centres between the query's waypoints are ours to choose: their rounded coordinates. The goal is kept exact.
-    const bool goal = k + 1 == leg.size();
-    const Waypoint waypoint =
-        goal ? apply(leg[k].image, flip, to_waypoint(leg[k].base)) : to_waypoint(leg[k].coordinates);
-    path.waypoints.push_back(apply(reached, flip, waypoint));
+  for (std::size_t k = 1; k + 1 < leg.size(); ++k) {
+    path.waypoints.push_back(apply(reached, flip, to_waypoint(leg[k])));
   }
+  path.waypoints.push_back(apply(reached, flip, apply(goal.image, flip, to_waypoint(goal.base))));
 }
 
 // ---- Proofs made on the way -------------------------------------------------------------------------------------------
@@ -132,14 +131,16 @@ void append_leg(Path& path, const std::vector<PathVertex>& leg, const Image& rea
 /// Proofs of the edges that the search asked about.
 class ProvedEdges {
  public:
-  explicit ProvedEdges(const Prover& prover) : prover_(prover) {}
+  ProvedEdges(const Prover& prover, double clearance) : prover_(prover), clearance_(clearance) {}
 
   bool edge_ok(const Coordinates& a, const Coordinates& b) {
     const auto start = Clock::now();
     const Waypoint from = to_waypoint(a);
     const Waypoint to = to_waypoint(b);
-    SegmentProof proof = prover_.prove(from, to);
+    SegmentProof proof = prover_.prove(from, to, clearance_);
     const bool proved = proof.verdict == Verdict::kProved;
+    ++checked_;
+    if (!proved) ++rejected_;
     if (proved) proofs_.insert_or_assign({from.x, to.x}, std::move(proof));
     seconds_ += seconds_since(start);
     return proved;
@@ -153,11 +154,16 @@ class ProvedEdges {
   }
 
   [[nodiscard]] double seconds() const { return seconds_; }
+  [[nodiscard]] int checked() const { return checked_; }
+  [[nodiscard]] int rejected() const { return rejected_; }
 
  private:
   const Prover& prover_;
+  const double clearance_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, SegmentProof> proofs_;
   double seconds_ = 0;
+  int checked_ = 0;
+  int rejected_ = 0;
 };
 
 // ---- Illustration ----------------------------------------------------------------------------------------------------
@@ -195,18 +201,17 @@ nlohmann::json illustrate(const Problem& problem, const Atlas& atlas, const Plan
             {"cost", fmt::format("{:.6g}", statistics.cost)}}}};
 }
 
-/// The manifold with as much clearance as keeps the query's waypoints inside it.
-std::unique_ptr<Manifold> manifold_around(const Problem& problem, const std::vector<Waypoint>& query) {
+/// As much of the clearance asked for as keeps the query's waypoints inside the manifold.
+double possible_clearance(const Case& case_, const std::vector<Waypoint>& query) {
   constexpr double kLeastClearance = 1e-9;
-  MetricWeights weights;
-  for (;; weights.clearance *= 0.1) {
-    if (weights.clearance < kLeastClearance) weights.clearance = 0;
-    auto manifold = make_wrench_feasible_manifold(problem, weights);
+  for (double clearance = case_.planner.clearance; clearance > kLeastClearance; clearance *= 0.3) {
+    const auto manifold = make_wrench_feasible_manifold(case_.problem, {.clearance = clearance});
     Frame frame;
     const bool all_inside = std::ranges::all_of(
         query, [&](const Waypoint& waypoint) { return manifold->frame_at(to_coordinates(waypoint), frame); });
-    if (all_inside || weights.clearance == 0) return manifold;
+    if (all_inside) return clearance;
   }
+  return 0;
 }
 
 std::string no_path_reason(const SearchResult& result, const Atlas& atlas, std::size_t leg) {
@@ -230,6 +235,9 @@ std::string no_path_reason(const SearchResult& result, const Atlas& atlas, std::
 }
 
 }  // namespace
+
+/// Edges may come this much closer to a limit than the charts' centres that they join.
+constexpr double kEdgeClearanceShare = 0.5;
 
 Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress, std::stop_token stop) {
   const Problem& problem = case_.problem;
@@ -260,13 +268,14 @@ Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& pro
   start = Clock::now();
   const PoseFunction pose(problem);
   const CostFunction cost = make_cost(case_, pose, query);
-  const auto manifold = manifold_around(problem, query);
+  const double clearance = possible_clearance(case_, query);
+  const auto manifold = make_wrench_feasible_manifold(problem, {.clearance = clearance});
   AtlasOptions options;
   options.radius = case_.planner.radius;
   options.epsilon = case_.planner.epsilon;
   options.max_charts = case_.planner.max_charts;
   Atlas atlas(*manifold, options);
-  ProvedEdges edges(prover);
+  ProvedEdges edges(prover, kEdgeClearanceShare * clearance);
   PlanStatistics& statistics = result.statistics;
 
   result.path.waypoints = {query.front()};
@@ -280,24 +289,34 @@ Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& pro
     search_problem.heuristic = cost;
     search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return edges.edge_ok(a, b); };
     if (progress) {
-      search_problem.progress = [&](const SearchProgress& p) { progress({p.charts, statistics.edges_checked}); };
+      search_problem.progress = [&](const SearchProgress& p) { progress({p.charts, edges.checked()}); };
     }
     search_problem.stop = stop;
     const SearchResult searched = search(atlas, search_problem, case_.planner.strategy);
     statistics.nodes_expanded += searched.nodes_expanded;
-    statistics.edges_checked += searched.edges_checked;
-    statistics.edges_rejected += searched.edges_rejected;
-    statistics.cost += searched.cost;
+    statistics.cost_found += searched.cost;
     found = searched.status == SearchStatus::kFound;
-    if (found) {
-      append_leg(result.path, searched.path, reached, problem.space.flip);
-      reached = compose(reached, searched.path.back().image);
-    } else {
+    if (!found) {
       result.proof.reason = no_path_reason(searched, atlas, leg);
+      break;
     }
+    std::vector<Coordinates> vertices;
+    for (const PathVertex& vertex : searched.path) vertices.push_back(vertex.coordinates);
+    double leg_cost = searched.cost;
+    if (case_.planner.smoothing == Smoothing::kShorten) {
+      const auto smooth_start = Clock::now();
+      const double proving_before = edges.seconds();
+      leg_cost = shorten(vertices, {cost, search_problem.edge_ok, stop}).cost_after;
+      statistics.smooth_seconds += seconds_since(smooth_start) - (edges.seconds() - proving_before);
+    }
+    statistics.cost += leg_cost;
+    append_leg(result.path, vertices, searched.path.back(), reached, problem.space.flip);
+    reached = compose(reached, searched.path.back().image);
   }
   statistics.charts = atlas.size();
-  statistics.plan_seconds = seconds_since(start) - edges.seconds();
+  statistics.edges_checked = edges.checked();
+  statistics.edges_rejected = edges.rejected();
+  statistics.plan_seconds = seconds_since(start) - edges.seconds() - statistics.smooth_seconds;
   statistics.prove_seconds += edges.seconds();
   result.illustration = illustrate(problem, atlas, statistics);
   if (!found) {

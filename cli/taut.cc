@@ -172,7 +172,9 @@ int run_plan(const PlanArguments& arguments) {
                                     {"edges_checked", s.edges_checked},
                                     {"edges_rejected", s.edges_rejected},
                                     {"cost", s.cost},
+                                    {"cost_found", s.cost_found},
                                     {"plan_seconds", s.plan_seconds},
+                                    {"smooth_seconds", s.smooth_seconds},
                                     {"prove_seconds", s.prove_seconds},
                                     {"margins", certificate["margins"]},
                                     {"witness", certificate["witness"]},
@@ -182,10 +184,10 @@ int run_plan(const PlanArguments& arguments) {
   } else {
     fmt::print("{}\n", sentence(result));
     if (s.charts > 0) {
-      fmt::print("{} charts, {} expanded; {} edges put to the prover, {} rejected; cost {:.4g}. Planned in {:.2f} ms, "
-                 "proved in {:.2f} ms.\n",
-                 s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, 1e3 * s.plan_seconds,
-                 1e3 * s.prove_seconds);
+      fmt::print("{} charts, {} expanded; {} edges put to the prover, {} not proved; cost {:.4g}, shortened from {:.4g}.\n"
+                 "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
+                 s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found,
+                 1e3 * s.plan_seconds, 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
     }
     fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
   }

@@ -547,6 +547,12 @@ double read_positive(const Field& field) {
   return ScalarTraits<double>::from_decimal(value.text());
 }
 
+double read_fraction(const Field& field) {
+  const double value = ScalarTraits<double>::from_decimal(read_decimal(field).text());
+  if (!(value >= 0 && value < 1)) field.fail("a number from 0 to below 1");
+  return value;
+}
+
 int read_count(const Field& field, int largest) {
   const std::string expected = fmt::format("a whole number from 1 to {}", largest);
   const std::string text = field.text(expected);
@@ -557,7 +563,7 @@ int read_count(const Field& field, int largest) {
 }
 
 PlannerOptions read_planner(const Field& field) {
-  const Map map = field.map({"strategy", "cost", "radius", "epsilon", "max_charts"});
+  const Map map = field.map({"strategy", "cost", "radius", "epsilon", "max_charts", "clearance", "smooth"});
   PlannerOptions planner;
   if (const auto strategy = map.find("strategy")) {
     planner.strategy =
@@ -571,6 +577,13 @@ PlannerOptions read_planner(const Field& field) {
   if (const auto radius = map.find("radius")) planner.radius = read_positive(*radius);
   if (const auto epsilon = map.find("epsilon")) planner.epsilon = read_positive(*epsilon);
   if (const auto max_charts = map.find("max_charts")) planner.max_charts = read_count(*max_charts, 100'000'000);
+  if (const auto clearance = map.find("clearance")) {
+    planner.clearance = read_fraction(*clearance);
+  }
+  if (const auto smooth = map.find("smooth")) {
+    planner.smoothing =
+        read_choice<Smoothing>(*smooth, {{"none", Smoothing::kNone}, {"shorten", Smoothing::kShorten}});
+  }
   return planner;
 }
 

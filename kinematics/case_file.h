@@ -9,6 +9,7 @@ namespace taut {
 
 enum class Strategy { kAStar, kGreedyBestFirst };
 enum class Cost { kRotation, kGreatCircle, kParameters };
+enum class Smoothing { kNone, kShorten };
 enum class Expectation { kNone, kProved, kRefuted, kUndecided };
 
 /// How to search; floating point, since a search proves nothing. Lengths and angles share one scale, see
@@ -19,6 +20,9 @@ struct PlannerOptions {
   double radius = 0.15;   ///< chart radius r [rad]
   double epsilon = 0.15;  ///< largest distance from chart to manifold [rad]
   int max_charts = 200000;
+  /// Least distance to a limit, over half its range, that a path should keep where start and goal do.
+  double clearance = 0.01;
+  Smoothing smoothing = Smoothing::kShorten;  ///< what is done to the path found, before it is proved as a whole
 };
 
 struct Case {

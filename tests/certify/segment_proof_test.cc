@@ -178,6 +178,18 @@ TEST(Prover, AnInterruptedProofIsUndecided) {
   EXPECT_EQ(proof.reason, "interrupted");
 }
 
+TEST(Prover, AClearanceAsksForMoreThanTheClaim) {
+  const Prover prover(robot1_slice());
+  const SegmentProof proof = prover.prove(kStart, kNearStart);
+  ASSERT_EQ(proof.verdict, Verdict::kProved);
+  // Half the range is 0.225 N for tensions, 0.225 m for lengths.
+  const double share = std::min(proof.tension_N, proof.length_m) / 0.225;
+  EXPECT_EQ(prover.prove(kStart, kNearStart, 0.9 * share).verdict, Verdict::kProved);
+  const SegmentProof too_close = prover.prove(kStart, kNearStart, 0.9);
+  EXPECT_EQ(too_close.verdict, Verdict::kUndecided) << "too close is no refutation";
+  EXPECT_FALSE(too_close.witness.has_value());
+}
+
 TEST(Prover, ABudgetOfBoxesIsKept) {
   ProofOptions options;
   options.max_boxes = 1;
