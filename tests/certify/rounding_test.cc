@@ -136,6 +136,7 @@ TEST(Rounding, EachThreadHasItsOwnMode) {
         const bool encloses = third.lower() < third.upper() && third.upper() - third.lower() < 1e-15;
         if (!sound || inside != 1 || direction() != outside || !encloses) ++count;
       }
+      mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);  // what the table of sines left to this thread
     });
   }
   for (std::thread& thread : threads) thread.join();
