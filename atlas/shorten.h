@@ -15,8 +15,8 @@
 namespace taut {
 
 struct ShortenOptions {
-  double edge_length = 0.25;      ///< edges longer than this, in `distance`, are divided
-  double least_gain = 1e-4;       ///< a sweep that lowers the cost by less than this share is the last
+  double edge_length = 0.25;  ///< edges longer than this, in `distance`, are divided
+  double least_gain = 1e-4;   ///< a sweep that lowers the cost by less than this share is the last
   int max_sweeps = 60;
   int max_edges_checked = 4000;
 };
@@ -36,6 +36,7 @@ struct ShortenResult {
 };
 
 /// Shortens `path` in place; its first and last vertex stay. @pre every edge of `path` is ok; at least one vertex.
-ShortenResult shorten(std::vector<Coordinates>& path, const ShortenProblem& problem, const ShortenOptions& options = {});
+ShortenResult shorten(std::vector<Coordinates>& path, const ShortenProblem& problem,
+                      const ShortenOptions& options = {});
 
 }  // namespace taut

@@ -137,7 +137,8 @@ int run(int argc, char** argv) {
   const bool sound = run_upward([&] { ours = product_ns<Interval>(); });
   const double boost = product_ns<BoostInterval<double>>();
 
-  fmt::print("| segments of 0.15 rad | proved | boxes judged | pose sample, us | proof, us | **proof, in samples** |\n");
+  fmt::print(
+      "| segments of 0.15 rad | proved | boxes judged | pose sample, us | proof, us | **proof, in samples** |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   nlohmann::json json = nlohmann::json::array();
   for (const Row& row : rows) {
@@ -152,8 +153,10 @@ int run(int argc, char** argv) {
                     {"segment_us", row.segment_us},
                     {"samples", row.segment_us / row.pose_us}});
   }
-  fmt::print("\nOne interval product in a dependent chain: Interval {:.1f} ns{}, Boost.Interval directed by MPFR {:.0f} ns ({:.0f}x).\n", ours,
-             sound ? "" : " (fault)", boost, boost / ours);
+  fmt::print(
+      "\nOne interval product in a dependent chain: Interval {:.1f} ns{}, Boost.Interval directed by MPFR {:.0f} ns "
+      "({:.0f}x).\n",
+      ours, sound ? "" : " (fault)", boost, boost / ours);
   if (argc > 1) std::ofstream(argv[1]) << json.dump(1) << "\n";
   return 0;
 }

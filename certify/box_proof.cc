@@ -409,7 +409,8 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
   MarginId refuted_id;
   for (const auto& [id, value] : margins) {
     const double bound = lower_bound(value.range);
-    const double required = clearance > 0 ? clearance * half_range(problem.model, id) : 0.0;  // >= 0: limits are ordered
+    const double required =
+        clearance > 0 ? clearance * half_range(problem.model, id) : 0.0;  // >= 0: limits are ordered
     if (!(bound > 0 && bound > required)) all_positive = false;
     if (clearance > 0 && upper_bound(value.at_mid) <= required) too_close = true;
     if (!certainly_positive(value.at_mid)) midpoint_positive = false;

@@ -104,8 +104,8 @@ struct BoxVerdict {
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
-  MarginId worst;           ///< the margin that decided, or stood in the way
-  double tension_N = 0;     ///< proved lower bounds over the box; only if kProved
+  MarginId worst;        ///< the margin that decided, or stood in the way
+  double tension_N = 0;  ///< proved lower bounds over the box; only if kProved
   double length_m = 0;
   double wrench_scale = 0;
 };
@@ -118,7 +118,8 @@ struct BoxVerdict {
                                    const DyadicBox& box, double clearance = 0);
 
 /// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
-[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b, double s);
+[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b,
+                                   double s);
 
 extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Waypoint&, const Waypoint&,
                                                    const DyadicBox&);

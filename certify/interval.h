@@ -9,7 +9,7 @@
 // intervals and no infinities to reason about.
 //
 // Transcendentals: sin and cos come from a table of MPFR enclosures and a Taylor remainder (interval.cc;
-// docs/theory.md, "Sine and cosine"); tan, exp, log, atan2 ask MPFR for each end. No libm.
+// docs/theory.md, "Sine and cosine"), tan is their quotient; exp, log, atan2 ask MPFR for each end. No libm.
 #pragma once
 
 #include <immintrin.h>

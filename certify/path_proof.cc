@@ -36,14 +36,10 @@ Margins margins_below(const SegmentProof& proof) {
 const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   const auto cable = static_cast<std::size_t>(margin.cable);
   switch (margin.kind) {
-    case MarginKind::kTensionMin:
-      return problem.robot.tension_N[cable].lower;
-    case MarginKind::kTensionMax:
-      return problem.robot.tension_N[cable].upper;
-    case MarginKind::kLengthMin:
-      return problem.robot.length_m[cable].lower;
-    case MarginKind::kLengthMax:
-      break;
+    case MarginKind::kTensionMin: return problem.robot.tension_N[cable].lower;
+    case MarginKind::kTensionMax: return problem.robot.tension_N[cable].upper;
+    case MarginKind::kLengthMin: return problem.robot.length_m[cable].lower;
+    case MarginKind::kLengthMax: break;
   }
   return problem.robot.length_m[cable].upper;
 }
@@ -117,8 +113,12 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
 std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
                                            std::string& undecided) {
   const DyadicBox whole;
+  if (prover.prove(waypoint, waypoint).verdict == Verdict::kProved) return std::nullopt;
+  if (!prover.certainly_in_ranges(waypoint)) {
+    undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
+    return std::nullopt;
+  }
   const BoxVerdict verdict = prover.judge(waypoint, waypoint, whole);
-  if (verdict.kind == BoxVerdict::Kind::kProved) return std::nullopt;
   if (verdict.kind == BoxVerdict::Kind::kRefuted) {
     return make_witness(prover, waypoint, waypoint, whole, verdict.worst, PathPoint{false, index, 0});
   }

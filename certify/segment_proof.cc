@@ -1,9 +1,18 @@
 #include "certify/segment_proof.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
+
+#include "kinematics/input_error.h"
 
 namespace taut {
+namespace {
+
+constexpr mpfr_prec_t kRangePrecision = 256;
+
+}  // namespace
 
 Prover::Prover(const Problem& problem, ProofOptions options)
     : problem_(problem), options_(std::move(options)), fast_(make_proof_model(problem)) {
@@ -11,6 +20,31 @@ Prover::Prover(const Problem& problem, ProofOptions options)
     const PrecisionScope precision(bits);
     fine_.push_back(make_mp_proof_model(problem));
   }
+  const PrecisionScope precision(kRangePrecision);
+  for (const Parameter& parameter : problem_.space.parameters) {
+    constexpr double kEverything = std::numeric_limits<double>::infinity();
+    if (parameter.kind == ParameterKind::kRange) {
+      Faults<MpInterval>::clear();
+      const double lowest = upper_bound(evaluate_constant<MpInterval>(parameter.range_lower));
+      const double highest = lower_bound(evaluate_constant<MpInterval>(parameter.range_upper));
+      if (Faults<MpInterval>::raised()) {
+        throw InputError("space.parameters." + parameter.name + ": got a range whose ends are not defined");
+      }
+      ranges_.push_back({lowest, highest});
+    } else {
+      ranges_.push_back({-kEverything, kEverything});
+    }
+  }
+}
+
+bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
+  if (waypoint.x.size() != ranges_.size() || waypoint.half_turns.size() != ranges_.size()) return false;
+  for (std::size_t j = 0; j < ranges_.size(); ++j) {
+    if (!std::isfinite(waypoint.x[j]) || !(ranges_[j][0] <= waypoint.x[j] && waypoint.x[j] <= ranges_[j][1]))
+      return false;
+    if (waypoint.half_turns[j] != 0 && problem_.space.parameters[j].kind != ParameterKind::kPeriodic) return false;
+  }
+  return true;
 }
 
 BoxVerdict Prover::judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
@@ -43,11 +77,17 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
     proof.reason = std::move(reason);
   };
 
+  if (!certainly_in_ranges(a) || !certainly_in_ranges(b)) {
+    give_up({}, "a waypoint lies outside the closed range of a parameter, or may");
+    return proof;
+  }
   std::vector<Task> stack = {{{0, 0}, 0}};
   while (!stack.empty()) {
-    const auto [box, rung] = stack.back();
+    const DyadicBox box = stack.back().box;
+    const std::size_t rung = stack.back().rung;
     stack.pop_back();
-    if (++proof.boxes_judged > options_.max_boxes) {
+    if (rung > 0) ++proof.boxes_multiprecision;
+    if (++proof.boxes_judged > options_.max_boxes || proof.boxes_multiprecision > options_.max_multiprecision_boxes) {
       give_up(box, "the budget of boxes is spent");
       return proof;
     }
@@ -55,7 +95,6 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
       give_up(box, "interrupted");
       return proof;
     }
-    if (rung > 0) ++proof.boxes_multiprecision;
     const BoxVerdict verdict = judge_at(rung, a, b, box, clearance);
 
     const bool higher_rung = rung < fine_.size();
@@ -76,9 +115,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
         proof.verdict = Verdict::kRefuted;
         proof.witness = SegmentWitness{false, verdict.worst, box};
         return proof;
-      case Kind::kTooClose:
-        give_up(box, "closer to a limit than the clearance asked for");
-        return proof;
+      case Kind::kTooClose: give_up(box, "closer to a limit than the clearance asked for"); return proof;
       case Kind::kSplit:
         if (!may_split) {
           give_up(box, std::string("bisection depth reached at margin ") + name(verdict.worst.kind) + " of cable " +
@@ -130,17 +167,16 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
 
 MpInterval Prover::quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box, MarginId margin) const {
   const PrecisionScope precision(options_.ladder_bits.back());
+  Faults<MpInterval>::clear();
   const BoxEnclosure<MpInterval> enclosure = enclose_box(fine_.back(), a, b, box);
+  if (Faults<MpInterval>::raised()) throw std::logic_error("a refuted midpoint has no enclosure");
   const auto n = static_cast<std::size_t>(margin.cable);
   const MpInterval& length = enclosure.length[n].at_mid;
   switch (margin.kind) {
-    case MarginKind::kTensionMin:
-      return length * (enclosure.density[n].at_mid - enclosure.variation[n].at_mid);
-    case MarginKind::kTensionMax:
-      return length * (enclosure.density[n].at_mid + enclosure.variation[n].at_mid);
+    case MarginKind::kTensionMin: return length * (enclosure.density[n].at_mid - enclosure.variation[n].at_mid);
+    case MarginKind::kTensionMax: return length * (enclosure.density[n].at_mid + enclosure.variation[n].at_mid);
     case MarginKind::kLengthMin:
-    case MarginKind::kLengthMax:
-      break;
+    case MarginKind::kLengthMax: break;
   }
   return length;
 }

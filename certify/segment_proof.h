@@ -4,6 +4,7 @@
 // intervals of growing precision. Verdicts are three: undecided is not unsafe.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <string>
@@ -18,8 +19,9 @@ enum class Verdict { kProved, kRefuted, kUndecided };
 struct ProofOptions {
   /// Precisions of the ladder's MPFR rungs [bits].
   std::vector<mpfr_prec_t> ladder_bits = {128, 256, 512};
-  int max_depth = 48;        ///< at most DyadicBox::kMaxDepth − 1
-  int max_boxes = 200'000;   ///< boxes judged in one segment
+  int max_depth = 48;                    ///< at most DyadicBox::kMaxDepth − 1
+  int max_boxes = 200'000;               ///< boxes judged in one segment
+  int max_multiprecision_boxes = 5'000;  ///< of them in MPFR, each of which takes about a millisecond
   /// Depth from which a box that can't be inverted climbs the ladder and is examined for a change of sign of det J.
   int singular_depth = 16;
 };
@@ -51,7 +53,7 @@ class Prover {
   /// @throws InputError if the problem can't be enclosed (E not positive definite).
   explicit Prover(const Problem& problem, ProofOptions options = {});
 
-  /// Claim (docs/certificate-format.md): for every s in [0, 1] and every wrench in K at γ(s), J is non-singular and all
+  /// Claim (docs/certificate-format.md): parameters stay in their closed ranges, and for every s in [0, 1] and every wrench in K at γ(s), J is non-singular and all
   /// tensions and lengths are strictly inside their limits. With a clearance (judge_box) the proof also fails, as
   /// undecided, where the segment comes closer to a limit than that. Thread-safe; restores the caller's rounding mode.
   [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0) const;
@@ -62,6 +64,9 @@ class Prover {
   /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the highest precision.
   [[nodiscard]] MpInterval quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box,
                                            MarginId margin) const;
+
+  /// Whether λ lies in the closed ranges of the parameters, certainly. Then so does every segment between two such waypoints.
+  [[nodiscard]] bool certainly_in_ranges(const Waypoint& waypoint) const;
 
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] const ProofModel<Interval>& model() const { return fast_; }
@@ -75,6 +80,8 @@ class Prover {
 
   Problem problem_;
   ProofOptions options_;
+  /// The binary64 numbers that lie certainly inside each parameter's closed range; all of them where it has none.
+  std::vector<std::array<double, 2>> ranges_;
   ProofModel<Interval> fast_;
   std::vector<ProofModel<MpInterval>> fine_;  ///< one a rung of the ladder
 };

@@ -3,11 +3,18 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace taut {
 
-/// Writes beside `path`, flushes to disk, and renames. @throws InputError naming the path and the system's reason.
-void write_whole(const std::filesystem::path& path, const std::string& content);
+struct FileContent {
+  std::filesystem::path path;
+  std::string content;
+};
+
+/// Writes all of them beside their paths, flushes them to disk, and only then renames: none is replaced unless all could be
+/// written. @throws InputError naming the path and the system's reason.
+void write_whole(const std::vector<FileContent>& files);
 
 /// @throws InputError naming the path and the system's reason.
 [[nodiscard]] std::string read_whole(const std::filesystem::path& path);

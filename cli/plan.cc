@@ -81,8 +81,7 @@ CostFunction make_cost(const Case& case_, const PoseFunction& pose, const std::v
         return 2.0 * sphere.radius * std::asin(std::min(1.0, chord / (2.0 * sphere.radius)));
       };
     }
-    case Cost::kParameters:
-      break;
+    case Cost::kParameters: break;
   }
   return [](const Coordinates& a, const Coordinates& b) { return (a - b).norm(); };
 }
@@ -218,7 +217,8 @@ std::string no_path_reason(const SearchResult& result, const Atlas& atlas, std::
   switch (result.status) {
     case SearchStatus::kExhausted:
       return fmt::format(
-          "no path from waypoint {} to {} of the query: the component of the start was covered by {} charts of radius {} "
+          "no path from waypoint {} to {} of the query: the component of the start was covered by {} charts of radius "
+          "{} "
           "and the goal was not met. That is evidence, not proof, that none exists",
           leg, leg + 1, atlas.size(), atlas.options().radius);
     case SearchStatus::kChartLimit:
@@ -226,10 +226,8 @@ std::string no_path_reason(const SearchResult& result, const Atlas& atlas, std::
                          atlas.size());
     case SearchStatus::kOutside:
       return fmt::format("waypoint {} or {} of the query is outside the manifold in floating point", leg, leg + 1);
-    case SearchStatus::kInterrupted:
-      return "interrupted";
-    case SearchStatus::kFound:
-      break;
+    case SearchStatus::kInterrupted: return "interrupted";
+    case SearchStatus::kFound: break;
   }
   return "";
 }
@@ -297,7 +295,8 @@ Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& pro
     statistics.cost_found += searched.cost;
     found = searched.status == SearchStatus::kFound;
     if (!found) {
-      result.proof.reason = no_path_reason(searched, atlas, leg);
+      // An edge whose proof was interrupted looks rejected, and the search exhausted.
+      result.proof.reason = stop.stop_requested() ? "interrupted" : no_path_reason(searched, atlas, leg);
       break;
     }
     std::vector<Coordinates> vertices;

@@ -19,10 +19,10 @@ struct PlanStatistics {
   int nodes_expanded = 0;
   int edges_checked = 0;
   int edges_rejected = 0;
-  double cost_found = 0;     ///< of the path that the search found, by the case's cost function
-  double cost = 0;           ///< of the path
-  double plan_seconds = 0;   ///< atlas and search, without the proofs made within
-  double smooth_seconds = 0; ///< shortening, without the proofs made within
+  double cost_found = 0;      ///< of the path that the search found, by the case's cost function
+  double cost = 0;            ///< of the path
+  double plan_seconds = 0;    ///< atlas and search, without the proofs made within
+  double smooth_seconds = 0;  ///< shortening, without the proofs made within
   double prove_seconds = 0;
 };
 
@@ -39,6 +39,7 @@ struct PlanProgress {
 };
 
 /// Plans through the query's waypoints in order. @throws InputError if the case has no model.
-[[nodiscard]] Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress, std::stop_token stop);
+[[nodiscard]] Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress,
+                        std::stop_token stop);
 
 }  // namespace taut

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -55,8 +56,7 @@ std::string path_csv(const Problem& problem, const Path& path) {
     }
     for (const int half_turns : waypoint.half_turns) csv += "," + std::to_string(half_turns);
     const Pose<double> pose = evaluate_pose(pose_of, std::span<const double>(parameters));
-    for (const double value :
-         {pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta, pose.sigma}) {
+    for (const double value : {pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta, pose.sigma}) {
       csv += "," + shortest(value);
     }
     csv += "\n";
@@ -134,11 +134,12 @@ std::string sentence(const Plan& plan) {
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;
       if (w.singular) return "refuted: the force Jacobian is singular at some pose of the path.";
-      return fmt::format("refuted: at the query's pose, cable {} has {} in [{}, {}], beyond its limit {}.",
-                         w.margin.cable + 1, name(w.margin.kind), w.value_lower, w.value_upper, w.limit);
+      const std::string where = w.at.on_segment ? fmt::format("on segment {}", w.at.index) : "at a pose of the query";
+      return fmt::format(
+          "refuted: {}, {} of cable {} is violated: the quantity lies in [{}, {}], its limit is {} [N, m].", where,
+          name(w.margin.kind), w.margin.cable + 1, w.value_lower, w.value_upper, w.limit);
     }
-    case Verdict::kUndecided:
-      break;
+    case Verdict::kUndecided: break;
   }
   return fmt::format("undecided: {}.", proof.reason);
 }
@@ -154,13 +155,14 @@ int run_plan(const PlanArguments& arguments) {
   Plan result;
   {
     ProgressLine line(!arguments.json);
-    result = plan(case_, [&](const PlanProgress& progress) { line.show(progress); }, interruption.token());
+    result = plan(
+        case_, [&](const PlanProgress& progress) { line.show(progress); }, interruption.token());
   }
   const nlohmann::json certificate =
       make_certificate(case_.problem, result.path, result.proof, std::move(result.illustration));
-  write_whole(out / "path.csv", path_csv(case_.problem, result.path));
-  write_whole(out / "certificate.json", certificate.dump(1, ' ', true) + "\n");
-  write_whole(out / "report.html", html_report(certificate));
+  write_whole({{out / "path.csv", path_csv(case_.problem, result.path)},
+               {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
+               {out / "report.html", html_report(certificate)}});
 
   const PlanStatistics& s = result.statistics;
   if (arguments.json) {
@@ -184,10 +186,11 @@ int run_plan(const PlanArguments& arguments) {
   } else {
     fmt::print("{}\n", sentence(result));
     if (s.charts > 0) {
-      fmt::print("{} charts, {} expanded; {} edges put to the prover, {} not proved; cost {:.4g}, shortened from {:.4g}.\n"
-                 "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
-                 s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found,
-                 1e3 * s.plan_seconds, 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
+      fmt::print(
+          "{} charts, {} expanded; {} edges put to the prover, {} not proved; cost {:.4g}, shortened from {:.4g}.\n"
+          "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
+          s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, 1e3 * s.plan_seconds,
+          1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
     }
     fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
   }
@@ -196,6 +199,21 @@ int run_plan(const PlanArguments& arguments) {
 
 // ---- taut report -----------------------------------------------------------------------------------------------------
 
+/// A report is made of whole certificates only; whether they are true is taut-check's to say.
+void require_unaltered(const nlohmann::json& certificate, const std::string& path) {
+  nlohmann::json body = certificate;
+  const bool has_footer =
+      body.is_object() && body.contains("footer") && body["footer"].is_object() && body["footer"].contains("sha256");
+  const nlohmann::json digest = has_footer ? body["footer"]["sha256"] : nlohmann::json();
+  if (body.is_object()) body.erase("footer");
+  if (digest != sha256(body)) {
+    throw InputError(
+        fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
+                    "or was cut or altered",
+                    path, digest.dump()));
+  }
+}
+
 int run_report(const std::string& certificate_path, const std::string& out) {
   nlohmann::json certificate;
   try {
@@ -203,9 +221,10 @@ int run_report(const std::string& certificate_path, const std::string& out) {
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", certificate_path, error.what()));
   }
+  require_unaltered(certificate, certificate_path);
   const std::filesystem::path target =
       out.empty() ? std::filesystem::path(certificate_path).parent_path() / "report.html" : std::filesystem::path(out);
-  write_whole(target, html_report(certificate));
+  write_whole({{target, html_report(certificate)}});
   fmt::print("Written: {}\n", target.string());
   return kProvedExit;
 }
@@ -245,7 +264,9 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return taut::run(argc, argv);
+    const int code = taut::run(argc, argv);
+    if (std::fflush(stdout) != 0 || !std::cout.flush()) throw std::runtime_error("could not write to standard output");
+    return code;
   } catch (const taut::InputError& error) {
     fmt::print(stderr, "taut: {}\n", error.what());
     return taut::kBadInputExit;

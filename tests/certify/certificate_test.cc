@@ -16,9 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::robot1_slice;
 
-Path short_path() {
-  return {{{{-2.3, 1.6}, {0, 0}}, {{-2.25, 1.5}, {0, 0}}, {{-2.25, 1.4}, {0, 0}}}};
-}
+Path short_path() { return {{{{-2.3, 1.6}, {0, 0}}, {{-2.25, 1.5}, {0, 0}}, {{-2.25, 1.4}, {0, 0}}}}; }
 
 TEST(HexFloat, ReadsBackBitForBit) {
   for (const double x : {0.0, 1.0, -2.3, 0.1, 5e-324, 1.7976931348623157e308, std::nextafter(1.0, 2.0)}) {
@@ -129,9 +127,10 @@ TEST(Certificate, ItsPathReadsBackBitForBit) {
 }
 
 TEST(Certificate, MalformedPathsAreRefused) {
-  for (const char* text : {R"({})", R"({"waypoints":[{"x":["0x1p"],"half_turns":[0]}]})",
-                           R"({"waypoints":[{"x":["nan"],"half_turns":[0]}]})",
-                           R"({"waypoints":[{"x":["1"],"half_turns":[]}]})", R"({"waypoints":[{"x":[1],"half_turns":[0]}]})"}) {
+  for (const char* text :
+       {R"({})", R"({"waypoints":[{"x":["0x1p"],"half_turns":[0]}]})",
+        R"({"waypoints":[{"x":["nan"],"half_turns":[0]}]})", R"({"waypoints":[{"x":["1"],"half_turns":[]}]})",
+        R"({"waypoints":[{"x":[1],"half_turns":[0]}]})"}) {
     EXPECT_THROW((void)path_from_json(json::parse(text)), InputError) << text;
   }
 }

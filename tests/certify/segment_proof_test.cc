@@ -86,12 +86,8 @@ TEST(Prover, TheWitnessOfARefutationStandsUpToTheOracle) {
     case MarginKind::kTensionMax:
       EXPECT_GE(statics.tension[i] + statics.variation[i], oracle::big(problem.robot.tension_N[i].upper));
       break;
-    case MarginKind::kLengthMin:
-      EXPECT_LE(statics.length[i], oracle::big(problem.robot.length_m[i].lower));
-      break;
-    case MarginKind::kLengthMax:
-      EXPECT_GE(statics.length[i], oracle::big(problem.robot.length_m[i].upper));
-      break;
+    case MarginKind::kLengthMin: EXPECT_LE(statics.length[i], oracle::big(problem.robot.length_m[i].lower)); break;
+    case MarginKind::kLengthMax: EXPECT_GE(statics.length[i], oracle::big(problem.robot.length_m[i].upper)); break;
   }
 }
 
@@ -211,6 +207,38 @@ TEST(Prover, AWildlyScaledProblemIsNeverProvedByOverflow) {
   for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e-600";  // K beyond binary64
   const SegmentProof proof = Prover(problem).prove(kStart, kNearStart);
   EXPECT_NE(proof.verdict, Verdict::kProved);
+}
+
+/// px is the root of −1e−290, which is no real number, though binary64 and Boost's own root take it for 0.
+TEST(Prover, AnUndefinedPoseIsNeitherProvedNorRefuted) {
+  Problem problem = robot1_slice();
+  problem.space.pose[0] = "sqrt(0.1 + 0.2 - 0.3 - 1e-290)";
+  ProofOptions options;
+  options.max_multiprecision_boxes = 200;
+  const Prover prover(problem, options);
+  EXPECT_EQ(prover.prove(kStart, kNearStart).verdict, Verdict::kUndecided);
+  EXPECT_EQ(prover.prove(kStart, at({1.7, 1.7})).verdict, Verdict::kUndecided);
+}
+
+TEST(Prover, ClosedRangesAreKeptExactly) {
+  Problem problem = robot1_slice();
+  problem.space.flip.reset();
+  problem.space.parameters[1].kind = ParameterKind::kRange;
+  problem.space.parameters[1].range_lower = "-0.1";  // the nearest binary64 lies outside
+  problem.space.parameters[1].range_upper = "pi/2";  // the nearest binary64 lies inside
+  const Prover prover(problem);
+  EXPECT_FALSE(prover.certainly_in_ranges(at({0, -0.1})));
+  EXPECT_TRUE(prover.certainly_in_ranges(at({0, std::nextafter(-0.1, 0.0)})));
+  EXPECT_TRUE(prover.certainly_in_ranges(at({0, 0x1.921fb54442d18p+0})));
+  EXPECT_FALSE(prover.certainly_in_ranges(at({0, 0x1.921fb54442d19p+0})));
+  EXPECT_EQ(prover.prove(kStart, kNearStart).verdict, Verdict::kUndecided) << "theta = 1.6 exceeds pi/2";
+}
+
+TEST(Prover, HalfTurnsNeedAPeriodicParameter) {
+  const Prover prover(robot1_slice());
+  Waypoint turned = kStart;
+  turned.half_turns[1] = 2;  // theta
+  EXPECT_NE(prover.prove(turned, turned).verdict, Verdict::kProved);
 }
 
 TEST(Prover, NumbersBeyondBinary64AreRefused) {

@@ -104,6 +104,28 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(text_of(self.path("report.html")), first)
 
+    def test_no_report_is_made_of_an_altered_certificate(self):
+        run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        certificate = self.certificate()
+        certificate["margins"]["tension_N"] = "99"
+        altered = self.write("altered.json", json.dumps(certificate))
+        result = run(TAUT, "report", altered, "--out", self.path("never.html"))
+        self.assertEqual(result.returncode, 3, result.stdout)
+        self.assertFalse(os.path.exists(self.path("never.html")))
+
+    def test_a_range_end_that_no_binary64_keeps_is_not_proved(self):
+        text = re.sub(r"slice: {.*}", "surface: {parameters: {u: [-0.1, 0.1]}, pose: {px: 0, py: 0, pz: 350, phi: -2.3, "
+                      "theta: 1.5 + u, sigma: 0.6}}", text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml")))
+        text = re.sub(r"  waypoints:.*?\n\n", "  waypoints:\n    - {u: -0.1}\n    - {u: 0.1}\n\n", text, flags=re.S)
+        result = run(TAUT, "plan", self.write("range.yaml", text), "--out", self.out)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertIn("range", result.stdout)
+
+    def test_standard_output_that_can_not_be_written_is_a_failure(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = subprocess.run([TAUT, "--version"], stdout=full, stderr=subprocess.PIPE, timeout=60)
+        self.assertEqual(result.returncode, 4)
+
     def test_json_output_is_one_json_object(self):
         result = run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out, "--json")
         summary = json.loads(result.stdout)

@@ -73,6 +73,15 @@ TEST(CaseFile, ReadsThePapersSlice) {
   EXPECT_THAT(read.description, HasSubstr("OUR RECONSTRUCTION"));
 }
 
+TEST(CaseFile, AParameterThatIsNamedLikeAUnitIsAnOperand) {
+  Sections sections;
+  sections.space =
+      "space: {surface: {parameters: {t: real}, pose: {px: 2*t, py: 0, pz: 350, phi: 0, theta: 1.5 + t, sigma: 0}}}\n";
+  sections.query = "query: {waypoints: [{t: 0}, {t: 0.1}]}\n";
+  const Case read = parse(sections);
+  EXPECT_THAT(read.problem.space.pose[4], HasSubstr("1.5 + t"));
+}
+
 TEST(CaseFile, ReadsThePapersSphere) {
   const Case read = load_case(kCases + "robot2-sphere-q1-q2-q3.yaml");
   const Problem& problem = read.problem;

@@ -53,18 +53,16 @@ struct Trial {
 };
 
 oracle::Big6 slice_pose(const std::vector<BigFloat>& q) {
-  return {BigFloat(0.0), BigFloat(0.0), oracle::big("0.35"), q[0], q[1], BigFloat(34.0) * oracle::pi() / BigFloat(180.0)};
+  return {BigFloat(0.0), BigFloat(0.0), oracle::big("0.35"),
+          q[0],          q[1],          BigFloat(34.0) * oracle::pi() / BigFloat(180.0)};
 }
 
 oracle::Big6 sphere_pose(const std::vector<BigFloat>& q) {
   const BigFloat rs = oracle::big("0.13");
   const BigFloat ring = rs * oracle::cosine(q[1]);
-  return {ring * oracle::cosine(q[0]),
-          ring * oracle::sine(q[0]),
-          oracle::big("0.306") - rs * oracle::sine(q[1]),
-          q[0] - oracle::pi(),
-          oracle::pi() / BigFloat(2.0) - q[1],
-          BigFloat(0.0)};
+  return {
+      ring * oracle::cosine(q[0]), ring * oracle::sine(q[0]),           oracle::big("0.306") - rs * oracle::sine(q[1]),
+      q[0] - oracle::pi(),         oracle::pi() / BigFloat(2.0) - q[1], BigFloat(0.0)};
 }
 
 Problem random_robot(Random& random, double& size) {
@@ -75,8 +73,8 @@ Problem random_robot(Random& random, double& size) {
   const double spread = flat ? 1e-3 : 0.3;
   for (std::size_t i = 0; i < kCables; ++i) {
     const double base_angle = 2.094395 * std::floor(static_cast<double>(i) / 2) + uniform(random, -spread, spread);
-    const double platform_angle = 1.047197 + 2.094395 * std::floor((static_cast<double>(i) + 1) / 2) +
-                                  uniform(random, -spread, spread);
+    const double platform_angle =
+        1.047197 + 2.094395 * std::floor((static_cast<double>(i) + 1) / 2) + uniform(random, -spread, spread);
     const double base_radius = size * uniform(random, 0.8, 1.2);
     const double platform_radius = size * uniform(random, 0.3, 0.7);
     const auto anchor = [&](double radius, double angle) {
@@ -159,13 +157,10 @@ std::vector<BigFloat> parameters_at(const Trial& trial, double s) {
 BigFloat quantity(const oracle::OracleStatics& statics, MarginId id) {
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
-    case MarginKind::kTensionMin:
-      return statics.tension[i] - statics.variation[i];
-    case MarginKind::kTensionMax:
-      return statics.tension[i] + statics.variation[i];
+    case MarginKind::kTensionMin: return statics.tension[i] - statics.variation[i];
+    case MarginKind::kTensionMax: return statics.tension[i] + statics.variation[i];
     case MarginKind::kLengthMin:
-    case MarginKind::kLengthMax:
-      break;
+    case MarginKind::kLengthMax: break;
   }
   return statics.length[i];
 }
@@ -173,13 +168,10 @@ BigFloat quantity(const oracle::OracleStatics& statics, MarginId id) {
 double quantity(const Statics<double>& statics, MarginId id) {
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
-    case MarginKind::kTensionMin:
-      return statics.tension[i] - statics.variation[i];
-    case MarginKind::kTensionMax:
-      return statics.tension[i] + statics.variation[i];
+    case MarginKind::kTensionMin: return statics.tension[i] - statics.variation[i];
+    case MarginKind::kTensionMax: return statics.tension[i] + statics.variation[i];
     case MarginKind::kLengthMin:
-    case MarginKind::kLengthMax:
-      break;
+    case MarginKind::kLengthMax: break;
   }
   return statics.length[i];
 }
@@ -189,14 +181,10 @@ bool is_upper(MarginKind kind) { return kind == MarginKind::kTensionMax || kind 
 DecimalText& limit(Problem& problem, MarginId id) {
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
-    case MarginKind::kTensionMin:
-      return problem.robot.tension_N[i].lower;
-    case MarginKind::kTensionMax:
-      return problem.robot.tension_N[i].upper;
-    case MarginKind::kLengthMin:
-      return problem.robot.length_m[i].lower;
-    case MarginKind::kLengthMax:
-      break;
+    case MarginKind::kTensionMin: return problem.robot.tension_N[i].lower;
+    case MarginKind::kTensionMax: return problem.robot.tension_N[i].upper;
+    case MarginKind::kLengthMin: return problem.robot.length_m[i].lower;
+    case MarginKind::kLengthMax: break;
   }
   return problem.robot.length_m[i].upper;
 }
@@ -204,8 +192,8 @@ DecimalText& limit(Problem& problem, MarginId id) {
 /// Whether every margin is positive, by the oracle.
 bool oracle_feasible(Problem problem, const oracle::OracleStatics& statics) {
   for (int cable = 0; cable < kCables; ++cable) {
-    for (const MarginKind kind : {MarginKind::kTensionMin, MarginKind::kTensionMax, MarginKind::kLengthMin,
-                                  MarginKind::kLengthMax}) {
+    for (const MarginKind kind :
+         {MarginKind::kTensionMin, MarginKind::kTensionMax, MarginKind::kLengthMin, MarginKind::kLengthMax}) {
       const BigFloat bound = oracle::big(limit(problem, {kind, cable}));
       const BigFloat value = quantity(statics, {kind, cable});
       if (is_upper(kind) ? !(value < bound) : !(value > bound)) return false;
@@ -298,8 +286,7 @@ void run_trial(std::uint64_t seed, Tally& tally) {
   const int decade = static_cast<int>(random() % kDecades);
   const double delta = range * std::pow(10.0, uniform(random, -kDecades + decade, -kDecades + decade + 1));
   const bool violated = random() % 2 == 0;
-  const oracle::OracleStatics at_extremum =
-      oracle::statics(trial.problem, trial.pose(parameters_at(trial, best_s)));
+  const oracle::OracleStatics at_extremum = oracle::statics(trial.problem, trial.pose(parameters_at(trial, best_s)));
   // Violated: a lower limit moves up, an upper one down. Clear: the other way.
   const BigFloat shift(violated == is_upper(id.kind) ? -delta : delta);
   limit(trial.problem, id) = decimal(quantity(at_extremum, id) + shift);
@@ -332,17 +319,14 @@ void run_trial(std::uint64_t seed, Tally& tally) {
     case Verdict::kRefuted: {
       ++tally.refuted;
       if (proof.witness->singular) break;
-      const auto at =
-          oracle::statics(trial.problem, trial.pose(parameters_at(trial, proof.witness->box.mid())));
+      const auto at = oracle::statics(trial.problem, trial.pose(parameters_at(trial, proof.witness->box.mid())));
       const BigFloat value = quantity(at, proof.witness->margin);
       const BigFloat bound = oracle::big(limit(trial.problem, proof.witness->margin));
       if (is_upper(proof.witness->margin.kind) ? value < bound : value > bound) breach("refuted by a false witness");
       ++(violated ? tally.violated_refuted : tally.clear_decided)[d];
       break;
     }
-    case Verdict::kUndecided:
-      ++tally.undecided;
-      break;
+    case Verdict::kUndecided: ++tally.undecided; break;
   }
 }
 
@@ -358,16 +342,18 @@ int run(long count, std::uint64_t seed) {
     for (int k = from; k < kDecades; ++k) sum += counts[static_cast<std::size_t>(k)];
     return sum;
   };
-  fmt::print("{} segments, seed {}: {} proved, {} refuted, {} undecided, {} skipped (singular on the samples); {} WRONG.\n",
-             count, seed, tally.proved.load(), tally.refuted.load(), tally.undecided.load(), tally.skipped.load(),
-             tally.wrong.load());
+  fmt::print(
+      "{} segments, seed {}: {} proved, {} refuted, {} undecided, {} skipped (singular on the samples); {} WRONG.\n",
+      count, seed, tally.proved.load(), tally.refuted.load(), tally.undecided.load(), tally.skipped.load(),
+      tally.wrong.load());
   fmt::print("{} boxes judged, {} in multiprecision, {:.1f} s.\n", tally.boxes.load(), tally.multiprecision.load(),
              seconds);
   fmt::print("delta/range      violated  refuted      clear  decided\n");
   for (int k = 0; k < kDecades; ++k) {
     const auto d = static_cast<std::size_t>(k);
-    fmt::print("1e{:<3} to 1e{:<3}  {:8d} {:8d}   {:8d} {:8d}\n", k - kDecades, k - kDecades + 1, tally.violated[d].load(),
-               tally.violated_refuted[d].load(), tally.clear[d].load(), tally.clear_decided[d].load());
+    fmt::print("1e{:<3} to 1e{:<3}  {:8d} {:8d}   {:8d} {:8d}\n", k - kDecades, k - kDecades + 1,
+               tally.violated[d].load(), tally.violated_refuted[d].load(), tally.clear[d].load(),
+               tally.clear_decided[d].load());
   }
   constexpr int kFromMillionth = kDecades - 6;
   const double share = static_cast<double>(total(tally.clear_decided, kFromMillionth)) /
