@@ -57,7 +57,11 @@ Polytope::Polytope(int dimension, double half_side)
 }
 
 bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
-  auto& [excess, outside, fresh, ends] = scratch;
+  // References, not a structured binding: clang's lambdas can't capture those.
+  std::vector<double>& excess = scratch.excess;
+  std::vector<int>& outside = scratch.outside;
+  std::vector<Vertex>& fresh = scratch.fresh;
+  std::vector<OpenEnd>& ends = scratch.ends;
   const int n = dimension_;
   const int count = static_cast<int>(vertices_.size());
   const double length = normal.norm();
