@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "kinematics/decimal.h"
@@ -24,8 +25,21 @@ constexpr std::size_t kMaxShown = 60;           // characters of a wrong value i
 
 // --- Fields: nodes of the file that know their place ---------------------------------------------------------------
 
+/// As much of the text as a message should show: whole characters.
 std::string shorten(const std::string& text) {
-  return text.size() > kMaxShown ? text.substr(0, kMaxShown) + "…" : text;
+  std::size_t end = std::min(text.size(), kMaxShown);
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return end < text.size() ? text.substr(0, end) + "…" : text;
+}
+
+/// What a file says must not steer a terminal.
+std::string without_control_characters(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    result += byte < ' ' || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return result;
 }
 
 bool is_list_of_scalars(const YAML::Node& node) {
@@ -56,8 +70,8 @@ class Places {
 
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& path, const std::string& message) const {
     const std::string place = mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
-    throw InputError(path.empty() ? fmt::format("{}: {}", place, message)
-                                  : fmt::format("{}: {}: {}", place, path, message));
+    throw InputError(without_control_characters(path.empty() ? fmt::format("{}: {}", place, message)
+                                                             : fmt::format("{}: {}: {}", place, path, message)));
   }
 
   /// Says where in the file the problem's field is, or the closest thing around it.
@@ -581,8 +595,7 @@ PlannerOptions read_planner(const Field& field) {
     planner.clearance = read_fraction(*clearance);
   }
   if (const auto smooth = map.find("smooth")) {
-    planner.smoothing =
-        read_choice<Smoothing>(*smooth, {{"none", Smoothing::kNone}, {"shorten", Smoothing::kShorten}});
+    planner.smoothing = read_choice<Smoothing>(*smooth, {{"none", Smoothing::kNone}, {"shorten", Smoothing::kShorten}});
   }
   return planner;
 }
@@ -619,6 +632,42 @@ Case read_case(const Field& root) {
   return result;
 }
 
+/// Length of the UTF-8 character (Unicode 15, table 3-7) other than NUL that the text begins with; 0 if there is none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) -> unsigned {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+  };
+  const auto is_between = [](unsigned value, unsigned lowest, unsigned highest) {
+    return lowest <= value && value <= highest;
+  };
+  const unsigned lead = byte(0);
+  if (is_between(lead, 0x01, 0x7F)) return 1;
+  if (!is_between(lead, 0xC2, 0xF4)) return 0;
+  const unsigned lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;   // else there is a shorter form
+  const unsigned highest = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;  // no surrogates, none above U+10FFFF
+  const std::size_t length = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+  if (!is_between(byte(1), lowest, highest)) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if (!is_between(byte(i), 0x80, 0xBF)) return 0;
+  }
+  return length;
+}
+
+/// @throws InputError at the first byte that is no part of a character.
+void require_utf8(const std::string& text, const Places& places) {
+  YAML::Mark mark;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(std::string_view(text).substr(at));
+    if (length == 0) {
+      places.fail(mark, "",
+                  fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[at])));
+    }
+    mark.line += text[at] == '\n';
+    mark.column = text[at] == '\n' ? 0 : mark.column + 1;
+    at += length;
+  }
+}
+
 /// The comment lines that the file begins with, without their marks.
 std::string leading_comment(const std::string& text) {
   std::istringstream lines(text);
@@ -637,6 +686,7 @@ Case parse_case(const std::string& text, const std::string& name) {
   if (text.size() > kMaxFileBytes) {
     throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes));
   }
+  require_utf8(text, places);
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() != 1) {

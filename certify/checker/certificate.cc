@@ -102,6 +102,7 @@ std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) 
 
   std::vector<std::string> names;
   const Json& parameters = array(json["parameters"], where + ".parameters");
+  if (parameters.empty()) fail(where + ".parameters", "at least one parameter");
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const std::string here = at(where + ".parameters", j);
     const bool is_range = parameters[j].is_object() && parameters[j].contains("range");
@@ -138,6 +139,18 @@ std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) 
     problem.pose[c] = Expression(text(pose[kPoseNames[c]], here), names, constants, here);
   }
 
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    if (problem.parameters[j].kind != Kind::kPeriodic) continue;
+    for (std::size_t c = 0; c < 6; ++c) {
+      const std::optional<long> turns = problem.pose[c].turns(static_cast<int>(j));
+      const bool is_angle = c >= 3;
+      if (!turns || (!is_angle && *turns != 0)) {
+        fail(where + ".pose." + kPoseNames[c],
+             "the same pose, and plainly so, where the periodic parameter '" + names[j] + "' grows by 2 pi");
+      }
+    }
+  }
+
   if (!json["flip"].is_null()) {
     const std::string here = where + ".flip";
     array(json["flip"], here, 2);
@@ -147,6 +160,10 @@ std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) 
     if (phi == theta || pose["phi"] != names[static_cast<std::size_t>(phi)] ||
         pose["theta"] != names[static_cast<std::size_t>(theta)]) {
       fail(here, "the parameters that are phi and theta themselves");
+    }
+    if (problem.parameters[static_cast<std::size_t>(phi)].kind != Kind::kPeriodic ||
+        problem.parameters[static_cast<std::size_t>(theta)].kind != Kind::kReal) {
+      fail(here, "phi of kind periodic and theta of kind real");
     }
     for (std::size_t c : {0, 1, 2, 5}) {
       if (problem.pose[c].mentions(phi) || problem.pose[c].mentions(theta)) {
@@ -184,7 +201,7 @@ Problem read_problem(const Json& json) {
 
   object(json["query"], "problem.query", {"waypoints"});
   const Json& waypoints = array(json["query"]["waypoints"], "problem.query.waypoints");
-  if (waypoints.empty()) fail("problem.query.waypoints", "at least one waypoint");
+  if (waypoints.size() < 2) fail("problem.query.waypoints", "at least two waypoints");
   for (std::size_t k = 0; k < waypoints.size(); ++k) {
     const std::string here = at("problem.query.waypoints", k);
     array(waypoints[k], here, problem.parameters.size());
@@ -330,6 +347,9 @@ void require_digest(const Json& value, const Json& claimed, const std::string& w
 }  // namespace
 
 nlohmann::json parse_json(const std::string& text) {
+  // The library would skip the one, and take the other for the end.
+  if (text.starts_with("\xEF\xBB\xBF")) throw Malformed("no JSON: it begins with a byte order mark");
+  if (text.find('\0') != std::string::npos) throw Malformed("no JSON: it contains a NUL byte");
   std::vector<std::set<std::string>> keys;  // of the objects that are open
   const auto inspect = [&](int depth, Json::parse_event_t event, Json& value) {
     if (depth > kMaxNesting) throw Malformed("nested too deeply");

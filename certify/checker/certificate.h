@@ -90,7 +90,8 @@ struct Certificate {
   std::size_t boxes = 0;
 };
 
-/// JSON with duplicate keys, fractional numbers, trailing text and nesting beyond 32 refused.
+/// JSON with duplicate keys, fractional numbers, trailing text, NUL bytes, a byte order mark and nesting beyond 32
+/// refused.
 /// @throws Malformed
 [[nodiscard]] nlohmann::json parse_json(const std::string& text);
 
@@ -98,7 +99,8 @@ struct Certificate {
 [[nodiscard]] std::string digest(const nlohmann::json& value);
 
 /// Reads and checks form: keys, types, counts, digests, claim text, boxes that tile [0, 1], limits in order, E
-/// symmetric, the top-level margins those of the worst segments. Proves nothing about the robot.
+/// symmetric, periodic parameters along which the pose closes, the top-level margins those of the worst segments. Proves
+/// nothing about the robot.
 /// @throws Malformed naming the key.
 [[nodiscard]] Certificate read_certificate(const nlohmann::json& json);
 

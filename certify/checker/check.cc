@@ -54,6 +54,12 @@ class Checker {
   }
 
   void confirm_refuted() {
+    require_ranges();
+    if (certificate_.path.size() == 1) {
+      require_query_waypoint(certificate_.path.front());
+    } else {
+      require_query();
+    }
     escalate([&](const Model& model) {
       if (certificate_.witness->kind == WitnessKind::kSingular) {
         confirm_sign_change(model);
@@ -235,13 +241,27 @@ class Checker {
     const std::size_t last = certificate_.problem.query.size() - 1;
     std::size_t k = 0;
     for (std::size_t c = 0; c <= last; ++c) {
-      std::vector<double> x;
-      for (const Expression& typed : certificate_.problem.query[c]) x.push_back(nearest_binary64(typed, c));
+      const std::vector<double> x = query_waypoint(c);
       while (c > 0 && k < path.size() && !is_same(path[k], x)) ++k;
       if (k == path.size() || !is_same(path[k], x) || (c == last && !is_same(path.back(), x))) {
         throw Rejected("query waypoint " + std::to_string(c) + ": the path does not pass it, or not in its turn");
       }
     }
+  }
+
+  /// The waypoint is one of the case's.
+  void require_query_waypoint(const Waypoint& waypoint) {
+    for (std::size_t c = 0; c < certificate_.problem.query.size(); ++c) {
+      if (is_same(waypoint, query_waypoint(c))) return;
+    }
+    throw Rejected("the path's one waypoint is none of the query's");
+  }
+
+  /// The case's waypoint c, each of its coordinates rounded to the nearest binary64.
+  std::vector<double> query_waypoint(std::size_t c) {
+    std::vector<double> x;
+    for (const Expression& typed : certificate_.problem.query[c]) x.push_back(nearest_binary64(typed, c));
+    return x;
   }
 
   double nearest_binary64(const Expression& typed, std::size_t c) {
@@ -287,6 +307,21 @@ std::string plural(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : what == "box" ? "es" : "s");
 }
 
+/// What a file says may be printed on a terminal and searched by scripts: here it is one line of printable ASCII, with
+/// \xNN for any other byte.
+std::string printable(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c >= ' ' && c <= '~') {
+      result += c;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    result += {'\\', 'x', "0123456789abcdef"[byte >> 4U], "0123456789abcdef"[byte & 15U]};
+  }
+  return result;
+}
+
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
   const std::string bits = "; " + std::to_string(result.bits) + " bits";
   if (certificate.verdict == Verdict::kRefuted) return "refuted again: the witness is confirmed" + bits;
@@ -310,7 +345,7 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
     switch (certificate.verdict) {
       case Verdict::kUndecided:
         result.outcome = Outcome::kUndecided;
-        result.message = "the certificate claims nothing: " + certificate.undecided_reason;
+        result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
         return result;
       case Verdict::kProved: checker.confirm_proved(); break;
       case Verdict::kRefuted: checker.confirm_refuted(); break;
@@ -319,10 +354,10 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
     result.outcome = Outcome::kAccepted;
   } catch (const Malformed& error) {
     result.outcome = Outcome::kMalformed;
-    result.message = error.what();
+    result.message = printable(error.what());
   } catch (const Rejected& error) {
     result.outcome = Outcome::kRejected;
-    result.message = error.what();
+    result.message = printable(error.what());
   }
   return result;
 }

@@ -20,7 +20,7 @@ enum class Outcome {
 
 struct CheckResult {
   Outcome outcome = Outcome::kMalformed;
-  std::string message = "nothing was checked";  ///< a sentence or two, without the outcome itself
+  std::string message = "nothing was checked";  ///< one line of printable ASCII, without the outcome itself
   std::string verdict;                          ///< the certificate's, once it was read
   std::size_t segments = 0;
   std::size_t boxes = 0;

@@ -1,6 +1,7 @@
 #include "certify/checker/expression.h"
 
 #include <cctype>
+#include <cstdlib>
 
 #include "certify/checker/exact.h"
 
@@ -11,6 +12,7 @@ namespace {
 constexpr std::size_t kMaxLength = 10000;  ///< characters; nobody types more
 constexpr int kMaxDepth = 200;             ///< nested parentheses and signs: bounds the parser's recursion
 constexpr long kMaxExponent = 1000;        ///< of "^"
+constexpr long kMaxTurns = 1000;           ///< of turns(), and of the integers that it multiplies by
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -28,6 +30,10 @@ class ExpressionParser {
 
   void parse() {
     if (text_.size() > kMaxLength) fail("at most 10000 characters");
+    for (; at_ < text_.size(); ++at_) {
+      if (text_[at_] < ' ' || text_[at_] > '~') fail("printable ASCII characters only");
+    }
+    at_ = 0;
     sum();
     if (peek() != '\0') fail("an operator or the end");
   }
@@ -134,8 +140,7 @@ class ExpressionParser {
   }
 
   char peek() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-    if (at_ < text_.size() && text_[at_] == '\0') fail("no control characters");
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
     return at_ < text_.size() ? text_[at_] : '\0';
   }
   bool take(char c) {
@@ -223,6 +228,59 @@ bool Expression::mentions(int parameter) const {
     if (node.op == Op::kParameter && node.n == parameter) return true;
   }
   return false;
+}
+
+std::optional<long> Expression::turns(int parameter) const {
+  struct Known {
+    std::optional<long> turns;
+    std::optional<long> integer;  ///< the value itself, where it is a number that was typed, or its negative
+  };
+  const auto bounded = [](long k) { return std::abs(k) <= kMaxTurns ? std::optional(k) : std::nullopt; };
+  const Known none;
+  std::vector<Known> known;
+  known.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    const Known& a = node.a < 0 ? none : known[static_cast<std::size_t>(node.a)];
+    const Known& b = node.b < 0 ? none : known[static_cast<std::size_t>(node.b)];
+    // A function of nothing but values that do not change.
+    const bool unchanged = (node.a < 0 || a.turns == 0) && (node.b < 0 || b.turns == 0);
+    Known result;
+    if (unchanged) result.turns = 0;
+    switch (node.op) {
+      case Op::kParameter: result.turns = node.n == parameter ? 1 : 0; break;
+      case Op::kNumber: {
+        const mpq_class& number = numbers_[static_cast<std::size_t>(node.n)];
+        if (number.get_den() == 1 && abs(number) <= kMaxTurns) result.integer = number.get_num().get_si();
+        break;
+      }
+      case Op::kNegate:
+        if (a.turns) result.turns = -*a.turns;
+        if (a.integer) result.integer = -*a.integer;
+        break;
+      case Op::kAdd:
+        if (a.turns && b.turns) result.turns = bounded(*a.turns + *b.turns);
+        break;
+      case Op::kSubtract:
+        if (a.turns && b.turns) result.turns = bounded(*a.turns - *b.turns);
+        break;
+      case Op::kMultiply:
+        if (!unchanged && a.integer && b.turns) result.turns = bounded(*a.integer * *b.turns);
+        if (!unchanged && b.integer && a.turns) result.turns = bounded(*b.integer * *a.turns);
+        break;
+      case Op::kPower:
+        if (node.n == 0) result.turns = 0;
+        if (node.n == 1) result = a;
+        break;
+      case Op::kSin:
+      case Op::kCos:
+      case Op::kTan:
+        if (a.turns) result.turns = 0;
+        break;
+      default: break;  // as `unchanged` says
+    }
+    known.push_back(result);
+  }
+  return known.back().turns;
 }
 
 bool Expression::is_free_name(const std::string& name) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ class Expression {
   [[nodiscard]] Form evaluate(std::span<const Form> parameters) const;
 
   [[nodiscard]] bool mentions(int parameter) const;
+
+  /// The integer k for which the value grows by 2 pi k when the parameter grows by 2 pi, whatever the others are, where
+  /// the form of the expression shows one: "Periodic parameters" in docs/certificate-format.md.
+  [[nodiscard]] std::optional<long> turns(int parameter) const;
 
   /// Whether `name` may name a parameter or constant: an identifier, and neither `pi` nor a function.
   [[nodiscard]] static bool is_free_name(const std::string& name);

@@ -1,5 +1,6 @@
 // taut-check CERTIFICATE [CASE] [--json] [--quiet]: proves the claim of a certificate again.
 //
+// Results go to stdout; bad input is complained about on stderr, as wrong use is, and with --json on stdout too.
 // Exit codes: 0 accepted, 1 rejected, 2 the certificate itself is undecided, 3 malformed input or wrong use,
 // 4 this program failed.
 #include <CLI/CLI.hpp>
@@ -94,11 +95,15 @@ int run(int argc, char** argv) {
                                    {"bits", result.bits},
                                    {"seconds", seconds}};
     std::cout << report.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
-  } else if (!quiet) {
+  } else if (!quiet && result.outcome != Outcome::kMalformed) {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
     std::cout << name(result.outcome) << ": " << result.message << ", " << time << std::endl;
   }
+  if (!quiet && result.outcome == Outcome::kMalformed) {
+    std::cerr << name(result.outcome) << ": " << result.message << std::endl;
+  }
+  if (!std::cout) throw std::runtime_error("could not write to standard output");
   return exit_code(result.outcome);
 }
 

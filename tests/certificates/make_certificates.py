@@ -279,26 +279,36 @@ def main():
         space = copy.deepcopy(SLICE)
         space['pose']['pz'] = pz
         return space
-    far = problem('robot1-too-far', ROBOT1, high_slice('0.6'), [['0', '0']])
+    far = problem('robot1-too-far', ROBOT1, high_slice('0.6'), [['0', '0'], ['1', '0']])
     _, lengths = geometry(far, [0.0, 0.0])
     i = max(range(6), key=lambda n: lengths[n])
     write('accepted', 'refuted_length_max', certificate(far, [waypoint([0, 0])], 'refuted', witness={
         'at': {'waypoint': 0}, 'kind': 'length_max', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.55'}),
-        'A path of a single waypoint, 600 mm below the base: the cables do not reach.')
-    close = problem('robot1-in-the-base', ROBOT1, high_slice('0'), [['0', '0']])
+        "A path of a single waypoint, the query's first, 600 mm below the base: the cables do not reach.")
+    close = problem('robot1-in-the-base', ROBOT1, high_slice('0'), [['1', '0'], ['0', '0']])
     _, lengths = geometry(close, [0.0, 0.0])
     i = min(range(6), key=lambda n: lengths[n])
     close['robot']['length_m'][i] = ['0.3', '0.55']
     assert lengths[i] < 0.3
     write('accepted', 'refuted_length_min', certificate(close, [waypoint([0, 0])], 'refuted', witness={
         'at': {'waypoint': 0}, 'kind': 'length_min', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.3'}),
-        'The platform in the plane of the base, where J is singular: the length is refuted all the same.')
+        "The query's second waypoint, in the plane of the base, where J is singular: the length is refuted all the same.")
 
     dets = [statics(straight, between(*ends, k / 64))[3] for k in range(65)]
     k = next(k for k in range(64) if dets[k] * dets[k + 1] < 0)
     singular = certificate(straight, ends, 'refuted', witness={
         'kind': 'singular', 'at': {'segment': 0, 's': dyadic(k, 64)}, 'to': {'segment': 0, 's': dyadic(k + 1, 64)}})
     write('accepted', 'refuted_singular', singular, 'det J changes sign between two places of the straight motion.')
+
+    # A periodic parameter may stand in many forms, as long as the pose closes.
+    closing = copy.deepcopy(SLICE)
+    closing.update(parameters=[{'name': 't', 'kind': 'periodic'}], constants={'two': '2.0'}, flip=None,
+                   pose={'px': '0.001*sin(-two*t + 3*(t - 1))^2/(2 + cos(t))', 'py': '0*atan2(sin(t), 3 + tan(t)^2)',
+                         'pz': '0.35 + 0*t^0', 'phi': '-2.3 + (t*1 - t^1)*1000 - 0*t', 'theta': '1.6',
+                         'sigma': '(34)*pi/180'})
+    closed = problem('robot1-closing', ROBOT1, closing, [['0.1'], ['0.2']])
+    closed_c = proved(closed, [waypoint([0.1], [2]), waypoint([0.2], [2])], 8)
+    write('accepted', 'robot1_closing', closed_c, 'The pose plainly closes along the periodic parameter; whole turns on.')
 
     # Well formed, but false: every digest is right.
     def reject(name, c, why, expect, edit=lambda c: None):
@@ -360,6 +370,18 @@ def main():
         c['path']['waypoints'][0] = waypoint([0.55, math.nextafter(pi / 2, 2)])
         c['problem']['query']['waypoints'][0] = ['0.55', '1.5707963267948968']
     reject('range_left', sphere_c, 'A parameter starts one ulp outside its closed range.', 'in its range', leave)
+    def refuted_at(x, query=straight):
+        _, f0, v, _ = statics(query, x)
+        i = min(range(6), key=lambda n: f0[n] - v[n])
+        assert f0[i] - v[i] < 0.05
+        return {'kind': 'tension_min', 'cable': i + 1, 'value': enclosing(f0[i] - v[i]), 'limit': '0.05'}
+    outside = [0.0, 3.0]
+    write('rejected', 'refuted_beside_the_query', certificate(straight, [waypoint(outside)], 'refuted', witness={
+        'at': {'waypoint': 0}, **refuted_at(outside)}),
+        "True of a pose that the query does not ask for: it says nothing of the case.", "none of the query's")
+    write('rejected', 'refuted_path_leads_elsewhere', certificate(straight, [ends[0], waypoint(outside)], 'refuted',
+        witness={'at': {'waypoint': 1}, **refuted_at(outside)}),
+        "A path from the query's start to a pose that the query does not ask for.", 'query waypoint 1')
     reject('witness_violates_nothing', tension, 'At the witness the tension is within its limits.', 'violates',
            lambda c: c['witness'].update(at={'segment': 0, 's': '0'}))
     reject('witness_value_off', tension, 'The value stated is not the one at the witness.', 'value',
@@ -413,7 +435,41 @@ def main():
     malform('flip_of_others', 'phi is not the parameter that flip says.', 'flip',
             lambda c: c['problem']['space'].update(flip=[1, 0]))
     malform('flip_mentioned', 'sigma depends on phi, so that (phi + pi, -theta) is another pose.', 'flip',
-            lambda c: c['problem']['space']['pose'].update(sigma='phi/2'))
+            lambda c: c['problem']['space']['pose'].update(sigma='2*phi'))
+    malform('flip_theta_periodic', 'theta is of kind real where (phi + pi, -theta) is the same pose.', 'theta of kind real',
+            lambda c: c['problem']['space']['parameters'][1].update(kind='periodic'))
+    malform('flip_phi_real', 'phi is of kind periodic where (phi + pi, -theta) is the same pose.', 'phi of kind periodic',
+            lambda c: c['problem']['space']['parameters'][0].update(kind='real'))
+    # Half turns of a parameter that is no angle would detach the path from the query: here the typed start, t = 0,
+    # is 8.35 m below the base, and the path stays at t = 2 pi, 0.35 m below it.
+    falling = copy.deepcopy(SLICE)
+    falling.update(parameters=[{'name': 't', 'kind': 'periodic'}], flip=None,
+                   pose={'px': '0', 'py': '0', 'pz': '0.35 + 8*(1 - t/(2*pi))', 'phi': '-2.3', 'theta': '1.6',
+                         'sigma': '(34)*pi/180'})
+    fallen = problem('robot1-falling', ROBOT1, falling, [['0'], ['0']])
+    write('malformed', 'periodic_position', proved(fallen, [waypoint([0.0], [2])] * 2, 1),
+          'A position that is not the same after a turn of a periodic parameter.', 'pz: expected the same pose')
+
+    def pose(**coordinates):
+        return lambda c: c['problem']['space']['pose'].update(coordinates)
+    malform('periodic_position_linear', 'px moves on with each turn.', 'px: expected the same', pose(px='t*0.002'), closed_c)
+    malform('periodic_position_whole', 'So it does by whole metres.', 'px: expected the same', pose(px='t*2'), closed_c)
+    malform('periodic_half_angle', 'After one turn phi is half a turn on.', 'phi: expected the same', pose(phi='t/2'),
+            closed_c)
+    malform('periodic_half_angle_in_sine', 'sin(t/2) changes its sign.', 'py: expected the same', pose(py='sin(t/2)'),
+            closed_c)
+    malform('periodic_squared', 'No multiple of 2 pi.', 'sigma: expected the same', pose(sigma='t*t'), closed_c)
+    malform('periodic_exponential', 'exp does not close.', 'theta: expected the same', pose(theta='exp(t)'), closed_c)
+    malform('query_of_one_waypoint', 'A query leads from one waypoint to another.', 'at least two waypoints',
+            lambda c: c['problem']['query']['waypoints'].pop())
+    def fix(c):
+        c['problem']['space'].update(parameters=[], flip=None)
+        pose(phi='-2.3', theta='1.6')(c)
+        c['problem']['query'].update(waypoints=[[], []])
+        c['path'].update(waypoints=[waypoint([])] * len(c['path']['waypoints']))
+    malform('no_parameters', 'Nothing could move.', 'at least one parameter', fix)
+    malform('expression_with_a_tab', 'Blanks are the only white space.', 'printable', pose(px='0\t'))
+    malform('expression_not_ascii', 'A minus sign of another script.', 'printable', pose(px='\u22120'))
     malform('half_turn_of_a_real', 'Half turns are for periodic parameters.', 'half_turns',
             lambda c: c['path']['waypoints'][0].update(half_turns=[0, 2]))
     malform('one_waypoint', 'A path of one waypoint has no segment to prove.', 'at least two',
@@ -437,6 +493,12 @@ def main():
     write('malformed', 'cut', whole[:len(whole) // 2], 'Half a file.', 'cut')
     write('malformed', 'empty', b'', 'Nothing.', 'cut')
     write('malformed', 'trailing', whole + b'{}', 'Something after the end.', 'no JSON')
+    write('malformed', 'nul_and_trailing', whole + b'\0{"verdict": "refuted"}\xff', 'A NUL byte does not end the file.',
+          'NUL')
+    write('malformed', 'byte_order_mark', b'\xef\xbb\xbf' + whole, 'The file begins with its first brace.',
+          'byte order mark')
+    write('malformed', 'message_breaks_the_line', changed(near_c, lambda c: c.update({'\r\x1b[2Kaccepted\n\u00e4': ''})),
+          'What a file says can not pass for what the checker says.', r"no key '\x0d\x1b[2Kaccepted\x0a\xc3\xa4'")
     write('malformed', 'duplicate_key', whole.replace(b'"verdict": "proved"', b'"verdict": "proved", "verdict": "proved"'),
           'Which of the two counts?', 'twice')
     write('malformed', 'deep', b'[' * 100000, 'A nesting bomb.', 'deep')

@@ -57,6 +57,34 @@ TEST(Checker, SaysUndecidedWhereTheCertificateDoes) {
   EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kUndecided);
 }
 
+TEST(Checker, PrintsWhatAFileSaysAsOneLineOfAscii) {
+  nlohmann::json json = accepted("robot1_near_goal");
+  json["verdict"] = "undecided";
+  json["claim"] = kUndecidedClaim;
+  json["segments"] = nlohmann::json::array();
+  json["margins"] = nlohmann::json::object();
+  json["undecided"] = {
+      {"reason", "x\r\x1b[2Kaccepted: proved again\n\u202e\x7f"}, {"segment", nullptr}, {"box", nullptr}};
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).message,
+            "the certificate claims nothing: x\\x0d\\x1b[2Kaccepted: proved again\\x0a\\xe2\\x80\\xae\\x7f");
+}
+
+TEST(Checker, ARefutedPathOfOneWaypointIsAnyOfTheQuerys) {
+  nlohmann::json json = accepted("refuted_length_min");  // at the query's second waypoint
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);
+  json["path"]["waypoints"][0]["half_turns"][0] = 2;
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);
+  json["path"]["waypoints"][0] = {{"x", {"0x1p+0", "-0x0p+0"}}, {"half_turns", {1, 0}}};  // phi = 1, flipped
+  seal(json);
+  EXPECT_EQ(check_certificate(json.dump()).outcome, Outcome::kAccepted);  // theta is 0, so that phi does not matter
+  json["path"]["waypoints"][0]["half_turns"][0] = 0;
+  json["path"]["waypoints"][0]["x"][1] = "0x1p-1022";
+  seal(json);
+  EXPECT_NE(check_certificate(json.dump()).message.find("none of the query's"), std::string::npos);
+}
+
 TEST(Checker, ComparesWithTheCase) {
   const nlohmann::json json = accepted("robot1_near_goal");
   nlohmann::json problem = json["problem"];

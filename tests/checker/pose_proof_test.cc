@@ -22,7 +22,7 @@ Problem free_robot(const std::string& name) {
   }
   json["problem"]["space"] = {
       {"parameters", parameters}, {"constants", nlohmann::json::object()}, {"flip", nullptr}, {"pose", pose}};
-  json["problem"]["query"]["waypoints"] = {{"0", "0", "0", "0", "0", "0"}};
+  json["problem"]["query"]["waypoints"] = {{"0", "0", "0", "0", "0", "0"}, {"0", "0", "0", "0", "0", "0"}};
   json["path"]["waypoints"] = nlohmann::json::array();
   json["segments"] = nlohmann::json::array();
   json["margins"] = nlohmann::json::object();

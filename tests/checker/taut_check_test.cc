@@ -14,9 +14,10 @@ struct Output {
   std::string text;
 };
 
-Output run(const std::string& arguments) {
+/// What is printed on stdout, or on another stream as `redirection` says.
+Output run(const std::string& arguments, const std::string& redirection = "2>/dev/null") {
   Output result{-1, ""};
-  FILE* pipe = popen((TAUT_CHECK " " + arguments + " 2>/dev/null").c_str(), "r");
+  FILE* pipe = popen((TAUT_CHECK " " + arguments + " " + redirection).c_str(), "r");
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) result.text += static_cast<char>(c);
   const int status = pclose(pipe);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -49,6 +50,21 @@ TEST(TautCheck, PrintsASentence) {
   EXPECT_TRUE(proved.text.starts_with("accepted: proved again: 1 segment, 4 boxes (")) << proved.text;
   EXPECT_TRUE(run(kFolder + "rejected/anchor_moved.json").text.starts_with("rejected: segment 0, box [0, 1/8], cable"));
   EXPECT_EQ(run("--quiet " + kFolder + "malformed/cut.json").text, "");
+}
+
+TEST(TautCheck, ComplainsOfBadInputOnStderr) {
+  for (const std::string& arguments : {kFolder + "malformed/cut.json", kFolder + "no-such-file.json"}) {
+    EXPECT_EQ(run(arguments).text, "");
+    const std::string complaint = run(arguments, "2>&1 >/dev/null").text;
+    EXPECT_TRUE(complaint.starts_with("malformed: ")) << complaint;
+    EXPECT_EQ(std::count(complaint.begin(), complaint.end(), '\n'), 1) << complaint;
+    EXPECT_EQ(nlohmann::json::parse(run("--json " + arguments).text)["outcome"], "malformed");
+  }
+  EXPECT_EQ(run(kFolder + "rejected/anchor_moved.json", "2>&1 >/dev/null").text, "");
+}
+
+TEST(TautCheck, NoticesThatNobodyCanReadItsResult) {
+  EXPECT_EQ(run(kFolder + "accepted/robot1_near_goal.json", ">/dev/full 2>/dev/null").exit_code, 4);
 }
 
 TEST(TautCheck, PrintsJsonForMachines) {

@@ -50,6 +50,44 @@ void expect_rejected(const Sections& sections, const std::string& message) {
   expect_rejected(sections.text(), message);
 }
 
+TEST(CaseFile, IsUtf8) {
+  Sections sections;
+  sections.head = "taut: 1\nname: \"Ger\u00e4t \u20ac \U0001F680 \u07ff\ud7ff\uffff\U0010ffff\"\n";
+  EXPECT_EQ(parse(sections).problem.name, "Ger\u00e4t \u20ac \U0001F680 \u07ff\ud7ff\uffff\U0010ffff");
+  using std::string_literals::operator""s;
+  for (const auto& [bytes, seen] : std::map<std::string, std::string>{{"\xff"s, "FF"},
+                                                                      {"\0"s, "00"},
+                                                                      {"\x80"s, "80"},
+                                                                      {"\xc0\xaf"s, "C0"},          // overlong
+                                                                      {"\xe0\x9f\xbf"s, "E0"},      // overlong
+                                                                      {"\xf0\x8f\xbf\xbf"s, "F0"},  // overlong
+                                                                      {"\xed\xa0\x80"s, "ED"},      // a surrogate
+                                                                      {"\xf4\x90\x80\x80"s, "F4"},  // above U+10FFFF
+                                                                      {"\xe2\x82"s, "E2"},
+                                                                      {"\xc3"s, "C3"}}) {
+    sections.head = "taut: 1\nname: \u00e4" + bytes + "\n";
+    expect_rejected(sections, "test.yaml:2:8: got the byte 0x" + seen + ", expected UTF-8");
+  }
+  expect_rejected("taut: 1\xf0\x9f\x9a", "test.yaml:1:8: got the byte 0xF0");
+}
+
+TEST(CaseFile, ShowsNoControlCharacters) {
+  Sections sections;
+  sections.tail = "expect: \"\\e[2K\\rproved\"\n";
+  expect_rejected(sections, R"(got '\x1b[2K\x0dproved')");
+  sections.tail = "\"\\e[2K\": 1\n";
+  expect_rejected(sections, R"(got the unknown key '\x1b[2K')");
+  sections.tail = "";
+  sections.space = "space: {slice: {px: \"1\\e\", py: 0, pz: 350, sigma: 34 deg}}\n";
+  expect_rejected(sections, R"(\x1b)");
+}
+
+TEST(CaseFile, ShortensWhatItShowsToWholeCharacters) {
+  Sections sections;
+  sections.tail = "expect: " + std::string(59, 'x') + "\u00e4y\n";
+  expect_rejected(sections, "got '" + std::string(59, 'x') + "…'");
+}
+
 TEST(CaseFile, ReadsThePapersSlice) {
   const Case read = load_case(kCases + "robot1-slice-qs-qg.yaml");
   const Problem& problem = read.problem;
