@@ -88,8 +88,10 @@ std::array<Limits, kCables> limits(const Json& json, const std::string& where) {
   return result;
 }
 
-/// Returns the constants, for the query.
-std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) {
+/// An expression that mentions no name but pi.
+Expression constant(const Json& json, const std::string& where) { return Expression(text(json, where), {}, {}, where); }
+
+void read_space(const Json& json, Problem& problem) {
   const std::string where = "problem.space";
   object(json, where, {"parameters", "constants", "flip", "pose"});
 
@@ -121,8 +123,8 @@ std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) 
     if (kind == "range" && is_range) {
       const Json& range = array(parameters[j]["range"], here + ".range", 2);
       parameter.kind = Kind::kRange;
-      parameter.lower = Expression(text(range[0], here + ".range"), {}, constants, here + ".range[0]");
-      parameter.upper = Expression(text(range[1], here + ".range"), {}, constants, here + ".range[1]");
+      parameter.lower = constant(range[0], here + ".range[0]");
+      parameter.upper = constant(range[1], here + ".range[1]");
     } else if (kind == "periodic" && !is_range) {
       parameter.kind = Kind::kPeriodic;
     } else if (kind != "real" || is_range) {
@@ -172,7 +174,6 @@ std::map<std::string, mpq_class> read_space(const Json& json, Problem& problem) 
     }
     problem.flip = {phi, theta};
   }
-  return constants;
 }
 
 Problem read_problem(const Json& json) {
@@ -197,7 +198,7 @@ Problem read_problem(const Json& json) {
     }
   }
 
-  const std::map<std::string, mpq_class> constants = read_space(json["space"], problem);
+  read_space(json["space"], problem);
 
   object(json["query"], "problem.query", {"waypoints"});
   const Json& waypoints = array(json["query"]["waypoints"], "problem.query.waypoints");
@@ -207,7 +208,7 @@ Problem read_problem(const Json& json) {
     array(waypoints[k], here, problem.parameters.size());
     std::vector<Expression>& waypoint = problem.query.emplace_back();
     for (std::size_t j = 0; j < waypoints[k].size(); ++j) {
-      waypoint.emplace_back(text(waypoints[k][j], at(here, j)), std::vector<std::string>{}, constants, at(here, j));
+      waypoint.push_back(constant(waypoints[k][j], at(here, j)));
     }
   }
   return problem;

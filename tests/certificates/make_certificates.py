@@ -467,6 +467,10 @@ def main():
         pose(phi='-2.3', theta='1.6')(c)
         c['problem']['query'].update(waypoints=[[], []])
         c['path'].update(waypoints=[waypoint([])] * len(c['path']['waypoints']))
+    malform('query_with_a_name', "A query's values are constant expressions: no names but pi.", 'known name',
+            lambda c: c['problem']['query']['waypoints'][0].__setitem__(0, '0*rs + 0.55'), sphere_c)
+    malform('range_with_a_name', "So are a range's ends.", 'known name',
+            lambda c: c['problem']['space']['parameters'][1].update(range=['-pi/2 + 0*rs', 'pi/2']), sphere_c)
     malform('no_parameters', 'Nothing could move.', 'at least one parameter', fix)
     malform('expression_with_a_tab', 'Blanks are the only white space.', 'printable', pose(px='0\t'))
     malform('expression_not_ascii', 'A minus sign of another script.', 'printable', pose(px='\u22120'))
