@@ -73,8 +73,8 @@ struct Centered {
   }
   friend Centered log(const Centered& a) { return {log(a.at_mid), a.slope / a.range, log(a.range)}; }
   friend Centered atan2(const Centered& y, const Centered& x) {
-    return {atan2(y.at_mid, x.at_mid),
-            (x.range * y.slope - y.range * x.slope) / (sqr(x.range) + sqr(y.range)), atan2(y.range, x.range)};
+    return {atan2(y.at_mid, x.at_mid), (x.range * y.slope - y.range * x.slope) / (sqr(x.range) + sqr(y.range)),
+            atan2(y.range, x.range)};
   }
   friend Centered pow_int(const Centered& a, int n) {
     if (n == 0) return Centered(1.0);

@@ -78,10 +78,8 @@ json segments_json(const PathProof& proof) {
   for (std::size_t k = 0; k < proof.segments.size(); ++k) {
     json boxes = json::array();
     for (const DyadicBox& box : proof.segments[k].boxes) boxes.push_back({dyadic(box.lower()), dyadic(box.upper())});
-    segments.push_back({{"from", k},
-                        {"to", k + 1},
-                        {"boxes", std::move(boxes)},
-                        {"margins", to_json(proof.segment_margins[k])}});
+    segments.push_back(
+        {{"from", k}, {"to", k + 1}, {"boxes", std::move(boxes)}, {"margins", to_json(proof.segment_margins[k])}});
   }
   return segments;
 }
@@ -105,8 +103,12 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
       {"format", "taut-certificate"},
       {"version", 1},
       {"generator", {{"name", "taut"}, {"version", TAUT_VERSION}}},
-      {"verdict", proved ? "proved" : refuted ? "refuted" : "undecided"},
-      {"claim", proved ? checker::kProvedClaim : refuted ? checker::kRefutedClaim : checker::kUndecidedClaim},
+      {"verdict", proved    ? "proved"
+                  : refuted ? "refuted"
+                            : "undecided"},
+      {"claim", proved    ? checker::kProvedClaim
+                : refuted ? checker::kRefutedClaim
+                          : checker::kUndecidedClaim},
       {"problem", to_json(problem)},
       {"path", path_json(path)},
       {"segments", proved ? segments_json(proof) : json::array()},

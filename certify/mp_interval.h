@@ -49,10 +49,10 @@ class MpfrRounding {
  public:
   using unprotected_rounding = MpfrRounding;
 
-#define TAUT_DIRECTED_UNARY(name, function)                          \
+#define TAUT_DIRECTED_UNARY(name, function)                                 \
   static T name##_down(const T& x) { return call(MPFR_RNDD, function, x); } \
   static T name##_up(const T& x) { return call(MPFR_RNDU, function, x); }
-#define TAUT_DIRECTED_BINARY(name, function)                                         \
+#define TAUT_DIRECTED_BINARY(name, function)                                               \
   static T name##_down(const T& x, const T& y) { return call(MPFR_RNDD, function, x, y); } \
   static T name##_up(const T& x, const T& y) { return call(MPFR_RNDU, function, x, y); }
 
@@ -282,6 +282,5 @@ template <>
 struct ScalarTraits<MpInterval> : BoostIntervalTraits<BigFloat> {};
 template <>
 struct ScalarTraits<BoostInterval<double>> : BoostIntervalTraits<double> {};
-
 
 }  // namespace taut

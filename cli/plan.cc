@@ -237,7 +237,7 @@ std::string no_path_reason(const SearchResult& result, const Atlas& atlas, std::
 /// Edges may come this much closer to a limit than the charts' centres that they join.
 constexpr double kEdgeClearanceShare = 0.5;
 
-Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress, std::stop_token stop) {
+Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress, const std::stop_token& stop) {
   const Problem& problem = case_.problem;
   Plan result;
   std::atomic<bool> interrupted = false;

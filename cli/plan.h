@@ -40,6 +40,6 @@ struct PlanProgress {
 
 /// Plans through the query's waypoints in order. @throws InputError if the case has no model.
 [[nodiscard]] Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress,
-                        std::stop_token stop);
+                        const std::stop_token& stop);
 
 }  // namespace taut

@@ -17,14 +17,21 @@
 namespace taut {
 
 enum class Op : unsigned char {
-  kConstant,  ///< constants[a]
-  kParameter, ///< parameters[a]
-  kAdd, kSubtract, kMultiply, kDivide, kNegate,
-  kPower,     ///< slot a to the integer power b > 1
+  kConstant,   ///< constants[a]
+  kParameter,  ///< parameters[a]
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kNegate,
+  kPower,  ///< slot a to the integer power b > 1
   kSqrt,
-  kSin,       ///< computes the cosine too, into the next slot: a kSin is always followed by a kCos of the same a
-  kCos,       ///< already computed by the kSin before it
-  kTan, kExp, kLog, kAtan2,
+  kSin,  ///< computes the cosine too, into the next slot: a kSin is always followed by a kCos of the same a
+  kCos,  ///< already computed by the kSin before it
+  kTan,
+  kExp,
+  kLog,
+  kAtan2,
 };
 
 struct Instruction {

@@ -25,53 +25,26 @@ void Evaluator<S>::evaluate(std::span<const S> parameters, std::span<S> values) 
     const int a = instruction.a;
     const int b = instruction.b;
     switch (instruction.op) {
-      case Op::kConstant:
-        slots.push_back(constants_[a]);
-        break;
-      case Op::kParameter:
-        slots.push_back(parameters[a]);
-        break;
-      case Op::kAdd:
-        slots.push_back(slots[a] + slots[b]);
-        break;
-      case Op::kSubtract:
-        slots.push_back(slots[a] - slots[b]);
-        break;
-      case Op::kMultiply:
-        slots.push_back(slots[a] * slots[b]);
-        break;
-      case Op::kDivide:
-        slots.push_back(slots[a] / slots[b]);
-        break;
-      case Op::kNegate:
-        slots.push_back(-slots[a]);
-        break;
-      case Op::kPower:
-        slots.push_back(b == 2 ? S(sqr(slots[a])) : S(pow_int(slots[a], b)));
-        break;
-      case Op::kSqrt:
-        slots.push_back(sqrt(slots[a]));
-        break;
+      case Op::kConstant: slots.push_back(constants_[a]); break;
+      case Op::kParameter: slots.push_back(parameters[a]); break;
+      case Op::kAdd: slots.push_back(slots[a] + slots[b]); break;
+      case Op::kSubtract: slots.push_back(slots[a] - slots[b]); break;
+      case Op::kMultiply: slots.push_back(slots[a] * slots[b]); break;
+      case Op::kDivide: slots.push_back(slots[a] / slots[b]); break;
+      case Op::kNegate: slots.push_back(-slots[a]); break;
+      case Op::kPower: slots.push_back(b == 2 ? S(sqr(slots[a])) : S(pow_int(slots[a], b))); break;
+      case Op::kSqrt: slots.push_back(sqrt(slots[a])); break;
       case Op::kSin: {
         const SinCos<S> both = sincos(slots[a]);
         slots.push_back(both.sin);
         slots.push_back(both.cos);
         break;
       }
-      case Op::kCos:
-        break;  // made by the kSin before it
-      case Op::kTan:
-        slots.push_back(tan(slots[a]));
-        break;
-      case Op::kExp:
-        slots.push_back(exp(slots[a]));
-        break;
-      case Op::kLog:
-        slots.push_back(log(slots[a]));
-        break;
-      case Op::kAtan2:
-        slots.push_back(atan2(slots[a], slots[b]));
-        break;
+      case Op::kCos: break;  // made by the kSin before it
+      case Op::kTan: slots.push_back(tan(slots[a])); break;
+      case Op::kExp: slots.push_back(exp(slots[a])); break;
+      case Op::kLog: slots.push_back(log(slots[a])); break;
+      case Op::kAtan2: slots.push_back(atan2(slots[a], slots[b])); break;
     }
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i) values[i] = slots[outputs_[i]];

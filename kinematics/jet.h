@@ -33,8 +33,12 @@ struct Jet {
     return r;
   }
 
-  friend Jet operator+(const Jet& a, const Jet& b) { return combine(a, b, [](auto& x, auto& y) { return x + y; }); }
-  friend Jet operator-(const Jet& a, const Jet& b) { return combine(a, b, [](auto& x, auto& y) { return x - y; }); }
+  friend Jet operator+(const Jet& a, const Jet& b) {
+    return combine(a, b, [](auto& x, auto& y) { return x + y; });
+  }
+  friend Jet operator-(const Jet& a, const Jet& b) {
+    return combine(a, b, [](auto& x, auto& y) { return x - y; });
+  }
   friend Jet operator-(const Jet& a) { return chain(a, -a.value, S(-1.0)); }
   friend Jet operator*(const Jet& a, const Jet& b) { return chain(a, b, a.value * b.value, b.value, a.value); }
   friend Jet operator/(const Jet& a, const Jet& b) {

@@ -33,10 +33,10 @@ struct Pose {
 
 template <class S>
 struct Model {
-  std::array<Vector3<S>, kCables> p_WA;  ///< base anchors a_i [m]
-  std::array<Vector3<S>, kCables> p_PB;  ///< platform anchors b_i [m]
-  std::array<Vector3<S>, kCables> p_MB;  ///< b_i − p_m, from the load point, axes of P [m]
-  Vector3<S> p_PM;                       ///< load point p_m [m]
+  std::array<Vector3<S>, kCables> p_WA;                 ///< base anchors a_i [m]
+  std::array<Vector3<S>, kCables> p_PB;                 ///< platform anchors b_i [m]
+  std::array<Vector3<S>, kCables> p_MB;                 ///< b_i − p_m, from the load point, axes of P [m]
+  Vector3<S> p_PM;                                      ///< load point p_m [m]
   std::array<S, kCables> tension_lower, tension_upper;  ///< [N]
   std::array<S, kCables> length_lower, length_upper;    ///< [m]
   Vector6<S> wrench;                                    ///< w0 about P_m, axes of W [N, N m]

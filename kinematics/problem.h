@@ -96,6 +96,6 @@ void validate(const Problem& problem);
 [[nodiscard]] nlohmann::json to_json(const Problem& problem);
 /// Inverse of to_json. @throws FieldError naming the key for anything missing, unknown, or of the wrong type, and
 /// whatever `validate` objects to.
-[[nodiscard]] Problem problem_from_json(const nlohmann::json& json);
+[[nodiscard]] Problem problem_from_json(const nlohmann::json& value);
 
 }  // namespace taut

@@ -46,7 +46,7 @@ using std::tan;
 
 template <class S>
 concept Scalar = std::copyable<S> && requires(S x, S y, const std::string& text, double d, int n) {
-  { S(d) };  // exact
+  {S(d)};  // exact
   { x + y } -> std::convertible_to<S>;
   { x - y } -> std::convertible_to<S>;
   { x* y } -> std::convertible_to<S>;

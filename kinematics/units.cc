@@ -86,7 +86,8 @@ std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text) 
     if (!may_end_value(std::string_view(text).substr(0, text.size() - size))) continue;
     // Behind an operator it is an operand: the parameter t of "1.5 + t" is no tonne.
     const std::size_t before = text.find_last_not_of(" \t", text.size() - size - 1);
-    if (before == std::string::npos || std::string_view("+-*/^(,").find(text[before]) != std::string_view::npos) continue;
+    if (before == std::string::npos || std::string_view("+-*/^(,").find(text[before]) != std::string_view::npos)
+      continue;
     if (!longest || size > longest->name.size()) longest = &unit;
   }
   if (!longest) return {text, std::nullopt};

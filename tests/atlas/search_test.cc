@@ -29,7 +29,7 @@ double great_circle(const Coordinates& a, const Coordinates& b) {
 }
 
 SearchProblem problem(const Coordinates& start, const Coordinates& goal,
-                      std::function<double(const Coordinates&, const Coordinates&)> cost = euclidean) {
+                      const std::function<double(const Coordinates&, const Coordinates&)>& cost = euclidean) {
   SearchProblem result;
   result.start = start;
   result.goal = goal;
