@@ -268,7 +268,7 @@ std::optional<long> Expression::turns(int parameter) const {
         if (!unchanged && b.integer && a.turns) result.turns = bounded(*b.integer * *a.turns);
         break;
       case Op::kPower:
-        if (node.n == 0) result.turns = 0;
+        if (node.n == 0) result = {0, 1};
         if (node.n == 1) result = a;
         break;
       case Op::kSin:

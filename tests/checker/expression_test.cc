@@ -90,6 +90,7 @@ TEST(Expression, CountsTheTurnsThatItsFormShows) {
                                                                   {"phi - phi", 0},
                                                                   {"phi^1", 1},
                                                                   {"phi^0", 0},
+                                                                  {"-(phi^0)*phi", -1},
                                                                   {"sin(phi)", 0},
                                                                   {"cos(2*phi + 1)*theta/rs", 0},
                                                                   {"atan2(sin(phi), cos(phi))", 0},
