@@ -1,0 +1,675 @@
+// taut beside OMPL on the paper's queries: time to a proved path against time to an unproved one, and both lengths.
+//
+// Every query is planned by taut (greedy and A*, each with the path as found and the path pulled taut, each by the case's
+// own cost and by distance in the parameters), and by OMPL's RRTConnect and BIT*, whose validity check samples every motion
+// at 0.1 % of the extent of the space and proves nothing. All evaluate poses in double with the same compiled equations.
+// Rounds are interleaved: one run of each planner, then the next of each, so that whatever else the machine does hits all
+// alike. bench/README.md says what is measured and what was chosen.
+//
+// Usage: planners RESULTS_DIR [--quick]; writes table.md and table.json there.
+#include <fmt/format.h>
+#include <ompl/base/PlannerTerminationCondition.h>
+#include <ompl/base/goals/GoalStates.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+#include "cli/plan.h"
+#include "kinematics/geometry.h"
+#include "kinematics/statics.h"
+
+namespace taut {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+using Clock = std::chrono::steady_clock;
+using Point = std::vector<double>;
+
+constexpr double kPi = std::numbers::pi;
+/// Steps of a motion that are checked, in units of the space's extent.
+constexpr double kResolution = 0.001;
+constexpr double kBitStarSeconds = 1.0;  // of the processor, so that a busy machine takes nothing from it
+/// Real parameters without a range: theta, which may pass through 0 to either side; both goals are reachable.
+constexpr double kThetaBound = 2.2;
+/// A* over six parameters ends by this many charts or seconds, whatever comes first.
+constexpr int kChartBudget = 3000;
+constexpr double kSecondsBudget = 60;
+
+struct Rounds {
+  int taut = 21;
+  int rrt = 21;
+  int bit_star = 5;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// Wall clock and processor time (of all threads) since it was made [s].
+class Stopwatch {
+ public:
+  [[nodiscard]] double wall() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  [[nodiscard]] double cpu() const { return process_seconds() - cpu_start_; }
+
+ private:
+  static double process_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  Clock::time_point start_ = Clock::now();
+  double cpu_start_ = process_seconds();
+};
+
+// ---- Poses and lengths -------------------------------------------------------------------------------------------------
+
+/// Poses of a problem in double: feasibility of one, and length of a path by either metric.
+class Poses {
+ public:
+  explicit Poses(const Problem& problem) : model_(make_model<double>(problem)), pose_(pose_tape(problem)) {}
+
+  /// Whether tensions over the whole wrench set and lengths are strictly within their limits.
+  [[nodiscard]] bool feasible(std::span<const double> q) const {
+    const Statics<double> at = statics(model_, evaluate_pose(pose_, q));
+    if (!at.regular) return false;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const double low = at.tension[i] - at.variation[i];
+      const double high = at.tension[i] + at.variation[i];
+      if (!(model_.tension_lower[i] < low && high < model_.tension_upper[i] && model_.length_lower[i] < at.length[i] &&
+            at.length[i] < model_.length_upper[i])) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Angle turned [rad], distance covered by the origin [m], or distance in the parameters [rad, m] between two poses.
+  [[nodiscard]] double distance(Cost cost, const Point& a, const Point& b) const {
+    if (cost == Cost::kParameters) {
+      double square = 0;
+      for (std::size_t j = 0; j < a.size(); ++j) square += (b[j] - a[j]) * (b[j] - a[j]);
+      return std::sqrt(square);
+    }
+    const Pose<double> from = evaluate_pose(pose_, std::span<const double>(a));
+    const Pose<double> to = evaluate_pose(pose_, std::span<const double>(b));
+    if (cost == Cost::kGreatCircle) return (to.p_WP - from.p_WP).norm();
+    const double chord = (rotation(from.phi, from.theta, from.sigma) - rotation(to.phi, to.theta, to.sigma)).norm();
+    return 2.0 * std::asin(std::min(1.0, chord / (2.0 * std::numbers::sqrt2)));
+  }
+
+  /// Length of a polyline of the parameters. Its segments curve in space, so they are summed up in small pieces.
+  [[nodiscard]] double length(Cost cost, const std::vector<Point>& path) const {
+    constexpr int kPieces = 500;
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      Point from = path[k];
+      for (int piece = 1; piece <= kPieces; ++piece) {
+        const double s = static_cast<double>(piece) / kPieces;
+        Point to = path[k];
+        for (std::size_t j = 0; j < to.size(); ++j) to[j] += s * (path[k + 1][j] - path[k][j]);
+        sum += distance(cost, from, to);
+        from = std::move(to);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  Model<double> model_;
+  Evaluator<double> pose_;
+};
+
+// ---- Queries -----------------------------------------------------------------------------------------------------------
+
+struct Query {
+  std::string robot, name;
+  Case case_;
+};
+
+/// The leg from waypoint `leg` of a case to the next.
+Query leg_of(const std::string& robot, const std::string& name, const std::string& file, std::size_t leg = 0) {
+  Query query{robot, name, load_case(std::string(TAUT_SOURCE_DIR "/cases/") + file + ".yaml")};
+  auto& waypoints = query.case_.problem.query;
+  waypoints = {waypoints.at(leg), waypoints.at(leg + 1)};
+  return query;
+}
+
+std::vector<Query> all_queries() {
+  return {leg_of("1", "q_s→q_g", "robot1-slice-qs-qg"),
+          leg_of("1", "q_s′→q_g", "robot1-slice-qs1-qg"),
+          leg_of("1", "q_s″→q_g", "robot1-slice-qs2-qg"),
+          leg_of("2", "q1→q2", "robot2-sphere-q1-q2-q3", 0),
+          leg_of("2", "q2→q3", "robot2-sphere-q1-q2-q3", 1),
+          leg_of("2", "q2→q3, σ free", "robot2-sphere-sigma-free-q2-q3"),
+          leg_of("2", "q2→q3, free-flying", "robot2-free-q2-q3")};
+}
+
+// ---- What a run yields -------------------------------------------------------------------------------------------------
+
+struct Measurements {
+  std::vector<double> wall, cpu;              ///< of the runs that found a path [s]
+  std::vector<double> evaluations;            ///< of poses; OMPL only
+  std::vector<double> cost, parameters;       ///< lengths of the path, by the case's cost and in the parameters
+  std::vector<double> search, prove, smooth;  ///< parts of `wall`, by taut's own account [s]
+  int runs = 0;
+  std::string note;
+
+  [[nodiscard]] bool found() const { return !wall.empty(); }
+};
+
+void add_lengths(Measurements& into, const Poses& poses, Cost cost, const std::vector<Point>& path) {
+  into.cost.push_back(poses.length(cost, path));
+  into.parameters.push_back(poses.length(Cost::kParameters, path));
+}
+
+// ---- taut --------------------------------------------------------------------------------------------------------------
+
+struct Variant {
+  std::string name;
+  Strategy strategy;
+  Smoothing smoothing;
+  bool by_parameters;
+};
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = {
+      {"greedy, as found", Strategy::kGreedyBestFirst, Smoothing::kNone, false},
+      {"greedy, taut", Strategy::kGreedyBestFirst, Smoothing::kShorten, false},
+      {"A*, as found", Strategy::kAStar, Smoothing::kNone, false},
+      {"A*, taut", Strategy::kAStar, Smoothing::kShorten, false},
+      {"greedy, taut, by parameters", Strategy::kGreedyBestFirst, Smoothing::kShorten, true},
+      {"A*, taut, by parameters", Strategy::kAStar, Smoothing::kShorten, true},
+  };
+  return all;
+}
+
+// Indices into variants().
+enum : std::size_t { kGreedyAsFound, kGreedyTaut, kAStarAsFound, kAStarTaut, kGreedyByParameters, kAStarByParameters };
+
+/// Whether the variant is run once, until a budget is spent.
+bool over_budget(const Query& query, const Variant& variant) {
+  return query.case_.problem.space.parameters.size() == 6 && variant.strategy == Strategy::kAStar;
+}
+
+void run_taut(const Query& query, const Variant& variant, const Poses& poses, Measurements& into) {
+  Case case_ = query.case_;
+  case_.planner.strategy = variant.strategy;
+  case_.planner.smoothing = variant.smoothing;
+  if (variant.by_parameters) case_.planner.cost = Cost::kParameters;
+  std::stop_source stop;
+  std::jthread timekeeper;
+  const bool limited = over_budget(query, variant);
+  if (limited) {
+    case_.planner.max_charts = kChartBudget;
+    timekeeper = std::jthread([&stop](const std::stop_token& done) {
+      const auto end = Clock::now() + std::chrono::duration<double>(kSecondsBudget);
+      while (!done.stop_requested() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      stop.request_stop();
+    });
+  }
+  const Stopwatch watch;
+  const Plan result = plan(case_, {}, stop.get_token());
+  const double wall = watch.wall();
+  const double cpu = watch.cpu();
+  ++into.runs;
+  if (result.proof.verdict != Verdict::kProved) {
+    into.note = fmt::format("no path: {} charts in {:.0f} s", result.statistics.charts, wall);
+    return;
+  }
+  into.wall.push_back(wall);
+  into.cpu.push_back(cpu);
+  into.search.push_back(result.statistics.plan_seconds);
+  into.prove.push_back(result.statistics.prove_seconds);
+  into.smooth.push_back(result.statistics.smooth_seconds);
+  if (into.cost.empty()) {  // the planner is deterministic
+    std::vector<Point> path;
+    for (const Waypoint& waypoint : result.path.waypoints) {
+      Point q = waypoint.x;
+      for (std::size_t j = 0; j < q.size(); ++j) q[j] += kPi * waypoint.half_turns[j];
+      path.push_back(std::move(q));
+    }
+    add_lengths(into, poses, query.case_.planner.cost, path);
+  }
+}
+
+// ---- OMPL --------------------------------------------------------------------------------------------------------------
+
+double wrap(double angle) { return angle - 2.0 * kPi * std::round(angle / (2.0 * kPi)); }
+
+/// The box of the parameters with its periodic sides glued; Euclidean distance, as taut's `parameters`.
+class ParameterSpace final : public ob::RealVectorStateSpace {
+ public:
+  explicit ParameterSpace(const SpaceText& space)
+      : ob::RealVectorStateSpace(static_cast<unsigned>(space.parameters.size())) {
+    for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+      const Parameter& parameter = space.parameters[j];
+      periodic_.push_back(parameter.kind == ParameterKind::kPeriodic);
+      double low = -kPi;
+      double high = kPi;
+      if (parameter.kind == ParameterKind::kRange) {
+        low = evaluate_constant<double>(parameter.range_lower);
+        high = evaluate_constant<double>(parameter.range_upper);
+      } else if (!periodic_.back()) {
+        low = -kThetaBound;
+        high = kThetaBound;
+      }
+      bounds_.setLow(static_cast<unsigned>(j), low);
+      bounds_.setHigh(static_cast<unsigned>(j), high);
+    }
+  }
+
+  [[nodiscard]] double step(std::size_t j, double from, double to) const {
+    return periodic_[j] ? wrap(to - from) : to - from;
+  }
+  [[nodiscard]] std::span<const double> point(const ob::State* state) const {
+    return {state->as<StateType>()->values, dimension_};
+  }
+
+  double distance(const ob::State* a, const ob::State* b) const override {
+    double square = 0;
+    for (std::size_t j = 0; j < dimension_; ++j) {
+      const double d = step(j, point(a)[j], point(b)[j]);
+      square += d * d;
+    }
+    return std::sqrt(square);
+  }
+  void interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const override {
+    double* values = state->as<StateType>()->values;
+    for (std::size_t j = 0; j < dimension_; ++j) {
+      const double start = point(from)[j];
+      const double value = start + t * step(j, start, point(to)[j]);
+      values[j] = periodic_[j] ? wrap(value) : value;
+    }
+  }
+  double getMaximumExtent() const override {
+    double square = 0;
+    for (std::size_t j = 0; j < dimension_; ++j) {
+      const double side = (bounds_.high[j] - bounds_.low[j]) * (periodic_[j] ? 0.5 : 1.0);
+      square += side * side;
+    }
+    return std::sqrt(square);
+  }
+  double getMeasure() const override {
+    double product = 1;
+    for (std::size_t j = 0; j < dimension_; ++j) product *= bounds_.high[j] - bounds_.low[j];
+    return product;
+  }
+
+ private:
+  std::vector<bool> periodic_;
+};
+
+/// The length of a motion by the case's cost. Its ends' distance bounds it from below, as BIT* wants of a heuristic.
+class CostObjective final : public ob::OptimizationObjective {
+ public:
+  CostObjective(const ob::SpaceInformationPtr& space, const Poses& poses, Cost cost)
+      : ob::OptimizationObjective(space), poses_(poses), cost_(cost) {}
+  ob::Cost stateCost(const ob::State*) const override { return identityCost(); }
+  ob::Cost motionCost(const ob::State* a, const ob::State* b) const override {
+    const auto& space = *si_->getStateSpace()->as<ParameterSpace>();
+    const auto from = space.point(a);
+    const auto to = space.point(b);
+    return ob::Cost(poses_.distance(cost_, {from.begin(), from.end()}, {to.begin(), to.end()}));
+  }
+  ob::Cost motionCostHeuristic(const ob::State* a, const ob::State* b) const override { return motionCost(a, b); }
+
+ private:
+  const Poses& poses_;
+  Cost cost_;
+};
+
+enum class Tool { kRrtConnect, kBitStar, kBitStarByCost };
+
+/// OMPL's problem of one query: its space, start, and goal in each of its names.
+class OmplQuery {
+ public:
+  OmplQuery(const Query& query, const Poses& poses) : query_(query), poses_(poses) {
+    const SpaceText& text = query.case_.problem.space;
+    space_ = std::make_shared<ParameterSpace>(text);
+    information_ = std::make_shared<ob::SpaceInformation>(space_);
+    information_->setStateValidityChecker([this](const ob::State* state) {
+      ++evaluations_;
+      return poses_.feasible(space_->point(state));
+    });
+    information_->setStateValidityCheckingResolution(kResolution);
+    information_->setup();
+    const std::vector<Waypoint> waypoints = query_waypoints(query.case_.problem);
+    start_ = waypoints[0].x;
+    goals_ = {waypoints[1].x};
+    if (text.flip) {
+      Point other = goals_[0];
+      const auto [phi, theta] = *text.flip;
+      other[static_cast<std::size_t>(phi)] += kPi;
+      other[static_cast<std::size_t>(theta)] *= -1;
+      goals_.push_back(other);
+    }
+  }
+
+  void run(Tool tool, unsigned seed, Measurements& into) {
+    ompl::RNG::setSeed(seed);
+    auto problem = std::make_shared<ob::ProblemDefinition>(information_);
+    problem->addStartState(state(start_));
+    auto goal = std::make_shared<ob::GoalStates>(information_);
+    for (const Point& q : goals_) goal->addState(state(q));
+    problem->setGoal(goal);
+    if (tool == Tool::kBitStar) {
+      problem->setOptimizationObjective(std::make_shared<ob::PathLengthOptimizationObjective>(information_));
+    } else if (tool == Tool::kBitStarByCost) {
+      problem->setOptimizationObjective(
+          std::make_shared<CostObjective>(information_, poses_, query_.case_.planner.cost));
+    }
+    ob::PlannerPtr planner;
+    if (tool == Tool::kRrtConnect) {
+      planner = std::make_shared<og::RRTConnect>(information_);
+    } else {
+      planner = std::make_shared<og::BITstar>(information_);
+    }
+    planner->setProblemDefinition(problem);
+    evaluations_ = 0;
+    const Stopwatch watch;
+    planner->setup();
+    // Asked whenever the planner likes; no thread polls it.
+    const bool anytime = tool != Tool::kRrtConnect;
+    const ob::PlannerTerminationCondition enough(
+        [&] { return watch.cpu() > (anytime ? kBitStarSeconds : 10 * kBitStarSeconds); });
+    const ob::PlannerStatus status = planner->solve(enough);
+    const double wall = watch.wall();
+    const double cpu = watch.cpu();
+    ++into.runs;
+    if (status != ob::PlannerStatus::EXACT_SOLUTION) return;
+    into.wall.push_back(wall);
+    into.cpu.push_back(cpu);
+    into.evaluations.push_back(static_cast<double>(evaluations_));
+    add_lengths(into, poses_, query_.case_.planner.cost,
+                unrolled(*problem->getSolutionPath()->as<og::PathGeometric>()));
+  }
+
+ private:
+  [[nodiscard]] ob::ScopedState<> state(const Point& q) const {
+    ob::ScopedState<> result(space_);
+    const auto& text = query_.case_.problem.space;
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      result[static_cast<unsigned>(j)] = text.parameters[j].kind == ParameterKind::kPeriodic ? wrap(q[j]) : q[j];
+    }
+    return result;
+  }
+
+  /// The path without jumps by whole turns.
+  [[nodiscard]] std::vector<Point> unrolled(const og::PathGeometric& path) const {
+    std::vector<Point> result;
+    for (std::size_t k = 0; k < path.getStateCount(); ++k) {
+      const auto at = space_->point(path.getState(static_cast<unsigned>(k)));
+      Point q(at.begin(), at.end());
+      if (k > 0) {
+        const Point& before = result.back();
+        for (std::size_t j = 0; j < q.size(); ++j) q[j] = before[j] + space_->step(j, before[j], q[j]);
+      }
+      result.push_back(std::move(q));
+    }
+    return result;
+  }
+
+  const Query& query_;
+  const Poses& poses_;
+  std::shared_ptr<ParameterSpace> space_;
+  ob::SpaceInformationPtr information_;
+  long evaluations_ = 0;
+  Point start_;
+  std::vector<Point> goals_;
+};
+
+// ---- Rows --------------------------------------------------------------------------------------------------------------
+
+struct Row {
+  std::string robot, query;
+  std::size_t n = 0;
+  Cost cost = Cost::kRotation;
+  double pose_us = 0;
+  std::vector<Measurements> taut = {};  ///< as variants()
+  Measurements rrt = {}, bit_star = {}, bit_star_by_cost = {};
+};
+
+double pose_microseconds(const Poses& poses, const std::vector<Waypoint>& query) {
+  constexpr int kRepeats = 4000;
+  std::vector<double> times;
+  long feasible = 0;
+  for (int round = 0; round < 9; ++round) {
+    const Stopwatch watch;
+    for (int k = 0; k < kRepeats; ++k) {
+      Point q = query[0].x;
+      q[0] += 1e-6 * k;
+      feasible += poses.feasible(q) ? 1 : 0;
+    }
+    times.push_back(1e6 * watch.wall() / kRepeats);
+  }
+  return feasible < 0 ? 0 : median(times);
+}
+
+Row measure(const Query& query, const Rounds& rounds) {
+  const Poses poses(query.case_.problem);
+  Row row{query.robot, query.name};
+  row.n = query.case_.problem.space.parameters.size();
+  row.cost = query.case_.planner.cost;
+  row.taut.resize(variants().size());
+  row.pose_us = pose_microseconds(poses, query_waypoints(query.case_.problem));
+  OmplQuery ompl_query(query, poses);
+  const int most = std::max({rounds.taut, rounds.rrt, rounds.bit_star});
+  for (int round = 0; round < most; ++round) {
+    fmt::print(stderr, "\r{} {}: round {} of {} ", query.robot, query.name, round + 1, most);
+    const auto seed = static_cast<unsigned>(round + 1);
+    for (std::size_t v = 0; v < variants().size(); ++v) {
+      if (!over_budget(query, variants()[v])) {
+        if (round < rounds.taut) run_taut(query, variants()[v], poses, row.taut[v]);
+      } else if (round == 0) {
+        const bool same_search_failed = v == kAStarTaut && !row.taut[kAStarAsFound].found();
+        if (same_search_failed) {
+          row.taut[v] = row.taut[kAStarAsFound];
+        } else {
+          run_taut(query, variants()[v], poses, row.taut[v]);
+        }
+      }
+    }
+    if (round < rounds.rrt) ompl_query.run(Tool::kRrtConnect, seed, row.rrt);
+    if (round < rounds.bit_star) {
+      ompl_query.run(Tool::kBitStar, seed, row.bit_star);
+      ompl_query.run(Tool::kBitStarByCost, seed, row.bit_star_by_cost);
+    }
+  }
+  fmt::print(stderr, "\n");
+  return row;
+}
+
+// ---- Output ------------------------------------------------------------------------------------------------------------
+
+std::string milliseconds(const Measurements& m) {
+  return m.found() ? fmt::format("{:.2f}", 1e3 * median(m.wall)) : m.note.empty() ? "—" : m.note;
+}
+
+/// Where the time of a call went [ms].
+std::string parts(const Measurements& m, bool smoothed) {
+  if (!m.found()) return "—";
+  std::vector<double> rest;
+  for (std::size_t k = 0; k < m.wall.size(); ++k) rest.push_back(m.wall[k] - m.search[k] - m.prove[k] - m.smooth[k]);
+  return fmt::format("{:.2f} + {}{:.2f} + {:.2f}", 1e3 * median(m.search),
+                     smoothed ? fmt::format("{:.2f} + ", 1e3 * median(m.smooth)) : "", 1e3 * median(m.prove),
+                     1e3 * median(rest));
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3f}", value) : "—"; }
+
+std::string ratio(double a, double b) { return std::isfinite(a / b) ? fmt::format("{:.2f}", a / b) : "—"; }
+
+double best(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : *std::ranges::min_element(values);
+}
+
+const char* cost_name(Cost cost) {
+  return cost == Cost::kRotation ? "rad turned" : cost == Cost::kGreatCircle ? "m on the sphere" : "parameters";
+}
+
+std::string machine() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string model = "unknown processor";
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) {
+      model = line.substr(line.find(':') + 2);
+      break;
+    }
+  }
+  return fmt::format("{}, {} cores; g++ {}, Release; OMPL {}", model, std::thread::hardware_concurrency(), __VERSION__,
+                     TAUT_OMPL_VERSION);
+}
+
+std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double load) {
+  std::string out = fmt::format(
+      "# taut beside OMPL\n\n{}; load {:.1f} when it began. Medians: taut {} runs, RRTConnect {} seeds, BIT* {} seeds "
+      "of "
+      "{:.0f} s. Made by `bench/run`; what is measured: [bench/README.md](../README.md).\n\n",
+      machine(), load, rounds.taut, rounds.rrt, rounds.bit_star, kBitStarSeconds);
+
+  out +=
+      "## Time, ms\n\ntaut's columns are the whole call: search, every proof, and shortening where the path is pulled "
+      "taut. RRTConnect's path is not proved.\n\n"
+      "| robot | query | n | RRTConnect | greedy, as found | greedy, taut | A*, as found | A*, taut |"
+      " **greedy, as found ÷ RRTConnect** | A*, taut ÷ RRTConnect |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    const double rrt = median(row.rrt.wall);
+    out +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | **{}** | {} |\n", row.robot, row.query, row.n,
+                    milliseconds(row.rrt), milliseconds(row.taut[kGreedyAsFound]), milliseconds(row.taut[kGreedyTaut]),
+                    milliseconds(row.taut[kAStarAsFound]), milliseconds(row.taut[kAStarTaut]),
+                    ratio(median(row.taut[kGreedyAsFound].wall), rrt), ratio(median(row.taut[kAStarTaut].wall), rrt));
+  }
+
+  out +=
+      "\n## Where the time goes, ms\n\n`rest` is what a call takes besides: making the model, the query's "
+      "binary64, the illustration for the report.\n\n"
+      "| robot | query | pose sample, µs | RRTConnect's samples | greedy, as found: search + proofs + rest "
+      "| A*, taut: search + shortening + proofs + rest |\n|---|---|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    out += fmt::format("| {} | {} | {:.2f} | {:.0f} | {} | {} |\n", row.robot, row.query, row.pose_us,
+                       median(row.rrt.evaluations), parts(row.taut[kGreedyAsFound], false),
+                       parts(row.taut[kAStarTaut], true));
+  }
+
+  out +=
+      "\nLengths below are sums over small pieces of the path. \"BIT*, best\" is the shortest that any of its runs "
+      "found, whether it minimised the case's cost or the distance in the parameters.\n";
+
+  const auto lengths = [&](const std::string& title, bool by_parameters) {
+    const std::size_t greedy = by_parameters ? kGreedyByParameters : kGreedyTaut;
+    const std::size_t a_star = by_parameters ? kAStarByParameters : kAStarTaut;
+    const auto of = [&](const Measurements& m) -> const std::vector<double>& {
+      return by_parameters ? m.parameters : m.cost;
+    };
+    out += fmt::format(
+        "\n## {}\n\n"
+        "| robot | query | {}RRTConnect, median (max) | BIT*, median (found) | BIT*, best | greedy, as found "
+        "| greedy, taut | A*, taut | **A*, taut ÷ BIT*'s best** | greedy, taut ÷ BIT*'s best | A*, taut, ms |\n"
+        "|---|---|{}---|---|---|---|---|---|---|---|---|\n",
+        title, by_parameters ? "" : "unit | ", by_parameters ? "" : "---|");
+    for (const Row& row : rows) {
+      const Measurements& aimed = by_parameters ? row.bit_star : row.bit_star_by_cost;
+      const double shortest = std::fmin(best(of(row.bit_star)), best(of(row.bit_star_by_cost)));
+      const auto& rrt = of(row.rrt);
+      out += fmt::format("| {} | {} | {}{} ({}) | {} | {} | {} | {} | {} | **{}** | {} | {} |\n", row.robot, row.query,
+                         by_parameters ? "" : fmt::format("{} | ", cost_name(row.cost)), number(median(rrt)),
+                         number(rrt.empty() ? std::nan("") : *std::ranges::max_element(rrt)),
+                         fmt::format("{} ({}/{})", number(median(of(aimed))), aimed.wall.size(), aimed.runs),
+                         number(shortest), number(median(of(row.taut[kGreedyAsFound]))),
+                         number(median(of(row.taut[greedy]))), number(median(of(row.taut[a_star]))),
+                         ratio(median(of(row.taut[a_star])), shortest), ratio(median(of(row.taut[greedy])), shortest),
+                         milliseconds(row.taut[a_star]));
+    }
+  };
+  lengths("Length by the case's cost, which taut and BIT* minimise", false);
+  lengths("Length in the parameters, rad and m, which taut and BIT* minimise", true);
+  return out;
+}
+
+nlohmann::json to_json(const Measurements& m) {
+  nlohmann::json json = {{"runs", m.runs}, {"found", m.wall.size()}};
+  const auto put = [&](const char* name, const std::vector<double>& values) {
+    if (!values.empty()) json[name] = {{"median", median(values)}, {"min", best(values)}, {"all", values}};
+  };
+  put("wall_s", m.wall);
+  put("cpu_s", m.cpu);
+  put("search_s", m.search);
+  put("smooth_s", m.smooth);
+  put("prove_s", m.prove);
+  put("evaluations", m.evaluations);
+  put("length_cost", m.cost);
+  put("length_parameters", m.parameters);
+  if (!m.note.empty()) json["note"] = m.note;
+  return json;
+}
+
+nlohmann::json to_json(const std::vector<Row>& rows, const Rounds& rounds, double load) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const Row& row : rows) {
+    nlohmann::json planners = {{"RRTConnect", to_json(row.rrt)},
+                               {"BIT*", to_json(row.bit_star)},
+                               {"BIT*, by the case's cost", to_json(row.bit_star_by_cost)}};
+    for (std::size_t v = 0; v < row.taut.size(); ++v) planners["taut, " + variants()[v].name] = to_json(row.taut[v]);
+    all.push_back({{"robot", row.robot},
+                   {"query", row.query},
+                   {"n", row.n},
+                   {"cost", cost_name(row.cost)},
+                   {"pose_sample_us", row.pose_us},
+                   {"planners", std::move(planners)}});
+  }
+  return {{"machine", machine()},
+          {"load_at_start", load},
+          {"resolution", kResolution},
+          {"rounds", {{"taut", rounds.taut}, {"RRTConnect", rounds.rrt}, {"BIT*", rounds.bit_star}}},
+          {"rows", std::move(all)}};
+}
+
+int run(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: planners RESULTS_DIR [--quick]\n");
+    return 3;
+  }
+  rounding_self_test();
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  Rounds rounds;
+  if (argc > 2 && std::string(argv[2]) == "--quick") rounds = {3, 3, 1};
+  double load[1] = {0};
+  if (getloadavg(load, 1) < 1) load[0] = 0;
+  std::vector<Row> rows;
+  for (const Query& query : all_queries()) rows.push_back(measure(query, rounds));
+  const std::filesystem::path folder = argv[1];
+  std::filesystem::create_directories(folder);
+  const std::string table = markdown(rows, rounds, load[0]);
+  std::ofstream(folder / "table.md") << table;
+  std::ofstream(folder / "table.json") << to_json(rows, rounds, load[0]).dump(1) << "\n";
+  fmt::print("{}", table);
+  return 0;
+}
+
+}  // namespace
+}  // namespace taut
+
+int main(int argc, char** argv) { return taut::run(argc, argv); }
