@@ -103,8 +103,8 @@ class Map;
 
 class Field {
  public:
-  Field(Places& places, YAML::Node node, std::string path)
-      : places_(&places), node_(std::move(node)), path_(std::move(path)) {
+  Field(Places& places, const YAML::Node& node, std::string path)
+      : places_(&places), node_(node), path_(std::move(path)) {
     places_->remember(path_, node_);
   }
 

@@ -167,7 +167,7 @@ void read_space(const Json& json, Problem& problem) {
         problem.parameters[static_cast<std::size_t>(theta)].kind != Kind::kReal) {
       fail(here, "phi of kind periodic and theta of kind real");
     }
-    for (std::size_t c : {0, 1, 2, 5}) {
+    for (const std::size_t c : std::array<std::size_t, 4>{0, 1, 2, 5}) {
       if (problem.pose[c].mentions(phi) || problem.pose[c].mentions(theta)) {
         fail(here, std::string("a pose whose ") + kPoseNames[c] + " mentions neither phi nor theta");
       }

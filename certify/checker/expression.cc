@@ -174,6 +174,7 @@ class ExpressionParser {
     }
     ~Nesting() { --parser_.depth_; }
     Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
     ExpressionParser& parser_;
   };
 

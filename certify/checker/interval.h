@@ -49,7 +49,8 @@ class Interval {
     *x_ = *other.x_;
     other.x_->left._mpfr_d = nullptr;
   }
-  Interval& operator=(Interval other) noexcept {
+  Interval& operator=(const Interval& other) { return *this = Interval(other); }
+  Interval& operator=(Interval&& other) noexcept {
     std::swap(*x_, *other.x_);
     return *this;
   }
