@@ -197,12 +197,9 @@ class WrenchFeasibleManifold final : public Manifold {
 std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, MetricWeights weights) {
   switch (problem.space.parameters.size()) {
     case 1:
-    case 2:
-      return std::make_unique<WrenchFeasibleManifold<2>>(problem, weights);
-    case 3:
-      return std::make_unique<WrenchFeasibleManifold<3>>(problem, weights);
-    default:
-      return std::make_unique<WrenchFeasibleManifold<6>>(problem, weights);
+    case 2: return std::make_unique<WrenchFeasibleManifold<2>>(problem, weights);
+    case 3: return std::make_unique<WrenchFeasibleManifold<3>>(problem, weights);
+    default: return std::make_unique<WrenchFeasibleManifold<6>>(problem, weights);
   }
 }
 

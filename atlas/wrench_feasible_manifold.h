@@ -30,12 +30,13 @@
 namespace taut {
 
 struct MetricWeights {
-  double parameter = 0.1;  ///< ω
-  double slack = 0.05;     ///< κ
-  double clearance = 1e-2; ///< least distance to a limit, over half its range
+  double parameter = 0.1;   ///< ω
+  double slack = 0.05;      ///< κ
+  double clearance = 1e-2;  ///< least distance to a limit, over half its range
 };
 
 /// The manifold of the problem's space. @throws InputError if the problem has no model in doubles.
-[[nodiscard]] std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, MetricWeights weights = {});
+[[nodiscard]] std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem,
+                                                                      MetricWeights weights = {});
 
 }  // namespace taut
