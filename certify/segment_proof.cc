@@ -15,11 +15,10 @@ constexpr mpfr_prec_t kRangePrecision = 256;
 }  // namespace
 
 Prover::Prover(const Problem& problem, ProofOptions options)
-    : problem_(problem), options_(std::move(options)), fast_(make_proof_model(problem)) {
-  for (const mpfr_prec_t bits : options_.ladder_bits) {
-    const PrecisionScope precision(bits);
-    fine_.push_back(make_mp_proof_model(problem));
-  }
+    : problem_(problem),
+      options_(std::move(options)),
+      fast_(make_proof_model(problem)),
+      fine_(options_.ladder_bits.size()) {
   const PrecisionScope precision(kRangePrecision);
   for (const Parameter& parameter : problem_.space.parameters) {
     constexpr double kEverything = std::numeric_limits<double>::infinity();
@@ -37,6 +36,15 @@ Prover::Prover(const Problem& problem, ProofOptions options)
   }
 }
 
+const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
+  Rung& rung = fine_[k];
+  std::call_once(rung.made, [&] {
+    const PrecisionScope precision(options_.ladder_bits[k]);
+    rung.model.emplace(make_mp_proof_model(problem_));
+  });
+  return *rung.model;
+}
+
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
   if (waypoint.x.size() != ranges_.size() || waypoint.half_turns.size() != ranges_.size()) return false;
   for (std::size_t j = 0; j < ranges_.size(); ++j) {
@@ -51,7 +59,7 @@ BoxVerdict Prover::judge_at(std::size_t rung, const Waypoint& a, const Waypoint&
                             double clearance) const {
   if (rung == 0) return judge_box(fast_, a, b, box, clearance);
   const PrecisionScope precision(options_.ladder_bits[rung - 1]);
-  return judge_box(fine_[rung - 1], a, b, box, clearance);
+  return judge_box(fine(rung - 1), a, b, box, clearance);
 }
 
 BoxVerdict Prover::judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const {
@@ -143,8 +151,8 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
           climb();
         } else if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth) {
           const PrecisionScope precision(options_.ladder_bits.back());
-          const int sign_lower = determinant_sign(fine_.back(), a, b, box.lower());
-          const int sign_upper = determinant_sign(fine_.back(), a, b, box.upper());
+          const int sign_lower = determinant_sign(fine(fine_.size() - 1), a, b, box.lower());
+          const int sign_upper = determinant_sign(fine(fine_.size() - 1), a, b, box.upper());
           if (sign_lower * sign_upper < 0) {
             proof.verdict = Verdict::kRefuted;
             proof.witness = SegmentWitness{true, {}, box};
@@ -168,7 +176,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
 MpInterval Prover::quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box, MarginId margin) const {
   const PrecisionScope precision(options_.ladder_bits.back());
   Faults<MpInterval>::clear();
-  const BoxEnclosure<MpInterval> enclosure = enclose_box(fine_.back(), a, b, box);
+  const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(fine_.size() - 1), a, b, box);
   if (Faults<MpInterval>::raised()) throw std::logic_error("a refuted midpoint has no enclosure");
   const auto n = static_cast<std::size_t>(margin.cable);
   const MpInterval& length = enclosure.length[n].at_mid;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,7 +84,13 @@ class Prover {
   /// The binary64 numbers that lie certainly inside each parameter's closed range; all of them where it has none.
   std::vector<std::array<double, 2>> ranges_;
   ProofModel<Interval> fast_;
-  std::vector<ProofModel<MpInterval>> fine_;  ///< one a rung of the ladder
+  /// One a rung of the ladder, made when first needed: most problems never climb it.
+  struct Rung {
+    std::once_flag made;
+    std::optional<ProofModel<MpInterval>> model;
+  };
+  [[nodiscard]] const ProofModel<MpInterval>& fine(std::size_t k) const;
+  mutable std::vector<Rung> fine_;
 };
 
 }  // namespace taut

@@ -124,7 +124,7 @@ Trial make_trial(Random& random) {
     }
     case 1: {
       trial.problem = sphere;
-      std::tie(trial.a, trial.b) = straight({uniform(random, -3.2, 3.2), uniform(random, -0.5, 1.5)}, 0.15);
+      std::tie(trial.a, trial.b) = straight({uniform(random, -3.2, 3.2), uniform(random, -0.5, 1.4)}, 0.15);
       trial.pose = sphere_pose;
       break;
     }
