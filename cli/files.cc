@@ -38,6 +38,8 @@ class TemporaryFile {
   }
   TemporaryFile(TemporaryFile&& other) noexcept
       : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
   TemporaryFile& operator=(TemporaryFile&&) = delete;
 
   void rename_into_place() {

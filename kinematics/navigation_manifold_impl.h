@@ -163,8 +163,8 @@ Eigen::Matrix<S, kNavigationEquations, 1> navigation_residual(const Model<S>& mo
     const auto n = static_cast<std::size_t>(i);
     const S half_length = (model.length_upper[n] - model.length_lower[n]) * S(0.5);
     const S half_tension = (model.tension_upper[n] - model.tension_lower[n]) * S(0.5);
-    const S tension = x(Layout::kTensions + i);
-    const S variation = x(Layout::kVariations + 7 * i);
+    const S& tension = x(Layout::kTensions + i);
+    const S& variation = x(Layout::kVariations + 7 * i);
     f(row++) = x(Layout::kLengthSlack + i) * (cable_length(i) - model.length_lower[n]) *
                    (model.length_upper[n] - cable_length(i)) -
                half_length * half_length;

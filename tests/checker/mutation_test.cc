@@ -157,7 +157,8 @@ TEST(Mutation, AFlippedBitIsMalformed) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 3000; ++trial) {
     std::string flipped = text;
-    flipped[random() % text.size()] ^= static_cast<char>(1U << (random() % 8));
+    char& byte = flipped[random() % text.size()];
+    byte = static_cast<char>(static_cast<unsigned char>(byte) ^ (1U << (random() % 8)));
     EXPECT_EQ(check_certificate(flipped).outcome, Outcome::kMalformed) << trial;
   }
 }
