@@ -8,9 +8,10 @@
 //
 // Usage: planners RESULTS_DIR [--quick]; writes table.md and table.json there.
 #include <fmt/format.h>
+#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/goals/GoalStates.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/samplers/informed/RejectionInfSampler.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
@@ -119,14 +120,13 @@ class Poses {
     return 2.0 * std::asin(std::min(1.0, chord / (2.0 * std::numbers::sqrt2)));
   }
 
-  /// Length of a polyline of the parameters. Its segments curve in space, so they are summed up in small pieces.
-  [[nodiscard]] double length(Cost cost, const std::vector<Point>& path) const {
-    constexpr int kPieces = 500;
+  /// Length of a polyline of the parameters. Its segments curve in space, so each is summed up in pieces.
+  [[nodiscard]] double length(Cost cost, const std::vector<Point>& path, int pieces = 500) const {
     double sum = 0;
     for (std::size_t k = 0; k + 1 < path.size(); ++k) {
       Point from = path[k];
-      for (int piece = 1; piece <= kPieces; ++piece) {
-        const double s = static_cast<double>(piece) / kPieces;
+      for (int piece = 1; piece <= pieces; ++piece) {
+        const double s = static_cast<double>(piece) / pieces;
         Point to = path[k];
         for (std::size_t j = 0; j < to.size(); ++j) to[j] += s * (path[k + 1][j] - path[k][j]);
         sum += distance(cost, from, to);
@@ -287,6 +287,13 @@ class ParameterSpace final : public ob::RealVectorStateSpace {
     return {state->as<StateType>()->values, dimension_};
   }
 
+  /// The image of `state` that is nearest to `from`.
+  [[nodiscard]] Point nearest(const Point& from, const ob::State* state) const {
+    Point q = from;
+    for (std::size_t j = 0; j < q.size(); ++j) q[j] += step(j, from[j], point(state)[j]);
+    return q;
+  }
+
   double distance(const ob::State* a, const ob::State* b) const override {
     double square = 0;
     for (std::size_t j = 0; j < dimension_; ++j) {
@@ -321,21 +328,49 @@ class ParameterSpace final : public ob::RealVectorStateSpace {
   std::vector<bool> periodic_;
 };
 
-/// The length of a motion by the case's cost. Its ends' distance bounds it from below, as BIT* wants of a heuristic.
-class CostObjective final : public ob::OptimizationObjective {
+/// The length of a motion, bounded from below by the distance of its ends. By a case's cost it is summed up in pieces, since
+/// what is straight in the parameters curves in space.
+///
+/// OMPL's own path length would have BIT* draw its samples from ellipses that know nothing of periodic parameters, so
+/// here they are drawn from the whole space and rejected by this bound.
+class LengthObjective final : public ob::OptimizationObjective {
  public:
-  CostObjective(const ob::SpaceInformationPtr& space, const Poses& poses, Cost cost)
-      : ob::OptimizationObjective(space), poses_(poses), cost_(cost) {}
+  LengthObjective(const ob::SpaceInformationPtr& information, const Poses& poses, Cost cost)
+      : ob::OptimizationObjective(information),
+        space_(*information->getStateSpace()->as<ParameterSpace>()),
+        poses_(poses),
+        cost_(cost) {
+    setCostToGoHeuristic([this](const ob::State* state, const ob::Goal* goal) {
+      const auto& goals = *goal->as<ob::GoalStates>();
+      double least = HUGE_VAL;
+      for (unsigned k = 0; k < goals.getStateCount(); ++k) {
+        least = std::min(least, motionCostHeuristic(state, goals.getState(k)).value());
+      }
+      return ob::Cost(least);
+    });
+  }
   ob::Cost stateCost(const ob::State*) const override { return identityCost(); }
   ob::Cost motionCost(const ob::State* a, const ob::State* b) const override {
-    const auto& space = *si_->getStateSpace()->as<ParameterSpace>();
-    const auto from = space.point(a);
-    const auto to = space.point(b);
-    return ob::Cost(poses_.distance(cost_, {from.begin(), from.end()}, {to.begin(), to.end()}));
+    if (cost_ == Cost::kParameters) return motionCostHeuristic(a, b);
+    constexpr double kPiece = 0.1;  // [rad]
+    const int pieces = 1 + static_cast<int>(space_.distance(a, b) / kPiece);
+    return ob::Cost(poses_.length(cost_, {point(a), space_.nearest(point(a), b)}, pieces));
   }
-  ob::Cost motionCostHeuristic(const ob::State* a, const ob::State* b) const override { return motionCost(a, b); }
+  ob::Cost motionCostHeuristic(const ob::State* a, const ob::State* b) const override {
+    return ob::Cost(cost_ == Cost::kParameters ? space_.distance(a, b) : poses_.distance(cost_, point(a), point(b)));
+  }
+  ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& problem,
+                                                   unsigned most_calls) const override {
+    return std::make_shared<ob::RejectionInfSampler>(problem, most_calls);
+  }
 
  private:
+  [[nodiscard]] Point point(const ob::State* state) const {
+    const auto q = space_.point(state);
+    return {q.begin(), q.end()};
+  }
+
+  const ParameterSpace& space_;
   const Poses& poses_;
   Cost cost_;
 };
@@ -374,11 +409,9 @@ class OmplQuery {
     auto goal = std::make_shared<ob::GoalStates>(information_);
     for (const Point& q : goals_) goal->addState(state(q));
     problem->setGoal(goal);
-    if (tool == Tool::kBitStar) {
-      problem->setOptimizationObjective(std::make_shared<ob::PathLengthOptimizationObjective>(information_));
-    } else if (tool == Tool::kBitStarByCost) {
-      problem->setOptimizationObjective(
-          std::make_shared<CostObjective>(information_, poses_, query_.case_.planner.cost));
+    if (tool != Tool::kRrtConnect) {
+      const Cost cost = tool == Tool::kBitStar ? Cost::kParameters : query_.case_.planner.cost;
+      problem->setOptimizationObjective(std::make_shared<LengthObjective>(information_, poses_, cost));
     }
     ob::PlannerPtr planner;
     if (tool == Tool::kRrtConnect) {
@@ -420,13 +453,9 @@ class OmplQuery {
   [[nodiscard]] std::vector<Point> unrolled(const og::PathGeometric& path) const {
     std::vector<Point> result;
     for (std::size_t k = 0; k < path.getStateCount(); ++k) {
-      const auto at = space_->point(path.getState(static_cast<unsigned>(k)));
-      Point q(at.begin(), at.end());
-      if (k > 0) {
-        const Point& before = result.back();
-        for (std::size_t j = 0; j < q.size(); ++j) q[j] = before[j] + space_->step(j, before[j], q[j]);
-      }
-      result.push_back(std::move(q));
+      const ob::State* state = path.getState(static_cast<unsigned>(k));
+      const auto q = space_->point(state);
+      result.push_back(k == 0 ? Point(q.begin(), q.end()) : space_->nearest(result.back(), state));
     }
     return result;
   }
@@ -545,8 +574,7 @@ std::string machine() {
 std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double load) {
   std::string out = fmt::format(
       "# taut beside OMPL\n\n{}; load {:.1f} when it began. Medians: taut {} runs, RRTConnect {} seeds, BIT* {} seeds "
-      "of "
-      "{:.0f} s. Made by `bench/run`; what is measured: [bench/README.md](../README.md).\n\n",
+      "of {:.0f} s. Made by `bench/run`; what is measured: [bench/README.md](../README.md).\n\n",
       machine(), load, rounds.taut, rounds.rrt, rounds.bit_star, kBitStarSeconds);
 
   out +=
