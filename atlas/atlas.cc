@@ -38,9 +38,9 @@ struct View {
   double distance_ba;
 
   View(const Frame& a, const Frame& b) {
-    const double squared_distance = (b.point - a.point).squaredNorm();
-    u_ab = a.tangent_coordinates(b.point);
-    u_ba = b.tangent_coordinates(a.point);
+    const double squared_distance = (b.point() - a.point()).squaredNorm();
+    u_ab = a.tangent_coordinates(b.point());
+    u_ba = b.tangent_coordinates(a.point());
     distance_ab = std::sqrt(std::max(0.0, squared_distance - u_ab.squaredNorm()));
     distance_ba = std::sqrt(std::max(0.0, squared_distance - u_ba.squaredNorm()));
   }
@@ -52,9 +52,9 @@ struct View {
 };
 
 bool tangents_agree(const Frame& a, const Frame& b, double min_cosine) {
-  SmallMatrix product(a.tangent.cols(), b.tangent.cols());
+  SmallMatrix product(a.tangent().cols(), b.tangent().cols());
   for (int i = 0; i < product.rows(); ++i) {
-    for (int j = 0; j < product.cols(); ++j) product(i, j) = a.tangent.col(i).dot(b.tangent.col(j));
+    for (int j = 0; j < product.cols(); ++j) product(i, j) = a.tangent().col(i).dot(b.tangent().col(j));
   }
   return absolute_determinant(product) >= min_cosine;
 }
@@ -67,6 +67,39 @@ std::optional<double> flat_radius(const Frame& parent, const Frame& child, const
   const double left_by = std::max(view.distance_ab, view.distance_ba);
   if (left_by == 0) return std::numeric_limits<double>::infinity();
   return view.u_ab.norm() * std::sqrt(options.epsilon / left_by);
+}
+
+std::variant<Polytope, SampledPolytope> make_polytope(int dimension, double radius) {
+  if (dimension > Polytope::kMaxDimension) return SampledPolytope(dimension, kCube * radius);
+  return Polytope(dimension, kCube * radius);
+}
+
+double circumradius(const Chart& chart) {
+  return std::visit([](const auto& polytope) { return polytope.circumradius(); }, chart.polytope);
+}
+
+void clip(Chart& chart, const TangentVector& normal, double offset, int facet) {
+  std::visit([&](auto& polytope) { polytope.clip(normal, offset, facet); }, chart.polytope);
+}
+
+// The corner outside the ball that is to be tried next: the one furthest out, or nearest to a direction. -1 if none.
+int external_corner(const Chart& chart, const TangentVector* direction) {
+  return std::visit(
+      [&](const auto& polytope) {
+        int best = -1;
+        double best_score = -std::numeric_limits<double>::infinity();
+        for (int c = 0; c < polytope.corners(); ++c) {
+          const double distance = polytope.distance(c);
+          if (polytope.is_marked(c) || chart.covers(distance)) continue;
+          const double score = direction ? polytope.corner(c).dot(*direction) / distance : distance;
+          if (score > best_score) {
+            best_score = score;
+            best = c;
+          }
+        }
+        return best;
+      },
+      chart.polytope);
 }
 
 double cosine_of_double_angle(double cosine) { return std::max(0.0, 2 * cosine * cosine - 1); }
@@ -99,49 +132,37 @@ std::optional<int> Atlas::add(const Coordinates& coordinates) {
   ++frame_evaluations_;
   if (!manifold_.frame_at(coordinates, candidate_)) return std::nullopt;
   std::optional<int> same;
-  index_.visit(NeighbourIndex::locate(candidate_.point), 0, [&](int other) {
+  index_.visit(NeighbourIndex::locate(candidate_.point()), 0, [&](int other) {
     const Chart& chart = charts_[other];
-    if ((chart.frame.point - candidate_.point).norm() <= kSamePoint * options_.radius) same = other;
+    if ((chart.frame.point() - candidate_.point()).norm() <= kSamePoint * options_.radius) same = other;
   });
   return same ? *same : insert(options_.radius);
 }
 
-int Atlas::external_vertex(const Chart& chart, const TangentVector* direction) const {
-  int best = -1;
-  double best_score = -std::numeric_limits<double>::infinity();
-  const auto& vertices = chart.polytope.vertices();
-  for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
-    const double distance = std::sqrt(vertices[v].squared_norm);
-    if (vertices[v].marked || chart.covers(distance)) continue;
-    const double score = direction ? chart.polytope.position(v).dot(*direction) / distance : distance;
-    if (score > best_score) {
-      best_score = score;
-      best = v;
-    }
-  }
-  return best;
-}
-
-bool Atlas::expand(int chart_id, int budget, const Eigen::VectorXd* target) {
+bool Atlas::expand(int chart_id, int budget, std::optional<int> target) {
   Chart& chart = charts_[chart_id];  // a deque: stays where it is
   if (chart.complete) return true;
   TangentVector direction;
-  if (target) direction = chart.frame.tangent_coordinates(*target);
+  if (target) direction = chart.frame.tangent_coordinates(charts_[*target].frame.point());
   const int first_new = size();
   while (true) {
-    const int vertex = external_vertex(chart, target ? &direction : nullptr);
-    if (vertex < 0) return chart.complete = true;
+    const int corner = external_corner(chart, target ? &direction : nullptr);
+    if (corner < 0) return chart.complete = true;
     if (size() >= options_.max_charts || size() - first_new >= budget) return false;
-    grow_towards(chart_id, vertex);
+    grow_towards(chart_id, corner);
   }
 }
 
-// Tries the direction of an external vertex at shorter and shorter distances. The vertex is marked first: where a chart
-// comes to be, its bisector cuts the vertex off; where none can be, the mark says that it was tried.
-void Atlas::grow_towards(int parent_id, int vertex) {
+// Tries the direction of an external corner at shorter and shorter distances. The corner is marked first: where a chart
+// comes to be, its bisector cuts the corner off; where none can be, the mark says that it was tried.
+void Atlas::grow_towards(int parent_id, int corner) {
   Chart& parent = charts_[parent_id];
-  const TangentVector direction = parent.polytope.position(vertex).normalized();
-  parent.polytope.mark(vertex);
+  const TangentVector direction = std::visit(
+      [corner](auto& polytope) -> TangentVector {
+        polytope.mark(corner);
+        return polytope.corner(corner).normalized();
+      },
+      parent.polytope);
   double distance = options_.step * parent.radius;
   bool too_curved = false;  // at the last distance tried, rather than outside the domain
   Coordinates coordinates;
@@ -166,13 +187,13 @@ void Atlas::grow_towards(int parent_id, int vertex) {
 // The candidate becomes a chart. It meets its neighbours nearest first: then most of the others come too late to cut.
 int Atlas::insert(double radius) {
   const int id = size();
-  charts_.push_back({std::move(candidate_), radius, Polytope(manifold_.dimension(), kCube * radius), false});
-  const Eigen::VectorXd& centre = charts_[id].frame.point;
+  charts_.push_back({std::move(candidate_), radius, make_polytope(manifold_.dimension(), radius), false});
+  const auto centre = charts_[id].frame.point();
   const double reach = kReach * radius;
   const NeighbourIndex::Point place = NeighbourIndex::locate(centre);
   near_.clear();
   index_.visit(place, reach,
-               [&](int other) { near_.emplace_back((charts_[other].frame.point - centre).squaredNorm(), other); });
+               [&](int other) { near_.emplace_back((charts_[other].frame.point() - centre).squaredNorm(), other); });
   std::sort(near_.begin(), near_.end());
   for (const auto& [squared_distance, other] : near_) separate(other, id, squared_distance);
   index_.insert(id, place, reach);
@@ -183,14 +204,14 @@ void Atlas::separate(int a, int b, double squared_distance) {
   Chart& chart_a = charts_[a];
   Chart& chart_b = charts_[b];
   const double reach = std::min(kReach * std::max(chart_a.radius, chart_b.radius),
-                                2 * std::max(chart_a.polytope.circumradius(), chart_b.polytope.circumradius()));
+                                2 * std::max(circumradius(chart_a), circumradius(chart_b)));
   if (squared_distance > reach * reach) return;
   const View view(chart_a.frame, chart_b.frame);
   if (!view.near(kDistanceGrowth * options_.epsilon)) return;
   const double min_cosine = cosine_of_double_angle(options_.min_tangent_cosine);
   if (!tangents_agree(chart_a.frame, chart_b.frame, min_cosine)) return;
-  chart_a.polytope.clip(view.u_ab, squared_distance / 2, b);
-  chart_b.polytope.clip(view.u_ba, squared_distance / 2, a);
+  clip(chart_a, view.u_ab, squared_distance / 2, b);
+  clip(chart_b, view.u_ba, squared_distance / 2, a);
 }
 
 bool Atlas::grow_all() {
@@ -201,8 +222,12 @@ bool Atlas::grow_all() {
 }
 
 std::vector<int> Atlas::neighbours(int chart) const {
-  std::vector<int> result = charts_[chart].polytope.cutting_facets();
-  std::erase_if(result, [&](int other) { return !charts_[other].polytope.has_facet(chart); });
+  const auto has_facet = [&](int other) {
+    return std::visit([&](const auto& polytope) { return polytope.has_facet(chart); }, charts_[other].polytope);
+  };
+  std::vector<int> result =
+      std::visit([](const auto& polytope) { return polytope.cutting_facets(); }, charts_[chart].polytope);
+  std::erase_if(result, [&](int other) { return !has_facet(other); });
   return result;
 }
 

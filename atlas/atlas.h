@@ -3,7 +3,8 @@
 // Chart i has a centre x_i with tangent space Phi_i, a radius r_i within which the tangent space is close to the
 // manifold, and a polytope P_i in that tangent space: what is nearer to x_i than to the charts around it.
 // A vertex of P_i outside the ball of radius r_i is *external*: nothing covers that corner yet, so a new chart is
-// made in its direction. Both polytopes of two charts on the same sheet are cut by the centres' bisector, here in the
+// made in its direction. Above three dimensions polytopes are known along fixed rays only (sampled_polytope.h), whose ends
+// stand in for vertices: charts then cover densely, but a gap between rays may stay. Both polytopes of two charts on the same sheet are cut by the centres' bisector, here in the
 // tangent space of i:
 //
 //   u . u_j <= |x_j - x_i|^2 / 2,   u_j = Phi_i^T (x_j - x_i).                               (1)
@@ -12,8 +13,8 @@
 // without touching any other chart; the price is a few more charts where radii differ. And the right side is the distance
 // in the ambient space: then the polytopes are slices of one Voronoi diagram of that space, and charts agree
 // on who touches whom but for near-ties (on a sphere, always).
-// A new centre lies in its parent's polytope, at least step * radius / 2^max_halvings from every other: a compact
-// manifold is covered by finitely many charts.
+// A new centre lies in its parent's polytope, at least step * radius / 2^max_halvings from every other: charts of a compact
+// manifold are finitely many. Up to three dimensions they cover it.
 //
 // Sources: M. E. Henderson, "Multiple parameter continuation", 2002; J. M. Porta, L. Jaillet, O. Bohigas,
 // "Randomized path planning on manifolds based on higher-dimensional continuation", 2012.
@@ -23,11 +24,13 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "atlas/manifold.h"
 #include "atlas/neighbour_index.h"
 #include "atlas/polytope.h"
+#include "atlas/sampled_polytope.h"
 
 namespace taut {
 
@@ -47,8 +50,8 @@ struct AtlasOptions {
 struct Chart {
   Frame frame;
   double radius;
-  Polytope polytope;
-  bool complete = false;  ///< no external vertex is left that has not been tried
+  std::variant<Polytope, SampledPolytope> polytope;  ///< sampled above Polytope::kMaxDimension
+  bool complete = false;                             ///< no external corner is left that has not been tried
 
   /// Whether a point of the tangent space, at this distance from the centre, is in the ball, up to rounding.
   [[nodiscard]] bool covers(double distance) const { return distance <= radius * (1 + 1e-9); }
@@ -63,10 +66,10 @@ class Atlas {
   /// nullopt outside the domain. Ignores max_charts.
   std::optional<int> add(const Coordinates& coordinates);
 
-  /// Makes charts around a chart until its polytope has no external vertex that can be covered, or until `budget` have
-  /// been made. With `target`, an ambient point, corners in its direction come first. New charts are the last ones.
+  /// Makes charts around a chart until its polytope has no external corner that can be covered, or until `budget` have
+  /// been made. With `target`, a chart, corners in its direction come first. New charts are the last ones.
   /// @returns whether the chart is complete. False also at max_charts.
-  bool expand(int chart, int budget = std::numeric_limits<int>::max(), const Eigen::VectorXd* target = nullptr);
+  bool expand(int chart, int budget = std::numeric_limits<int>::max(), std::optional<int> target = std::nullopt);
 
   /// Expands every chart, in order of creation. @returns false at max_charts.
   bool grow_all();
@@ -82,10 +85,9 @@ class Atlas {
   [[nodiscard]] long frame_evaluations() const { return frame_evaluations_; }
 
  private:
-  void grow_towards(int parent, int vertex);
+  void grow_towards(int parent, int corner);
   int insert(double radius);
   void separate(int a, int b, double squared_distance);
-  int external_vertex(const Chart& chart, const TangentVector* direction) const;
 
   const Manifold& manifold_;
   AtlasOptions options_;

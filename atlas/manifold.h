@@ -15,7 +15,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace taut {
 
@@ -24,21 +26,52 @@ inline constexpr int kMaxCoordinates = 8;  ///< that name a point
 
 using TangentVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDimension, 1>;
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxCoordinates, 1>;
-using Lift = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxCoordinates, kMaxDimension>;
+using AmbientPoint = Eigen::Ref<const Eigen::VectorXd>;
 
-/// A point of the manifold and its tangent space.
-struct Frame {
-  Coordinates coordinates;  ///< m: names the point
-  Eigen::VectorXd point;    ///< N: x
-  Eigen::MatrixXd tangent;  ///< N x n: Phi, orthonormal columns
-  Lift lift;                ///< m x n: first-order change of the coordinates per tangent coordinate
+/// A point of the manifold and its tangent space. All numbers lie in one block of memory, since atlases hold many frames.
+class Frame {
+ public:
+  /// Sets the sizes m, N and n; what the frame held is lost. Memory is used again where there is enough.
+  void resize(Eigen::Index coordinates, Eigen::Index ambient, Eigen::Index dimension) {
+    m_ = coordinates;
+    ambient_ = ambient;
+    n_ = dimension;
+    values_.resize(static_cast<std::size_t>((m_ + ambient_) * (1 + n_)));
+  }
+  [[nodiscard]] Eigen::Index dimension() const { return n_; }
+
+  /// m: names the point.
+  [[nodiscard]] auto coordinates() const { return Eigen::Map<const Eigen::VectorXd>(values_.data(), m_); }
+  [[nodiscard]] auto coordinates() { return Eigen::Map<Eigen::VectorXd>(values_.data(), m_); }
+  /// N: x.
+  [[nodiscard]] auto point() const { return Eigen::Map<const Eigen::VectorXd>(values_.data() + m_, ambient_); }
+  [[nodiscard]] auto point() { return Eigen::Map<Eigen::VectorXd>(values_.data() + m_, ambient_); }
+  /// N x n: Phi, orthonormal columns.
+  [[nodiscard]] auto tangent() const { return Eigen::Map<const Eigen::MatrixXd>(tangent_data(), ambient_, n_); }
+  [[nodiscard]] auto tangent() { return Eigen::Map<Eigen::MatrixXd>(tangent_data(), ambient_, n_); }
+  /// m x n: first-order change of the coordinates per tangent coordinate.
+  [[nodiscard]] auto lift() const { return Eigen::Map<const Eigen::MatrixXd>(tangent_data() + ambient_ * n_, m_, n_); }
+  [[nodiscard]] auto lift() { return Eigen::Map<Eigen::MatrixXd>(tangent_data() + ambient_ * n_, m_, n_); }
 
   /// u = Phi^T (x' - x): the ambient point x' in this frame's tangent space, n.
-  [[nodiscard]] TangentVector tangent_coordinates(const Eigen::VectorXd& ambient_point) const {
-    TangentVector u(tangent.cols());
-    for (int k = 0; k < u.size(); ++k) u[k] = tangent.col(k).dot(ambient_point - point);
+  [[nodiscard]] TangentVector tangent_coordinates(const AmbientPoint& ambient_point) const {
+    return tangent_part(ambient_point - point());
+  }
+  /// Phi^T d of an ambient vector d, n.
+  [[nodiscard]] TangentVector tangent_part(const AmbientPoint& vector) const {
+    TangentVector u(n_);
+    for (Eigen::Index k = 0; k < n_; ++k) u[k] = tangent().col(k).dot(vector);
     return u;
   }
+
+ private:
+  [[nodiscard]] const double* tangent_data() const { return values_.data() + m_ + ambient_; }
+  [[nodiscard]] double* tangent_data() { return values_.data() + m_ + ambient_; }
+
+  Eigen::Index m_ = 0;
+  Eigen::Index ambient_ = 0;
+  Eigen::Index n_ = 0;
+  std::vector<double> values_;  ///< coordinates, point, tangent, lift; matrices by columns
 };
 
 /// Which of its equivalent coordinate vectors a point is given by:
@@ -82,7 +115,7 @@ class Manifold {
   /// Coordinates of the manifold's point over tangent coordinates u. False where there is none (Newton failed).
   /// Default: coordinates + lift u, which is right to first order and is all that a graph over its parameters needs.
   [[nodiscard]] virtual bool project(const Frame& frame, const TangentVector& u, Coordinates& coordinates) const {
-    coordinates = frame.coordinates + frame.lift * u;
+    coordinates = frame.coordinates() + frame.lift() * u;
     return true;
   }
 

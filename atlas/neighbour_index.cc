@@ -2,7 +2,7 @@
 
 namespace taut {
 
-NeighbourIndex::Point NeighbourIndex::locate(const Eigen::VectorXd& ambient_point) {
+NeighbourIndex::Point NeighbourIndex::locate(const AmbientPoint& ambient_point) {
   Point point{};
   std::copy_n(ambient_point.data(), std::min<Eigen::Index>(ambient_point.size(), kDimension), point.begin());
   return point;

@@ -6,11 +6,12 @@
 // as a binary counter is; an insertion costs O(log^2 N), amortised.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "atlas/manifold.h"
 
 namespace taut {
 
@@ -20,7 +21,7 @@ class NeighbourIndex {
   using Point = std::array<double, kDimension>;
 
   /// The first kDimension coordinates of an ambient point, or all and zeros.
-  [[nodiscard]] static Point locate(const Eigen::VectorXd& ambient_point);
+  [[nodiscard]] static Point locate(const AmbientPoint& ambient_point);
 
   void insert(int id, const Point& point, double reach);
 

@@ -34,7 +34,7 @@ std::uint64_t scatter(int facet) {
   return z ^ (z >> 31);
 }
 
-int slot_of(const std::array<int, kMaxDimension>& values, int value) {
+int slot_of(const std::array<int, Polytope::kMaxDimension>& values, int value) {
   return static_cast<int>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
@@ -43,7 +43,6 @@ int slot_of(const std::array<int, kMaxDimension>& values, int value) {
 Polytope::Polytope(int dimension, double half_side)
     : dimension_(dimension), half_side_(half_side), circumradius_(half_side * std::sqrt(dimension)) {
   vertices_.resize(std::size_t{1} << dimension);
-  vertices_.reserve(vertices_.size() + 8);
   for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
     Vertex& vertex = vertices_[v];
     for (int k = 0; k < dimension; ++k) {
@@ -157,7 +156,7 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
   return true;
 }
 
-TangentVector Polytope::position(int vertex) const {
+TangentVector Polytope::corner(int vertex) const {
   return Eigen::Map<const TangentVector>(vertices_[vertex].position.data(), dimension_);
 }
 

@@ -3,11 +3,12 @@
 // A bounded polytope in R^n with the origin inside, kept as a simple one: each vertex lies on exactly n facets and has
 // n edges, one leaving each of its facets. A cut through (or within rounding of) a vertex spares that vertex, which
 // keeps every degenerate case simple and the outcome a function of the order of cuts alone.
+// For up to three dimensions; above, vertices become too many: sampled_polytope.h.
 // Source: Henderson 2002, section 4 (simple polytopes of charts); Chen, Hansen, Jaumard 1991 (on-line vertices).
 #pragma once
 
 #include <array>
-#include <span>
+#include <cmath>
 #include <vector>
 
 #include "atlas/manifold.h"
@@ -16,6 +17,8 @@ namespace taut {
 
 class Polytope {
  public:
+  static constexpr int kMaxDimension = 3;
+
   struct Vertex {
     std::array<double, kMaxDimension> position{};
     double squared_norm = 0;
@@ -28,7 +31,7 @@ class Polytope {
   };
 
   /// The cube [-half_side, half_side]^n; its facets are named -1 (u_0 = -half_side), -2 (u_0 = half_side), -3, … -2n.
-  /// @pre 1 <= dimension <= kMaxDimension, half_side > 0.
+  /// @pre 1 <= dimension <= Polytope::kMaxDimension, half_side > 0.
   Polytope(int dimension, double half_side);
 
   /// Intersects with the half-space normal . u <= offset; the new facet is named `facet`.
@@ -42,8 +45,13 @@ class Polytope {
   /// Largest distance of a vertex from the origin.
   [[nodiscard]] double circumradius() const { return circumradius_; }
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
+
+  /// The vertices again, as SampledPolytope has them.
+  [[nodiscard]] int corners() const { return static_cast<int>(vertices_.size()); }
+  [[nodiscard]] TangentVector corner(int vertex) const;
+  [[nodiscard]] double distance(int vertex) const { return std::sqrt(vertices_[vertex].squared_norm); }
+  [[nodiscard]] bool is_marked(int vertex) const { return vertices_[vertex].marked; }
   void mark(int vertex) { vertices_[vertex].marked = true; }
-  [[nodiscard]] TangentVector position(int vertex) const;
 
   /// Names of the cutting facets (not the cube's) that are left, ascending.
   [[nodiscard]] std::vector<int> cutting_facets() const;

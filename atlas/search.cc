@@ -96,10 +96,10 @@ class Search {
     return chart_limit_hit_ ? SearchStatus::kChartLimit : SearchStatus::kExhausted;
   }
 
-  const Coordinates& base(int node) const {
+  Coordinates base(int node) const {
     if (node == start_) return problem_.start;
     if (node == goal_) return problem_.goal;
-    return atlas_.chart(node).frame.coordinates;
+    return atlas_.chart(node).frame.coordinates();
   }
 
   // Start and goal are one point, perhaps under two names: a path of one edge.
@@ -146,8 +146,7 @@ class Search {
       problem_.progress({atlas_.size(), result_.nodes_expanded, lowest_heuristic_});
     }
     const int first_new = atlas_.size();
-    const bool complete =
-        greedy_ ? atlas_.expand(node, kGreedyBudget, &atlas_.chart(goal_).frame.point) : atlas_.expand(node);
+    const bool complete = greedy_ ? atlas_.expand(node, kGreedyBudget, goal_) : atlas_.expand(node);
     nodes_.resize(atlas_.size());
     for (int chart = first_new; chart < atlas_.size(); ++chart) {
       for (const int neighbour : atlas_.neighbours(chart)) offer(neighbour, chart);

@@ -25,7 +25,7 @@ struct Side {
 };
 
 std::vector<Side> polygon(const Chart& chart) {
-  const auto& vertices = chart.polytope.vertices();
+  const auto& vertices = std::get<Polytope>(chart.polytope).vertices();
   const auto at = [&](int v) { return Eigen::Vector2d(vertices[v].position[0], vertices[v].position[1]); };
   std::vector<Side> sides;
   double twice_area = 0;
@@ -68,7 +68,7 @@ int find(const Rotation& rotation, int to) {
 }
 
 bool orientations_agree(const Frame& a, const Frame& b) {
-  return (a.tangent.transpose() * b.tangent).determinant() > 0;
+  return (a.tangent().transpose() * b.tangent()).determinant() > 0;
 }
 
 void drop(Rotation& rotation, int to) {
@@ -120,7 +120,7 @@ std::vector<int> edges_into_triangle(const Rotation& b, int a, int c, bool mirro
 // that cross so goes; four charts are then two triangles again.
 bool drop_one_crossing(const Atlas& atlas, std::vector<Rotation>& rotations, int a) {
   const auto length = [&](int i, int j) {
-    return (atlas.chart(i).frame.point - atlas.chart(j).frame.point).squaredNorm();
+    return (atlas.chart(i).frame.point() - atlas.chart(j).frame.point()).squaredNorm();
   };
   const Rotation& around = rotations[a];
   for (std::size_t e = 0; e < around.size(); ++e) {

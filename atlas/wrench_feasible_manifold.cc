@@ -54,13 +54,14 @@ class WrenchFeasibleManifold final : public Manifold {
     const Matrix3<J> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
     const CableGeometry<J> geometry = cable_geometry(model_, pose.p_WP, r_WP);
 
-    frame.coordinates = coordinates;
-    frame.point.resize(ambient_dimension());
-    frame.tangent.resize(ambient_dimension(), n_);
+    frame.resize(n_, ambient_dimension(), n_);
+    frame.coordinates() = coordinates;
+    auto point = frame.point();
+    auto tangent = frame.tangent();
     int row = 0;
     const auto put = [&](const J& x, double weight) {
-      frame.point[row] = weight * x.value;
-      for (int k = 0; k < n_; ++k) frame.tangent(row, k) = weight * x.partial[static_cast<std::size_t>(k)];
+      point[row] = weight * x.value;
+      for (int k = 0; k < n_; ++k) tangent(row, k) = weight * x.partial[static_cast<std::size_t>(k)];
       ++row;
     };
     // First what tells poses apart best: the neighbour index looks at these.
@@ -168,18 +169,19 @@ class WrenchFeasibleManifold final : public Manifold {
 
   /// Gram–Schmidt on the columns of dx/dλ = Φ T; then dλ/du = T^-1.
   bool orthonormalise(Frame& frame) const {
-    frame.lift.setZero(n_, n_);
+    auto tangent = frame.tangent();
+    auto lift = frame.lift();
+    lift.setIdentity();
     for (int k = 0; k < n_; ++k) {
-      frame.lift(k, k) = 1.0;
       for (int j = 0; j < k; ++j) {
-        const double overlap = frame.tangent.col(j).dot(frame.tangent.col(k));
-        frame.tangent.col(k) -= overlap * frame.tangent.col(j);
-        frame.lift.col(k) -= overlap * frame.lift.col(j);
+        const double overlap = tangent.col(j).dot(tangent.col(k));
+        tangent.col(k) -= overlap * tangent.col(j);
+        lift.col(k) -= overlap * lift.col(j);
       }
-      const double size = frame.tangent.col(k).norm();
+      const double size = tangent.col(k).norm();
       if (!(size > 1e-9) || !std::isfinite(size)) return false;
-      frame.tangent.col(k) /= size;
-      frame.lift.col(k) /= size;
+      tangent.col(k) /= size;
+      lift.col(k) /= size;
     }
     return true;
   }

@@ -177,14 +177,15 @@ nlohmann::json illustrate(const Problem& problem, const Atlas& atlas, const Plan
     for (int id = 0; id < std::min(atlas.size(), kMostCharts); ++id) {
       const Chart& chart = atlas.chart(id);
       std::vector<std::pair<double, Coordinates>> corners;
-      for (int v = 0; v < static_cast<int>(chart.polytope.vertices().size()); ++v) {
-        const TangentVector u = chart.polytope.position(v);
-        corners.emplace_back(std::atan2(u[1], u[0]), chart.frame.coordinates + chart.frame.lift * u);
+      const auto& polytope = std::get<Polytope>(chart.polytope);
+      for (int v = 0; v < polytope.corners(); ++v) {
+        const TangentVector u = polytope.corner(v);
+        corners.emplace_back(std::atan2(u[1], u[0]), chart.frame.coordinates() + chart.frame.lift() * u);
       }
       std::ranges::sort(corners, {}, [](const auto& corner) { return corner.first; });
       nlohmann::json polygon = nlohmann::json::array();
       for (const auto& corner : corners) polygon.push_back(point(corner.second));
-      charts.push_back({{"c", point(chart.frame.coordinates)}, {"p", std::move(polygon)}});
+      charts.push_back({{"c", point(chart.frame.coordinates())}, {"p", std::move(polygon)}});
     }
   }
   nlohmann::json parameters = nlohmann::json::array();

@@ -48,9 +48,9 @@ double dijkstra(const Atlas& atlas, const SearchProblem& problem, int start, int
   while (!open.empty()) {
     const int node = open.begin()->second;
     open.erase(open.begin());
-    const Coordinates& from = atlas.chart(node).frame.coordinates;
+    const Coordinates from = atlas.chart(node).frame.coordinates();
     for (const int next : atlas.neighbours(node)) {
-      const Coordinates& base = atlas.chart(next).frame.coordinates;
+      const Coordinates base = atlas.chart(next).frame.coordinates();
       const Coordinates to = symmetry.apply(base, symmetry.nearest_image(base, from));
       if (!problem.edge_ok(from, to)) continue;
       const double through = distance[node] + problem.cost(from, to);
@@ -184,7 +184,7 @@ TEST(Search, ReportsAnExhaustedComponent) {
     EXPECT_EQ(result.status, SearchStatus::kExhausted);
     EXPECT_TRUE(result.path.empty());
     for (int id = 0; id < atlas.size(); ++id) {
-      EXPECT_TRUE(id == 1 || atlas.chart(id).frame.point[0] < 0) << "the goal's disc was entered";
+      EXPECT_TRUE(id == 1 || atlas.chart(id).frame.point()[0] < 0) << "the goal's disc was entered";
     }
   }
 }

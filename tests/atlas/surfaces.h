@@ -33,19 +33,19 @@ class ImplicitSurface : public Manifold {
 
   bool frame_at(const Coordinates& x, Frame& frame) const override {
     const Eigen::Vector3d normal = gradient_(x).normalized();
-    frame.coordinates = x;
-    frame.point = x;
-    Eigen::Vector3d first = normal.unitOrthogonal();
-    frame.tangent.resize(3, 2);
-    frame.tangent.col(0) = first;
-    frame.tangent.col(1) = normal.cross(first);
-    frame.lift = frame.tangent;
+    const Eigen::Vector3d first = normal.unitOrthogonal();
+    frame.resize(3, 3, 2);
+    frame.coordinates() = x;
+    frame.point() = x;
+    frame.tangent().col(0) = first;
+    frame.tangent().col(1) = normal.cross(first);
+    frame.lift() = frame.tangent();
     return true;
   }
 
   bool project(const Frame& frame, const TangentVector& u, Coordinates& x) const override {
-    const Eigen::Vector3d normal = gradient_(frame.point).normalized();
-    const Eigen::Vector3d foot = frame.point + frame.tangent * u;
+    const Eigen::Vector3d normal = gradient_(frame.point()).normalized();
+    const Eigen::Vector3d foot = frame.point() + frame.tangent() * u;
     double height = 0;
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Eigen::Vector3d at = foot + height * normal;
@@ -110,10 +110,11 @@ class FlatSpace : public Manifold {
   int coordinate_dimension() const override { return dimension_; }
   bool frame_at(const Coordinates& x, Frame& frame) const override {
     if (inside_ && !inside_(x)) return false;
-    frame.coordinates = x;
-    frame.point = x;
-    frame.tangent.setIdentity(dimension_, dimension_);
-    frame.lift.setIdentity(dimension_, dimension_);
+    frame.resize(dimension_, dimension_, dimension_);
+    frame.coordinates() = x;
+    frame.point() = x;
+    frame.tangent().setIdentity();
+    frame.lift().setIdentity();
     return true;
   }
 
@@ -138,18 +139,19 @@ class FlatTorus : public Manifold {
   }
   bool frame_at(const Coordinates& x, Frame& frame) const override {
     const int n = dimension();
-    frame.coordinates = x;
-    frame.point.setZero(2 * n);
-    frame.tangent.setZero(2 * n, n);
-    frame.lift.setIdentity(n, n);
+    frame.resize(n, 2 * n, n);
+    frame.coordinates() = x;
+    frame.point().setZero();
+    frame.tangent().setZero();
+    frame.lift().setIdentity();
     for (int j = 0; j < n; ++j) {
       if (half_widths_[j] > 0) {
         if (std::abs(x[j]) > half_widths_[j]) return false;
-        frame.point[2 * j] = x[j];
-        frame.tangent(2 * j, j) = 1;
+        frame.point()[2 * j] = x[j];
+        frame.tangent()(2 * j, j) = 1;
       } else {
-        frame.point.segment<2>(2 * j) << std::cos(x[j]), std::sin(x[j]);
-        frame.tangent.col(j).segment<2>(2 * j) << -std::sin(x[j]), std::cos(x[j]);
+        frame.point().segment<2>(2 * j) << std::cos(x[j]), std::sin(x[j]);
+        frame.tangent().col(j).segment<2>(2 * j) << -std::sin(x[j]), std::cos(x[j]);
       }
     }
     return true;
@@ -181,16 +183,16 @@ class PolarSphere : public Manifold {
   bool frame_at(const Coordinates& x, Frame& frame) const override {
     const Eigen::Vector3d point = at(x);
     if (cap_ > 0 && point.z() < std::cos(cap_)) return false;
-    frame.coordinates = x;
-    frame.point = point;
-    frame.tangent.resize(3, 2);
-    frame.tangent.col(0) << -std::sin(x[0]), std::cos(x[0]), 0;
-    frame.tangent.col(1) << std::cos(x[1]) * std::cos(x[0]), std::cos(x[1]) * std::sin(x[0]), -std::sin(x[1]);
-    frame.lift.setZero(2, 2);  // not used: project() is exact
+    frame.resize(2, 3, 2);
+    frame.coordinates() = x;
+    frame.point() = point;
+    frame.tangent().col(0) << -std::sin(x[0]), std::cos(x[0]), 0;
+    frame.tangent().col(1) << std::cos(x[1]) * std::cos(x[0]), std::cos(x[1]) * std::sin(x[0]), -std::sin(x[1]);
+    frame.lift().setZero();  // not used: project() is exact
     return true;
   }
   bool project(const Frame& frame, const TangentVector& u, Coordinates& x) const override {
-    const Eigen::Vector3d point = (frame.point + frame.tangent * u).normalized();
+    const Eigen::Vector3d point = (frame.point() + frame.tangent() * u).normalized();
     x.resize(2);
     x << std::atan2(point.y(), point.x()), std::atan2(std::hypot(point.x(), point.y()), point.z());
     return true;
@@ -216,14 +218,14 @@ class MoebiusStrip : public Manifold {
   bool frame_at(const Coordinates& x, Frame& frame) const override {
     if (std::abs(x[1]) > half_width_) return false;
     const double c = std::cos(x[0]), s = std::sin(x[0]), c2 = std::cos(2 * x[0]), s2 = std::sin(2 * x[0]);
-    frame.coordinates = x;
-    frame.point.resize(4);
-    frame.point << c2, s2, x[1] * c, x[1] * s;
+    frame.resize(2, 4, 2);
+    frame.coordinates() = x;
+    frame.point() << c2, s2, x[1] * c, x[1] * s;
     Eigen::Matrix<double, 4, 2> derivative;
     derivative << -2 * s2, 0, 2 * c2, 0, -x[1] * s, c, x[1] * c, s;
     const Eigen::Vector2d lengths = derivative.colwise().norm();  // the columns are orthogonal
-    frame.tangent = derivative * lengths.cwiseInverse().asDiagonal();
-    frame.lift = lengths.cwiseInverse().asDiagonal();
+    frame.tangent() = derivative * lengths.cwiseInverse().asDiagonal();
+    frame.lift() = lengths.cwiseInverse().asDiagonal();
     return true;
   }
 

@@ -1,5 +1,6 @@
 taut_add_test(atlas manifold LABELS unit LIBS taut::atlas)
 taut_add_test(atlas polytope LABELS unit LIBS taut::atlas)
+taut_add_test(atlas sampled_polytope LABELS unit LIBS taut::atlas)
 taut_add_test(atlas neighbour_index LABELS unit LIBS taut::atlas)
 taut_add_test(atlas atlas LABELS unit LIBS taut::atlas)
 taut_add_test(atlas topology LABELS unit LIBS taut::atlas)

@@ -1,0 +1,81 @@
+#include "atlas/sampled_polytope.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace taut {
+namespace {
+
+using Directions = Eigen::MatrixXd;  // a row each
+
+Directions make_directions(int n) {
+  Directions result = Directions::Zero(2 * n * n, n);
+  int row = 0;
+  for (int i = 0; i < n; ++i) {
+    for (const double sign : {-1.0, 1.0}) result(row++, i) = sign;
+    for (int j = 0; j < i; ++j) {
+      for (const double a : {-1.0, 1.0}) {
+        for (const double b : {-1.0, 1.0}) {
+          result(row, j) = a / std::numbers::sqrt2;
+          result(row++, i) = b / std::numbers::sqrt2;
+        }
+      }
+    }
+  }
+  return result;
+}
+
+const Directions& directions(int n) {
+  static const std::array<Directions, kMaxDimension> all = [] {
+    std::array<Directions, kMaxDimension> result;
+    for (int k = 1; k <= kMaxDimension; ++k) result[static_cast<std::size_t>(k - 1)] = make_directions(k);
+    return result;
+  }();
+  return all[static_cast<std::size_t>(n - 1)];
+}
+
+}  // namespace
+
+SampledPolytope::SampledPolytope(int dimension, double reach)
+    : dimension_(dimension),
+      circumradius_(reach),
+      rays_(static_cast<std::size_t>(2 * dimension * dimension), {static_cast<float>(reach), kNone}) {}
+
+bool SampledPolytope::clip(const TangentVector& normal, double offset, int facet) {
+  if (offset >= circumradius_ * normal.norm()) return false;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRays, 1> along(corners());
+  along.noalias() = directions(dimension_) * normal;
+  bool shortened = false;
+  float longest = 0;
+  for (int k = 0; k < corners(); ++k) {
+    Ray& ray = rays_[k];
+    if (along[k] * ray.reach > offset) {
+      ray = {static_cast<float>(offset / along[k]), facet};
+      shortened = true;
+    }
+    longest = std::max(longest, ray.reach);
+  }
+  circumradius_ = longest;
+  return shortened;
+}
+
+TangentVector SampledPolytope::corner(int ray) const {
+  return rays_[ray].reach * directions(dimension_).row(ray).transpose();
+}
+
+std::vector<int> SampledPolytope::cutting_facets() const {
+  std::vector<int> result;
+  for (const Ray& ray : rays_) {
+    if (ray.facet != kNone) result.push_back(ray.facet);
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+bool SampledPolytope::has_facet(int facet) const {
+  return std::any_of(rays_.begin(), rays_.end(), [facet](const Ray& ray) { return ray.facet == facet; });
+}
+
+}  // namespace taut

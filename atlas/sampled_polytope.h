@@ -1,0 +1,62 @@
+// The part of a chart's tangent space that is the chart's own, known along a few rays only.
+//
+// In more than three dimensions the polytope of a chart (polytope.h) has too many vertices to keep: a cell of a Poisson
+// Voronoi diagram has 27 on average for n = 3, but 159, some 1,100 and some 8,700 for n = 4, 5, 6. So this one keeps
+// no vertices. It knows how far it reaches along 2 n^2 fixed directions, and which facet ends each of them:
+//
+//   d = ± e_i  and  d = (± e_i ± e_j) / √2, i < j;     reach(d) = min over cuts with d . normal > 0 of offset / d . normal.  (1)
+//
+// No direction is further than 54.8° from one of them (n <= 6). What is said of the rays is exact (up to rounding); nothing
+// is said in between: a facet that no ray meets is not known, and a corner that lies between rays is not seen. So
+// charts that are placed by it cover densely, but not provably everywhere.
+#pragma once
+
+#include <bitset>
+#include <vector>
+
+#include "atlas/manifold.h"
+
+namespace taut {
+
+class SampledPolytope {
+ public:
+  /// The ball of radius `reach`, without facets. @pre 1 <= dimension <= kMaxDimension, reach > 0.
+  SampledPolytope(int dimension, double reach);
+
+  /// Intersects with the half-space normal . u <= offset; the new facet is named `facet`.
+  /// @returns whether any ray became shorter.
+  /// @pre offset > 0, so that the origin stays inside; facet >= 0.
+  /// Cost: one dot product a ray.
+  bool clip(const TangentVector& normal, double offset, int facet);
+
+  [[nodiscard]] int dimension() const { return dimension_; }
+  /// Reach of the longest ray.
+  [[nodiscard]] double circumradius() const { return circumradius_; }
+
+  /// Rays; their ends are the corners that are known.
+  [[nodiscard]] int corners() const { return static_cast<int>(rays_.size()); }
+  [[nodiscard]] TangentVector corner(int ray) const;
+  [[nodiscard]] double distance(int ray) const { return rays_[ray].reach; }
+  /// For the owner's use. A ray's mark stays, however short it becomes.
+  [[nodiscard]] bool is_marked(int ray) const { return marked_[static_cast<std::size_t>(ray)]; }
+  void mark(int ray) { marked_.set(static_cast<std::size_t>(ray)); }
+
+  /// Names of the facets that end rays, ascending.
+  [[nodiscard]] std::vector<int> cutting_facets() const;
+  [[nodiscard]] bool has_facet(int facet) const;
+
+ private:
+  static constexpr int kMaxRays = 2 * kMaxDimension * kMaxDimension;
+  struct Ray {
+    float reach;  ///< single precision: cells decide where to look, and there are many
+    int facet;    ///< kNone at first
+  };
+  static constexpr int kNone = -1;
+
+  int dimension_;
+  double circumradius_;
+  std::bitset<kMaxRays> marked_;
+  std::vector<Ray> rays_;
+};
+
+}  // namespace taut
