@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "atlas/atlas_file.h"
+
 namespace taut {
 namespace {
 
@@ -69,13 +71,17 @@ std::optional<double> flat_radius(const Frame& parent, const Frame& child, const
   return view.u_ab.norm() * std::sqrt(options.epsilon / left_by);
 }
 
-std::variant<Polytope, SampledPolytope> make_polytope(int dimension, double radius) {
+ChartPolytope make_polytope(int dimension, double radius) {
   if (dimension > Polytope::kMaxDimension) return SampledPolytope(dimension, kCube * radius);
   return Polytope(dimension, kCube * radius);
 }
 
 double circumradius(const Chart& chart) {
   return std::visit([](const auto& polytope) { return polytope.circumradius(); }, chart.polytope);
+}
+
+bool has_facet(const Chart& chart, int facet) {
+  return std::visit([facet](const auto& polytope) { return polytope.has_facet(facet); }, chart.polytope);
 }
 
 void clip(Chart& chart, const TangentVector& normal, double offset, int facet) {
@@ -128,22 +134,41 @@ Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options) : manifold_(
   }
 }
 
+Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options, const AtlasFile& file) : Atlas(manifold, options) {
+  file.require_on(manifold);
+  file_ = &file;
+  index_ = NeighbourIndex(file.places());
+  charts_.resize(file.size());
+}
+
+void Atlas::restore(int id) const {
+  auto chart = std::make_unique<Chart>(Chart{{}, file_->radius(id), file_->polytope(id), file_->complete(id)});
+  if (!manifold_.frame_at(file_->coordinates(id), chart->frame)) file_->fail_at(id, "its centre is outside the domain");
+  charts_[id] = std::move(chart);
+}
+
+Coordinates Atlas::coordinates(int id) const {
+  return charts_[id] ? Coordinates(charts_[id]->frame.coordinates()) : file_->coordinates(id);
+}
+
+bool Atlas::complete(int id) const { return charts_[id] ? charts_[id]->complete : file_->complete(id); }
+
 std::optional<int> Atlas::add(const Coordinates& coordinates) {
   ++frame_evaluations_;
   if (!manifold_.frame_at(coordinates, candidate_)) return std::nullopt;
   std::optional<int> same;
   index_.visit(NeighbourIndex::locate(candidate_.point()), 0, [&](int other) {
-    const Chart& chart = charts_[other];
+    const Chart& chart = restored(other);
     if ((chart.frame.point() - candidate_.point()).norm() <= kSamePoint * options_.radius) same = other;
   });
   return same ? *same : insert(options_.radius);
 }
 
 bool Atlas::expand(int chart_id, int budget, std::optional<int> target) {
-  Chart& chart = charts_[chart_id];  // a deque: stays where it is
-  if (chart.complete) return true;
+  if (complete(chart_id)) return true;
+  Chart& chart = restored(chart_id);
   TangentVector direction;
-  if (target) direction = chart.frame.tangent_coordinates(charts_[*target].frame.point());
+  if (target) direction = chart.frame.tangent_coordinates(restored(*target).frame.point());
   const int first_new = size();
   while (true) {
     const int corner = external_corner(chart, target ? &direction : nullptr);
@@ -156,7 +181,7 @@ bool Atlas::expand(int chart_id, int budget, std::optional<int> target) {
 // Tries the direction of an external corner at shorter and shorter distances. The corner is marked first: where a chart
 // comes to be, its bisector cuts the corner off; where none can be, the mark says that it was tried.
 void Atlas::grow_towards(int parent_id, int corner) {
-  Chart& parent = charts_[parent_id];
+  Chart& parent = restored(parent_id);
   const TangentVector direction = std::visit(
       [corner](auto& polytope) -> TangentVector {
         polytope.mark(corner);
@@ -187,13 +212,14 @@ void Atlas::grow_towards(int parent_id, int corner) {
 // The candidate becomes a chart. It meets its neighbours nearest first: then most of the others come too late to cut.
 int Atlas::insert(double radius) {
   const int id = size();
-  charts_.push_back({std::move(candidate_), radius, make_polytope(manifold_.dimension(), radius), false});
-  const auto centre = charts_[id].frame.point();
+  charts_.push_back(std::make_unique<Chart>(
+      Chart{std::move(candidate_), radius, make_polytope(manifold_.dimension(), radius), false}));
+  const auto centre = charts_[id]->frame.point();
   const double reach = kReach * radius;
   const NeighbourIndex::Point place = NeighbourIndex::locate(centre);
   near_.clear();
   index_.visit(place, reach,
-               [&](int other) { near_.emplace_back((charts_[other].frame.point() - centre).squaredNorm(), other); });
+               [&](int other) { near_.emplace_back((restored(other).frame.point() - centre).squaredNorm(), other); });
   std::sort(near_.begin(), near_.end());
   for (const auto& [squared_distance, other] : near_) separate(other, id, squared_distance);
   index_.insert(id, place, reach);
@@ -201,8 +227,8 @@ int Atlas::insert(double radius) {
 }
 
 void Atlas::separate(int a, int b, double squared_distance) {
-  Chart& chart_a = charts_[a];
-  Chart& chart_b = charts_[b];
+  Chart& chart_a = *charts_[a];
+  Chart& chart_b = *charts_[b];
   const double reach = std::min(kReach * std::max(chart_a.radius, chart_b.radius),
                                 2 * std::max(circumradius(chart_a), circumradius(chart_b)));
   if (squared_distance > reach * reach) return;
@@ -214,20 +240,27 @@ void Atlas::separate(int a, int b, double squared_distance) {
   clip(chart_b, view.u_ba, squared_distance / 2, a);
 }
 
-bool Atlas::grow_all() {
+bool Atlas::grow_all(const std::function<bool()>& go_on) {
   for (int id = 0; id < size(); ++id) {
-    if (!expand(id)) return false;
+    if ((go_on && !go_on()) || !expand(id)) return false;
   }
   return true;
 }
 
+// A polytope gains no facet of a chart that was there before it: what bounds a stored chart that nobody looked at bounds it yet.
+bool Atlas::is_bounded_by(int chart, int other) const {
+  return charts_[chart] ? has_facet(*charts_[chart], other) : file_->are_neighbours(chart, other);
+}
+
 std::vector<int> Atlas::neighbours(int chart) const {
-  const auto has_facet = [&](int other) {
-    return std::visit([&](const auto& polytope) { return polytope.has_facet(chart); }, charts_[other].polytope);
-  };
-  std::vector<int> result =
-      std::visit([](const auto& polytope) { return polytope.cutting_facets(); }, charts_[chart].polytope);
-  std::erase_if(result, [&](int other) { return !has_facet(other); });
+  std::vector<int> result;
+  if (charts_[chart]) {
+    result = std::visit([](const auto& polytope) { return polytope.cutting_facets(); }, charts_[chart]->polytope);
+  } else {
+    const std::span<const int> stored = file_->neighbours(chart);
+    result.assign(stored.begin(), stored.end());
+  }
+  std::erase_if(result, [&](int other) { return !is_bounded_by(other, chart); });
   return result;
 }
 

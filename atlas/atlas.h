@@ -20,9 +20,11 @@
 // "Randomized path planning on manifolds based on higher-dimensional continuation", 2012.
 #pragma once
 
-#include <deque>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -47,20 +49,29 @@ struct AtlasOptions {
   void validate() const;
 };
 
+using ChartPolytope = std::variant<Polytope, SampledPolytope>;  ///< sampled above Polytope::kMaxDimension
+
 struct Chart {
   Frame frame;
   double radius;
-  std::variant<Polytope, SampledPolytope> polytope;  ///< sampled above Polytope::kMaxDimension
-  bool complete = false;                             ///< no external corner is left that has not been tried
+  ChartPolytope polytope;
+  bool complete = false;  ///< no external corner is left that has not been tried
 
   /// Whether a point of the tangent space, at this distance from the centre, is in the ball, up to rounding.
   [[nodiscard]] bool covers(double distance) const { return distance <= radius * (1 + 1e-9); }
 };
 
+class AtlasFile;
+
 class Atlas {
  public:
   /// @throws std::invalid_argument for inconsistent options or dimensions that are not supported.
   Atlas(const Manifold& manifold, const AtlasOptions& options);
+
+  /// Begins with the charts of a file, which must outlive the atlas; nothing is read before it is needed. What the atlas then
+  /// does is what the saved one would have done. @pre `options` are the file's, but for max_charts.
+  /// @throws InputError if the file's charts do not lie on the manifold; so may all members whose business is a chart.
+  Atlas(const Manifold& manifold, const AtlasOptions& options, const AtlasFile& file);
 
   /// A chart centred at exactly these coordinates, or the chart that is centred at the same point already.
   /// nullopt outside the domain. Ignores max_charts.
@@ -71,14 +82,21 @@ class Atlas {
   /// @returns whether the chart is complete. False also at max_charts.
   bool expand(int chart, int budget = std::numeric_limits<int>::max(), std::optional<int> target = std::nullopt);
 
-  /// Expands every chart, in order of creation. @returns false at max_charts.
-  bool grow_all();
+  /// Expands every chart, in order of creation, as long as `go_on()`, if set. @returns whether all are complete; false at
+  /// max_charts.
+  bool grow_all(const std::function<bool()>& go_on = {});
 
   /// Charts that bound this one's polytope and are bounded by it, ascending.
   [[nodiscard]] std::vector<int> neighbours(int chart) const;
 
   [[nodiscard]] int size() const { return static_cast<int>(charts_.size()); }
-  [[nodiscard]] const Chart& chart(int id) const { return charts_[id]; }
+  /// Not thread-safe: a stored chart is restored when it is looked at first.
+  [[nodiscard]] const Chart& chart(int id) const { return restored(id); }
+  /// Of the chart's centre; cheaper than chart(id) where that was stored.
+  [[nodiscard]] Coordinates coordinates(int id) const;
+  [[nodiscard]] bool complete(int id) const;
+  /// The centres, as neighbours are looked up.
+  [[nodiscard]] NeighbourIndex::Entries places() const { return index_.tree(); }
   [[nodiscard]] const Manifold& manifold() const { return manifold_; }
   [[nodiscard]] const AtlasOptions& options() const { return options_; }
   [[nodiscard]] long distance_evaluations() const { return index_.distance_evaluations(); }
@@ -88,10 +106,17 @@ class Atlas {
   void grow_towards(int parent, int corner);
   int insert(double radius);
   void separate(int a, int b, double squared_distance);
+  Chart& restored(int id) const {
+    if (!charts_[id]) restore(id);
+    return *charts_[id];
+  }
+  void restore(int id) const;
+  bool is_bounded_by(int chart, int other) const;
 
   const Manifold& manifold_;
   AtlasOptions options_;
-  std::deque<Chart> charts_;
+  const AtlasFile* file_ = nullptr;
+  mutable std::vector<std::unique_ptr<Chart>> charts_;  ///< null: as in the file
   NeighbourIndex index_;
   Frame candidate_;                           ///< the frame about to become a chart
   std::vector<std::pair<double, int>> near_;  ///< buffer of insert(): squared distance, chart

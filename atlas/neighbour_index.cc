@@ -8,6 +8,14 @@ NeighbourIndex::Point NeighbourIndex::locate(const AmbientPoint& ambient_point) 
   return point;
 }
 
+NeighbourIndex::Entries NeighbourIndex::tree() const {
+  Entries all(stored_.begin(), stored_.end());
+  for (const Entries& tree : trees_) all.insert(all.end(), tree.begin(), tree.end());
+  all.insert(all.end(), recent_.begin(), recent_.end());
+  build(all, 0, all.size());
+  return all;
+}
+
 void NeighbourIndex::insert(int id, const Point& point, double reach) {
   recent_.push_back({point, reach, 0, id, 0});
   if (recent_.size() < kBucket) return;

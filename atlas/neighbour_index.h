@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "atlas/manifold.h"
@@ -23,21 +24,7 @@ class NeighbourIndex {
   /// The first kDimension coordinates of an ambient point, or all and zeros.
   [[nodiscard]] static Point locate(const AmbientPoint& ambient_point);
 
-  void insert(int id, const Point& point, double reach);
-
-  /// Calls visit(id) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that depends on the
-  /// insertions alone.
-  template <class Visit>
-  void visit(const Point& point, double reach, Visit&& visit) const {
-    scan(recent_, 0, recent_.size(), point, reach, visit);
-    for (const auto& tree : trees_) descend(tree, 0, tree.size(), point, reach, visit);
-  }
-
-  /// Distances computed so far: what a look-up costs, whatever the machine.
-  [[nodiscard]] long distance_evaluations() const { return distance_evaluations_; }
-
- private:
-  /// Also, in the middle of its range, the node of that range.
+  /// Also, in the middle of its range in a tree, the node of that range.
   struct Entry {
     Point point;
     double reach;
@@ -47,12 +34,34 @@ class NeighbourIndex {
   };
   using Entries = std::vector<Entry>;
 
+  NeighbourIndex() = default;
+  /// Begins with what tree() gave, without a copy: the memory must outlive the index.
+  explicit NeighbourIndex(std::span<const Entry> tree) : stored_(tree) {}
+
+  /// All points in one tree.
+  [[nodiscard]] Entries tree() const;
+
+  void insert(int id, const Point& point, double reach);
+
+  /// Calls visit(id) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that depends on the
+  /// insertions alone.
+  template <class Visit>
+  void visit(const Point& point, double reach, Visit&& visit) const {
+    scan(recent_, 0, recent_.size(), point, reach, visit);
+    descend(stored_, 0, stored_.size(), point, reach, visit);
+    for (const auto& tree : trees_) descend(tree, 0, tree.size(), point, reach, visit);
+  }
+
+  /// Distances computed so far: what a look-up costs, whatever the machine.
+  [[nodiscard]] long distance_evaluations() const { return distance_evaluations_; }
+
+ private:
   static constexpr std::size_t kBucket = 16;  ///< entries below which a scan beats a tree
 
   static void build(Entries& entries, std::size_t begin, std::size_t end);
 
   template <class Visit>
-  void scan(const Entries& entries, std::size_t begin, std::size_t end, const Point& point, double reach,
+  void scan(std::span<const Entry> entries, std::size_t begin, std::size_t end, const Point& point, double reach,
             Visit&& visit) const {
     distance_evaluations_ += static_cast<long>(end - begin);
     for (std::size_t e = begin; e < end; ++e) {
@@ -65,7 +74,7 @@ class NeighbourIndex {
   }
 
   template <class Visit>
-  void descend(const Entries& entries, std::size_t begin, std::size_t end, const Point& point, double reach,
+  void descend(std::span<const Entry> entries, std::size_t begin, std::size_t end, const Point& point, double reach,
                Visit&& visit) const {
     if (end - begin <= kBucket) return scan(entries, begin, end, point, reach, visit);
     const std::size_t middle = begin + (end - begin) / 2;
@@ -77,6 +86,7 @@ class NeighbourIndex {
     if (-gap <= limit) descend(entries, middle + 1, end, point, reach, visit);
   }
 
+  std::span<const Entry> stored_;  ///< one tree, or none
   Entries recent_;
   std::vector<Entries> trees_;  ///< trees_[k] holds kBucket * 2^k entries or none
   mutable long distance_evaluations_ = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "atlas/bytes.h"
+
 namespace taut {
 namespace {
 
@@ -38,10 +40,15 @@ int slot_of(const std::array<int, Polytope::kMaxDimension>& values, int value) {
   return static_cast<int>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
+double squared_norm(const Polytope::Vertex& vertex, int dimension) {
+  double sum = 0;
+  for (int k = 0; k < dimension; ++k) sum += vertex.position[k] * vertex.position[k];
+  return sum;
+}
+
 }  // namespace
 
-Polytope::Polytope(int dimension, double half_side)
-    : dimension_(dimension), half_side_(half_side), circumradius_(half_side * std::sqrt(dimension)) {
+Polytope::Polytope(int dimension, double half_side) : dimension_(dimension), half_side_(half_side) {
   vertices_.resize(std::size_t{1} << dimension);
   for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
     Vertex& vertex = vertices_[v];
@@ -51,8 +58,15 @@ Polytope::Polytope(int dimension, double half_side)
       vertex.facets[k] = -1 - 2 * k - upper;
       vertex.neighbours[k] = v ^ (1 << k);
     }
-    vertex.squared_norm = dimension * half_side * half_side;
+    vertex.squared_norm = squared_norm(vertex, dimension);
   }
+  measure();
+}
+
+void Polytope::measure() {
+  double largest = 0;
+  for (const Vertex& vertex : vertices_) largest = std::max(largest, vertex.squared_norm);
+  circumradius_ = std::sqrt(largest);
 }
 
 bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
@@ -88,12 +102,11 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
       const double t = std::min(1.0, std::max(0.0, -excess[w] / (excess[v] - excess[w])));  // w + t (v - w)
       Vertex vertex = vertices_[v];
       vertex.marked = false;
-      vertex.squared_norm = 0;
       for (int j = 0; j < n; ++j) {
         const double at_w = vertices_[w].position[j];
         vertex.position[j] = at_w + t * (vertex.position[j] - at_w);
-        vertex.squared_norm += vertex.position[j] * vertex.position[j];
       }
+      vertex.squared_norm = squared_norm(vertex, n);
       vertex.facets[k] = facet;  // the edge to w is the one that leaves it
       const int place = place_of(static_cast<int>(fresh.size()));
       fresh.push_back(vertex);
@@ -150,9 +163,7 @@ bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
     vertices_.pop_back();
   }
 
-  double largest = 0;
-  for (const Vertex& vertex : vertices_) largest = std::max(largest, vertex.squared_norm);
-  circumradius_ = std::sqrt(largest);
+  measure();
   return true;
 }
 
@@ -179,6 +190,75 @@ bool Polytope::has_facet(int facet) const {
     }
   }
   return false;
+}
+
+// ---- Bytes: half_side, then of each vertex position, facets, neighbours, marked ----------------------------------------
+
+namespace {
+
+std::size_t vertex_bytes(std::size_t n) { return n * (sizeof(double) + 2 * sizeof(int)) + sizeof(int); }
+
+}  // namespace
+
+void Polytope::append_bytes(std::string& bytes) const {
+  const auto n = static_cast<std::size_t>(dimension_);
+  append_values(bytes, &half_side_, 1);
+  for (const Vertex& vertex : vertices_) {
+    const int marked = vertex.marked ? 1 : 0;
+    append_values(bytes, vertex.position.data(), n);
+    append_values(bytes, vertex.facets.data(), n);
+    append_values(bytes, vertex.neighbours.data(), n);
+    append_values(bytes, &marked, 1);
+  }
+}
+
+std::optional<Polytope> Polytope::from_bytes(int dimension, std::span<const std::byte> bytes, int facet_end) {
+  const auto n = static_cast<std::size_t>(dimension);
+  double half_side = 0;
+  if (bytes.size() < sizeof half_side) return {};
+  take_values(bytes, &half_side, 1);
+  if (!(half_side > 0 && std::isfinite(half_side)) || bytes.empty() || bytes.size() % vertex_bytes(n) != 0) return {};
+  Polytope result(dimension, half_side);
+  result.vertices_.assign(bytes.size() / vertex_bytes(n), {});
+  for (Vertex& vertex : result.vertices_) {
+    int marked = 0;
+    take_values(bytes, vertex.position.data(), n);
+    take_values(bytes, vertex.facets.data(), n);
+    take_values(bytes, vertex.neighbours.data(), n);
+    take_values(bytes, &marked, 1);
+    vertex.marked = marked != 0;
+    vertex.squared_norm = squared_norm(vertex, dimension);
+  }
+  if (!result.is_simple(facet_end)) return {};
+  result.measure();
+  return result;
+}
+
+// What clip() relies on so as not to leave its arrays: each edge leads to a vertex that lies on all facets but the one that the
+// edge leaves, on another instead, and leads back. Then the two ends of each edge lie on different sets of facets, no two
+// edges join the same vertices, and a 2-face's vertices form cycles, which any cut crosses an even number of times.
+bool Polytope::is_simple(int facet_end) const {
+  const int n = dimension_;
+  const int count = static_cast<int>(vertices_.size());
+  const auto within = [n](const std::array<int, kMaxDimension>& values, int value) {
+    return slot_of(values, value) < n;
+  };
+  for (int v = 0; v < count; ++v) {
+    const Vertex& vertex = vertices_[v];
+    for (int k = 0; k < n; ++k) {
+      const int facet = vertex.facets[k];
+      if (facet < -2 * n || facet >= facet_end || slot_of(vertex.facets, facet) != k) return false;
+      if (!(std::abs(vertex.position[k]) <= half_side_ * (1 + 1e-9))) return false;
+      if (vertex.neighbours[k] < 0 || vertex.neighbours[k] >= count) return false;
+      const Vertex& other = vertices_[vertex.neighbours[k]];
+      const int back = slot_of(other.neighbours, v);
+      if (back >= n || within(vertex.facets, other.facets[back])) return false;
+      for (int j = 0; j < n; ++j) {
+        if (j != k && !within(other.facets, vertex.facets[j])) return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace taut

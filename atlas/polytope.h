@@ -9,6 +9,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "atlas/manifold.h"
@@ -57,7 +61,18 @@ class Polytope {
   [[nodiscard]] std::vector<int> cutting_facets() const;
   [[nodiscard]] bool has_facet(int facet) const;
 
+  /// Appends the polytope as stored in atlas files (docs/atlas-file.md).
+  void append_bytes(std::string& bytes) const;
+  /// The polytope that append_bytes wrote, bit for bit. nullopt for bytes that are no simple polytope inside of a cube with
+  /// cutting facets below `facet_end`, whoever wrote them. That its facets are flat, or that the origin is inside, is not
+  /// looked at: clip() gets along without.
+  [[nodiscard]] static std::optional<Polytope> from_bytes(int dimension, std::span<const std::byte> bytes,
+                                                          int facet_end);
+
  private:
+  void measure();
+  [[nodiscard]] bool is_simple(int facet_end) const;
+
   int dimension_;
   double half_side_;
   double circumradius_;

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "atlas/bytes.h"
 
 namespace taut {
 namespace {
@@ -76,6 +80,26 @@ std::vector<int> SampledPolytope::cutting_facets() const {
 
 bool SampledPolytope::has_facet(int facet) const {
   return std::any_of(rays_.begin(), rays_.end(), [facet](const Ray& ray) { return ray.facet == facet; });
+}
+
+void SampledPolytope::append_bytes(std::string& bytes) const {
+  append_values(bytes, &circumradius_, 1);
+  append_values(bytes, rays_.data(), rays_.size());
+  for (int k = 0; k < corners(); ++k) bytes += is_marked(k) ? '\1' : '\0';
+}
+
+std::optional<SampledPolytope> SampledPolytope::from_bytes(int dimension, std::span<const std::byte> bytes,
+                                                           int facet_end) {
+  SampledPolytope result(dimension, 1.0);
+  if (bytes.size() != sizeof circumradius_ + result.rays_.size() * (sizeof(Ray) + 1)) return {};
+  take_values(bytes, &result.circumradius_, 1);
+  take_values(bytes, result.rays_.data(), result.rays_.size());
+  for (int k = 0; k < result.corners(); ++k) {
+    const Ray& ray = result.rays_[k];
+    if (!(ray.reach > 0 && std::isfinite(ray.reach)) || ray.facet < kNone || ray.facet >= facet_end) return {};
+    if (bytes[k] != std::byte{0}) result.mark(k);
+  }
+  return std::isfinite(result.circumradius_) ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace taut

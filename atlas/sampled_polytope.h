@@ -12,6 +12,10 @@
 #pragma once
 
 #include <bitset>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "atlas/manifold.h"
@@ -44,6 +48,12 @@ class SampledPolytope {
   /// Names of the facets that end rays, ascending.
   [[nodiscard]] std::vector<int> cutting_facets() const;
   [[nodiscard]] bool has_facet(int facet) const;
+
+  /// Appends the polytope as stored in atlas files (docs/atlas-file.md).
+  void append_bytes(std::string& bytes) const;
+  /// The polytope that append_bytes wrote, bit for bit; nullopt for bytes that are none with cutting facets below `facet_end`.
+  [[nodiscard]] static std::optional<SampledPolytope> from_bytes(int dimension, std::span<const std::byte> bytes,
+                                                                 int facet_end);
 
  private:
   static constexpr int kMaxRays = 2 * kMaxDimension * kMaxDimension;

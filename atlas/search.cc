@@ -99,7 +99,7 @@ class Search {
   Coordinates base(int node) const {
     if (node == start_) return problem_.start;
     if (node == goal_) return problem_.goal;
-    return atlas_.chart(node).frame.coordinates();
+    return atlas_.coordinates(node);
   }
 
   // Start and goal are one point, perhaps under two names: a path of one edge.
