@@ -1,10 +1,10 @@
 #include "certify/box_proof.h"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 
+#include "certify/neumann.h"
 #include "kinematics/input_error.h"
 #include "kinematics/statics.h"
 
@@ -75,70 +75,15 @@ Model<Interval> outward(const Model<MpInterval>& fine) {
 }  // namespace
 
 ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
-  return {make_model<MpInterval>(problem), Evaluator<Centered<MpInterval>>(pose_tape(problem))};
+  return {make_model<MpInterval>(problem), make_motion_model<MpInterval>(problem)};
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
   const PrecisionScope precision(kModelPrecision);
-  return {outward(make_model<MpInterval>(problem)), Evaluator<Centered<Interval>>(pose_tape(problem))};
+  return {outward(make_model<MpInterval>(problem)), make_motion_model<Interval>(problem)};
 }
 
-// ---- Upper bounds of magnitudes --------------------------------------------------------------------------------------
-
 namespace {
-
-/// A nonnegative number; sums, products and quotients are rounded upward.
-template <class I>
-struct Scalars;
-
-template <>
-struct Scalars<Interval> {
-  using Point = double;  ///< entries of C: approximations, but exact numbers once chosen
-  using Upper = double;  ///< under run_upward(), plain double arithmetic rounds upward
-  static Point point(const Interval& x) { return midpoint_approx(x); }
-  static Interval symmetric(Upper radius) { return {-radius, radius}; }
-  static Upper one_minus_lower(Upper x) { return -(x - 1.0); }  // rounded down
-  static double to_double(Upper x) { return x; }
-};
-
-class BigUpper {
- public:
-  BigUpper() = default;
-  explicit(false) BigUpper(double x) : x_(x) {}
-  explicit BigUpper(BigFloat x) : x_(std::move(x)) {}
-  friend BigUpper operator+(const BigUpper& a, const BigUpper& b) { return up(mpfr_add, a, b); }
-  friend BigUpper operator*(const BigUpper& a, const BigUpper& b) { return up(mpfr_mul, a, b); }
-  friend BigUpper operator/(const BigUpper& a, const BigUpper& b) { return up(mpfr_div, a, b); }
-  BigUpper& operator+=(const BigUpper& b) { return *this = *this + b; }
-  friend bool operator<(const BigUpper& a, const BigUpper& b) { return a.x_ < b.x_; }
-  [[nodiscard]] const BigFloat& value() const { return x_; }
-
- private:
-  template <class F>
-  static BigUpper up(F function, const BigUpper& a, const BigUpper& b) {
-    return BigUpper(BigFloat::apply_rounded(MPFR_RNDU, function, a.x_, b.x_));
-  }
-  BigFloat x_;
-};
-
-template <>
-struct Scalars<MpInterval> {
-  using Point = BigFloat;
-  using Upper = BigUpper;
-  static Point point(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.lower(), x.upper()); }
-  static MpInterval symmetric(const Upper& radius) { return {-radius.value(), radius.value()}; }
-  static Upper one_minus_lower(const Upper& x) {
-    return Upper(BigFloat::apply_rounded(MPFR_RNDD, mpfr_sub, BigFloat(1.0), x.value()));
-  }
-  static double to_double(const Upper& x) { return x.value().to_double(MPFR_RNDU); }
-};
-
-/// Row-major 6x6; plain arrays keep the inner loops visible to the vectoriser.
-template <class T>
-using Square = std::array<std::array<T, 6>, 6>;
-
-template <class I>
-using UpperOf = typename Scalars<I>::Upper;
 
 /// row += factor * other, for an exact factor.
 template <class Point, class I>
@@ -146,84 +91,12 @@ void add_multiple(std::array<I, 6>& row, const Point& factor, const std::array<I
   for (std::size_t j = 0; j < 6; ++j) row[j] = row[j] + factor * other[j];
 }
 
-template <class Upper>
-Square<Upper> upper_product(const Square<Upper>& a, const Square<Upper>& b) {
-  Square<Upper> c;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) c[i][j] = a[i][0] * b[0][j];
-    for (std::size_t k = 1; k < 6; ++k) {
-      for (std::size_t j = 0; j < 6; ++j) c[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return c;
-}
-
-/// Q of (b) for N; nothing if ρ < 1 is not certain.
-template <class I>
-bool neumann_bound(const Square<UpperOf<I>>& n, Square<UpperOf<I>>& q) {
-  using Upper = UpperOf<I>;
-  std::array<Upper, 6> row_sum;
-  std::array<Upper, 6> column_max;
-  column_max.fill(Upper(0.0));
-  Upper rho(0.0);
-  for (std::size_t i = 0; i < 6; ++i) {
-    row_sum[i] = Upper(0.0);
-    for (std::size_t j = 0; j < 6; ++j) {
-      row_sum[i] += n[i][j];
-      column_max[j] = std::max(column_max[j], n[i][j]);
-    }
-    rho = std::max(rho, row_sum[i]);
-  }
-  if (!(rho < Upper(1.0))) return false;  // also where a NaN slipped in
-  const Upper gap = Scalars<I>::one_minus_lower(rho);
-  if (!(Upper(0.0) < gap)) return false;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Upper scaled = row_sum[i] / gap;
-    for (std::size_t j = 0; j < 6; ++j) q[i][j] = n[i][j] + scaled * column_max[j];
-  }
-  return true;
-}
-
-// ---- The segment and the box -----------------------------------------------------------------------------------------
-
-/// λ(t) = (1−t) λ_a + t λ_b over the box, one coordinate.
-template <class I>
-Centered<I> parameter(const I& start, const I& difference, const I& range, const I& mid) {
-  return {start + mid * difference, difference, start + range * difference};
-}
-
-template <class I>
-I waypoint_coordinate(const Waypoint& w, std::size_t j) {
-  I value(w.x[j]);
-  if (w.half_turns[j] != 0) value = value + I(static_cast<double>(w.half_turns[j])) * ScalarTraits<I>::pi();
-  return value;
-}
-
-template <class I>
-I coordinate_difference(const Waypoint& a, const Waypoint& b, std::size_t j) {
-  I difference = I(b.x[j]) - I(a.x[j]);
-  const int half_turns = b.half_turns[j] - a.half_turns[j];
-  if (half_turns != 0) difference = difference + I(static_cast<double>(half_turns)) * ScalarTraits<I>::pi();
-  return difference;
-}
-
-/// Parameters of a space that need no allocation.
-constexpr std::size_t kFewParameters = 8;
-
-template <class I>
-Pose<Centered<I>> pose_over(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b, const I& range,
-                            const I& mid) {
-  boost::container::small_vector<Centered<I>, kFewParameters> parameters;
-  for (std::size_t j = 0; j < a.x.size(); ++j) {
-    parameters.push_back(parameter(waypoint_coordinate<I>(a, j), coordinate_difference<I>(a, b, j), range, mid));
-  }
-  return evaluate_pose(problem.pose, std::span<const Centered<I>>(parameters.data(), parameters.size()));
-}
-
 }  // namespace
 
+// ---- The box ---------------------------------------------------------------------------------------------------------
+
 template <class I>
-BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box) {
+BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
   using Point = typename Scalars<I>::Point;
   using Upper = UpperOf<I>;
   const Model<I>& model = problem.model;
@@ -233,13 +106,11 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Waypoint& a, con
   result.offset = I(-radius, radius);
   const I& offset = result.offset;
 
-  Pose<Centered<I>> pose = pose_over(problem, a, b, I(box.lower(), box.upper()), I(box.mid()));
-  Matrix3<Centered<I>> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
-  for (int i = 0; i < 3; ++i) {
-    pose.p_WP(i).tighten(offset);
-    for (int j = 0; j < 3; ++j) r_WP(i, j).tighten(offset);
-  }
-  const CableGeometry<Centered<I>> geometry = cable_geometry(model, pose.p_WP, r_WP);
+  const MotionEnclosure<I> motion =
+      enclose_motion(problem.motion, segment, I(box.lower(), box.upper()), I(box.mid()), offset);
+  result.motion = motion.status;
+  if (motion.status == MotionEnclosure<I>::Status::kUnproved) return result;
+  const CableGeometry<Centered<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
   for (std::size_t i = 0; i < kCables; ++i) {
     result.length[i] = length(geometry.p_AB_W[i]);
     result.length[i].tighten(offset);
@@ -349,10 +220,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Waypoint& a, con
   return result;
 }
 
-template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Waypoint&, const Waypoint&,
-                                            const DyadicBox&);
-template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Waypoint&, const Waypoint&,
-                                              const DyadicBox&);
+template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
+template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);
 
 // ---- Margins ---------------------------------------------------------------------------------------------------------
 
@@ -392,14 +261,19 @@ double half_range(const Model<I>& model, MarginId id) {
 }
 
 template <class I>
-BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
-                 double clearance) {
+BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance) {
   static constexpr std::array<MarginSource<I>, 2> kSources = {length_margins<I>, tension_margins<I>};
-  const BoxEnclosure<I> enclosure = enclose_box(problem, a, b, box);
+  using Kind = BoxVerdict::Kind;
+  using Status = typename MotionEnclosure<I>::Status;
+  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box);
+  BoxVerdict verdict;
+  if (enclosure.motion == Status::kUnproved || enclosure.motion == Status::kOutOfRange) {
+    verdict.kind = enclosure.motion == Status::kUnproved ? Kind::kNoMotion : Kind::kOutOfRange;
+    return verdict;
+  }
   MarginList<I> margins;
   for (const MarginSource<I> source : kSources) source(problem.model, enclosure, margins);
 
-  BoxVerdict verdict;
   verdict.tension_N = verdict.length_m = verdict.wrench_scale = std::numeric_limits<double>::infinity();
   bool all_positive = true;
   bool midpoint_positive = true;
@@ -435,7 +309,6 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
       verdict.length_m = std::min(verdict.length_m, bound);
     }
   }
-  using Kind = BoxVerdict::Kind;
   if (refuted) {
     verdict.kind = Kind::kRefuted;
     verdict.worst = refuted_id;
@@ -444,7 +317,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
   } else if (!enclosure.regular) {
     verdict.kind = Kind::kNearSingular;
   } else if (all_positive) {
-    verdict.kind = Kind::kProved;
+    verdict.kind = enclosure.motion == Status::kKnown ? Kind::kProved : Kind::kSplit;
   } else {
     verdict.kind = midpoint_positive ? Kind::kSplit : Kind::kPrecision;
   }
@@ -453,30 +326,32 @@ BoxVerdict judge(const ProofModel<I>& problem, const Waypoint& a, const Waypoint
 
 }  // namespace
 
-BoxVerdict judge_box(const ProofModel<Interval>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
                      double clearance) {
   BoxVerdict verdict;
-  if (!run_upward([&] { verdict = judge(problem, a, b, box, clearance); })) verdict.kind = BoxVerdict::Kind::kFault;
+  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance); })) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
 
-BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
                      double clearance) {
   Faults<MpInterval>::clear();
-  BoxVerdict verdict = judge(problem, a, b, box, clearance);
+  BoxVerdict verdict = judge(problem, segment, box, clearance);
   if (Faults<MpInterval>::raised()) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
 
-int determinant_sign(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b, double s) {
+int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, double s) {
   Faults<MpInterval>::clear();
   const MpInterval point(s);
-  const Pose<Centered<MpInterval>> centred = pose_over(problem, a, b, point, point);
-  Pose<MpInterval> pose{Vector3<MpInterval>(centred.p_WP(0).at_mid, centred.p_WP(1).at_mid, centred.p_WP(2).at_mid),
-                        centred.phi.at_mid, centred.theta.at_mid, centred.sigma.at_mid};
+  const MotionEnclosure<MpInterval> motion = enclose_motion(problem.motion, segment, point, point, MpInterval(0.0));
+  if (motion.status == MotionEnclosure<MpInterval>::Status::kUnproved) return 0;
+  const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
+  const Vector3<MpInterval> p_WP = motion.p_WP.unaryExpr(at_mid);
+  const Matrix3<MpInterval> r_WP = motion.r_WP.unaryExpr(at_mid);
   Matrix6<MpInterval> inverse;
   MpInterval determinant;
-  const bool regular = invert(cable_geometry(problem.model, pose).force_density, inverse, determinant);
+  const bool regular = invert(cable_geometry(problem.model, p_WP, r_WP).force_density, inverse, determinant);
   if (!regular || Faults<MpInterval>::raised()) return 0;
   if (certainly_positive(determinant)) return 1;
   return certainly_positive(-determinant) ? -1 : 0;

@@ -19,6 +19,7 @@
 #include "certify/centered.h"
 #include "certify/interval.h"
 #include "certify/margin.h"
+#include "certify/motion.h"
 #include "certify/mp_interval.h"
 #include "kinematics/geometry.h"
 #include "kinematics/segment.h"
@@ -39,11 +40,11 @@ struct DyadicBox {
   bool operator==(const DyadicBox&) const = default;
 };
 
-/// The problem ready for scalar I: constants enclosed, pose expressions compiled.
+/// The problem ready for scalar I: constants enclosed, expressions compiled.
 template <class I>
 struct ProofModel {
   Model<I> model;
-  Evaluator<Centered<I>> pose;
+  MotionModel<I> motion;
 };
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.
@@ -54,6 +55,7 @@ struct ProofModel {
 /// What is known over one box.
 template <class I>
 struct BoxEnclosure {
+  typename MotionEnclosure<I>::Status motion;  ///< nothing below is set where the motion is unproved
   bool regular = false;                        ///< ρ < 1: J is non-singular on all of T, given positive lengths
   std::array<Centered<I>, kCables> length;     ///< d_i [m]
   std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
@@ -63,8 +65,7 @@ struct BoxEnclosure {
 
 /// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
 template <class I>
-[[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Waypoint& a, const Waypoint& b,
-                                          const DyadicBox& box);
+[[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box);
 
 /// Several margins of one box; positive throughout if the claim holds on it.
 template <class I>
@@ -101,6 +102,8 @@ struct BoxVerdict {
     kSplit,         ///< the midpoint is fine; the box is too wide
     kPrecision,     ///< at the midpoint itself this scalar can't tell
     kNearSingular,  ///< ρ < 1 could not be had: T is too wide, or D comes close to singular
+    kNoMotion,      ///< the motion is only implied, and was not proved to exist on all of T
+    kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
@@ -112,18 +115,15 @@ struct BoxVerdict {
 
 /// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins have to
 /// exceed c times half the range between the limits (in floating point; what is proved remains that they are positive).
-[[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Waypoint& a, const Waypoint& b,
-                                   const DyadicBox& box, double clearance = 0);
-[[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b,
-                                   const DyadicBox& box, double clearance = 0);
+[[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
+                                   double clearance = 0);
+[[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
+                                   double clearance = 0);
 
 /// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
-[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Waypoint& a, const Waypoint& b,
-                                   double s);
+[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, double s);
 
-extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Waypoint&, const Waypoint&,
-                                                   const DyadicBox&);
-extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Waypoint&, const Waypoint&,
-                                                     const DyadicBox&);
+extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
+extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);
 
 }  // namespace taut

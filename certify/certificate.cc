@@ -63,23 +63,37 @@ json to_json(const PathWitness& w) {
           {"limit", w.limit}};
 }
 
+const char* name(Interpolation law) {
+  return law == Interpolation::kStraight ? "straight-in-parameters" : "cubic-b-spline";
+}
+
 json path_json(const Path& path) {
   json waypoints = json::array();
   for (const Waypoint& waypoint : path.waypoints) {
     json x = json::array();
     for (const double value : waypoint.x) x.push_back(hex_float(value));
     waypoints.push_back({{"x", std::move(x)}, {"half_turns", waypoint.half_turns}});
+    if (waypoint.normals.empty()) continue;
+    json normals = json::array();
+    for (const double value : waypoint.normals) normals.push_back(hex_float(value));
+    waypoints.back()["normals"] = std::move(normals);
   }
-  return {{"interpolation", "straight-in-parameters"}, {"waypoints", std::move(waypoints)}};
+  json tubes = json::array();
+  for (const double tube : path.tubes) tubes.push_back(hex_float(tube));
+  return {
+      {"interpolation", name(path.interpolation)}, {"waypoints", std::move(waypoints)}, {"tubes", std::move(tubes)}};
 }
 
-json segments_json(const PathProof& proof) {
+json segments_json(const Path& path, const PathProof& proof) {
+  const std::size_t controls = control_points(path.interpolation);
   json segments = json::array();
   for (std::size_t k = 0; k < proof.segments.size(); ++k) {
     json boxes = json::array();
     for (const DyadicBox& box : proof.segments[k].boxes) boxes.push_back({dyadic(box.lower()), dyadic(box.upper())});
-    segments.push_back(
-        {{"from", k}, {"to", k + 1}, {"boxes", std::move(boxes)}, {"margins", to_json(proof.segment_margins[k])}});
+    segments.push_back({{"from", k},
+                        {"to", k + controls - 1},
+                        {"boxes", std::move(boxes)},
+                        {"margins", to_json(proof.segment_margins[k])}});
   }
   return segments;
 }
@@ -101,7 +115,7 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
   const bool refuted = proof.verdict == Verdict::kRefuted;
   json certificate = {
       {"format", "taut-certificate"},
-      {"version", 1},
+      {"version", kCertificateVersion},
       {"generator", {{"name", "taut"}, {"version", TAUT_VERSION}}},
       {"verdict", proved    ? "proved"
                   : refuted ? "refuted"
@@ -111,7 +125,7 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
                           : checker::kUndecidedClaim},
       {"problem", to_json(problem)},
       {"path", path_json(path)},
-      {"segments", proved ? segments_json(proof) : json::array()},
+      {"segments", proved ? segments_json(path, proof) : json::array()},
       {"margins", proved ? to_json(proof.margins) : json::object()},
       {"witness", refuted ? to_json(*proof.witness) : json()},
       {"undecided", proved || refuted ? json() : undecided_json(proof)},
@@ -127,26 +141,43 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
   return certificate;
 }
 
+namespace {
+
+std::vector<double> binary64s(const json& list) {
+  std::vector<double> values;
+  for (const json& text : list) {
+    const auto literal = text.get<std::string>();
+    std::size_t used = 0;
+    values.push_back(std::stod(literal, &used));
+    if (used != literal.size() || !std::isfinite(values.back())) {
+      throw InputError(fmt::format("path: got '{}', expected a finite binary64", literal));
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
 Path path_from_json(const json& path) {
   try {
     Path result;
+    const json& law = path.at("interpolation");
+    if (law == name(Interpolation::kCubicBSpline)) {
+      result.interpolation = Interpolation::kCubicBSpline;
+    } else if (law != name(Interpolation::kStraight)) {
+      throw InputError("path.interpolation: got " + law.dump());
+    }
     for (const json& entry : path.at("waypoints")) {
       Waypoint waypoint;
-      for (const json& text : entry.at("x")) {
-        const std::string literal = text.get<std::string>();
-        std::size_t used = 0;
-        const double value = std::stod(literal, &used);
-        if (used != literal.size() || !std::isfinite(value)) {
-          throw InputError(fmt::format("path: got '{}', expected a finite binary64", literal));
-        }
-        waypoint.x.push_back(value);
-      }
+      waypoint.x = binary64s(entry.at("x"));
       waypoint.half_turns = entry.at("half_turns").get<std::vector<int>>();
       if (waypoint.half_turns.size() != waypoint.x.size()) {
         throw InputError("path: half_turns and x differ in length");
       }
+      if (entry.contains("normals")) waypoint.normals = binary64s(entry["normals"]);
       result.waypoints.push_back(std::move(waypoint));
     }
+    result.tubes = binary64s(path.at("tubes"));
     return result;
   } catch (const json::exception& error) {
     throw InputError(std::string("path: ") + error.what());

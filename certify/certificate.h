@@ -8,6 +8,9 @@
 
 namespace taut {
 
+/// Of the format that is written.
+inline constexpr int kCertificateVersion = 2;
+
 /// SHA-256 of the canonical JSON of `value`, 64 lower-case hex digits.
 [[nodiscard]] std::string sha256(const nlohmann::json& value);
 
@@ -21,7 +24,7 @@ namespace taut {
 [[nodiscard]] nlohmann::json make_certificate(const Problem& problem, const Path& path, const PathProof& proof,
                                               nlohmann::json illustration);
 
-/// Waypoints of a certificate's `path`. @throws InputError for anything malformed.
+/// A certificate's `path`. @throws InputError for anything malformed.
 [[nodiscard]] Path path_from_json(const nlohmann::json& path);
 
 }  // namespace taut

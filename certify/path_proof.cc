@@ -44,13 +44,13 @@ const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   return problem.robot.length_m[cable].upper;
 }
 
-PathWitness make_witness(const Prover& prover, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
-                         MarginId margin, PathPoint at) {
+PathWitness make_witness(const Prover& prover, const Segment& segment, const DyadicBox& box, MarginId margin,
+                         PathPoint at) {
   PathWitness witness;
   witness.at = at;
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
-  const MpInterval value = prover.quantity_at_mid(a, b, box, margin);
+  const MpInterval value = prover.quantity_at_mid(segment, box, margin);
   witness.value_lower = decimal(value.lower(), kWitnessDigits, MPFR_RNDD);
   witness.value_upper = decimal(value.upper(), kWitnessDigits, MPFR_RNDU);
   return witness;
@@ -60,17 +60,16 @@ PathWitness make_witness(const Prover& prover, const Waypoint& a, const Waypoint
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known) {
   PathProof result;
-  const auto& waypoints = path.waypoints;
-  if (waypoints.size() < 2) {
-    if (waypoints.size() == 1) result.witness = refute_waypoint(prover, waypoints[0], 0, result.reason);
+  if (path.segments() == 0) {
+    if (path.waypoints.size() == 1) result.witness = refute_waypoint(prover, path.waypoints[0], 0, result.reason);
     if (result.witness) result.verdict = Verdict::kRefuted;
     if (result.reason.empty()) result.reason = "the path has no segment";
     return result;
   }
-  result.segments.resize(waypoints.size() - 1);
+  result.segments.resize(path.segments());
   tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
-    const SegmentProof* earlier = known ? known(waypoints[k], waypoints[k + 1]) : nullptr;
-    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(waypoints[k], waypoints[k + 1]);
+    const SegmentProof* earlier = known ? known(path.segment(k)) : nullptr;
+    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k));
   });
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
@@ -87,7 +86,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
         result.witness->at = at;
         result.witness->to = {true, static_cast<int>(k), witness.box.upper()};
       } else {
-        result.witness = make_witness(prover, waypoints[k], waypoints[k + 1], witness.box, witness.margin, at);
+        result.witness = make_witness(prover, path.segment(k), witness.box, witness.margin, at);
       }
     } else if (segment.verdict == Verdict::kUndecided && result.verdict == Verdict::kProved) {
       result.verdict = Verdict::kUndecided;
@@ -113,16 +112,20 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
 std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
                                            std::string& undecided) {
   const DyadicBox whole;
-  if (prover.prove(waypoint, waypoint).verdict == Verdict::kProved) return std::nullopt;
+  const Segment still = prover.segment(waypoint, waypoint);
+  if (prover.prove(still).verdict == Verdict::kProved) return std::nullopt;
   if (!prover.certainly_in_ranges(waypoint)) {
     undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
     return std::nullopt;
   }
-  const BoxVerdict verdict = prover.judge(waypoint, waypoint, whole);
+  const BoxVerdict verdict = prover.judge(still, whole);
   if (verdict.kind == BoxVerdict::Kind::kRefuted) {
-    return make_witness(prover, waypoint, waypoint, whole, verdict.worst, PathPoint{false, index, 0});
+    return make_witness(prover, still, whole, verdict.worst, PathPoint{false, index, 0});
   }
   undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
+              : verdict.kind == BoxVerdict::Kind::kNoMotion
+                  ? "no single pose on the constraints was proved to exist there"
+              : verdict.kind == BoxVerdict::Kind::kOutOfRange ? "a parameter is outside its closed range, or may be"
               : verdict.kind == BoxVerdict::Kind::kFault      ? "the pose or an equation is not defined there"
                                                               : "a margin vanishes there, or nearly so";
   return std::nullopt;

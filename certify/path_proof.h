@@ -43,8 +43,8 @@ struct PathProof {
   long boxes_judged = 0;
 };
 
-/// The proof of segment a→b if it was made before, else null: so that a planner's proofs are not made twice.
-using KnownProof = std::function<const SegmentProof*(const Waypoint& a, const Waypoint& b)>;
+/// The proof of a segment if it was made before, else null: so that a planner's proofs are not made twice.
+using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {});

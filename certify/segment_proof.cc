@@ -8,32 +8,32 @@
 #include "kinematics/input_error.h"
 
 namespace taut {
-namespace {
-
-constexpr mpfr_prec_t kRangePrecision = 256;
-
-}  // namespace
 
 Prover::Prover(const Problem& problem, ProofOptions options)
     : problem_(problem),
       options_(std::move(options)),
       fast_(make_proof_model(problem)),
       fine_(options_.ladder_bits.size()) {
-  const PrecisionScope precision(kRangePrecision);
-  for (const Parameter& parameter : problem_.space.parameters) {
-    constexpr double kEverything = std::numeric_limits<double>::infinity();
-    if (parameter.kind == ParameterKind::kRange) {
-      Faults<MpInterval>::clear();
-      const double lowest = upper_bound(evaluate_constant<MpInterval>(parameter.range_lower));
-      const double highest = lower_bound(evaluate_constant<MpInterval>(parameter.range_upper));
-      if (Faults<MpInterval>::raised()) {
-        throw InputError("space.parameters." + parameter.name + ": got a range whose ends are not defined");
-      }
-      ranges_.push_back({lowest, highest});
-    } else {
-      ranges_.push_back({-kEverything, kEverything});
-    }
+  if (!problem.space.constraints.empty()) constraints_.emplace(problem);
+}
+
+Segment Prover::segment(const Waypoint& a, const Waypoint& b) const {
+  Segment result = Segment::straight(a, b);
+  if (constraints_) result.tube = suitable_tube(result);
+  return result;
+}
+
+double Prover::suitable_tube(const Segment& segment) const {
+  constexpr int kSamples = 8;    // intervals of s
+  constexpr double kRoom = 4.0;  // times the largest |y| seen
+  constexpr double kLeast = 0x1p-30;
+  double largest = 0;
+  for (int k = 0; k <= kSamples; ++k) {
+    const std::optional<double> deviation = constraints_->deviation(segment, static_cast<double>(k) / kSamples);
+    if (!deviation) return 0;
+    largest = std::max(largest, *deviation);
   }
+  return std::exp2(std::ceil(std::log2(std::max(kRoom * largest, kLeast))));
 }
 
 const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
@@ -46,32 +46,45 @@ const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
 }
 
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
-  if (waypoint.x.size() != ranges_.size() || waypoint.half_turns.size() != ranges_.size()) return false;
-  for (std::size_t j = 0; j < ranges_.size(); ++j) {
-    if (!std::isfinite(waypoint.x[j]) || !(ranges_[j][0] <= waypoint.x[j] && waypoint.x[j] <= ranges_[j][1]))
+  if (waypoint.x.size() != fast_.motion.ranges.size() || waypoint.half_turns.size() != fast_.motion.ranges.size())
+    return false;
+  for (std::size_t j = 0; j < fast_.motion.ranges.size(); ++j) {
+    if (!std::isfinite(waypoint.x[j]) ||
+        !(fast_.motion.ranges[j][0] <= waypoint.x[j] && waypoint.x[j] <= fast_.motion.ranges[j][1]))
       return false;
     if (waypoint.half_turns[j] != 0 && problem_.space.parameters[j].kind != ParameterKind::kPeriodic) return false;
   }
   return true;
 }
 
-BoxVerdict Prover::judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
-                            double clearance) const {
-  if (rung == 0) return judge_box(fast_, a, b, box, clearance);
-  const PrecisionScope precision(options_.ladder_bits[rung - 1]);
-  return judge_box(fine(rung - 1), a, b, box, clearance);
+namespace {
+
+const char* undecided_reason(BoxVerdict::Kind kind) {
+  switch (kind) {
+    case BoxVerdict::Kind::kFault: return "the pose or an equation is not defined on all of the box";
+    case BoxVerdict::Kind::kNoMotion: return "no single motion on the constraints was proved to exist there";
+    default: return "the force Jacobian is singular or nearly so";
+  }
 }
 
-BoxVerdict Prover::judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const {
+}  // namespace
+
+BoxVerdict Prover::judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance) const {
+  if (rung == 0) return judge_box(fast_, segment, box, clearance);
+  const PrecisionScope precision(options_.ladder_bits[rung - 1]);
+  return judge_box(fine(rung - 1), segment, box, clearance);
+}
+
+BoxVerdict Prover::judge(const Segment& segment, const DyadicBox& box) const {
   BoxVerdict verdict;
   for (std::size_t rung = 0; rung <= fine_.size(); ++rung) {
-    verdict = judge_at(rung, a, b, box, 0);
+    verdict = judge_at(rung, segment, box, 0);
     if (verdict.kind == BoxVerdict::Kind::kProved || verdict.kind == BoxVerdict::Kind::kRefuted) break;
   }
   return verdict;
 }
 
-SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearance) const {
+SegmentProof Prover::prove(const Segment& segment, double clearance) const {
   using Kind = BoxVerdict::Kind;
   struct Task {
     DyadicBox box;
@@ -85,7 +98,8 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
     proof.reason = std::move(reason);
   };
 
-  if (!certainly_in_ranges(a) || !certainly_in_ranges(b)) {
+  const auto in_ranges = [&](const Waypoint* waypoint) { return certainly_in_ranges(*waypoint); };
+  if (!std::ranges::all_of(segment.controls(), in_ranges)) {
     give_up({}, "a waypoint lies outside the closed range of a parameter, or may");
     return proof;
   }
@@ -103,7 +117,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
       give_up(box, "interrupted");
       return proof;
     }
-    const BoxVerdict verdict = judge_at(rung, a, b, box, clearance);
+    const BoxVerdict verdict = judge_at(rung, segment, box, clearance);
 
     const bool higher_rung = rung < fine_.size();
     const bool may_split = box.depth < options_.max_depth;
@@ -143,6 +157,8 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
           return proof;
         }
         break;
+      case Kind::kOutOfRange: give_up(box, "a parameter leaves its closed range, or may"); return proof;
+      case Kind::kNoMotion:
       case Kind::kNearSingular:
       case Kind::kFault:
         if (box.depth < options_.singular_depth) {
@@ -151,8 +167,8 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
           climb();
         } else if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth) {
           const PrecisionScope precision(options_.ladder_bits.back());
-          const int sign_lower = determinant_sign(fine(fine_.size() - 1), a, b, box.lower());
-          const int sign_upper = determinant_sign(fine(fine_.size() - 1), a, b, box.upper());
+          const int sign_lower = determinant_sign(fine(fine_.size() - 1), segment, box.lower());
+          const int sign_upper = determinant_sign(fine(fine_.size() - 1), segment, box.upper());
           if (sign_lower * sign_upper < 0) {
             proof.verdict = Verdict::kRefuted;
             proof.witness = SegmentWitness{true, {}, box};
@@ -162,8 +178,7 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
         } else if (may_split && box.depth < 2 * options_.singular_depth) {
           split();
         } else {
-          give_up(box, verdict.kind == Kind::kFault ? "the pose or an equation is not defined on all of the box"
-                                                    : "the force Jacobian is singular or nearly so");
+          give_up(box, undecided_reason(verdict.kind));
           return proof;
         }
         break;
@@ -173,10 +188,10 @@ SegmentProof Prover::prove(const Waypoint& a, const Waypoint& b, double clearanc
   return proof;
 }
 
-MpInterval Prover::quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box, MarginId margin) const {
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
   const PrecisionScope precision(options_.ladder_bits.back());
   Faults<MpInterval>::clear();
-  const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(fine_.size() - 1), a, b, box);
+  const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(fine_.size() - 1), segment, box);
   if (Faults<MpInterval>::raised()) throw std::logic_error("a refuted midpoint has no enclosure");
   const auto n = static_cast<std::size_t>(margin.cable);
   const MpInterval& length = enclosure.length[n].at_mid;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/box_proof.h"
+#include "kinematics/constraint_functions.h"
 
 namespace taut {
 
@@ -54,17 +55,24 @@ class Prover {
   /// @throws InputError if the problem can't be enclosed (E not positive definite).
   explicit Prover(const Problem& problem, ProofOptions options = {});
 
-  /// Claim (docs/certificate-format.md): parameters stay in their closed ranges, and for every s in [0, 1] and every wrench in K at γ(s), J is non-singular and all
-  /// tensions and lengths are strictly inside their limits. With a clearance (judge_box) the proof also fails, as
+  /// The straight segment a→b; where the space has constraints, with a tube that suits it: the least power of two that leaves
+  /// room around what floating point finds on the constraints (0, which proves nothing, where it finds nothing).
+  [[nodiscard]] Segment segment(const Waypoint& a, const Waypoint& b) const;
+  [[nodiscard]] double suitable_tube(const Segment& segment) const;
+
+  /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay in their closed
+  /// ranges, and for every wrench in K at γ(s), J is non-singular and all tensions and lengths are strictly inside their limits. With a clearance (judge_box) the proof also fails, as
   /// undecided, where the segment comes closer to a limit than that. Thread-safe; restores the caller's rounding mode.
-  [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0) const;
+  [[nodiscard]] SegmentProof prove(const Segment& segment, double clearance = 0) const;
+  [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0) const {
+    return prove(segment(a, b), clearance);
+  }
 
   /// One box, at the cheapest rung that decides it.
-  [[nodiscard]] BoxVerdict judge(const Waypoint& a, const Waypoint& b, const DyadicBox& box) const;
+  [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;
 
   /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the highest precision.
-  [[nodiscard]] MpInterval quantity_at_mid(const Waypoint& a, const Waypoint& b, const DyadicBox& box,
-                                           MarginId margin) const;
+  [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
 
   /// Whether λ lies in the closed ranges of the parameters, certainly. Then so does every segment between two such waypoints.
   [[nodiscard]] bool certainly_in_ranges(const Waypoint& waypoint) const;
@@ -76,13 +84,12 @@ class Prover {
   std::atomic<bool>* interrupt = nullptr;
 
  private:
-  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Waypoint& a, const Waypoint& b, const DyadicBox& box,
+  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box,
                                     double clearance) const;
 
   Problem problem_;
   ProofOptions options_;
-  /// The binary64 numbers that lie certainly inside each parameter's closed range; all of them where it has none.
-  std::vector<std::array<double, 2>> ranges_;
+  std::optional<ConstraintFunctions> constraints_;
   ProofModel<Interval> fast_;
   /// One a rung of the ladder, made when first needed: most problems never climb it.
   struct Rung {

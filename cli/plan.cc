@@ -145,7 +145,10 @@ class ProvedEdges {
     return proved;
   }
 
-  [[nodiscard]] const SegmentProof* find(const Waypoint& a, const Waypoint& b) const {
+  [[nodiscard]] const SegmentProof* find(const Segment& segment) const {
+    if (segment.law != Interpolation::kStraight) return nullptr;
+    const Waypoint& a = *segment.control[0];
+    const Waypoint& b = *segment.control[1];
     const auto shifted = [](int half_turns) { return half_turns != 0; };
     if (std::ranges::any_of(a.half_turns, shifted) || std::ranges::any_of(b.half_turns, shifted)) return nullptr;
     const auto it = proofs_.find({a.x, b.x});
@@ -325,8 +328,7 @@ Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& pro
   }
 
   start = Clock::now();
-  result.proof =
-      prove_path(prover, result.path, [&](const Waypoint& a, const Waypoint& b) { return edges.find(a, b); });
+  result.proof = prove_path(prover, result.path, [&](const Segment& segment) { return edges.find(segment); });
   statistics.prove_seconds += seconds_since(start);
   return result;
 }

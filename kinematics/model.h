@@ -57,6 +57,8 @@ template <class S>
 
 /// The tape of the six pose expressions px, py, pz, phi, theta, sigma over the problem's parameters.
 [[nodiscard]] ExpressionTape pose_tape(const Problem& problem);
+/// The tape of the space's constraints.
+[[nodiscard]] ExpressionTape constraint_tape(const Problem& problem);
 
 template <class S>
 [[nodiscard]] Pose<S> evaluate_pose(const Evaluator<S>& pose, std::span<const S> parameters) {

@@ -79,10 +79,18 @@ Model<S> make_model(const Problem& problem) {
   return model;
 }
 
-inline ExpressionTape pose_tape(const Problem& problem) {
+inline ExpressionTape tape_of(const SpaceText& space, const std::vector<ExpressionText>& expressions) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : problem.space.parameters) names.push_back(parameter.name);
-  return ExpressionTape({problem.space.pose.begin(), problem.space.pose.end()}, names, problem.space.constants);
+  for (const Parameter& parameter : space.parameters) names.push_back(parameter.name);
+  return ExpressionTape(expressions, names, space.constants);
+}
+
+inline ExpressionTape pose_tape(const Problem& problem) {
+  return tape_of(problem.space, {problem.space.pose.begin(), problem.space.pose.end()});
+}
+
+inline ExpressionTape constraint_tape(const Problem& problem) {
+  return tape_of(problem.space, problem.space.constraints);
 }
 
 }  // namespace taut

@@ -95,7 +95,7 @@ const json& expect_list(const json& value, const std::string& where) {
 }
 
 SpaceText read_space(const json& value) {
-  expect_keys(value, "space", {"parameters", "constants", "flip", "pose"});
+  expect_keys(value, "space", {"parameters", "constants", "flip", "pose", "constraints"});
   SpaceText space;
   for (const json& parameter : expect_list(value["parameters"], "space.parameters")) {
     space.parameters.push_back(read_parameter(parameter, fmt::format("space.parameters[{}]", space.parameters.size())));
@@ -116,6 +116,10 @@ SpaceText read_space(const json& value) {
   expect_keys(value["pose"], "space.pose", {"px", "py", "pz", "phi", "theta", "sigma"});
   for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
     read(value["pose"][kPoseNames[i]], fmt::format("space.pose.{}", kPoseNames[i]), space.pose[i]);
+  }
+  for (const json& constraint : expect_list(value["constraints"], "space.constraints")) {
+    const std::string here = fmt::format("space.constraints[{}]", space.constraints.size());
+    read(constraint, here, space.constraints.emplace_back());
   }
   return space;
 }
@@ -273,6 +277,37 @@ void validate_periods(const SpaceText& space, const ExpressionTape& pose) {
   }
 }
 
+void validate_constraints(const SpaceText& space, const std::vector<std::string>& names) {
+  if (space.constraints.empty()) return;
+  if (space.parameters.size() > kMaxConstrainedParameters) {
+    throw FieldError("space.parameters", fmt::format("{} parameters", space.parameters.size()),
+                     fmt::format("expected at most {} in a space with constraints", kMaxConstrainedParameters));
+  }
+  if (space.constraints.size() >= space.parameters.size()) {
+    throw FieldError("space.constraints", fmt::format("{} constraints", space.constraints.size()),
+                     fmt::format("expected fewer than the {} parameters", space.parameters.size()));
+  }
+  for (std::size_t i = 0; i < space.constraints.size(); ++i) {
+    const std::string here = fmt::format("space.constraints[{}]", i);
+    const ExpressionTape tape =
+        at(here, [&] { return ExpressionTape({space.constraints[i]}, names, space.constants); });
+    for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+      if (space.parameters[j].kind == ParameterKind::kPeriodic && tape.turns(0, static_cast<int>(j)) != 0) {
+        throw FieldError(
+            here, "'" + space.constraints[i] + "'",
+            fmt::format("expected the same value when the periodic parameter {} grows by 2*pi, and plainly so",
+                        space.parameters[j].name));
+      }
+      if (space.flip && tape.depends_on(0, static_cast<int>(j)) &&
+          (static_cast<int>(j) == (*space.flip)[0] || static_cast<int>(j) == (*space.flip)[1])) {
+        throw FieldError(here, "'" + space.constraints[i] + "'",
+                         "expected no mention of phi and theta where they flip");
+      }
+    }
+  }
+  at("space.constraints", [&] { return ExpressionTape(space.constraints, names, space.constants); });
+}
+
 void validate_space(const SpaceText& space) {
   if (space.parameters.empty()) fail("space.parameters", "expected at least one parameter");
   std::vector<std::string> names;
@@ -295,6 +330,7 @@ void validate_space(const SpaceText& space) {
   });
   validate_periods(space, pose);
   if (space.flip) validate_flip(space, pose);
+  validate_constraints(space, names);
 }
 
 /// A pose that is undefined at a waypoint, or everywhere, is a mistake; elsewhere it is the proof's affair.
@@ -369,7 +405,8 @@ json to_json(const Problem& problem) {
            {{"parameters", std::move(parameters)},
             {"constants", problem.space.constants},
             {"flip", std::move(flip)},
-            {"pose", std::move(pose)}}},
+            {"pose", std::move(pose)},
+            {"constraints", problem.space.constraints}}},
           {"query", {{"waypoints", problem.query}}}};
 }
 

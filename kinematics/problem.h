@@ -57,11 +57,17 @@ struct Parameter {
 struct SpaceText {
   std::vector<Parameter> parameters;
   std::map<std::string, DecimalText> constants;
-  /// Indices of the parameters that are phi and theta themselves, where (phi, theta) ~ (phi + pi, -theta).
+  /// Indices of the parameters that are phi and theta themselves, where (phi, theta) ~ (phi + pi, -theta); no constraint
+  /// mentions them then.
   std::optional<std::array<int, 2>> flip;
   /// px, py, pz [m], phi, theta, sigma [rad].
   std::array<ExpressionText, 6> pose;
+  /// C of the paper's (15): poses must make each of them 0. Fewer than the parameters, of full rank along a path.
+  std::vector<ExpressionText> constraints;
 };
+
+/// Parameters that a space with constraints may have.
+inline constexpr int kMaxConstrainedParameters = 6;
 
 inline constexpr std::array<const char*, 6> kPoseNames = {"px", "py", "pz", "phi", "theta", "sigma"};
 

@@ -2,21 +2,113 @@
 //
 // Waypoint k is the parameter vector λ_k with λ_kj = x_kj + π half_turns_kj: binary64 numbers and integers, so that a pose
 // reached the other way round a periodic angle is still exactly the pose that was asked for.
+//
+// A segment is a curve ℓ(s), s in [0, 1], through parameter space, polynomial in s with the waypoints as control points:
+//   straight           ℓ(s) = (1−s) λ_0 + s λ_1
+//   cubic B-spline     ℓ(s) = ((1−s)^3 λ_0 + (3s^3−6s^2+4) λ_1 + (−3s^3+3s^2+3s+1) λ_2 + s^3 λ_3) / 6
+// Successive segments share all but one control point; a spline of them has a continuous second derivative and passes
+// through a control point that stands three times in a row.
+//
+// Without constraints the motion is γ(s) = pose(ℓ(s)). With k constraints C(λ) = 0 (SpaceText::constraints) ℓ is not on
+// them: the motion is γ(s) = pose(ℓ(s) + N(s) y(s)), where N(s) mixes the waypoints' normals as ℓ mixes the waypoints, and
+// y(s) is the only zero of C(ℓ(s) + N(s) y) with |y_i| <= `tube` for all i. That there is exactly one is for the proof to show.
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
+
+#include "kinematics/scalar.h"
 
 namespace taut {
 
 struct Waypoint {
   std::vector<double> x;        ///< one a parameter [m, rad], finite
   std::vector<int> half_turns;  ///< one a parameter; non-zero only where it is periodic
+  /// N by rows, one row a parameter and one column a constraint; empty in a space without constraints.
+  std::vector<double> normals = {};
   bool operator==(const Waypoint&) const = default;
 };
 
-/// Straight in the parameters between consecutive waypoints: γ_k(s) = pose((1−s) λ_k + s λ_{k+1}).
+enum class Interpolation { kStraight, kCubicBSpline };
+
+/// The number of control points of one segment.
+[[nodiscard]] constexpr std::size_t control_points(Interpolation law) {
+  return law == Interpolation::kStraight ? 2 : 4;
+}
+
+/// One segment of a path; refers to waypoints that outlive it.
+struct Segment {
+  Interpolation law = Interpolation::kStraight;
+  std::array<const Waypoint*, 4> control{};
+  double tube = 0;  ///< bound of |y_i|; only in a space with constraints
+
+  [[nodiscard]] static Segment straight(const Waypoint& a, const Waypoint& b, double tube = 0) {
+    return {Interpolation::kStraight, {&a, &b}, tube};
+  }
+  [[nodiscard]] std::span<const Waypoint* const> controls() const { return {control.data(), control_points(law)}; }
+};
+
 struct Path {
   std::vector<Waypoint> waypoints;
+  Interpolation interpolation = Interpolation::kStraight;
+  std::vector<double> tubes = {};  ///< one a segment, in a space with constraints; else empty
+
+  [[nodiscard]] std::size_t segments() const {
+    const std::size_t controls = control_points(interpolation);
+    return waypoints.size() < controls ? 0 : waypoints.size() - controls + 1;
+  }
+  /// Segment k; of a path of a single waypoint, segment 0 is that pose.
+  [[nodiscard]] Segment segment(std::size_t k) const {
+    const double tube = k < tubes.size() ? tubes[k] : 0;
+    if (segments() == 0) return Segment::straight(waypoints.front(), waypoints.front(), tube);
+    Segment segment{interpolation, {}, tube};
+    for (std::size_t i = 0; i < control_points(interpolation); ++i) segment.control[i] = &waypoints[k + i];
+    return segment;
+  }
 };
+
+/// One coordinate of a segment as a polynomial in s, in scalar S; exact up to S's rounding.
+template <class S>
+struct Polynomial {
+  std::array<S, 4> c;
+  bool cubic;
+
+  [[nodiscard]] S at(const S& s) const { return cubic ? c[0] + s * (c[1] + s * (c[2] + s * c[3])) : c[0] + s * c[1]; }
+  [[nodiscard]] S slope(const S& s) const { return cubic ? c[1] + s * (c[2] + c[2] + s * (c[3] + c[3] + c[3])) : c[1]; }
+};
+
+/// Of control values q_i, given the first value of q_1 (or q_0, straight) and the differences q_{i+1} − q_i.
+template <class S>
+[[nodiscard]] Polynomial<S> bspline_polynomial(const S& q1, const S& d01, const S& d12, const S& d23) {
+  const S half(0.5);
+  const S six(6.0);
+  return {{q1 + (d12 - d01) / six, half * (d01 + d12), half * (d12 - d01), (d23 - d12 - (d12 - d01)) / six}, true};
+}
+
+/// ℓ_j.
+template <class S>
+[[nodiscard]] Polynomial<S> coordinate_polynomial(const Segment& segment, std::size_t j) {
+  const auto turns = [](int n) { return S(static_cast<double>(n)) * ScalarTraits<S>::pi(); };
+  const auto value = [&](const Waypoint& w) {
+    const S x(w.x[j]);
+    return w.half_turns[j] == 0 ? x : x + turns(w.half_turns[j]);
+  };
+  const auto difference = [&](const Waypoint& a, const Waypoint& b) {
+    const S x = S(b.x[j]) - S(a.x[j]);
+    return a.half_turns[j] == b.half_turns[j] ? x : x + turns(b.half_turns[j] - a.half_turns[j]);
+  };
+  const auto& q = segment.control;
+  if (segment.law == Interpolation::kStraight) return {{value(*q[0]), difference(*q[0], *q[1]), S(0.0), S(0.0)}, false};
+  return bspline_polynomial(value(*q[1]), difference(*q[0], *q[1]), difference(*q[1], *q[2]), difference(*q[2], *q[3]));
+}
+
+/// Entry `index` of N, as stored.
+template <class S>
+[[nodiscard]] Polynomial<S> normal_polynomial(const Segment& segment, std::size_t index) {
+  const auto value = [&](std::size_t i) { return S(segment.control[i]->normals[index]); };
+  if (segment.law == Interpolation::kStraight) return {{value(0), value(1) - value(0), S(0.0), S(0.0)}, false};
+  return bspline_polynomial<S>(value(1), value(1) - value(0), value(2) - value(1), value(3) - value(2));
+}
 
 }  // namespace taut

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "certify/certificate.h"
 #include "kinematics/input_error.h"
 
 namespace taut {
@@ -134,8 +135,8 @@ void read_illustration(const json& illustration, CertificateView& view) {
 
 CertificateView read(const json& certificate) {
   CertificateView view;
-  if (certificate.at("format") != "taut-certificate" || certificate.at("version") != 1) {
-    throw InputError("certificate: expected format \"taut-certificate\", version 1");
+  if (certificate.at("format") != "taut-certificate" || certificate.at("version") != kCertificateVersion) {
+    throw InputError("certificate: expected format \"taut-certificate\", version 2");
   }
   const json& generator = certificate.at("generator");
   view.generator = generator.value("name", "") + " " + generator.value("version", "");

@@ -93,7 +93,8 @@ Expression constant(const Json& json, const std::string& where) { return Express
 
 void read_space(const Json& json, Problem& problem) {
   const std::string where = "problem.space";
-  object(json, where, {"parameters", "constants", "flip", "pose"});
+  object(json, where, {"parameters", "constants", "flip", "pose", "constraints"});
+  array(json["constraints"], where + ".constraints", 0);
 
   std::map<std::string, mpq_class> constants;
   if (!json["constants"].is_object()) fail(where + ".constants", "an object");
@@ -215,7 +216,8 @@ Problem read_problem(const Json& json) {
 }
 
 std::vector<Waypoint> read_path(const Json& json, const Problem& problem) {
-  object(json, "path", {"interpolation", "waypoints"});
+  object(json, "path", {"interpolation", "waypoints", "tubes"});
+  array(json["tubes"], "path.tubes", 0);
   if (json["interpolation"] != "straight-in-parameters") fail("path.interpolation", "'straight-in-parameters'");
   const Json& waypoints = array(json["waypoints"], "path.waypoints");
   const std::size_t n = problem.parameters.size();
@@ -389,7 +391,7 @@ Certificate read_certificate(const nlohmann::json& json) {
          {"format", "version", "generator", "verdict", "claim", "problem", "problem_sha256", "path", "path_sha256",
           "segments", "margins", "witness", "undecided", "illustration", "footer"});
   if (json["format"] != "taut-certificate") fail("format", "'taut-certificate'");
-  integer(json["version"], "version", 1, 1);
+  integer(json["version"], "version", 2, 2);
   if (!json["generator"].is_object()) fail("generator", "an object");
 
   // Is this the whole file, as it was written?

@@ -15,7 +15,9 @@ CLAIMS = {
     'proved': 'For every s along the path and every wrench w in K at gamma(s): the force Jacobian J is non-singular, '
               'the unique f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < d_hi,i, for all six '
               'cables i = 1..6. Here gamma is the path given by its exact waypoints and interpolation law, and robot, '
-              'load and limits are the exact decimals of the problem.',
+              'load and limits are the exact decimals of the problem. Where the space has constraints, gamma(s) is the pose '
+              'that fulfils them in the tube around that law\'s curve; that there is exactly one for every s is part of '
+              'the claim.',
     'refuted': 'The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension '
                'outside its open limits, or a cable length is outside its open limits, or the force Jacobian J is '
                'singular at some pose between the two witness poses.',
@@ -73,12 +75,12 @@ ROBOT2 = octahedral([('0', '0.3', '0'), ('-0.2598076', '-0.15', '0'), ('0.259807
 
 SLICE = {'parameters': [{'name': 'phi', 'kind': 'periodic'}, {'name': 'theta', 'kind': 'real'}], 'constants': {},
          'flip': [0, 1], 'pose': {'px': '0', 'py': '0', 'pz': '0.35', 'phi': 'phi', 'theta': 'theta',
-                                  'sigma': '(34)*pi/180'}}
+                                  'sigma': '(34)*pi/180'}, 'constraints': []}
 SPHERE = {'parameters': [{'name': 'alpha1', 'kind': 'periodic'},
                          {'name': 'alpha2', 'kind': 'range', 'range': ['-pi/2', 'pi/2']}],
           'constants': {'rs': '0.13', 'zs': '0.306'}, 'flip': None,
           'pose': {'px': 'rs*cos(alpha2)*cos(alpha1)', 'py': 'rs*cos(alpha2)*sin(alpha1)', 'pz': 'zs - rs*sin(alpha2)',
-                   'phi': 'alpha1 - pi', 'theta': 'pi/2 - alpha2', 'sigma': '0'}}
+                   'phi': 'alpha1 - pi', 'theta': 'pi/2 - alpha2', 'sigma': '0'}, 'constraints': []}
 
 
 def problem(name, robot, space, query):
@@ -182,9 +184,9 @@ def dyadic(k, m):
 
 
 def certificate(pr, waypoints, verdict, **more):
-    c = {'format': 'taut-certificate', 'version': 1, 'generator': {'name': 'make_certificates.py', 'version': '1'},
+    c = {'format': 'taut-certificate', 'version': 2, 'generator': {'name': 'make_certificates.py', 'version': '1'},
          'verdict': verdict, 'claim': CLAIMS[verdict], 'problem': pr,
-         'path': {'interpolation': 'straight-in-parameters', 'waypoints': waypoints}, 'segments': [], 'margins': {},
+         'path': {'interpolation': 'straight-in-parameters', 'waypoints': waypoints, 'tubes': []}, 'segments': [], 'margins': {},
          'witness': None, 'undecided': None, 'illustration': None}
     c.update(more)
     return seal(c)

@@ -101,11 +101,11 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
   MarginList<I> margins;
   BoxVerdict verdict;
   const bool sound = A::run([&] {
-    enclosure = enclose_box(model, a, b, box);
+    enclosure = enclose_box(model, Segment::straight(a, b), box);
     length_margins(model.model, enclosure, margins);
     tension_margins(model.model, enclosure, margins);
   });
-  (void)A::run([&] { verdict = judge_box(model, a, b, box); });
+  (void)A::run([&] { verdict = judge_box(model, Segment::straight(a, b), box); });
   if (!sound) {
     ++tally.faults;
     EXPECT_EQ(verdict.kind, BoxVerdict::Kind::kFault) << where;
@@ -286,11 +286,11 @@ TEST(BoxProof, ProvesAPoseWithinItsLimitsAndRefutesOneBeyond) {
   const Problem problem = robot1_slice();
   const ProofModel<Interval> model = make_proof_model(problem);
   const Waypoint goal{{1.7, 1.7}, {0, 0}};
-  const BoxVerdict proved = judge_box(model, goal, goal, {0, 0});
+  const BoxVerdict proved = judge_box(model, Segment::straight(goal, goal), {0, 0});
   EXPECT_EQ(proved.kind, BoxVerdict::Kind::kProved);
   EXPECT_GT(proved.tension_N, 0.0);
   const Waypoint slack{{0.0, 1.9}, {0, 0}};
-  const BoxVerdict refuted = judge_box(model, slack, slack, {0, 0});
+  const BoxVerdict refuted = judge_box(model, Segment::straight(slack, slack), {0, 0});
   EXPECT_EQ(refuted.kind, BoxVerdict::Kind::kRefuted);
 }
 
@@ -299,9 +299,9 @@ TEST(BoxProof, JudgesTheSamePoseReachedTheOtherWayRound) {
   const Waypoint plain{{1.7, 1.7}, {0, 0}};
   const Waypoint turned{{1.7, 1.7}, {2, 0}};
   const Waypoint flipped{{1.7, -1.7}, {1, 0}};
-  const BoxVerdict expected = judge_box(model, plain, plain, {0, 0});
+  const BoxVerdict expected = judge_box(model, Segment::straight(plain, plain), {0, 0});
   for (const Waypoint& same : {turned, flipped}) {
-    const BoxVerdict verdict = judge_box(model, same, same, {0, 0});
+    const BoxVerdict verdict = judge_box(model, Segment::straight(same, same), {0, 0});
     EXPECT_EQ(verdict.kind, expected.kind);
     EXPECT_NEAR(verdict.tension_N, expected.tension_N, 1e-9);
   }
@@ -312,8 +312,9 @@ TEST(BoxProof, AnUndefinedPoseIsAFaultInEveryScalar) {
   Problem problem = robot1_slice();
   problem.space.pose[0] = "sqrt(sqrt(2)*sqrt(2) - 2 - 1e-300)";
   const Waypoint goal{{1.7, 1.7}, {0, 0}};
-  EXPECT_EQ(judge_box(make_proof_model(problem), goal, goal, {0, 0}).kind, BoxVerdict::Kind::kFault);
-  EXPECT_EQ(judge_box(make_mp_proof_model(problem), goal, goal, {0, 0}).kind, BoxVerdict::Kind::kFault);
+  EXPECT_EQ(judge_box(make_proof_model(problem), Segment::straight(goal, goal), {0, 0}).kind, BoxVerdict::Kind::kFault);
+  EXPECT_EQ(judge_box(make_mp_proof_model(problem), Segment::straight(goal, goal), {0, 0}).kind,
+            BoxVerdict::Kind::kFault);
 }
 
 TEST(BoxProof, UsesEveryParameterOfMany) {
@@ -329,9 +330,9 @@ TEST(BoxProof, UsesEveryParameterOfMany) {
   at.x[0] = at.x[1] = 1.7;
   at.x[21] = 0.25;
   const ProofModel<Interval> model = make_proof_model(problem);
-  EXPECT_EQ(judge_box(model, at, at, {0, 0}).kind, BoxVerdict::Kind::kProved);
+  EXPECT_EQ(judge_box(model, Segment::straight(at, at), {0, 0}).kind, BoxVerdict::Kind::kProved);
   at.x[21] = 0.75;  // far below
-  const BoxVerdict verdict = judge_box(model, at, at, {0, 0});
+  const BoxVerdict verdict = judge_box(model, Segment::straight(at, at), {0, 0});
   EXPECT_NE(verdict.kind, BoxVerdict::Kind::kProved);
   EXPECT_EQ(verdict.worst.kind, MarginKind::kLengthMax);
 }

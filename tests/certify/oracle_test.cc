@@ -115,7 +115,7 @@ void expect_boxes_enclose(const Model& model1, const Model& model2, double typic
     BoxEnclosure<I> box;
     std::array<I, 6> tension, variation;
     const bool sound = A::run([&] {
-      box = enclose_box(p.robot == "robot1" ? model1 : model2, at, at, {0, 0});
+      box = enclose_box(p.robot == "robot1" ? model1 : model2, Segment::straight(at, at), {0, 0});
       if (!box.regular) return;
       for (std::size_t i = 0; i < 6; ++i) {
         tension[i] = box.length[i].range * box.density[i].range;
@@ -156,7 +156,7 @@ TEST_F(PrintedOracle, VerdictsAgreeOnFeasibility) {
   int feasible = 0;
   for (const PrintedPose& p : printed_poses()) {
     const Waypoint at{p.pose, std::vector<int>(6, 0)};
-    const BoxVerdict verdict = judge_box(p.robot == "robot1" ? model1 : model2, at, at, {0, 0});
+    const BoxVerdict verdict = judge_box(p.robot == "robot1" ? model1 : model2, Segment::straight(at, at), {0, 0});
     ASSERT_EQ(verdict.kind, p.feasible ? BoxVerdict::Kind::kProved : BoxVerdict::Kind::kRefuted);
     feasible += p.feasible ? 1 : 0;
   }
@@ -168,7 +168,7 @@ TEST_F(PrintedOracle, DeterminantsHaveTheirSign) {
   const ProofModel<MpInterval> model2 = make_mp_proof_model(robot2_);
   for (const PrintedPose& p : printed_poses()) {
     const Waypoint at{p.pose, std::vector<int>(6, 0)};
-    const int sign = determinant_sign(p.robot == "robot1" ? model1 : model2, at, at, 0.5);
+    const int sign = determinant_sign(p.robot == "robot1" ? model1 : model2, Segment::straight(at, at), 0.5);
     ASSERT_EQ(sign, p.determinant[0] == '-' ? -1 : 1);
   }
 }
@@ -251,7 +251,7 @@ TEST(OracleAtTheOrigin, IsEnclosedForRandomRobotsWithFullEllipsoids) {
       ASSERT_FALSE(Faults<MpInterval>::raised());
       const Waypoint at{q, std::vector<int>(6, 0)};
       BoxEnclosure<Interval> box;
-      const bool sound = run_upward([&] { box = enclose_box(fast, at, at, {0, 0}); });
+      const bool sound = run_upward([&] { box = enclose_box(fast, Segment::straight(at, at), {0, 0}); });
       const PrecisionScope precision(oracle::kBits);
       const oracle::OracleStatics exact = oracle::statics(problem, big_pose(q));
       ASSERT_TRUE(holds(s.determinant, exact.determinant));

@@ -160,8 +160,8 @@ TEST(Prover, RefutesASingularSegmentByAChangeOfSign) {
     return make_mp_proof_model(problem);
   }();
   const PrecisionScope precision(256);
-  EXPECT_EQ(determinant_sign(model, kStart, at({1.7, 1.7}), proof.witness->box.lower()) *
-                determinant_sign(model, kStart, at({1.7, 1.7}), proof.witness->box.upper()),
+  EXPECT_EQ(determinant_sign(model, Segment::straight(kStart, at({1.7, 1.7})), proof.witness->box.lower()) *
+                determinant_sign(model, Segment::straight(kStart, at({1.7, 1.7})), proof.witness->box.upper()),
             -1);
 }
 

@@ -21,7 +21,8 @@ Problem free_robot(const std::string& name) {
     pose[p] = p;
   }
   json["problem"]["space"] = {
-      {"parameters", parameters}, {"constants", nlohmann::json::object()}, {"flip", nullptr}, {"pose", pose}};
+      {"parameters", parameters}, {"constants", nlohmann::json::object()}, {"flip", nullptr}, {"pose", pose},
+      {"constraints", nlohmann::json::array()}};
   json["problem"]["query"]["waypoints"] = {{"0", "0", "0", "0", "0", "0"}, {"0", "0", "0", "0", "0", "0"}};
   json["path"]["waypoints"] = nlohmann::json::array();
   json["segments"] = nlohmann::json::array();

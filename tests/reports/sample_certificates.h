@@ -32,10 +32,10 @@ inline nlohmann::json certificate() {
     "space": {"parameters": [{"name": "phi", "kind": "periodic"}, {"name": "theta", "kind": "real"}],
               "constants": {"sigma0": "34"}, "flip": [0, 1],
               "pose": {"px": "0", "py": "0", "pz": "0.35", "phi": "phi", "theta": "theta",
-                       "sigma": "sigma0*pi/180"}},
+                       "sigma": "sigma0*pi/180"}, "constraints": []},
     "query": {"waypoints": [["-2.3","1.6"], ["-2.3","1.3"]]}})");
   json result = {{"format", "taut-certificate"},
-                 {"version", 1},
+                 {"version", 2},
                  {"generator", {{"name", "taut"}, {"version", "0.1.0"}}},
                  {"verdict", ""},
                  {"claim", "The claim of this certificate, word by word: f_lo,i < f_i < f_hi,i."},
@@ -44,7 +44,7 @@ inline nlohmann::json certificate() {
                  {"path", json::parse(R"({"interpolation": "straight-in-parameters", "waypoints": [
                  {"x": ["-0x1.2666666666666p+1", "0x1.999999999999ap+0"], "half_turns": [0, 0]},
                  {"x": ["-0x1.263f9b9445fddp+1", "0x1.916f44c547a8cp+0"], "half_turns": [0, 0]},
-                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}]})")},
+                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}], "tubes": []})")},
                  {"path_sha256", kPathDigest},
                  {"segments", json::array()},
                  {"margins", json::object()},
