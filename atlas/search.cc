@@ -1,9 +1,11 @@
 #include "atlas/search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <queue>
+#include <stdexcept>
 #include <unordered_set>
 
 namespace taut {
@@ -11,9 +13,9 @@ namespace {
 
 constexpr int kNone = -1;
 constexpr int kProgressPeriod = 256;  // expansions between two reports
-// Charts that greedy search makes around a node before it looks at the best of them. Charts have exponentially many
-// neighbours in the dimension, and greed needs few.
-constexpr int kGreedyBudget = 1;
+// First finite weight of an anytime search; from below the last but one, the next is 1.
+constexpr double kFirstWeight = 2.0;
+constexpr double kLastWeight = 1.03;
 
 struct Node {
   bool closed = false;
@@ -44,15 +46,18 @@ struct Candidate {
 
 class Search {
  public:
-  Search(Atlas& atlas, const SearchProblem& problem, Strategy strategy)
+  Search(Atlas& atlas, const SearchProblem& problem, const SearchOptions& options)
       : atlas_(atlas),
         problem_(problem),
-        greedy_(strategy == Strategy::kGreedyBestFirst),
+        options_(options),
+        greedy_(std::isinf(options.weight)),
         symmetry_(atlas.manifold().symmetry()) {}
 
   SearchResult run() {
     result_.status = status_of_run();
     result_.charts = atlas_.size();
+    result_.nearest = lowest_heuristic_;
+    if (result_.status == SearchStatus::kFound) result_.factor = start_ == goal_ ? 1.0 : options_.weight;
     return std::move(result_);
   }
 
@@ -146,7 +151,7 @@ class Search {
       problem_.progress({atlas_.size(), result_.nodes_expanded, lowest_heuristic_});
     }
     const int first_new = atlas_.size();
-    const bool complete = greedy_ ? atlas_.expand(node, kGreedyBudget, goal_) : atlas_.expand(node);
+    const bool complete = options_.weight > 1 ? atlas_.expand(node, 1, goal_) : atlas_.expand(node);
     nodes_.resize(atlas_.size());
     for (int chart = first_new; chart < atlas_.size(); ++chart) {
       for (const int neighbour : atlas_.neighbours(chart)) offer(neighbour, chart);
@@ -156,7 +161,7 @@ class Search {
       chart_limit_hit_ = true;
       return;
     }
-    open_.push({heuristic(node), nodes_[node].cost, nodes_[node].cost, node, node});
+    open_.push({priority(node, nodes_[node].cost), nodes_[node].cost, nodes_[node].cost, node, node});
   }
 
   void offer(int parent, int child) {
@@ -165,7 +170,12 @@ class Search {
     const Coordinates to = symmetry_.apply(base(child), symmetry_.nearest_image(base(child), from));
     const double parent_cost = nodes_[parent].cost;
     const double cost = parent_cost + problem_.cost(from, to);
-    open_.push({greedy_ ? heuristic(child) : cost + heuristic(child), cost, parent_cost, child, parent});
+    if (cost + heuristic(child) >= options_.cost_bound) return;
+    open_.push({priority(child, cost), cost, parent_cost, child, parent});
+  }
+
+  double priority(int node, double cost) {
+    return greedy_ ? heuristic(node) : cost + options_.weight * heuristic(node);
   }
 
   double heuristic(int node) {
@@ -230,6 +240,7 @@ class Search {
 
   Atlas& atlas_;
   const SearchProblem& problem_;
+  const SearchOptions options_;
   const bool greedy_;
   const CoordinateSymmetry symmetry_;
   int start_ = kNone;
@@ -243,10 +254,43 @@ class Search {
   SearchResult result_;
 };
 
+double next_weight(double weight) { return weight > kLastWeight ? (1 + weight) / 2 : 1; }
+
 }  // namespace
 
-SearchResult search(Atlas& atlas, const SearchProblem& problem, Strategy strategy) {
-  return Search(atlas, problem, strategy).run();
+void SearchOptions::validate() const {
+  if (!(weight >= 1)) throw std::invalid_argument("SearchOptions: weight must be at least 1");
+  if (!(cost_bound > 0)) throw std::invalid_argument("SearchOptions: cost_bound must be positive");
+}
+
+SearchResult search(Atlas& atlas, const SearchProblem& problem, const SearchOptions& options) {
+  options.validate();
+  return Search(atlas, problem, options).run();
+}
+
+SearchResult search_anytime(Atlas& atlas, const SearchProblem& problem,
+                            const std::function<void(const SearchResult&)>& improved) {
+  SearchResult best = search(atlas, problem, {.weight = std::numeric_limits<double>::infinity()});
+  if (best.status == SearchStatus::kFound) improved(best);
+  bool ended = best.status != SearchStatus::kFound;
+  for (double weight = kFirstWeight; !ended && best.factor > 1; weight = next_weight(weight)) {
+    SearchResult next = search(atlas, problem, {.weight = weight, .cost_bound = best.cost});
+    next.nodes_expanded += best.nodes_expanded;
+    next.edges_checked += best.edges_checked;
+    next.edges_rejected += best.edges_rejected;
+    next.nearest = std::min(next.nearest, best.nearest);
+    const SearchStatus status = next.status;
+    if (status != SearchStatus::kFound) {
+      ended = status != SearchStatus::kExhausted;
+      next.status = SearchStatus::kFound;
+      next.path = std::move(best.path);
+      next.cost = best.cost;
+      next.factor = ended ? best.factor : weight;
+    }
+    best = std::move(next);
+    if (status == SearchStatus::kFound) improved(best);
+  }
+  return best;
 }
 
 }  // namespace taut

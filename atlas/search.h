@@ -5,19 +5,24 @@
 //
 // Edges are validated lazily: only those of a path that would be the answer are put to `edge_ok`, which may cost a
 // hundred times a chart. One that fails is struck out for good (both ways), the search tree is repaired below it, and
-// the search goes on. The paths found with kAStar are shortest among those on the charts' graph whose edges are ok, if
-// the heuristic is consistent: |h(a) - h(b)| <= cost(a, b), h(goal) = 0.
+// the search goes on. A path found with weight 1 is shortest among those on the charts' graph whose edges are ok, one found with weight w at
+// most w times as long, if the heuristic is consistent: |h(a) - h(b)| <= cost(a, b), h(goal) = 0.
+//
+// With a weight above 1 the charts around a node are made one at a time, in the goal's direction first, as long as no other
+// candidate is more promising than the node: charts have exponentially many neighbours in the dimension, and few
+// are needed. With weight 1 no neighbour can be more promising than its node, so all are made.
 //
 // Sources: J. M. Porta, L. Jaillet, O. Bohigas 2012; O. Bohigas, M. Manubens, L. Ros (greedy best-first, A*);
-// C. Dellin, S. Srinivasa, "A unifying formalism for shortest path problems with expensive edge evaluations", 2016.
+// C. Dellin, S. Srinivasa, "A unifying formalism for shortest path problems with expensive edge evaluations", 2016;
+// S. Richter, J. Thayer, W. Ruml, "The joy of forgetting: faster anytime search via restarting", 2010.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <stop_token>
 #include <vector>
 
 #include "atlas/atlas.h"
-#include "kinematics/case_file.h"
 
 namespace taut {
 
@@ -39,6 +44,19 @@ struct SearchProblem {
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
   std::function<void(const SearchProgress&)> progress;  ///< may be empty
   std::stop_token stop;                                 ///< looked at before each expansion and each edge_ok
+};
+
+/// What is sought: candidates are taken in the order of cost from the start + weight * heuristic.
+struct SearchOptions {
+  /// 1: A*, the shortest path. Above: sooner, and at most `weight` times as long. Infinite: greedy best-first, by the
+  /// heuristic alone.
+  double weight = 1;
+  /// Only a path shorter than this is of interest. kExhausted then means that none on the charts' graph is shorter than
+  /// cost_bound / weight.
+  double cost_bound = std::numeric_limits<double>::infinity();
+
+  /// @throws std::invalid_argument naming the field at fault.
+  void validate() const;
 };
 
 /// A centre of a chart as the path passes through it. `base` is the centre's coordinates bit for bit (the query's own
@@ -66,10 +84,20 @@ struct SearchResult {
   int nodes_expanded = 0;
   int edges_checked = 0;
   int edges_rejected = 0;
+  double nearest = std::numeric_limits<double>::infinity();  ///< least heuristic of a node: how near the goal it came
+  /// The path is at most so many times as long as the shortest on the charts' graph: 1 if it is the shortest.
+  double factor = std::numeric_limits<double>::infinity();
 };
 
 /// Searches `atlas`, growing it as needed; charts made before are used.
 /// @pre all three functions of `problem` are set.
-[[nodiscard]] SearchResult search(Atlas& atlas, const SearchProblem& problem, Strategy strategy);
+[[nodiscard]] SearchResult search(Atlas& atlas, const SearchProblem& problem, const SearchOptions& options);
+
+/// Finds a path soon and a shorter one later: greedy best-first, then searches with weights that halve their distance to 1,
+/// each for a path shorter than the last, all on the same atlas. `improved` sees each path as it is found.
+/// Ends when the last path is known to be the shortest on the charts' graph; or when charts run out or `stop` asks,
+/// which `factor` > 1 then shows. @returns the last path found, with counts over all searches.
+[[nodiscard]] SearchResult search_anytime(Atlas& atlas, const SearchProblem& problem,
+                                          const std::function<void(const SearchResult&)>& improved);
 
 }  // namespace taut

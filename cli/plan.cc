@@ -280,6 +280,9 @@ Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& pro
   ProvedEdges edges(prover, kEdgeClearanceShare * clearance);
   PlanStatistics& statistics = result.statistics;
 
+  const bool is_greedy = case_.planner.strategy == Strategy::kGreedyBestFirst;
+  const double weight = is_greedy ? std::numeric_limits<double>::infinity() : 1.0;
+
   result.path.waypoints = {query.front()};
   Image reached;
   bool found = true;
@@ -294,7 +297,7 @@ Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& pro
       search_problem.progress = [&](const SearchProgress& p) { progress({p.charts, edges.checked()}); };
     }
     search_problem.stop = stop;
-    const SearchResult searched = search(atlas, search_problem, case_.planner.strategy);
+    const SearchResult searched = search(atlas, search_problem, {.weight = weight});
     statistics.nodes_expanded += searched.nodes_expanded;
     statistics.cost_found += searched.cost;
     found = searched.status == SearchStatus::kFound;

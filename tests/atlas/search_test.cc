@@ -14,6 +14,8 @@ namespace {
 using testing::coordinates;
 using testing::kPi;
 
+constexpr double kGreedy = std::numeric_limits<double>::infinity();
+
 AtlasOptions options(double radius, double epsilon) {
   AtlasOptions result;
   result.radius = radius;
@@ -87,10 +89,10 @@ void expect_sound(const SearchResult& result, const SearchProblem& problem, cons
 
 TEST(Search, CrossesAPlaneAlmostStraight) {
   const testing::FlatSpace plane(2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
-  for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+  for (const double weight : {1.0, 1.5, kGreedy}) {
     Atlas atlas(plane, options(0.1, 0.1));
     const SearchProblem query = problem(coordinates({-0.8, -0.7}), coordinates({0.8, 0.6}));
-    const SearchResult result = search(atlas, query, strategy);
+    const SearchResult result = search(atlas, query, {.weight = weight});
     expect_sound(result, query, plane);
     EXPECT_LT(result.cost, 1.3 * (query.goal - query.start).norm());
     EXPECT_EQ(result.charts, atlas.size());
@@ -106,7 +108,7 @@ TEST(Search, AStarIsShortestOnAFinishedAtlas) {
     Atlas atlas(torus, options(0.5, 0.2));
     const int start = *atlas.add(query.start), goal = *atlas.add(query.goal);
     ASSERT_TRUE(atlas.grow_all());
-    const SearchResult result = search(atlas, query, Strategy::kAStar);
+    const SearchResult result = search(atlas, query, {});
     expect_sound(result, query, torus);
     EXPECT_NEAR(result.cost, dijkstra(atlas, query, start, goal), 1e-12);
   }
@@ -128,15 +130,16 @@ TEST(Search, AStarStaysShortestWhenEdgesFail) {
     const int start = *atlas.add(query.start), goal = *atlas.add(query.goal);
     ASSERT_TRUE(atlas.grow_all());
     const double shortest = dijkstra(atlas, query, start, goal);
-    for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
-      const SearchResult result = search(atlas, query, strategy);
+    for (const double weight : {1.0, 1.5, kGreedy}) {
+      const SearchResult result = search(atlas, query, {.weight = weight});
       if (std::isinf(shortest)) {
         EXPECT_EQ(result.status, SearchStatus::kExhausted);
         continue;
       }
       expect_sound(result, query, torus);
       EXPECT_GE(result.cost, shortest - 1e-12);
-      EXPECT_TRUE(strategy != Strategy::kAStar || result.cost <= shortest + 1e-12);
+      EXPECT_EQ(result.factor, weight);
+      EXPECT_LE(result.cost, weight * shortest + 1e-12);
       rejected += result.edges_rejected;
     }
   }
@@ -149,7 +152,7 @@ TEST(Search, AStarOnAGrowingAtlasIsAsShortAsItsGraphAllows) {
     SearchProblem query = problem(coordinates({0.3 * seed, 1}), coordinates({-2.0 + 0.7 * seed, -3.0 + 0.2 * seed}));
     query.edge_ok = passes_sieve;
     Atlas atlas(torus, options(0.3, 0.2));
-    const SearchResult result = search(atlas, query, Strategy::kAStar);
+    const SearchResult result = search(atlas, query, {});
     if (result.status == SearchStatus::kExhausted) continue;
     expect_sound(result, query, torus);
     EXPECT_LE(result.cost, dijkstra(atlas, query, 0, 1) + 1e-12);
@@ -158,7 +161,7 @@ TEST(Search, AStarOnAGrowingAtlasIsAsShortAsItsGraphAllows) {
 
 TEST(Search, GoesRoundAWallOfFailingEdges) {
   const testing::FlatSpace plane(2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
-  for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+  for (const double weight : {1.0, 1.5, kGreedy}) {
     Atlas atlas(plane, options(0.1, 0.1));
     SearchProblem query = problem(coordinates({-0.8, 0}), coordinates({0.8, 0}));
     // A wall x = 0, y < 0.5 that the atlas does not know of.
@@ -167,7 +170,7 @@ TEST(Search, GoesRoundAWallOfFailingEdges) {
       const double t = a[0] / (a[0] - b[0]);
       return a[1] + t * (b[1] - a[1]) > 0.5;
     };
-    const SearchResult result = search(atlas, query, strategy);
+    const SearchResult result = search(atlas, query, {.weight = weight});
     expect_sound(result, query, plane);
     EXPECT_GT(result.edges_rejected, 5);
     EXPECT_GT(result.cost, 2 * std::hypot(0.8, 0.5));
@@ -178,9 +181,9 @@ TEST(Search, ReportsAnExhaustedComponent) {
   const testing::FlatSpace two_discs(2, [](const Coordinates& x) {
     return (x - coordinates({-1, 0})).norm() < 0.6 || (x - coordinates({1, 0})).norm() < 0.6;
   });
-  for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+  for (const double weight : {1.0, 1.5, kGreedy}) {
     Atlas atlas(two_discs, options(0.1, 0.1));
-    const SearchResult result = search(atlas, problem(coordinates({-1, 0}), coordinates({1, 0})), strategy);
+    const SearchResult result = search(atlas, problem(coordinates({-1, 0}), coordinates({1, 0})), {.weight = weight});
     EXPECT_EQ(result.status, SearchStatus::kExhausted);
     EXPECT_TRUE(result.path.empty());
     for (int id = 0; id < atlas.size(); ++id) {
@@ -193,9 +196,9 @@ TEST(Search, ReportsExhaustionWhenEveryEdgeFails) {
   const testing::FlatTorus circle({0});
   SearchProblem query = problem(coordinates({0}), coordinates({2}));
   query.edge_ok = [](const Coordinates&, const Coordinates&) { return false; };
-  for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+  for (const double weight : {1.0, 1.5, kGreedy}) {
     Atlas atlas(circle, options(0.2, 0.1));
-    const SearchResult result = search(atlas, query, strategy);
+    const SearchResult result = search(atlas, query, {.weight = weight});
     EXPECT_EQ(result.status, SearchStatus::kExhausted);
     EXPECT_EQ(result.edges_rejected, 2);
   }
@@ -206,9 +209,9 @@ TEST(Search, ReportsTheChartLimitAndInterruption) {
   const SearchProblem query = problem(coordinates({0, 0}), coordinates({100, 0}));
   AtlasOptions few = options(0.1, 0.1);
   few.max_charts = 50;
-  for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+  for (const double weight : {1.0, 1.5, kGreedy}) {
     Atlas atlas(plane, few);
-    const SearchResult limited = search(atlas, query, strategy);
+    const SearchResult limited = search(atlas, query, {.weight = weight});
     EXPECT_EQ(limited.status, SearchStatus::kChartLimit);
     EXPECT_EQ(limited.charts, 50);
 
@@ -221,7 +224,7 @@ TEST(Search, ReportsTheChartLimitAndInterruption) {
       if (++reports == 2) source.request_stop();
     };
     Atlas endless(plane, options(0.1, 0.1));
-    EXPECT_EQ(search(endless, interrupted, strategy).status, SearchStatus::kInterrupted);
+    EXPECT_EQ(search(endless, interrupted, {.weight = weight}).status, SearchStatus::kInterrupted);
     EXPECT_EQ(reports, 2);
   }
 }
@@ -229,15 +232,14 @@ TEST(Search, ReportsTheChartLimitAndInterruption) {
 TEST(Search, ReportsAQueryOutsideTheDomain) {
   const testing::PolarSphere cap(0.5);
   Atlas atlas(cap, options(0.1, 0.1));
-  EXPECT_EQ(search(atlas, problem(coordinates({0, 0}), coordinates({0, 0.6})), Strategy::kAStar).status,
-            SearchStatus::kOutside);
+  EXPECT_EQ(search(atlas, problem(coordinates({0, 0}), coordinates({0, 0.6})), {}).status, SearchStatus::kOutside);
 }
 
 TEST(Search, CountsTheHalfTurnsToTheGoalsImage) {
   const testing::FlatTorus circle({0});
   const SearchProblem query = problem(coordinates({3}), coordinates({-2.5}));
   Atlas atlas(circle, options(0.1, 0.1));
-  const SearchResult result = search(atlas, query, Strategy::kAStar);
+  const SearchResult result = search(atlas, query, {});
   expect_sound(result, query, circle);
   EXPECT_EQ(result.path.back().image.half_turns[0], 2);
   EXPECT_DOUBLE_EQ(result.cost, 2 * kPi - 5.5);
@@ -247,12 +249,12 @@ TEST(Search, GoesOverThePoleAndFlips) {
   const testing::PolarSphere sphere;
   // Opposite each other near the pole theta = 0.
   const SearchProblem query = problem(coordinates({0.2, 0.9}), coordinates({0.2 + kPi, 0.8}), great_circle);
-  for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+  for (const double weight : {1.0, 1.5, kGreedy}) {
     Atlas atlas(sphere, options(0.15, 0.1));
-    const SearchResult result = search(atlas, query, strategy);
+    const SearchResult result = search(atlas, query, {.weight = weight});
     expect_sound(result, query, sphere);
     EXPECT_GE(result.cost, 1.7 - 1e-9);
-    EXPECT_TRUE(strategy != Strategy::kAStar || result.cost < 1.15 * 1.7) << result.cost;
+    EXPECT_TRUE(weight > 1 || result.cost < 1.15 * 1.7) << result.cost;
     const Image& image = result.path.back().image;
     EXPECT_EQ(image.flipped, image.half_turns[0] % 2 != 0);
   }
@@ -262,18 +264,123 @@ TEST(Search, JoinsAStartThatIsItsGoal) {
   const testing::PolarSphere sphere;
   Atlas atlas(sphere, options(0.2, 0.1));
   const SearchProblem query = problem(coordinates({0.5, 0.75}), coordinates({0.5 - kPi, -0.75}), great_circle);
-  const SearchResult result = search(atlas, query, Strategy::kAStar);
+  const SearchResult result = search(atlas, query, {});
   expect_sound(result, query, sphere);
   EXPECT_EQ(result.path.size(), 2u);
   EXPECT_TRUE(result.path.back().image.flipped);
   EXPECT_EQ(result.path.back().image.half_turns[0], 1);
 }
 
+TEST(Search, JoinsTheChartsAroundAGoalThatManyCover) {
+  const testing::FlatTorus torus({0, 0});
+  Atlas atlas(torus, options(0.3, 0.2));
+  ASSERT_TRUE(atlas.add(coordinates({0, 0})).has_value());
+  ASSERT_TRUE(atlas.grow_all());
+  // Corners of polygons: as far from all centres as can be, so that several balls hold them.
+  for (int id = 0; id < 20; ++id) {
+    const Chart chart = atlas.chart(id);
+    Coordinates goal(2);
+    ASSERT_TRUE(torus.project(chart.frame, std::get<Polytope>(chart.polytope).corner(0), goal));
+    const SearchProblem query = problem(coordinates({0, 0}), goal);
+    const SearchResult result = search(atlas, query, {});
+    expect_sound(result, query, torus);
+    EXPECT_GE(atlas.neighbours(*atlas.add(goal)).size(), 3u);
+  }
+}
+
+TEST(Search, SaysHowNearTheGoalItCame) {
+  const testing::FlatSpace disc(2, [](const Coordinates& x) { return x.norm() < 1 || x[0] > 2; });
+  for (const double weight : {1.0, 1.5, kGreedy}) {
+    Atlas atlas(disc, options(0.1, 0.1));
+    const SearchResult result = search(atlas, problem(coordinates({0, 0}), coordinates({3, 0})), {.weight = weight});
+    ASSERT_EQ(result.status, SearchStatus::kExhausted);
+    EXPECT_NEAR(result.nearest, 2, 0.1);
+    EXPECT_TRUE(std::isinf(result.factor));
+  }
+}
+
+TEST(Search, WantsOnlyPathsBelowTheBound) {
+  const testing::FlatTorus torus({0, 0});
+  const SearchProblem query = problem(coordinates({0, 1}), coordinates({2, -2}));
+  Atlas atlas(torus, options(0.3, 0.2));
+  ASSERT_TRUE(atlas.add(query.start) && atlas.add(query.goal) && atlas.grow_all());
+  const SearchResult shortest = search(atlas, query, {});
+  expect_sound(shortest, query, torus);
+  EXPECT_EQ(search(atlas, query, {.cost_bound = shortest.cost}).status, SearchStatus::kExhausted);
+  const SearchResult again = search(atlas, query, {.cost_bound = shortest.cost + 1e-9});
+  expect_sound(again, query, torus);
+  EXPECT_EQ(again.cost, shortest.cost);
+}
+
+TEST(AnytimeSearch, EndsWithTheShortestPathWhereItMay) {
+  const testing::FlatTorus torus({0, 0});
+  int improvements = 0;
+  for (int seed = 0; seed < 20; ++seed) {
+    SearchProblem query = problem(coordinates({0.3 * seed, 1}), coordinates({-2.0 + 0.7 * seed, -3.0 + 0.2 * seed}));
+    query.edge_ok = passes_sieve;
+    Atlas atlas(torus, options(0.5, 0.2));
+    const int start = *atlas.add(query.start), goal = *atlas.add(query.goal);
+    ASSERT_TRUE(atlas.grow_all());
+    const double shortest = dijkstra(atlas, query, start, goal);
+    double last = std::numeric_limits<double>::infinity();
+    const SearchResult result = search_anytime(atlas, query, [&](const SearchResult& improved) {
+      EXPECT_LT(improved.cost, last);
+      last = improved.cost;
+      ++improvements;
+    });
+    if (std::isinf(shortest)) {
+      EXPECT_EQ(result.status, SearchStatus::kExhausted);
+      continue;
+    }
+    expect_sound(result, query, torus);
+    EXPECT_EQ(result.cost, last);
+    EXPECT_EQ(result.factor, 1);
+    EXPECT_NEAR(result.cost, shortest, 1e-12);
+  }
+  EXPECT_GT(improvements, 22);
+}
+
+TEST(AnytimeSearch, KeepsTheBestPathWhenChartsRunOut) {
+  const testing::FlatSpace space(6, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
+  AtlasOptions few = options(0.15, 0.15);
+  few.max_charts = 400;
+  Atlas atlas(space, few);
+  const SearchProblem query = problem(Coordinates::Constant(6, -0.5), Coordinates::Constant(6, 0.5));
+  double first = 0;
+  const SearchResult result = search_anytime(atlas, query, [&](const SearchResult& improved) {
+    if (first == 0) first = improved.cost;
+  });
+  expect_sound(result, query, space);
+  EXPECT_EQ(result.charts, 400);
+  EXPECT_LE(result.cost, first);
+  EXPECT_GT(result.factor, 1);
+}
+
+TEST(AnytimeSearch, KeepsTheBestPathWhenStopped) {
+  const testing::FlatSpace plane(2);
+  std::stop_source source;
+  SearchProblem query = problem(coordinates({0, 0}), coordinates({2, 0}));
+  query.stop = source.get_token();
+  Atlas atlas(plane, options(0.1, 0.1));
+  const SearchResult result = search_anytime(atlas, query, [&](const SearchResult&) { source.request_stop(); });
+  query.stop = {};
+  expect_sound(result, query, plane);
+  EXPECT_TRUE(std::isinf(result.factor));
+}
+
+TEST(AnytimeSearch, SaysWhenThereIsNoPath) {
+  const testing::FlatSpace disc(2, [](const Coordinates& x) { return x.norm() < 1 || x[0] > 2; });
+  Atlas atlas(disc, options(0.1, 0.1));
+  const SearchResult result = search_anytime(atlas, problem(coordinates({0, 0}), coordinates({3, 0})),
+                                             [](const SearchResult&) { FAIL() << "no path exists"; });
+  EXPECT_EQ(result.status, SearchStatus::kExhausted);
+}
+
 TEST(Search, GreedyFindsItsWayInSixDimensions) {
   const testing::FlatSpace space(6, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
   Atlas atlas(space, options(0.15, 0.15));
   const SearchProblem query = problem(Coordinates::Constant(6, -0.6), Coordinates::Constant(6, 0.6));
-  const SearchResult result = search(atlas, query, Strategy::kGreedyBestFirst);
+  const SearchResult result = search(atlas, query, {.weight = kGreedy});
   expect_sound(result, query, space);
   EXPECT_LT(result.charts, 500);
 }
