@@ -18,6 +18,8 @@
 namespace taut {
 namespace {
 
+constexpr double kGreedy = std::numeric_limits<double>::infinity();
+
 using testing::coordinates;
 
 // ---- The format as the test knows it ----------------------------------------------------------------------------------
@@ -144,7 +146,7 @@ TEST(AtlasFile, GivesTheSavedAtlasBitForBit) {
 
 TEST(AtlasFile, GoesOnAsTheSavedAtlasWould) {
   for (const int n : {2, 3, 4}) {
-    for (const Strategy strategy : {Strategy::kAStar, Strategy::kGreedyBestFirst}) {
+    for (const double weight : {1.0, kGreedy}) {
       Atlas saved = half_grown(torus(n), Coordinates::Zero(n), 150);
       const Written file(AtlasFile::bytes_of(saved, key(), 0));
       const AtlasFile opened(file.path(), key());
@@ -152,8 +154,8 @@ TEST(AtlasFile, GoesOnAsTheSavedAtlasWould) {
       for (const double to : {0.43, 2.9, -1.7}) {  // known ground, the far side, and back
         Coordinates goal = Coordinates::Constant(n, 0.31);
         goal[0] = to;
-        const SearchResult one = search(saved, from_to(Coordinates::Constant(n, -0.123), goal), strategy);
-        const SearchResult other = search(loaded, from_to(Coordinates::Constant(n, -0.123), goal), strategy);
+        const SearchResult one = search(saved, from_to(Coordinates::Constant(n, -0.123), goal), {.weight = weight});
+        const SearchResult other = search(loaded, from_to(Coordinates::Constant(n, -0.123), goal), {.weight = weight});
         ASSERT_EQ(one.status, SearchStatus::kFound);
         EXPECT_EQ(one.cost, other.cost);
         EXPECT_EQ(one.charts, other.charts);
@@ -183,7 +185,7 @@ TEST(AtlasFile, OfAWholeSurfaceNeedsNoChartButStartAndGoal) {
   const Written file(AtlasFile::bytes_of(saved, key(), 0));
   const AtlasFile opened(file.path(), key());
   Atlas loaded(torus(2), key().options, opened);
-  const auto found = search(loaded, from_to(coordinates({-2, -0.5}), coordinates({0.7, 0.6})), Strategy::kAStar);
+  const auto found = search(loaded, from_to(coordinates({-2, -0.5}), coordinates({0.7, 0.6})), {});
   EXPECT_EQ(found.status, SearchStatus::kFound);
   EXPECT_EQ(found.charts, saved.size() + 2);
 }
@@ -297,8 +299,8 @@ TEST(AtlasFile, ForgedCostsTimeAtMost) {
         Atlas loaded(torus(n), options, opened);
         Coordinates goal = Coordinates::Constant(n, 0.31);
         goal[0] = 1.2;
-        const auto strategy = round % 4 < 2 ? Strategy::kAStar : Strategy::kGreedyBestFirst;
-        EXPECT_LE(search(loaded, from_to(Coordinates::Constant(n, -0.1), goal), strategy).charts, 402);
+        const double weight = round % 4 < 2 ? 1.0 : kGreedy;
+        EXPECT_LE(search(loaded, from_to(Coordinates::Constant(n, -0.1), goal), {.weight = weight}).charts, 402);
         loaded.grow_all();
         static_cast<void>(AtlasFile::bytes_of(loaded, key(), 0));
         ++searched;
