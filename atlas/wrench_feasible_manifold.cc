@@ -23,12 +23,12 @@ CoordinateSymmetry symmetry_of(const SpaceText& space) {
 template <int N>
 class WrenchFeasibleManifold final : public Manifold {
  public:
-  WrenchFeasibleManifold(const Problem& problem, MetricWeights weights)
+  WrenchFeasibleManifold(const Problem& problem, const PoseSampler& sampler, MetricWeights weights)
       : n_(static_cast<int>(problem.space.parameters.size())),
         weights_(weights),
         symmetry_(symmetry_of(problem.space)),
-        model_(make_model<double>(problem)),
-        pose_(pose_tape(problem)) {
+        model_(sampler.model()),
+        pose_(sampler.tape()) {
     for (const Parameter& parameter : problem.space.parameters) {
       ranges_.push_back(parameter.kind == ParameterKind::kRange
                             ? std::array<double, 2>{evaluate_constant<double>(parameter.range_lower),
@@ -197,11 +197,16 @@ class WrenchFeasibleManifold final : public Manifold {
 }  // namespace
 
 std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, MetricWeights weights) {
+  return make_wrench_feasible_manifold(problem, PoseSampler(problem), weights);
+}
+
+std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, const PoseSampler& sampler,
+                                                        MetricWeights weights) {
   switch (problem.space.parameters.size()) {
     case 1:
-    case 2: return std::make_unique<WrenchFeasibleManifold<2>>(problem, weights);
-    case 3: return std::make_unique<WrenchFeasibleManifold<3>>(problem, weights);
-    default: return std::make_unique<WrenchFeasibleManifold<6>>(problem, weights);
+    case 2: return std::make_unique<WrenchFeasibleManifold<2>>(problem, sampler, weights);
+    case 3: return std::make_unique<WrenchFeasibleManifold<3>>(problem, sampler, weights);
+    default: return std::make_unique<WrenchFeasibleManifold<6>>(problem, sampler, weights);
   }
 }
 

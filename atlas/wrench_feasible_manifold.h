@@ -25,7 +25,7 @@
 #include <memory>
 
 #include "atlas/manifold.h"
-#include "kinematics/model.h"
+#include "kinematics/pose_sampler.h"
 
 namespace taut {
 
@@ -37,6 +37,10 @@ struct MetricWeights {
 
 /// The manifold of the problem's space. @throws InputError if the problem has no model in doubles.
 [[nodiscard]] std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem,
+                                                                      MetricWeights weights = {});
+/// The same, where the problem's model and tape are made already.
+[[nodiscard]] std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem,
+                                                                      const PoseSampler& sampler,
                                                                       MetricWeights weights = {});
 
 }  // namespace taut

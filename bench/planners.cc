@@ -230,7 +230,8 @@ void run_taut(const Query& query, const Variant& variant, const Poses& poses, Me
     });
   }
   const Stopwatch watch;
-  const Plan result = plan(case_, {}, stop.get_token());
+  Planner planner(case_);
+  const Plan result = planner.plan({}, stop.get_token());
   const double wall = watch.wall();
   const double cpu = watch.cpu();
   ++into.runs;
@@ -592,8 +593,8 @@ std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double 
   }
 
   out +=
-      "\n## Where the time goes, ms\n\n`rest` is what a call takes besides: making the model, the query's "
-      "binary64, the illustration for the report.\n\n"
+      "\n## Where the time goes, ms\n\n`rest` is what a call takes besides: making the models and the query's "
+      "binary64.\n\n"
       "| robot | query | pose sample, µs | RRTConnect's samples | greedy, as found: search + proofs + rest "
       "| A*, taut: search + shortening + proofs + rest |\n|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {

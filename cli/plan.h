@@ -1,13 +1,18 @@
-// One plan, end to end: atlas, search with every edge proved, path, proof.
+// One plan, end to end: atlas, search, path, proof.
 //
-// The search proposes edges; an edge that the prover does not prove is not used, and the search goes around it. So what
-// comes back as a path is proved already; its proof is gathered, never inferred from the search.
+// The search proposes and the prover decides. A path is sought on edges that look clear of limits at sampled poses
+// (atlas/clear_edge.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
+// each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
+// its proof is gathered, never inferred from the search.
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <optional>
 #include <stop_token>
 
+#include "atlas/atlas.h"
+#include "atlas/path_length.h"
 #include "atlas/search.h"
 #include "certify/path_proof.h"
 #include "kinematics/case_file.h"
@@ -17,9 +22,9 @@ namespace taut {
 struct PlanStatistics {
   int charts = 0;
   int nodes_expanded = 0;
-  int edges_checked = 0;
+  int edges_checked = 0;  ///< by samples or by proof, for search and shortening
   int edges_rejected = 0;
-  double cost_found = 0;      ///< of the path that the search found, by the case's cost function
+  double cost_found = 0;      ///< of the path that the search found, by the case's cost
   double cost = 0;            ///< of the path
   double plan_seconds = 0;    ///< atlas and search, without the proofs made within
   double smooth_seconds = 0;  ///< shortening, without the proofs made within
@@ -30,7 +35,6 @@ struct Plan {
   Path path;  ///< found path; or the waypoint that refutes; or the waypoints of the query where there is no path
   PathProof proof;
   PlanStatistics statistics;
-  nlohmann::json illustration;  ///< charts, for the report
 };
 
 struct PlanProgress {
@@ -38,8 +42,35 @@ struct PlanProgress {
   int edges_checked = 0;
 };
 
-/// Plans through the query's waypoints in order. @throws InputError if the case has no model.
-[[nodiscard]] Plan plan(const Case& case_, const std::function<void(const PlanProgress&)>& progress,
-                        const std::stop_token& stop);
+using Progress = std::function<void(const PlanProgress&)>;
+
+/// A case made ready: expressions parsed, models made, an atlas begun.
+class Planner {
+ public:
+  /// `the_case` has to outlive the planner. @throws InputError if it has no model.
+  explicit Planner(const Case& the_case);
+
+  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again.
+  [[nodiscard]] Plan plan(const Progress& progress, const std::stop_token& stop);
+
+  [[nodiscard]] const Atlas& atlas() const { return atlas_; }
+
+ private:
+  class Edges;
+
+  [[nodiscard]] std::optional<Plan> judge_query() const;
+  bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
+  [[nodiscard]] std::optional<Path> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
+                                              PlanStatistics& statistics, std::string& reason);
+
+  const Case& case_;
+  Prover prover_;
+  PoseSampler sampler_;
+  std::vector<Waypoint> query_;
+  PathLength length_;
+  double clearance_;  ///< as much of what the case asks for as the query's waypoints leave
+  std::unique_ptr<Manifold> manifold_;
+  Atlas atlas_;
+};
 
 }  // namespace taut

@@ -17,6 +17,7 @@
 
 #include "certify/certificate.h"
 #include "cli/files.h"
+#include "cli/illustration.h"
 #include "cli/plan.h"
 #include "kinematics/geometry.h"
 #include "kinematics/input_error.h"
@@ -152,14 +153,14 @@ int run_plan(const PlanArguments& arguments) {
   make_directories(out);
 
   const Interruption interruption;
+  Planner planner(case_);
   Plan result;
   {
     ProgressLine line(!arguments.json);
-    result = plan(
-        case_, [&](const PlanProgress& progress) { line.show(progress); }, interruption.token());
+    result = planner.plan([&](const PlanProgress& progress) { line.show(progress); }, interruption.token());
   }
-  const nlohmann::json certificate =
-      make_certificate(case_.problem, result.path, result.proof, std::move(result.illustration));
+  const nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof,
+                                                      illustrate(case_.problem, planner.atlas(), result.statistics));
   write_whole({{out / "path.csv", path_csv(case_.problem, result.path)},
                {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
                {out / "report.html", html_report(certificate)}});
@@ -187,7 +188,7 @@ int run_plan(const PlanArguments& arguments) {
     fmt::print("{}\n", sentence(result));
     if (s.charts > 0) {
       fmt::print(
-          "{} charts, {} expanded; {} edges put to the prover, {} not proved; cost {:.4g}, shortened from {:.4g}.\n"
+          "{} charts, {} expanded; {} edges looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n"
           "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
           s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, 1e3 * s.plan_seconds,
           1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);

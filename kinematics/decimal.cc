@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cfenv>
 #include <charconv>
+#include <cmath>
 
 #include "kinematics/input_error.h"
 #include "kinematics/scalar.h"
@@ -131,13 +132,16 @@ cpp_rational Decimal::rational() const {
 }
 
 double ScalarTraits<double>::from_decimal(const std::string& text) {
-  const std::string canonical = Decimal::parse(text).text();
-  // from_chars multiplies short numbers in the current rounding mode, which a prover may have set upward.
-  const int mode = std::fegetround();
-  std::fesetround(FE_TONEAREST);
   double value = 0;
-  std::from_chars(canonical.data(), canonical.data() + canonical.size(), value);
-  std::fesetround(mode);
+  const auto read = [&value](const std::string& digits) {
+    // from_chars multiplies short numbers in the current rounding mode, which a prover may have set upward.
+    const int mode = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    std::fesetround(mode);
+    return error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
+  };
+  if (!read(text)) read(Decimal::parse(text).text());  // a leading plus sign, or no decimal at all
   return value;
 }
 

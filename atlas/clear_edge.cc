@@ -1,0 +1,41 @@
+#include "atlas/clear_edge.h"
+
+#include <cmath>
+
+namespace taut {
+namespace {
+
+// Samples are at most this far apart: as a fraction of the platform's size, plus in the parameters. A margin with
+// curvature M per rad^2 dips by M step^2 / 8 between two samples: less than a clearance of 0.5 % up to M = 16.
+constexpr double kStep = 0.05;
+constexpr int kMostLevels = 12;  // of bisection
+
+}  // namespace
+
+bool ClearEdge::operator()(const Coordinates& a, const Coordinates& b) const {
+  double sign = 0;  // of det J
+  const auto clear = [&](const Pose<double>& pose) {
+    const Statics<double> statics = sampler_.statics(pose);
+    if (!(sampler_.clearance(statics) > clearance_)) return false;
+    if (sign == 0) sign = statics.determinant;
+    return statics.determinant * sign > 0;
+  };
+  const auto pose_at = [&](double s) {
+    const Coordinates q = a + s * (b - a);
+    return sampler_.pose({q.data(), static_cast<std::size_t>(q.size())});
+  };
+  const Pose<double> first = pose_at(0);
+  const Pose<double> last = pose_at(1);
+  if (!clear(last) || !clear(first)) return false;
+  const double way = (last.p_WP - first.p_WP).norm() / sampler_.model().characteristic_length + (b - a).norm();
+  double spacing = way;
+  double half = 0.5;  // of the spacing, in s
+  for (int level = 0; spacing > kStep && level < kMostLevels; ++level, spacing *= 0.5, half *= 0.5) {
+    for (double s = half; s < 1.0; s += 2.0 * half) {
+      if (!clear(pose_at(s))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace taut

@@ -1,0 +1,82 @@
+#include "atlas/path_length.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinematics/geometry.h"
+#include "kinematics/input_error.h"
+
+namespace taut {
+namespace {
+
+std::span<const double> span_of(const Coordinates& q) { return {q.data(), static_cast<std::size_t>(q.size())}; }
+
+/// Of an arc of a circle, from its chord.
+double arc(double chord, double radius) { return 2.0 * radius * std::asin(std::min(1.0, chord / (2.0 * radius))); }
+
+}  // namespace
+
+PathLength::PathLength(const PoseSampler& sampler, Cost cost, const std::vector<Coordinates>& near)
+    : sampler_(sampler), cost_(cost) {
+  if (cost == Cost::kGreatCircle) fit_sphere(near);
+}
+
+void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
+  constexpr int kSamples = 24;
+  Eigen::MatrixXd equations(kSamples, 4);
+  Eigen::VectorXd squares(kSamples);
+  for (int k = 0; k < kSamples; ++k) {
+    Coordinates q = near[static_cast<std::size_t>(k) % near.size()];
+    for (int j = 0; j < q.size(); ++j) q[j] += 0.7 * std::sin(1.0 + 2.3 * k + 5.1 * j);
+    const Vector3<double> p = sampler_.pose(span_of(q)).p_WP;
+    equations.row(k) << 2.0 * p.transpose(), 1.0;
+    squares[k] = p.squaredNorm();
+  }
+  const Eigen::Vector4d solution = equations.colPivHouseholderQr().solve(squares);
+  sphere_radius_ = std::sqrt(std::max(0.0, solution[3] + solution.head<3>().squaredNorm()));
+  const double misfit = (equations * solution - squares).lpNorm<Eigen::Infinity>();
+  if (!(misfit <= 1e-9 * squares.lpNorm<Eigen::Infinity>()) || !(sphere_radius_ > 0)) {
+    throw InputError("planner.cost: got 'great_circle', expected a space whose positions p lie on one sphere");
+  }
+}
+
+PathLength::Place PathLength::place(const Coordinates& q) const {
+  const Pose<double> pose = sampler_.pose(span_of(q));
+  if (cost_ == Cost::kGreatCircle) return {pose.p_WP, {}};
+  return {pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma)};
+}
+
+double PathLength::between(const Place& a, const Place& b) const {
+  if (cost_ == Cost::kGreatCircle) return arc((a.p_WP - b.p_WP).norm(), sphere_radius_);
+  return arc((a.r_WP - b.r_WP).norm() / std::numbers::sqrt2, 1.0);  // ‖R_a − R_b‖_F = 2√2 sin(angle/2)
+}
+
+double PathLength::distance(const Coordinates& a, const Coordinates& b) const {
+  if (cost_ == Cost::kParameters) return (b - a).norm();
+  return between(place(a), place(b));
+}
+
+double PathLength::along(const Coordinates& a, const Coordinates& b) const {
+  if (cost_ == Cost::kParameters) return (b - a).norm();
+  // Sums over pieces fall short by the square of their length: Richardson's extrapolation of the sums over double pieces
+  // and over single ones. A double piece is at most this long in the parameters.
+  constexpr double kDoublePiece = 0.4;
+  constexpr int kMostPieces = 1000;
+  const Coordinates step = b - a;
+  const int pieces = 2 * std::clamp(static_cast<int>(std::ceil(step.norm() / kDoublePiece)), 1, kMostPieces);
+  double coarse = 0;
+  double fine = 0;
+  Place even = place(a);
+  for (int k = 1; k < pieces; k += 2) {
+    const Place middle = place(a + (static_cast<double>(k) / pieces) * step);
+    const Place end = place(a + (static_cast<double>(k + 1) / pieces) * step);
+    coarse += between(even, end);
+    fine += between(even, middle) + between(middle, end);
+    even = end;
+  }
+  return fine + (fine - coarse) / 3.0;
+}
+
+}  // namespace taut

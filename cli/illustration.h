@@ -1,0 +1,13 @@
+// The picture data of a search, for reports: charts and counts, in floating point. Proves nothing.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "cli/plan.h"
+
+namespace taut {
+
+/// The `illustration` of a certificate: charts' centres and polygons where n = 2, and the search's counts.
+[[nodiscard]] nlohmann::json illustrate(const Problem& problem, const Atlas& atlas, const PlanStatistics& statistics);
+
+}  // namespace taut
