@@ -72,6 +72,12 @@ void write_whole(const std::vector<FileContent>& files) {
   for (TemporaryFile& file : written) file.rename_into_place();
 }
 
+void require_writable(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) fail(path, "write", EISDIR);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (::access(folder.c_str(), W_OK) != 0) fail(path, "write", errno);
+}
+
 std::string read_whole(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path)) fail(path, "read", std::filesystem::exists(path) ? EISDIR : ENOENT);

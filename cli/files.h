@@ -16,6 +16,9 @@ struct FileContent {
 /// written. @throws InputError naming the path and the system's reason.
 void write_whole(const std::vector<FileContent>& files);
 
+/// That a file may be written here, as far as can be told before it is. @throws InputError if not.
+void require_writable(const std::filesystem::path& path);
+
 /// @throws InputError naming the path and the system's reason.
 [[nodiscard]] std::string read_whole(const std::filesystem::path& path);
 

@@ -12,6 +12,7 @@
 #include "atlas/clear_edge.h"
 #include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
+#include "certify/certificate.h"
 
 namespace taut {
 namespace {
@@ -89,6 +90,13 @@ double search_weight(Strategy strategy) {
   return strategy == Strategy::kGreedyBestFirst ? std::numeric_limits<double>::infinity() : 1.0;
 }
 
+AtlasKey atlas_key(const Case& the_case) {
+  nlohmann::json problem = to_json(the_case.problem);
+  problem.erase("name");
+  problem.erase("query");
+  return {sha256(problem), {.clearance = the_case.planner.clearance}, atlas_options(the_case.planner)};
+}
+
 /// Edges may come this much closer to a limit than the charts' centres that they join.
 constexpr double kEdgeClearanceShare = 0.5;
 
@@ -158,15 +166,26 @@ class Planner::Edges {
   int rejected_ = 0;
 };
 
-Planner::Planner(const Case& the_case)
+Planner::Planner(const Case& the_case, const std::filesystem::path& atlas_file)
     : case_(the_case),
       prover_(the_case.problem),
       sampler_(the_case.problem),
       query_(query_waypoints(the_case.problem)),
       length_(sampler_, the_case.planner.cost, to_coordinates(query_)),
       clearance_(possible_clearance(the_case.planner.clearance, sampler_, query_)),
-      manifold_(make_wrench_feasible_manifold(the_case.problem, sampler_, {.clearance = clearance_})),
-      atlas_(*manifold_, atlas_options(the_case.planner)) {}
+      key_(atlas_key(the_case)),
+      chart_clearance_(clearance_) {
+  if (!atlas_file.empty()) {
+    atlas_file_.emplace(atlas_file, key_);
+    chart_clearance_ = std::min(clearance_, atlas_file_->clearance());
+  }
+  manifold_ = make_wrench_feasible_manifold(the_case.problem, sampler_, {.clearance = chart_clearance_});
+  if (atlas_file_) {
+    atlas_.emplace(*manifold_, key_.options, *atlas_file_);
+  } else {
+    atlas_.emplace(*manifold_, key_.options);
+  }
+}
 
 /// The answer where a waypoint of the query is infeasible, or can't be told.
 std::optional<Plan> Planner::judge_query() const {
@@ -209,11 +228,11 @@ std::optional<Path> Planner::find_path(Edges& edges, const Progress& progress, c
   for (std::size_t leg = 0; leg + 1 < query_.size(); ++leg) {
     search_problem.start = to_coordinates(query_[leg]);
     search_problem.goal = to_coordinates(query_[leg + 1]);
-    const SearchResult found = search(atlas_, search_problem, {.weight = search_weight(case_.planner.strategy)});
+    const SearchResult found = search(*atlas_, search_problem, {.weight = search_weight(case_.planner.strategy)});
     statistics.nodes_expanded += found.nodes_expanded;
     if (found.status != SearchStatus::kFound) {
       // An edge whose proof was interrupted looks rejected, and the search exhausted.
-      reason = stop.stop_requested() ? "interrupted" : no_path_reason(found, atlas_, leg);
+      reason = stop.stop_requested() ? "interrupted" : no_path_reason(found, *atlas_, leg);
       return std::nullopt;
     }
     std::vector<Coordinates> vertices;
@@ -246,15 +265,33 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
     result.statistics.prove_seconds = seconds_since(start);
   } else {
     result.statistics.prove_seconds = seconds_since(start);
-    const Prover* const without_proofs = nullptr;
-    const bool done = try_plan(without_proofs, progress, stop, result) || stop.stop_requested();
-    if (!done) try_plan(&prover_, progress, stop, result);
+    seek_and_prove(progress, stop, result);
+    if (result.proof.verdict == Verdict::kUndecided && atlas_file_ && !stop.stop_requested()) {
+      atlas_.emplace(*manifold_, key_.options);
+      atlas_file_.reset();
+      seek_and_prove(progress, stop, result);
+    }
   }
   prover_.interrupt = nullptr;
   PlanStatistics& statistics = result.statistics;
-  statistics.charts = atlas_.size();
+  statistics.charts = atlas_->size();
+  statistics.charts_stored = atlas_file_ ? atlas_file_->size() : 0;
   statistics.plan_seconds = seconds_since(start) - statistics.prove_seconds - statistics.smooth_seconds;
   return result;
+}
+
+/// First on edges that only look clear; if the path is not proved, on edges that are.
+void Planner::seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result) {
+  const Prover* const without_proofs = nullptr;
+  const bool done = try_plan(without_proofs, progress, stop, result) || stop.stop_requested();
+  if (!done) try_plan(&prover_, progress, stop, result);
+}
+
+bool Planner::grow_atlas(const Progress& progress, const std::stop_token& stop) {
+  return atlas_->grow_all([&] {
+    if (progress) progress({atlas_->size(), 0});
+    return !stop.stop_requested();
+  });
 }
 
 /// Seeks a path on edges that look clear and, with a prover, are proved one by one; then proves the path. False where a

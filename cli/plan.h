@@ -6,12 +6,15 @@
 // its proof is gathered, never inferred from the search.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
 
 #include "atlas/atlas.h"
+#include "atlas/atlas_file.h"
 #include "atlas/path_length.h"
 #include "atlas/search.h"
 #include "certify/path_proof.h"
@@ -21,6 +24,7 @@ namespace taut {
 
 struct PlanStatistics {
   int charts = 0;
+  int charts_stored = 0;  ///< of them, those that were in the atlas file
   int nodes_expanded = 0;
   int edges_checked = 0;  ///< by samples or by proof, for search and shortening
   int edges_rejected = 0;
@@ -47,18 +51,28 @@ using Progress = std::function<void(const PlanProgress&)>;
 /// A case made ready: expressions parsed, models made, an atlas begun.
 class Planner {
  public:
-  /// `the_case` has to outlive the planner. @throws InputError if it has no model.
-  explicit Planner(const Case& the_case);
+  /// `the_case` has to outlive the planner. The atlas is that of `atlas_file`, unless that is empty.
+  /// @throws InputError if the case has no model, or the file is refused (atlas/atlas_file.h).
+  explicit Planner(const Case& the_case, const std::filesystem::path& atlas_file = {});
 
-  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again.
+  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again. Where a stored atlas leads
+  /// to no path, it is set aside and a new one begun: a poor file costs time, never the answer.
+  /// @throws InputError if the atlas file turns out to be damaged.
   [[nodiscard]] Plan plan(const Progress& progress, const std::stop_token& stop);
 
-  [[nodiscard]] const Atlas& atlas() const { return atlas_; }
+  /// Grows the atlas around all its charts, until nothing is left to cover, the case's max_charts, or `stop`.
+  /// @returns whether nothing is left.
+  bool grow_atlas(const Progress& progress, const std::stop_token& stop);
+
+  [[nodiscard]] const Atlas& atlas() const { return *atlas_; }
+  /// Of a file for the atlas. @pre the atlas has a chart.
+  [[nodiscard]] std::string atlas_bytes() const { return AtlasFile::bytes_of(*atlas_, key_, chart_clearance_); }
 
  private:
   class Edges;
 
   [[nodiscard]] std::optional<Plan> judge_query() const;
+  void seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result);
   bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
   [[nodiscard]] std::optional<Path> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
                                               PlanStatistics& statistics, std::string& reason);
@@ -69,8 +83,11 @@ class Planner {
   std::vector<Waypoint> query_;
   PathLength length_;
   double clearance_;  ///< as much of what the case asks for as the query's waypoints leave
+  AtlasKey key_;
+  std::optional<AtlasFile> atlas_file_;
+  double chart_clearance_;  ///< clearance_, or less if the stored atlas was made with less
   std::unique_ptr<Manifold> manifold_;
-  Atlas atlas_;
+  std::optional<Atlas> atlas_;
 };
 
 }  // namespace taut

@@ -70,6 +70,9 @@ std::string path_csv(const Problem& problem, const Path& path) {
 struct PlanArguments {
   std::string case_path;
   std::string out;
+  std::string atlas;
+  std::string save_atlas;
+  bool grow = false;
   bool json = false;
 };
 
@@ -150,20 +153,27 @@ int run_plan(const PlanArguments& arguments) {
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / std::filesystem::path(arguments.case_path).stem()
                             : std::filesystem::path(arguments.out);
+  if (!arguments.save_atlas.empty()) require_writable(arguments.save_atlas);
+  Planner planner(case_, arguments.atlas);
   make_directories(out);
 
   const Interruption interruption;
-  Planner planner(case_);
   Plan result;
+  bool whole_atlas = false;
   {
     ProgressLine line(!arguments.json);
-    result = planner.plan([&](const PlanProgress& progress) { line.show(progress); }, interruption.token());
+    const auto progress = [&](const PlanProgress& at) { line.show(at); };
+    result = planner.plan(progress, interruption.token());
+    if (arguments.grow) whole_atlas = planner.grow_atlas(progress, interruption.token());
   }
   const nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof,
                                                       illustrate(case_.problem, planner.atlas(), result.statistics));
-  write_whole({{out / "path.csv", path_csv(case_.problem, result.path)},
-               {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
-               {out / "report.html", html_report(certificate)}});
+  std::vector<FileContent> files = {{out / "path.csv", path_csv(case_.problem, result.path)},
+                                    {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
+                                    {out / "report.html", html_report(certificate)}};
+  const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
+  if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
+  write_whole(files);
 
   const PlanStatistics& s = result.statistics;
   if (arguments.json) {
@@ -171,6 +181,7 @@ int run_plan(const PlanArguments& arguments) {
                                     {"segments", result.proof.segments.size()},
                                     {"boxes", result.proof.boxes},
                                     {"charts", s.charts},
+                                    {"charts_stored", s.charts_stored},
                                     {"nodes_expanded", s.nodes_expanded},
                                     {"edges_checked", s.edges_checked},
                                     {"edges_rejected", s.edges_rejected},
@@ -194,6 +205,10 @@ int run_plan(const PlanArguments& arguments) {
           1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
     }
     fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
+    if (saves_atlas) {
+      fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
+                 whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
+    }
   }
   return exit_code(result.proof.verdict);
 }
@@ -240,6 +255,11 @@ int run(int argc, char** argv) {
   CLI::App* plan_command = app.add_subcommand("plan", "plan, prove, write path.csv, certificate.json, report.html");
   plan_command->add_option("CASE", plan_arguments.case_path, "case file (docs/case-format.md)")->required();
   plan_command->add_option("--out", plan_arguments.out, "directory for the results (default: out/CASE's name)");
+  plan_command->add_option("--atlas", plan_arguments.atlas, "begin with the charts of this file (docs/atlas-file.md)");
+  CLI::Option* save_atlas =
+      plan_command->add_option("--save-atlas", plan_arguments.save_atlas, "write all charts into this file");
+  plan_command->add_flag("--grow", plan_arguments.grow, "make all charts that can be reached before they are saved")
+      ->needs(save_atlas);
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
 
   std::string certificate_path;
