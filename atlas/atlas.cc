@@ -21,6 +21,7 @@ constexpr double kDistanceGrowth = 4.0;
 constexpr double kReach = 2.0;
 // Half side of the cube that a polytope begins as, in radii: all its corners are outside the ball, also for n = 1.
 constexpr double kCube = 1.25;
+constexpr const char* kOutside = "its centre is outside the domain";
 // Centres closer than this fraction of a radius are one.
 constexpr double kSamePoint = 1e-9;
 
@@ -143,8 +144,16 @@ Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options, const AtlasF
 
 void Atlas::restore(int id) const {
   auto chart = std::make_unique<Chart>(Chart{{}, file_->radius(id), file_->polytope(id), file_->complete(id)});
-  if (!manifold_.frame_at(file_->coordinates(id), chart->frame)) file_->fail_at(id, "its centre is outside the domain");
+  if (!manifold_.frame_at(file_->coordinates(id), chart->frame)) file_->fail_at(id, kOutside);
   charts_[id] = std::move(chart);
+}
+
+double Atlas::radius(int id) const { return charts_[id] ? charts_[id]->radius : file_->radius(id); }
+
+const Frame& Atlas::frame(int id) {
+  if (charts_[id]) return charts_[id]->frame;
+  if (!manifold_.frame_at(file_->coordinates(id), stored_frame_)) file_->fail_at(id, kOutside);
+  return stored_frame_;
 }
 
 Coordinates Atlas::coordinates(int id) const {
@@ -157,9 +166,10 @@ std::optional<int> Atlas::add(const Coordinates& coordinates) {
   ++frame_evaluations_;
   if (!manifold_.frame_at(coordinates, candidate_)) return std::nullopt;
   std::optional<int> same;
-  index_.visit(NeighbourIndex::locate(candidate_.point()), 0, [&](int other) {
-    const Chart& chart = restored(other);
-    if ((chart.frame.point() - candidate_.point()).norm() <= kSamePoint * options_.radius) same = other;
+  const double closest = kSamePoint * options_.radius;
+  index_.visit(NeighbourIndex::locate(candidate_.point()), 0, [&](int other, double squared_distance) {
+    if (squared_distance > closest * closest) return;
+    if ((restored(other).frame.point() - candidate_.point()).norm() <= closest) same = other;
   });
   return same ? *same : insert(options_.radius);
 }
@@ -218,8 +228,11 @@ int Atlas::insert(double radius) {
   const double reach = kReach * radius;
   const NeighbourIndex::Point place = NeighbourIndex::locate(centre);
   near_.clear();
-  index_.visit(place, reach,
-               [&](int other) { near_.emplace_back((restored(other).frame.point() - centre).squaredNorm(), other); });
+  index_.visit(place, reach, [&](int other, double /*squared_distance*/) {
+    const double squared_distance = (frame(other).point() - centre).squaredNorm();
+    const double both_reach = kReach * std::max(radius, this->radius(other));
+    if (squared_distance <= both_reach * both_reach) near_.emplace_back(squared_distance, other);
+  });
   std::sort(near_.begin(), near_.end());
   for (const auto& [squared_distance, other] : near_) separate(other, id, squared_distance);
   index_.insert(id, place, reach);

@@ -111,6 +111,8 @@ class Atlas {
     return *charts_[id];
   }
   void restore(int id) const;
+  double radius(int id) const;
+  const Frame& frame(int id);  ///< without restoring the chart; until the next call
   bool is_bounded_by(int chart, int other) const;
 
   const Manifold& manifold_;
@@ -119,6 +121,7 @@ class Atlas {
   mutable std::vector<std::unique_ptr<Chart>> charts_;  ///< null: as in the file
   NeighbourIndex index_;
   Frame candidate_;                           ///< the frame about to become a chart
+  Frame stored_frame_;                        ///< what frame() returns for a stored chart
   std::vector<std::pair<double, int>> near_;  ///< buffer of insert(): squared distance, chart
   long frame_evaluations_ = 0;
 };

@@ -43,8 +43,8 @@ class NeighbourIndex {
 
   void insert(int id, const Point& point, double reach);
 
-  /// Calls visit(id) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that depends on the
-  /// insertions alone.
+  /// Calls visit(id, |p_i - point|^2) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that depends
+  /// on the insertions alone.
   template <class Visit>
   void visit(const Point& point, double reach, Visit&& visit) const {
     scan(recent_, 0, recent_.size(), point, reach, visit);
@@ -69,7 +69,7 @@ class NeighbourIndex {
       double squared = 0;
       for (int k = 0; k < kDimension; ++k) squared += (point[k] - entry.point[k]) * (point[k] - entry.point[k]);
       const double limit = std::max(reach, entry.reach);
-      if (squared <= limit * limit) visit(entry.id);
+      if (squared <= limit * limit) visit(entry.id, squared);
     }
   }
 

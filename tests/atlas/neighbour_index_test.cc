@@ -23,7 +23,7 @@ TEST(NeighbourIndex, FindsWhatALookAtAllPointsFinds) {
       if (std::sqrt(squared) <= std::max(own, all[other].second)) expected.insert(other);
     }
     std::set<int> found;
-    index.visit(point, own, [&](int other) { EXPECT_TRUE(found.insert(other).second) << "visited twice"; });
+    index.visit(point, own, [&](int other, double) { EXPECT_TRUE(found.insert(other).second) << "visited twice"; });
     ASSERT_EQ(found, expected);
     index.insert(id, point, own);
     all.emplace_back(point, own);
@@ -36,7 +36,7 @@ TEST(NeighbourIndex, LooksAtFewPointsOfAGrowingLine) {
   int visited = 0;
   for (int id = 0; id < kCount; ++id) {
     const NeighbourIndex::Point point{static_cast<double>(id)};
-    index.visit(point, 1.5, [&](int) { ++visited; });
+    index.visit(point, 1.5, [&](int, double) { ++visited; });
     index.insert(id, point, 1.5);
   }
   EXPECT_EQ(visited, kCount - 1);
