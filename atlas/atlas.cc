@@ -240,8 +240,8 @@ int Atlas::insert(double radius) {
 }
 
 void Atlas::separate(int a, int b, double squared_distance) {
-  Chart& chart_a = *charts_[a];
-  Chart& chart_b = *charts_[b];
+  Chart& chart_a = restored(a);
+  Chart& chart_b = restored(b);
   const double reach = std::min(kReach * std::max(chart_a.radius, chart_b.radius),
                                 2 * std::max(circumradius(chart_a), circumradius(chart_b)));
   if (squared_distance > reach * reach) return;

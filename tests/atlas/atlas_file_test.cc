@@ -2,78 +2,23 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
-#include <cstring>
-#include <fstream>
-#include <numeric>
+#include <limits>
 #include <random>
 
 #include "atlas/search.h"
 #include "kinematics/input_error.h"
+#include "tests/atlas/sealed.h"
 #include "tests/atlas/surfaces.h"
+#include "tests/support/temporary_file.h"
 
 namespace taut {
 namespace {
 
-constexpr double kGreedy = std::numeric_limits<double>::infinity();
-
+using testing::AtlasFilePlaces;
 using testing::coordinates;
 
-// ---- The format as the test knows it ----------------------------------------------------------------------------------
-
-constexpr std::size_t kVersionAt = 8, kChartsAt = 12, kChecksumAt = 16, kTableBytesAt = 24, kHeaderBytes = 192;
-constexpr std::size_t kPlaceBytes = 88;
-
-template <class T>
-T number_at(const std::string& bytes, std::size_t place) {
-  T value;
-  std::memcpy(&value, bytes.data() + place, sizeof value);
-  return value;
-}
-
-template <class T>
-void set_number(std::string& bytes, std::size_t place, T value) {
-  std::memcpy(bytes.data() + place, &value, sizeof value);
-}
-
-/// Makes the file's checksums right again, whatever it holds, as one would who means harm.
-void reseal(std::string& bytes, std::size_t hashes_at, std::size_t ends_at) {
-  const auto charts = number_at<std::uint32_t>(bytes, kChartsAt);
-  const std::size_t table_bytes = number_at<std::uint64_t>(bytes, kTableBytesAt);
-  if (table_bytes > bytes.size() - kHeaderBytes) return;
-  const std::size_t polytopes = kHeaderBytes + table_bytes;
-  for (std::size_t id = 0; ends_at + 8 * (id + 1) <= polytopes && id < charts; ++id) {
-    const std::size_t begin = id == 0 ? 0 : number_at<std::uint64_t>(bytes, ends_at + 8 * (id - 1));
-    const std::size_t end = number_at<std::uint64_t>(bytes, ends_at + 8 * id);
-    if (begin > end || end > bytes.size() - polytopes) break;
-    set_number<std::uint64_t>(bytes, hashes_at + 8 * id, XXH3_64bits(bytes.data() + polytopes + begin, end - begin));
-  }
-  set_number<std::uint64_t>(bytes, kChecksumAt, 0);
-  const XXH64_hash_t head = XXH3_64bits(bytes.data(), kHeaderBytes);
-  set_number<std::uint64_t>(bytes, kChecksumAt, XXH3_64bits_withSeed(bytes.data() + kHeaderBytes, table_bytes, head));
-}
-
-// ---- Files --------------------------------------------------------------------------------------------------------------
-
-class Written {
- public:
-  explicit Written(const std::string& bytes)
-      : path_(std::filesystem::temp_directory_path() /
-              ("atlas_file_test." + std::to_string(::getpid()) + "." + std::to_string(count_++))) {
-    std::ofstream(path_, std::ios::binary) << bytes;
-  }
-  ~Written() { std::filesystem::remove(path_); }
-  Written(const Written&) = delete;
-  Written& operator=(const Written&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  inline static int count_ = 0;
-  std::filesystem::path path_;
-};
+constexpr double kGreedy = std::numeric_limits<double>::infinity();
 
 AtlasKey key() {
   AtlasKey key;
@@ -93,7 +38,7 @@ Atlas half_grown(const M& manifold, const Coordinates& start, int charts) {
 }
 
 std::string message_of(const std::string& bytes, const AtlasKey& wanted = key()) {
-  const Written file(bytes);
+  const testing::TemporaryFile file(bytes);
   try {
     const AtlasFile opened(file.path(), wanted);
     return "accepted";
@@ -137,7 +82,7 @@ const testing::FlatTorus& torus(int dimension) {
 TEST(AtlasFile, GivesTheSavedAtlasBitForBit) {
   for (const int n : {2, 3, 4}) {
     const Atlas saved = half_grown(torus(n), Coordinates::Zero(n), 150);
-    const Written file(AtlasFile::bytes_of(saved, key(), 0.01));
+    const testing::TemporaryFile file(AtlasFile::bytes_of(saved, key(), 0.01));
     const AtlasFile opened(file.path(), key());
     EXPECT_EQ(opened.clearance(), 0.01);
     expect_same(saved, Atlas(torus(n), key().options, opened));
@@ -148,7 +93,7 @@ TEST(AtlasFile, GoesOnAsTheSavedAtlasWould) {
   for (const int n : {2, 3, 4}) {
     for (const double weight : {1.0, kGreedy}) {
       Atlas saved = half_grown(torus(n), Coordinates::Zero(n), 150);
-      const Written file(AtlasFile::bytes_of(saved, key(), 0));
+      const testing::TemporaryFile file(AtlasFile::bytes_of(saved, key(), 0));
       const AtlasFile opened(file.path(), key());
       Atlas loaded(torus(n), key().options, opened);
       for (const double to : {0.43, 2.9, -1.7}) {  // known ground, the far side, and back
@@ -169,12 +114,13 @@ TEST(AtlasFile, GoesOnAsTheSavedAtlasWould) {
 
 TEST(AtlasFile, OfALoadedAtlasIsTheFileOfTheSavedOne) {
   Atlas saved = half_grown(torus(2), Coordinates::Zero(2), 100);
-  const Written file(AtlasFile::bytes_of(saved, key(), 0));
+  const testing::TemporaryFile file(AtlasFile::bytes_of(saved, key(), 0));
   const AtlasFile opened(file.path(), key());
   Atlas loaded(torus(2), key().options, opened);
   EXPECT_TRUE(saved.grow_all());
   EXPECT_TRUE(loaded.grow_all());
-  const Written first(AtlasFile::bytes_of(saved, key(), 0)), second(AtlasFile::bytes_of(loaded, key(), 0));
+  const testing::TemporaryFile first(AtlasFile::bytes_of(saved, key(), 0)),
+      second(AtlasFile::bytes_of(loaded, key(), 0));
   const AtlasFile one(first.path(), key()), other(second.path(), key());
   expect_same(Atlas(torus(2), key().options, one), Atlas(torus(2), key().options, other));
 }
@@ -182,7 +128,7 @@ TEST(AtlasFile, OfALoadedAtlasIsTheFileOfTheSavedOne) {
 TEST(AtlasFile, OfAWholeSurfaceNeedsNoChartButStartAndGoal) {
   Atlas saved = half_grown(torus(2), Coordinates::Zero(2), 1);
   ASSERT_TRUE(saved.grow_all());
-  const Written file(AtlasFile::bytes_of(saved, key(), 0));
+  const testing::TemporaryFile file(AtlasFile::bytes_of(saved, key(), 0));
   const AtlasFile opened(file.path(), key());
   Atlas loaded(torus(2), key().options, opened);
   const auto found = search(loaded, from_to(coordinates({-2, -0.5}), coordinates({0.7, 0.6})), {});
@@ -217,7 +163,7 @@ TEST(AtlasFile, OfAnotherKeyIsRefusedAndSaysWhy) {
 
 TEST(AtlasFile, OfAnotherManifoldIsRefused) {
   const Atlas saved = half_grown(torus(2), coordinates({0.5, 0.25}), 20);
-  const Written file(AtlasFile::bytes_of(saved, key(), 0));
+  const testing::TemporaryFile file(AtlasFile::bytes_of(saved, key(), 0));
   const AtlasFile opened(file.path(), key());
   EXPECT_THROW(Atlas(torus(3), key().options, opened), InputError);
   EXPECT_THROW(Atlas(testing::FlatTorus({0, 0}), key().options, opened), InputError);
@@ -229,7 +175,7 @@ TEST(AtlasFile, OfAnotherVersionOrNoneIsRefused) {
   EXPECT_THAT(message_of(""), ::testing::HasSubstr("0 bytes"));
   EXPECT_THAT(message_of("taut"), ::testing::HasSubstr("4 bytes"));
   EXPECT_THAT(message_of(std::string(100000, '\0')), ::testing::HasSubstr("is no atlas file"));
-  set_number<std::uint32_t>(bytes, kVersionAt, kAtlasFileVersion + 1);
+  testing::set_number<std::uint32_t>(bytes, AtlasFilePlaces::kVersion, kAtlasFileVersion + 1);
   EXPECT_THAT(message_of(bytes), ::testing::HasSubstr("version"));
   for (const char* path : {"/nowhere/at/all", "/tmp", "/dev/zero"}) {
     EXPECT_THROW(AtlasFile(path, key()), InputError) << path;
@@ -238,7 +184,7 @@ TEST(AtlasFile, OfAnotherVersionOrNoneIsRefused) {
 
 /// Whether anything noticed that the file was damaged: all of it is looked at.
 bool refused(const std::string& bytes, const Manifold& manifold) {
-  const Written file(bytes);
+  const testing::TemporaryFile file(bytes);
   try {
     const AtlasFile opened(file.path(), key());
     const Atlas loaded(manifold, key().options, opened);
@@ -272,12 +218,9 @@ TEST(AtlasFile, ForgedCostsTimeAtMost) {
   for (const int n : {2, 3, 4}) {
     const Atlas saved = half_grown(torus(n), Coordinates::Zero(n), 60);
     const std::string bytes = AtlasFile::bytes_of(saved, key(), 0);
-    const auto count = static_cast<std::size_t>(saved.size());
-    const std::size_t ends_at = kHeaderBytes + count * kPlaceBytes +
-                                8 * (static_cast<std::size_t>(torus(n).ambient_dimension()) + count * (n + 1));
-    const std::size_t hashes_at = ends_at + 8 * count;
+    const AtlasFilePlaces places(bytes);
     std::string untouched = bytes;
-    reseal(untouched, hashes_at, ends_at);
+    testing::seal(untouched, places);
     ASSERT_TRUE(untouched == bytes) << "the test knows the format";
     AtlasOptions options = key().options;
     options.max_charts = 400;
@@ -286,14 +229,14 @@ TEST(AtlasFile, ForgedCostsTimeAtMost) {
     for (int round = 0; round < 600; ++round) {
       std::string forged = bytes;
       // Half of the rounds leave the tables alone that are checked in whole.
-      const std::size_t from = round % 2 == 0 ? 0 : kHeaderBytes + number_at<std::uint64_t>(bytes, kTableBytesAt);
+      const std::size_t from = round % 2 == 0 ? 0 : places.polytopes;
       for (int flips = 1 + static_cast<int>(random() % 8); flips > 0; --flips) {
         const std::size_t at = from + random() % (forged.size() - from);
         forged[at] = static_cast<char>(random() % 3 == 0 ? random() : forged[at] ^ (1u << random() % 8));
       }
       if (round % 50 == 0) forged.resize(random() % forged.size());
-      reseal(forged, hashes_at, ends_at);
-      const Written file(forged);
+      testing::seal(forged, places);
+      const testing::TemporaryFile file(forged);
       try {
         const AtlasFile opened(file.path(), key());
         Atlas loaded(torus(n), options, opened);

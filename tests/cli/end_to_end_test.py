@@ -193,6 +193,75 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(self.certificate()["verdict"], "undecided")
         self.assertEqual([name for name in os.listdir(self.out) if name.endswith(".part")], [])
 
+    def test_a_saved_atlas_answers_later_queries(self):
+        atlas, case = self.path("robot1.atlas"), os.path.join(CASES, "robot1-slice-qs-qg.yaml")
+        saved = run(TAUT, "plan", case, "--out", self.path("a"), "--save-atlas", atlas, "--grow", "--json")
+        self.assertEqual(saved.returncode, 0, saved.stderr)
+        for number, name in enumerate(["robot1-slice-qs1-qg.yaml", "robot1-slice-qs2-qg.yaml"]):
+            out, other = self.path(str(number)), os.path.join(CASES, name)
+            answer = run(TAUT, "plan", other, "--out", out, "--atlas", atlas, "--save-atlas", atlas, "--json")
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            summary = json.loads(answer.stdout)
+            self.assertGreater(summary["charts_stored"], 300)
+            self.assertEqual(summary["charts"], summary["charts_stored"] + 1, "the start; the goal is known")
+            checked = run(CHECK, os.path.join(out, "certificate.json"), other)
+            self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        self.assertEqual(sorted(os.listdir(self.out)), ["0", "1", "a", "robot1.atlas"])
+
+    def test_a_stale_or_damaged_atlas_is_refused_and_nothing_is_written(self):
+        atlas, case = self.path("atlas"), os.path.join(CASES, "robot1-slice-qs1-qg.yaml")
+        run(TAUT, "plan", case, "--out", self.path("a"), "--save-atlas", atlas)
+        with open(atlas, "rb") as file:
+            whole = file.read()
+        altered = bytearray(whole)
+        altered[500] ^= 1
+        finer = self.write("finer.yaml", text_of(case).replace("radius: 0.15", "radius: 0.12"))
+        stronger = self.write("stronger.yaml", text_of(case).replace("[0.05, 0.5]", "[0.05, 0.51]"))
+        self.assertNotEqual(text_of(finer), text_of(case))
+        self.assertNotEqual(text_of(stronger), text_of(case))
+        for case_used, content, expected_text in [
+                (finer, whole, "planner.radius 0.15, expected 0.12"), (stronger, whole, "of another problem"),
+                (case, bytes(altered), "damaged"), (case, whole[:-1], "damaged"), (case, whole + b"x", "damaged"),
+                (case, b"", "0 bytes"), (case, b"taut: 1\n" * 100, "is no atlas file")]:
+            with self.subTest(expected=expected_text):
+                with open(atlas, "wb") as file:
+                    file.write(content)
+                refused = run(TAUT, "plan", case_used, "--out", self.path("b"), "--atlas", atlas)
+                self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
+                self.assertIn(atlas, refused.stderr)
+                self.assertIn(expected_text, refused.stderr)
+                self.assertFalse(os.path.exists(self.path("b")))
+        for missing in [self.path("nowhere"), self.out, "/dev/null"]:
+            refused = run(TAUT, "plan", case, "--out", self.path("b"), "--atlas", missing)
+            self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
+
+    def test_where_no_atlas_can_be_written_nothing_is(self):
+        case = os.path.join(CASES, "robot1-slice-qs1-qg.yaml")
+        closed = self.path("closed")
+        os.mkdir(closed, 0o555)
+        places = [self.path("no/such/folder/atlas"), self.out, "/proc/taut.atlas"]
+        for place in places + ([] if os.geteuid() == 0 else [os.path.join(closed, "atlas")]):
+            with self.subTest(place=place):
+                refused = run(TAUT, "plan", case, "--out", self.path("b"), "--save-atlas", place)
+                self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
+                self.assertIn(place, refused.stderr)
+                self.assertFalse(os.path.exists(self.path("b", "path.csv")))
+        self.assertEqual(run(TAUT, "plan", case, "--out", self.path("b"), "--grow").returncode, 3)
+
+    def test_concurrent_writers_leave_one_whole_atlas(self):
+        atlas, case = self.path("atlas"), os.path.join(CASES, "robot1-slice-qs1-qg.yaml")
+        writers = [subprocess.Popen([TAUT, "plan", case, "--out", self.path(str(number)), "--save-atlas", atlas],
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for number in range(6)]
+        self.assertEqual([writer.wait(timeout=300) for writer in writers], [0] * 6)
+        self.assertEqual(run(TAUT, "plan", case, "--out", self.path("b"), "--atlas", atlas).returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.out)), ["0", "1", "2", "3", "4", "5", "atlas", "b"])
+
+    def test_an_infeasible_query_saves_no_atlas(self):
+        case = os.path.join(CASES, "tutorial/02-a-slack-start.yaml")
+        refuted = run(TAUT, "plan", case, "--out", self.path("a"), "--save-atlas", self.path("atlas"))
+        self.assertEqual(refuted.returncode, 1, refuted.stderr)
+        self.assertEqual(os.listdir(self.out), ["a"])
+
     def test_version(self):
         result = run(TAUT, "--version")
         self.assertEqual(result.returncode, 0)
