@@ -23,7 +23,6 @@
 #include <thread>
 
 #include "cli/plan.h"
-#include "kinematics/pose_sampler.h"
 
 namespace taut {
 namespace {
@@ -45,10 +44,10 @@ struct Query {
   Point start, goal;
 };
 
-/// Points inside of charts, away from limits.
-std::vector<Query> draw_queries(const Case& the_case, const Atlas& atlas, int count) {
-  const PoseSampler sampler(the_case.problem);
+/// Points inside of charts and of the manifold's domain.
+std::vector<Query> draw_queries(const Atlas& atlas, int count) {
   std::mt19937 random(1);
+  Frame frame;
   std::uniform_int_distribution<int> any_chart(0, atlas.size() - 1);
   std::uniform_real_distribution<double> offset(-0.3, 0.3);
   const auto draw = [&] {
@@ -57,8 +56,7 @@ std::vector<Query> draw_queries(const Case& the_case, const Atlas& atlas, int co
       TangentVector u(atlas.manifold().dimension());
       for (double& x : u) x = offset(random) * chart.radius;
       const Coordinates q = chart.frame.coordinates() + chart.frame.lift() * u;
-      Point point(q.data(), q.data() + q.size());
-      if (sampler.clearance(sampler.statics(sampler.pose(point))) > the_case.planner.clearance) return point;
+      if (atlas.manifold().frame_at(q, frame)) return Point(q.data(), q.data() + q.size());
     }
   };
   std::vector<Query> queries;
@@ -175,7 +173,7 @@ Row measure(const std::string& name, const std::string& file, const std::string&
     std::ofstream(atlas, std::ios::binary) << bytes;
     row.charts = planner.atlas().size();
     row.bytes = bytes.size();
-    queries = draw_queries(the_case, planner.atlas(), count);
+    queries = draw_queries(planner.atlas(), count);
   }
   for (std::size_t k = 0; k < queries.size(); ++k) {
     fmt::print(stderr, "\r{}: query {} of {} ", name, k + 1, count);
