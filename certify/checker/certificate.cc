@@ -94,8 +94,6 @@ Expression constant(const Json& json, const std::string& where) { return Express
 void read_space(const Json& json, Problem& problem) {
   const std::string where = "problem.space";
   object(json, where, {"parameters", "constants", "flip", "pose", "constraints"});
-  array(json["constraints"], where + ".constraints", 0);
-
   std::map<std::string, mpq_class> constants;
   if (!json["constants"].is_object()) fail(where + ".constants", "an object");
   for (const auto& item : json["constants"].items()) {
@@ -142,8 +140,23 @@ void read_space(const Json& json, Problem& problem) {
     problem.pose[c] = Expression(text(pose[kPoseNames[c]], here), names, constants, here);
   }
 
+  const Json& constraints = array(json["constraints"], where + ".constraints");
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const std::string here = at(where + ".constraints", i);
+    problem.constraints.emplace_back(text(constraints[i], here), names, constants, here);
+  }
+  if (!constraints.empty() && (names.size() > kMaxConstrainedParameters || constraints.size() >= names.size())) {
+    fail(where + ".constraints", "fewer constraints than parameters, and at most 6 of these");
+  }
+
   for (std::size_t j = 0; j < names.size(); ++j) {
     if (problem.parameters[j].kind != Kind::kPeriodic) continue;
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+      if (problem.constraints[i].turns(static_cast<int>(j)) != 0) {
+        fail(at(where + ".constraints", i),
+             "the same value, and plainly so, where the periodic parameter '" + names[j] + "' grows by 2 pi");
+      }
+    }
     for (std::size_t c = 0; c < 6; ++c) {
       const std::optional<long> turns = problem.pose[c].turns(static_cast<int>(j));
       const bool is_angle = c >= 3;
@@ -171,6 +184,11 @@ void read_space(const Json& json, Problem& problem) {
     for (const std::size_t c : std::array<std::size_t, 4>{0, 1, 2, 5}) {
       if (problem.pose[c].mentions(phi) || problem.pose[c].mentions(theta)) {
         fail(here, std::string("a pose whose ") + kPoseNames[c] + " mentions neither phi nor theta");
+      }
+    }
+    for (const Expression& constraint : problem.constraints) {
+      if (constraint.mentions(phi) || constraint.mentions(theta)) {
+        fail(here, "constraints that mention neither phi nor theta");
       }
     }
     problem.flip = {phi, theta};
@@ -215,24 +233,53 @@ Problem read_problem(const Json& json) {
   return problem;
 }
 
-std::vector<Waypoint> read_path(const Json& json, const Problem& problem) {
-  object(json, "path", {"interpolation", "waypoints", "tubes"});
-  array(json["tubes"], "path.tubes", 0);
-  if (json["interpolation"] != "straight-in-parameters") fail("path.interpolation", "'straight-in-parameters'");
-  const Json& waypoints = array(json["waypoints"], "path.waypoints");
+std::vector<double> binary64s(const Json& json, const std::string& where, std::size_t size) {
+  array(json, where, size);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < size; ++i) result.push_back(parse_binary64(text(json[i], at(where, i)), at(where, i)));
+  return result;
+}
+
+Waypoint read_waypoint(const Json& json, const std::string& where, const Problem& problem) {
   const std::size_t n = problem.parameters.size();
-  std::vector<Waypoint> path;
+  const std::size_t k = problem.constraints.size();
+  Waypoint waypoint;
+  if (k > 0) {
+    object(json, where, {"x", "half_turns", "normals"});
+    waypoint.normals = binary64s(json["normals"], where + ".normals", n * k);
+  } else {
+    object(json, where, {"x", "half_turns"});
+  }
+  waypoint.x = binary64s(json["x"], where + ".x", n);
+  const Json& half_turns = array(json["half_turns"], where + ".half_turns", n);
+  for (std::size_t j = 0; j < n; ++j) {
+    const std::int64_t most = problem.parameters[j].kind == Kind::kPeriodic ? kMaxHalfTurns : 0;
+    waypoint.half_turns.push_back(static_cast<int>(integer(half_turns[j], at(where + ".half_turns", j), -most, most)));
+  }
+  return waypoint;
+}
+
+Path read_path(const Json& json, const Problem& problem, Verdict verdict) {
+  object(json, "path", {"interpolation", "waypoints", "tubes"});
+  Path path;
+  if (json["interpolation"] == "cubic-b-spline") {
+    path.interpolation = Interpolation::kCubicBSpline;
+  } else if (json["interpolation"] != "straight-in-parameters") {
+    fail("path.interpolation", "'straight-in-parameters' or 'cubic-b-spline'");
+  }
+  const Json& waypoints = array(json["waypoints"], "path.waypoints");
   for (std::size_t k = 0; k < waypoints.size(); ++k) {
-    const std::string here = at("path.waypoints", k);
-    object(waypoints[k], here, {"x", "half_turns"});
-    const Json& x = array(waypoints[k]["x"], here + ".x", n);
-    const Json& half_turns = array(waypoints[k]["half_turns"], here + ".half_turns", n);
-    Waypoint& waypoint = path.emplace_back();
-    for (std::size_t j = 0; j < n; ++j) {
-      waypoint.x.push_back(parse_binary64(text(x[j], at(here + ".x", j)), at(here + ".x", j)));
-      const std::int64_t most = problem.parameters[j].kind == Kind::kPeriodic ? kMaxHalfTurns : 0;
-      waypoint.half_turns.push_back(static_cast<int>(integer(half_turns[j], at(here + ".half_turns", j), -most, most)));
-    }
+    path.waypoints.push_back(read_waypoint(waypoints[k], at("path.waypoints", k), problem));
+  }
+  if (path.interpolation == Interpolation::kCubicBSpline && path.segments() == 0) {
+    fail("path.waypoints", "at least four of a spline");
+  }
+  const std::size_t tubes =
+      problem.constraints.empty() ? 0 : std::max(path.segments(), std::min<std::size_t>(path.waypoints.size(), 1));
+  path.tubes = binary64s(json["tubes"], "path.tubes", tubes);
+  for (std::size_t k = 0; k < tubes; ++k) {
+    const bool is_wide = verdict == Verdict::kUndecided ? path.tubes[k] >= 0 : path.tubes[k] > 0;
+    if (!is_wide) fail(at("path.tubes", k), "a positive width");
   }
   return path;
 }
@@ -243,12 +290,13 @@ Margins read_margins(const Json& json, const std::string& where) {
           decimal(json["wrench_scale"], where + ".wrench_scale")};
 }
 
-Segment read_segment(const Json& json, std::size_t k) {
+Segment read_segment(const Json& json, std::size_t k, std::size_t control_points) {
   const std::string here = at("segments", k);
   object(json, here, {"from", "to", "boxes", "margins"});
   const auto from = static_cast<std::int64_t>(k);
   integer(json["from"], here + ".from", from, from);
-  integer(json["to"], here + ".to", from + 1, from + 1);
+  const std::int64_t to = from + static_cast<std::int64_t>(control_points) - 1;
+  integer(json["to"], here + ".to", to, to);
   Segment segment;
   mpq_class reached = 0;
   const Json& boxes = array(json["boxes"], here + ".boxes");
@@ -285,20 +333,22 @@ std::array<std::string, 3> read_top_margins(const Json& json, const Json& segmen
   return result;
 }
 
-/// AT of the format as a place on the path.
-mpq_class read_place(const Json& json, const std::string& where, std::size_t waypoints) {
-  if (waypoints == 0) fail(where, "a path");
-  const auto last = static_cast<std::int64_t>(waypoints) - 1;
-  if (json.is_object() && json.contains("waypoint")) {
+/// AT of the format.
+Place read_place(const Json& json, const std::string& where, const Path& path) {
+  if (path.waypoints.empty()) fail(where, "a path");
+  const auto segments = static_cast<std::int64_t>(path.segments());
+  if (path.interpolation == Interpolation::kStraight && json.is_object() && json.contains("waypoint")) {
     object(json, where, {"waypoint"});
-    return mpq_class(static_cast<long>(integer(json["waypoint"], where + ".waypoint", 0, last)));
+    const std::int64_t k = integer(json["waypoint"], where + ".waypoint", 0, segments);
+    if (k == 0 || k < segments) return {static_cast<std::size_t>(k), 0};
+    return {static_cast<std::size_t>(k - 1), 1};  // where the last segment ends
   }
   object(json, where, {"segment", "s"});
-  const std::int64_t k = integer(json["segment"], where + ".segment", 0, last - 1);
-  return mpq_class(static_cast<long>(k)) + dyadic(json["s"], where + ".s");
+  const std::int64_t k = integer(json["segment"], where + ".segment", 0, segments - 1);
+  return {static_cast<std::size_t>(k), dyadic(json["s"], where + ".s")};
 }
 
-Witness read_witness(const Json& json, const Problem& problem, std::size_t waypoints) {
+Witness read_witness(const Json& json, const Problem& problem, const Path& path) {
   if (!json.is_object() || !json.contains("kind")) fail("witness", "an object with the key 'kind'");
   static const std::map<std::string, WitnessKind> kKinds = {{"tension_min", WitnessKind::kTensionMin},
                                                             {"tension_max", WitnessKind::kTensionMax},
@@ -311,12 +361,12 @@ Witness read_witness(const Json& json, const Problem& problem, std::size_t waypo
   witness.kind = kind->second;
   if (witness.kind == WitnessKind::kSingular) {
     object(json, "witness", {"kind", "at", "to"});
-    witness.at = read_place(json["at"], "witness.at", waypoints);
-    witness.to = read_place(json["to"], "witness.to", waypoints);
+    witness.at = read_place(json["at"], "witness.at", path);
+    witness.to = read_place(json["to"], "witness.to", path);
     return witness;
   }
   object(json, "witness", {"kind", "at", "cable", "value", "limit"});
-  witness.at = read_place(json["at"], "witness.at", waypoints);
+  witness.at = read_place(json["at"], "witness.at", path);
   witness.cable = static_cast<int>(integer(json["cable"], "witness.cable", 1, kCables)) - 1;
   const auto value = decimals<2>(json["value"], "witness.value");
   witness.value_lower = value[0];
@@ -330,11 +380,11 @@ Witness read_witness(const Json& json, const Problem& problem, std::size_t waypo
   return witness;
 }
 
-std::string read_undecided(const Json& json, std::size_t waypoints) {
+std::string read_undecided(const Json& json, std::size_t segments) {
   object(json, "undecided", {"reason", "segment", "box"});
   if (json["segment"].is_null() != json["box"].is_null()) fail("undecided", "segment and box, or neither");
   if (!json["segment"].is_null()) {
-    integer(json["segment"], "undecided.segment", 0, static_cast<std::int64_t>(waypoints) - 2);
+    integer(json["segment"], "undecided.segment", 0, static_cast<std::int64_t>(segments) - 1);
     array(json["box"], "undecided.box", 2);
     if (dyadic(json["box"][0], "undecided.box") > dyadic(json["box"][1], "undecided.box")) {
       fail("undecided.box", "ends in order");
@@ -413,15 +463,15 @@ Certificate read_certificate(const nlohmann::json& json) {
   if (json["claim"] != verdict->second.second) fail("claim", "the text that belongs to the verdict");
 
   certificate.problem = read_problem(json["problem"]);
-  certificate.path = read_path(json["path"], certificate.problem);
-  const std::size_t waypoints = certificate.path.size();
+  certificate.path = read_path(json["path"], certificate.problem, certificate.verdict);
+  const Path& path = certificate.path;
 
   const Json& segments = array(json["segments"], "segments");
   if (certificate.verdict == Verdict::kProved) {
-    if (waypoints < 2) fail("path.waypoints", "at least two of a proved path");
-    array(segments, "segments", waypoints - 1);
+    if (path.segments() == 0) fail("path.waypoints", "at least two of a proved path");
+    array(segments, "segments", path.segments());
     for (std::size_t k = 0; k < segments.size(); ++k) {
-      certificate.segments.push_back(read_segment(segments[k], k));
+      certificate.segments.push_back(read_segment(segments[k], k, path.control_points()));
       certificate.boxes += certificate.segments.back().boxes.size();
     }
     certificate.margins = read_top_margins(json["margins"], segments);
@@ -431,12 +481,12 @@ Certificate read_certificate(const nlohmann::json& json) {
   }
 
   if (certificate.verdict == Verdict::kRefuted) {
-    certificate.witness = read_witness(json["witness"], certificate.problem, waypoints);
+    certificate.witness = read_witness(json["witness"], certificate.problem, path);
   } else if (!json["witness"].is_null()) {
     fail("witness", "null");
   }
   if (certificate.verdict == Verdict::kUndecided) {
-    certificate.undecided_reason = read_undecided(json["undecided"], waypoints);
+    certificate.undecided_reason = read_undecided(json["undecided"], path.segments());
   } else if (!json["undecided"].is_null()) {
     fail("undecided", "null");
   }
@@ -444,7 +494,7 @@ Certificate read_certificate(const nlohmann::json& json) {
   const auto count = [&](const char* key, std::size_t n) {
     integer(footer[key], std::string("footer.") + key, static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));
   };
-  count("waypoints", waypoints);
+  count("waypoints", path.waypoints.size());
   count("segments", segments.size());
   count("boxes", certificate.boxes);
   return certificate;

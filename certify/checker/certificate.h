@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,13 +43,35 @@ struct Problem {
   std::vector<Parameter> parameters;
   std::optional<std::array<int, 2>> flip;
   std::array<Expression, 6> pose;              ///< px py pz [m], phi theta sigma [rad]
+  std::vector<Expression> constraints;         ///< C: 0 along the path; fewer than the parameters
   std::vector<std::vector<Expression>> query;  ///< constants, one a parameter
 };
+
+/// Parameters that a space with constraints may have.
+inline constexpr std::size_t kMaxConstrainedParameters = 6;
 
 struct Waypoint {
   std::vector<double> x;
   std::vector<int> half_turns;
+  std::vector<double> normals;  ///< N by rows: one row a parameter, one column a constraint
   bool operator==(const Waypoint&) const = default;
+};
+
+enum class Interpolation { kStraight, kCubicBSpline };
+
+struct Path {
+  Interpolation interpolation = Interpolation::kStraight;
+  std::vector<Waypoint> waypoints;
+  std::vector<double> tubes;  ///< one a segment where the space has constraints, else none
+
+  [[nodiscard]] std::size_t control_points() const { return interpolation == Interpolation::kStraight ? 2 : 4; }
+  [[nodiscard]] std::size_t segments() const {
+    return waypoints.size() < control_points() ? 0 : waypoints.size() - control_points() + 1;
+  }
+  /// The control points of segment k; a path of a single waypoint is one motionless segment of a single one.
+  [[nodiscard]] std::span<const Waypoint> controls(std::size_t k) const {
+    return std::span(waypoints).subspan(k, segments() == 0 ? 1 : control_points());
+  }
 };
 
 struct Box {
@@ -69,11 +92,16 @@ struct Segment {
 
 enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
 
-/// A place on the path is one number: k + s on segment k.
+/// ℓ(s) of a segment.
+struct Place {
+  std::size_t segment = 0;
+  mpq_class s;
+};
+
 struct Witness {
   WitnessKind kind = WitnessKind::kSingular;
-  mpq_class at;
-  mpq_class to;   ///< kSingular only; the others use what follows
+  Place at;
+  Place to;       ///< kSingular only; the others use what follows
   int cable = 0;  ///< 0 to 5
   mpq_class value_lower;
   mpq_class value_upper;
@@ -82,7 +110,7 @@ struct Witness {
 struct Certificate {
   Verdict verdict = Verdict::kUndecided;
   Problem problem;
-  std::vector<Waypoint> path;
+  Path path;
   std::vector<Segment> segments;
   std::array<std::string, 3> margins;  ///< top level, as written: tension_N, length_m, wrench_scale
   std::optional<Witness> witness;
@@ -99,8 +127,8 @@ struct Certificate {
 [[nodiscard]] std::string digest(const nlohmann::json& value);
 
 /// Reads and checks form: keys, types, counts, digests, claim text, boxes that tile [0, 1], limits in order, E
-/// symmetric, periodic parameters along which the pose closes, the top-level margins those of the worst segments. Proves
-/// nothing about the robot.
+/// symmetric, periodic parameters along which pose and constraints close, normals and tubes of the right sizes, the
+/// top-level margins those of the worst segments. Proves nothing about the robot.
 /// @throws Malformed naming the key.
 [[nodiscard]] Certificate read_certificate(const nlohmann::json& json);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certify/checker/certificate.h"
+#include "certify/checker/motion.h"
 #include "certify/checker/pose_proof.h"
 
 namespace taut::checker {
@@ -39,7 +40,7 @@ class Checker {
   Checker(const Certificate& certificate, CheckResult& result) : certificate_(certificate), result_(result) {}
 
   void confirm_proved() {
-    require_ranges();
+    require_waypoints_in_range();
     require_query();
     for (std::size_t k = 0; k < certificate_.segments.size(); ++k) {
       const Margins& margins = certificate_.segments[k].margins;
@@ -54,9 +55,9 @@ class Checker {
   }
 
   void confirm_refuted() {
-    require_ranges();
-    if (certificate_.path.size() == 1) {
-      require_query_waypoint(certificate_.path.front());
+    require_waypoints_in_range();
+    if (certificate_.path.waypoints.size() == 1) {
+      require_query_waypoint(certificate_.path.waypoints.front());
     } else {
       require_query();
     }
@@ -92,8 +93,10 @@ class Checker {
       Box box;
       int depth;
     };
-    const bool moves = certificate_.path[k] != certificate_.path[k + 1];  // else a piece is like the whole
-    std::vector<Piece> open = {{box, moves ? 0 : kMaxDepth}};
+    const auto controls = certificate_.path.controls(k);
+    const bool moves =
+        std::any_of(controls.begin(), controls.end(), [&](const Waypoint& w) { return w != controls[0]; });
+    std::vector<Piece> open = {{box, moves ? 0 : kMaxDepth}};  // where nothing moves a piece is like the whole
     int pieces = 0;
     std::size_t proved = 0;
     while (!open.empty()) {
@@ -149,17 +152,17 @@ class Checker {
     return doubt;
   }
 
-  /// Segment k of the path; where the path is one waypoint only, that one.
+  /// On a box of segment k. Between waypoints inside their ranges parameters stay inside, by convexity; those of a motion
+  /// that is only implied need not.
   Vector6<Form> pose(const Model& model, std::size_t k, const Box& box) const {
-    const std::vector<Waypoint>& path = certificate_.path;
-    return model.pose(path[k], path[std::min(k + 1, path.size() - 1)], box);
+    const Problem& problem = certificate_.problem;
+    const std::vector<Form> at = parameters(problem, certificate_.path, k, box);
+    if (!problem.constraints.empty()) require_in_range(at, "segment " + std::to_string(k));
+    return model.pose(at);
   }
 
-  /// The pose at one place of the path.
-  Vector6<Form> pose_at(const Model& model, const mpq_class& place) const {
-    const mpz_class k =
-        place.get_num() / place.get_den();  // the last waypoint is s = 0 of a segment that does not move
-    return pose(model, k.get_ui(), {place - k, place - k});
+  Vector6<Form> pose_at(const Model& model, const Place& place) const {
+    return pose(model, place.segment, {place.s, place.s});
   }
 
   void confirm_violation(const Model& model) const {
@@ -195,15 +198,16 @@ class Checker {
   /// jump (1/x, tan, atan2). A Form of the geometry exists only where they don't.
   void confirm_sign_change(const Model& model) const {
     const Witness& witness = *certificate_.witness;
-    const auto det = [&](const mpq_class& place) { return determinant(mid(model.geometry(pose_at(model, place)).D)); };
+    const auto det = [&](const Place& place) { return determinant(mid(model.geometry(pose_at(model, place)).D)); };
     const Interval product = det(witness.at) * det(witness.to);
     if (certainly_positive(product)) throw Rejected("witness: det D has the same sign at both places");
     if (!certainly_negative(product)) throw Undefined("witness: the signs of det D");
-    const mpq_class begin = std::min(witness.at, witness.to);
-    const mpq_class end = std::max(witness.at, witness.to);
-    for (std::size_t k = 0; k + 1 < certificate_.path.size(); ++k) {
-      const Box box = {std::max(mpq_class(begin - k), mpq_class(0)), std::min(mpq_class(end - k), mpq_class(1))};
-      if (box.begin < box.end) require_continuous(model, k, box, 0);
+    const auto before = [](const Place& a, const Place& b) {
+      return a.segment != b.segment ? a.segment < b.segment : a.s < b.s;
+    };
+    const auto [begin, end] = std::minmax(witness.at, witness.to, before);
+    for (std::size_t k = begin.segment; k <= end.segment; ++k) {
+      require_continuous(model, k, {k == begin.segment ? begin.s : 0, k == end.segment ? end.s : 1}, 0);
     }
   }
 
@@ -218,32 +222,46 @@ class Checker {
     }
   }
 
-  /// Parameters of kind range stay in their closed range: as each runs straight between waypoints, it is enough that
-  /// the waypoints do.
-  void require_ranges() {
-    for (std::size_t j = 0; j < certificate_.problem.parameters.size(); ++j) {
+  void require_waypoints_in_range() {
+    for (std::size_t k = 0; k < certificate_.path.waypoints.size(); ++k) {
+      const std::vector<double>& x = certificate_.path.waypoints[k].x;
+      escalate([&](const Model&) {
+        std::vector<Form> at;
+        for (const double value : x) at.emplace_back(Interval{mpq_class(value)});  // in a range there are no half turns
+        require_in_range(at, "waypoint " + std::to_string(k));
+      });
+    }
+  }
+
+  /// Parameters of kind range are in their closed ranges.
+  void require_in_range(const std::vector<Form>& at, const std::string& where) const {
+    for (std::size_t j = 0; j < at.size(); ++j) {
       const Parameter& parameter = certificate_.problem.parameters[j];
       if (parameter.kind != Kind::kRange) continue;
-      for (std::size_t k = 0; k < certificate_.path.size(); ++k) {
-        escalate([&](const Model&) {
-          const Interval x{mpq_class(certificate_.path[k].x[j])};
-          const std::string what = "waypoint " + std::to_string(k) + ": " + parameter.name + " in its range";
-          require(is_nonnegative(x - parameter.lower.evaluate({}).range), what);
-          require(is_nonnegative(parameter.upper.evaluate({}).range - x), what);
-        });
+      for (const Form& excess : {at[j] - parameter.lower.evaluate({}), parameter.upper.evaluate({}) - at[j]}) {
+        const std::string what = where + ": " + parameter.name + " in its range";
+        if (certainly_negative(excess.mid)) throw Rejected("false: " + what);
+        if (!certainly_nonnegative(excess.range)) throw Undefined(what);
       }
     }
   }
 
   /// Each waypoint of the case occurs along the path, in order, the first first and the last last.
   void require_query() {
-    const std::vector<Waypoint>& path = certificate_.path;
+    const std::size_t passes = certificate_.path.interpolation == Interpolation::kStraight ? 1 : 3;
+    const std::span<const Waypoint> path = certificate_.path.waypoints;
     const std::size_t last = certificate_.problem.query.size() - 1;
     std::size_t k = 0;
     for (std::size_t c = 0; c <= last; ++c) {
       const std::vector<double> x = query_waypoint(c);
-      while (c > 0 && k < path.size() && !is_same(path[k], x)) ++k;
-      if (k == path.size() || !is_same(path[k], x) || (c == last && !is_same(path.back(), x))) {
+      // Whether the path goes through it: a spline does where it stands three times in a row.
+      const auto is_passed = [&](std::size_t at) {
+        const auto there = path.subspan(at, passes);
+        return std::all_of(there.begin(), there.end(),
+                           [&](const Waypoint& w) { return w == there[0] && is_same(w, x); });
+      };
+      while (c > 0 && k + passes <= path.size() && !is_passed(k)) ++k;
+      if (k + passes > path.size() || !is_passed(k) || (c == last && !is_passed(path.size() - passes))) {
         throw Rejected("query waypoint " + std::to_string(c) + ": the path does not pass it, or not in its turn");
       }
     }

@@ -5,6 +5,9 @@
 // By the mean value theorem f(u) is in mid + slope * [-1, 1]; `enclose` intersects range with that. Each operation
 // below applies the chain rule to these three statements, and throws Undefined unless its result is defined and
 // differentiable on the whole of [-1, 1]. So the existence of a Form also proves that its function is continuous.
+//
+// With mid equal to range, nothing is cut off, and the same rules differentiate a function over any box of values: then
+// slope holds its derivatives in the direction of the arguments' slopes, at every point of the box.
 #pragma once
 
 #include "certify/checker/interval.h"

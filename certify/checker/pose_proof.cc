@@ -24,51 +24,6 @@ Matrix3<Form> rotation(const Form& phi, const Form& theta, const Form& psi) {
            {-(sb * cg), sb * sg, cb}}};
 }
 
-/// Brings to row c the row below it whose entry in column c is largest in the middle (any choice is sound).
-/// Returns whether rows were exchanged.
-template <class Row>
-bool exchange_pivot(std::array<Row, 6>& A, std::size_t c) {
-  std::size_t best = c;
-  for (std::size_t i = c + 1; i < 6; ++i) {
-    if (certainly_positive(abs(middle(A[i][c])) - abs(middle(A[best][c])))) best = i;
-  }
-  if (best == c) return false;
-  std::swap(A[c], A[best]);
-  return true;
-}
-
-/// Gauss-Jordan elimination of [A | I] in intervals: it runs to the end only if no pivot contains zero, which proves
-/// every matrix in A non-singular and encloses its inverse.
-Matrix6<Interval> inverse(const Matrix6<Interval>& A) {
-  std::array<std::array<Interval, 12>, 6> W;
-  for (std::size_t i = 0; i < 6; ++i) {
-    std::copy(A[i].begin(), A[i].end(), W[i].begin());
-    W[i][6 + i] = Interval(1);
-  }
-  for (std::size_t c = 0; c < 6; ++c) {
-    exchange_pivot(W, c);
-    for (std::size_t j = c + 1; j < 12; ++j) W[c][j] = W[c][j] / W[c][c];
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (i == c) continue;
-      for (std::size_t j = c + 1; j < 12; ++j) W[i][j] -= W[i][c] * W[c][j];
-    }
-  }
-  Matrix6<Interval> result;
-  for (std::size_t i = 0; i < 6; ++i) std::copy(W[i].begin() + 6, W[i].end(), result[i].begin());
-  return result;
-}
-
-Matrix6<Interval> multiply(const Matrix6<Interval>& A, const Matrix6<Interval>& B) {
-  Matrix6<Interval> result;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (A[i][k].is_exactly_zero()) continue;
-      for (std::size_t j = 0; j < 6; ++j) result[i][j] += A[i][k] * B[k][j];
-    }
-  }
-  return result;
-}
-
 /// D^-1 on the box, as argued in the header.
 Matrix6<Form> inverse(const Matrix6<Form>& D) {
   Matrix6<Interval> slope;
@@ -87,16 +42,13 @@ Matrix6<Form> inverse(const Matrix6<Form>& D) {
   }
   Matrix6<Interval> A = multiply(C, mid(D));
   const Matrix6<Interval> A_slope = multiply(C, slope);
-  Interval rho;
   for (std::size_t i = 0; i < 6; ++i) {
-    Interval row_sum;
+    A[i][i] -= Interval(1);
     for (std::size_t j = 0; j < 6; ++j) {
-      if (i == j) A[i][j] -= Interval(1);
       A[i][j] += A_slope[i][j] * Interval::plus_minus_one();  // the mean value theorem, entry by entry
-      row_sum += abs(A[i][j]);
     }
-    rho = max(rho, row_sum);
   }
+  const Interval rho = norm(A);
   const Interval gap = Interval(1) - rho;
   if (!certainly_positive(gap)) throw Undefined("the matrix of force densities may be singular");
 
@@ -143,19 +95,6 @@ Matrix6<Interval> mid(const Matrix6<Form>& D) {
   return result;
 }
 
-Interval determinant(Matrix6<Interval> A) {
-  Interval result(1);
-  for (std::size_t c = 0; c < 6; ++c) {
-    if (exchange_pivot(A, c)) result = -result;
-    result = result * A[c][c];
-    for (std::size_t i = c + 1; i < 6; ++i) {
-      const Interval factor = A[i][c] / A[c][c];
-      for (std::size_t j = c + 1; j < 6; ++j) A[i][j] -= factor * A[c][j];
-    }
-  }
-  return result;
-}
-
 Model::Model(const Problem& problem, int bits) : problem_(problem), bits_(bits) {
   const WorkingPrecision precision(bits);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -171,23 +110,7 @@ Model::Model(const Problem& problem, int bits) : problem_(problem), bits_(bits) 
   M_inverse_ = inverse_cholesky_factor(problem.ellipsoid);
 }
 
-Vector6<Form> Model::pose(const Waypoint& from, const Waypoint& to, const Box& box) const {
-  Form s;  // m + r u
-  s.mid = Interval(mpq_class((box.begin + box.end) / 2));
-  s.slope = Interval(mpq_class((box.end - box.begin) / 2));
-  s.range = hull(Interval(box.begin), Interval(box.end));
-
-  std::vector<Form> parameters;
-  for (std::size_t j = 0; j < from.x.size(); ++j) {
-    const auto value = [&](const Waypoint& w) {
-      const Interval x{mpq_class(w.x[j])};
-      return w.half_turns[j] == 0 ? x : x + Interval(w.half_turns[j]) * Interval::pi();
-    };
-    const Interval start = value(from);
-    // Where the ends are the same number the parameter is constant, whatever rounding makes of the difference.
-    const bool fixed = from.x[j] == to.x[j] && from.half_turns[j] == to.half_turns[j];
-    parameters.push_back(fixed ? Form(start) : Form(start) + s * Form(value(to) - start));
-  }
+Vector6<Form> Model::pose(const std::vector<Form>& parameters) const {
   Vector6<Form> result;
   for (std::size_t c = 0; c < 6; ++c) result[c] = problem_.pose[c].evaluate(parameters);
   return result;

@@ -3,7 +3,7 @@
 // A box is a part [s0, s1] of one segment, written s = m + r u with u in [-1, 1]; every quantity below is a Form
 // in u (form.h). What is proved holds for every u.
 //
-//   pose       lambda = (1 - s) lambda_k + s lambda_{k+1};   p and the angles by the case's expressions;
+//   pose       p and the angles by the case's expressions of the parameters (motion.h);
 //              R = Rz(phi) Ry(theta) Rz(sigma - phi)
 //   geometry   d_i = p + R b_i - a_i,   lengths |d_i|,   arms r_i = R (b_i - p_m) from the load point P_m
 //   statics    cable i pulls along u_i = d_i / |d_i| with force f_i. With the force density x_i = f_i / |d_i|,
@@ -27,17 +27,9 @@
 
 #include "certify/checker/certificate.h"
 #include "certify/checker/form.h"
+#include "certify/checker/linear.h"
 
 namespace taut::checker {
-
-template <class T>
-using Vector3 = std::array<T, 3>;
-template <class T>
-using Vector6 = std::array<T, 6>;
-template <class T>
-using Matrix3 = std::array<Vector3<T>, 3>;  ///< rows
-template <class T>
-using Matrix6 = std::array<Vector6<T>, 6>;  ///< rows
 
 /// Of all six cables, for every pose of the box.
 struct Geometry {
@@ -62,7 +54,7 @@ class Model {
   [[nodiscard]] Interval length_limit(std::size_t cable, bool upper) const { return length_[cable][upper ? 1 : 0]; }
 
   // At the working precision, which should be bits(). Each throws Undefined where the box has to be split.
-  [[nodiscard]] Vector6<Form> pose(const Waypoint& from, const Waypoint& to, const Box& box) const;
+  [[nodiscard]] Vector6<Form> pose(const std::vector<Form>& parameters) const;
   [[nodiscard]] Geometry geometry(const Vector6<Form>& pose) const;
   [[nodiscard]] Tensions tensions(const Geometry& geometry) const;
 
@@ -77,9 +69,6 @@ class Model {
   Vector6<Interval> wrench_;
   Matrix6<Interval> M_inverse_;  ///< lower triangular
 };
-
-/// Enclosure of det A, by elimination. @throws Undefined where A may be singular.
-[[nodiscard]] Interval determinant(Matrix6<Interval> A);
 
 /// D at the centre of the box.
 [[nodiscard]] Matrix6<Interval> mid(const Matrix6<Form>& D);

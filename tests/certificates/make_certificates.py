@@ -107,11 +107,15 @@ def solve(A, B):
     return [row[n:] for row in W], det
 
 
-def pose_of(space, values):
+def evaluate(space, expressions, values):
     names = {k: getattr(math, k) for k in ('sqrt', 'sin', 'cos', 'tan', 'exp', 'log', 'atan2', 'pi')}
     names.update({k: float(v) for k, v in space['constants'].items()})
     names.update({p['name']: v for p, v in zip(space['parameters'], values)})
-    return [eval(space['pose'][k].replace('^', '**'), names) for k in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')]
+    return [eval(e.replace('^', '**'), names) for e in expressions]
+
+
+def pose_of(space, values):
+    return evaluate(space, [space['pose'][k] for k in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')], values)
 
 
 def geometry(pr, values):
@@ -166,16 +170,57 @@ def margins_at(pr, values):
 
 # ---- certificates ---------------------------------------------------------------------------------------------------
 
-def values_of(waypoint):
-    return [float.fromhex(x) + pi * h for x, h in zip(waypoint['x'], waypoint['half_turns'])]
+def waypoint(x, half_turns=None, normals=None):
+    w = {'x': [hex64(v) for v in x], 'half_turns': half_turns or [0] * len(x)}
+    if normals is not None:
+        w['normals'] = [hex64(v) for v in normals]
+    return w
 
 
-def waypoint(x, half_turns=None):
-    return {'x': [hex64(v) for v in x], 'half_turns': half_turns or [0] * len(x)}
+def path(waypoints, spline=False, tubes=()):
+    return {'interpolation': 'cubic-b-spline' if spline else 'straight-in-parameters', 'waypoints': waypoints,
+            'tubes': [hex64(t) for t in tubes]}
 
 
-def between(a, b, s):
-    return [(1 - s) * x + s * y for x, y in zip(values_of(a), values_of(b))]
+def straight(*waypoints, tubes=()):
+    return path(list(waypoints), tubes=tubes)
+
+
+def spline(*corners, tubes=()):
+    """Through the first and the last corner, and near the others."""
+    return path([corners[0]] * 2 + list(corners) + [corners[-1]] * 2, True, tubes)
+
+
+def control_points(pa):
+    return 4 if pa['interpolation'] == 'cubic-b-spline' else 2
+
+
+def mix(pa, k, s, values):
+    """`values` of the control points of segment k, mixed by the path's law."""
+    n = control_points(pa)
+    weights = [1 - s, s] if n == 2 else [(1 - s)**3 / 6, (3 * s**3 - 6 * s**2 + 4) / 6,
+                                         (-3 * s**3 + 3 * s**2 + 3 * s + 1) / 6, s**3 / 6]
+    points = [values(w) for w in pa['waypoints'][k:k + n]]
+    return [sum(w * p[j] for w, p in zip(weights, points)) for j in range(len(points[0]))]
+
+
+def parameters(pr, pa, k, s):
+    """Where segment k is at s; with constraints, by Newton's method on differences."""
+    line = mix(pa, k, s, lambda w: [float.fromhex(x) + pi * h for x, h in zip(w['x'], w['half_turns'])])
+    count = len(pr['space']['constraints'])
+    if count == 0:
+        return line
+    normals = mix(pa, k, s, lambda w: [float.fromhex(x) for x in w['normals']])
+    move = lambda y: [x + sum(normals[j * count + i] * y[i] for i in range(count)) for j, x in enumerate(line)]
+    C = lambda y: evaluate(pr['space'], pr['space']['constraints'], move(y))
+    y, h = [0.0] * count, 1e-6
+    for _ in range(20):
+        nudged = [[C([y[n] + e * h * (n == i) for n in range(count)]) for e in (1, -1)] for i in range(count)]
+        jacobian = [[(nudged[i][0][e] - nudged[i][1][e]) / (2 * h) for i in range(count)] for e in range(count)]
+        step, _ = solve(jacobian, [[c] for c in C(y)])
+        y = [a - b[0] for a, b in zip(y, step)]
+    assert max(map(abs, C(y))) < 1e-13 and max(map(abs, y)) < float.fromhex(pa['tubes'][k]), (pr['name'], k, s, y)
+    return move(y)
 
 
 def dyadic(k, m):
@@ -183,27 +228,42 @@ def dyadic(k, m):
     return str(f)
 
 
-def certificate(pr, waypoints, verdict, **more):
+def certificate(pr, pa, verdict, **more):
     c = {'format': 'taut-certificate', 'version': 2, 'generator': {'name': 'make_certificates.py', 'version': '1'},
-         'verdict': verdict, 'claim': CLAIMS[verdict], 'problem': pr,
-         'path': {'interpolation': 'straight-in-parameters', 'waypoints': waypoints, 'tubes': []}, 'segments': [], 'margins': {},
+         'verdict': verdict, 'claim': CLAIMS[verdict], 'problem': pr, 'path': pa, 'segments': [], 'margins': {},
          'witness': None, 'undecided': None, 'illustration': None}
     c.update(more)
     return seal(c)
 
 
-def proved(pr, waypoints, boxes=8, below=0.995):
-    keys = ('tension_N', 'length_m', 'wrench_scale')
+def proved(pr, pa, boxes=8, below=0.995, samples=400):
+    n = control_points(pa)
     segments = []
-    for k, (a, b) in enumerate(zip(waypoints, waypoints[1:])):
-        sampled = [margins_at(pr, between(a, b, i / 400)) for i in range(401)]
+    for k in range(len(pa['waypoints']) - n + 1):
+        sampled = [margins_at(pr, parameters(pr, pa, k, i / samples)) for i in range(samples + 1)]
         lowest = [min(m[j] for m in sampled) * below for j in range(3)]
         assert lowest[0] > 0 and lowest[1] > 0 and lowest[2] >= 1, (pr['name'], k, lowest)
-        segments.append({'from': k, 'to': k + 1,
-                         'boxes': [[dyadic(i, boxes), dyadic(i + 1, boxes)] for i in range(boxes)],
-                         'margins': {key: '%.6e' % x for key, x in zip(keys, lowest)}})
-    margins = {key: min((s['margins'][key] for s in segments), key=float) for key in keys}
-    return certificate(pr, waypoints, 'proved', segments=segments, margins=margins)
+        segments.append(segment(k, n, lowest, boxes))
+    return of_segments(pr, pa, segments)
+
+
+KEYS = ('tension_N', 'length_m', 'wrench_scale')
+
+
+def segment(k, n, margins, boxes):
+    return {'from': k, 'to': k + n - 1, 'boxes': [[dyadic(i, boxes), dyadic(i + 1, boxes)] for i in range(boxes)],
+            'margins': {key: '%.6e' % x for key, x in zip(KEYS, margins)}}
+
+
+def of_segments(pr, pa, segments):
+    margins = {key: min((s['margins'][key] for s in segments), key=float) for key in KEYS}
+    return certificate(pr, pa, 'proved', segments=segments, margins=margins)
+
+
+def asserted(pr, pa, boxes=1):
+    """Claims of margins so small that nothing but the motion itself can be in doubt."""
+    n = control_points(pa)
+    return of_segments(pr, pa, [segment(k, n, (1e-6, 1e-6, 1), boxes) for k in range(len(pa['waypoints']) - n + 1)])
 
 
 def enclosing(x):
@@ -229,49 +289,49 @@ def changed(c, edit, reseal=True):
 def main():
     near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
     a, m, b = waypoint([-2.3, 1.6]), waypoint([-2.26, 1.57]), waypoint([-2.2, 1.55])
-    near_c = proved(near, [a, m, b])
+    near_c = proved(near, straight(a, m, b))
     write('accepted', 'robot1_near_start', near_c, "Two short segments of Robot 1's slice, near the paper's q_s.")
 
     goal = problem('robot1-near-goal', ROBOT1, SLICE, [['1.7', '1.7'], ['1.65', '1.7']])
-    write('accepted', 'robot1_near_goal', proved(goal, [waypoint([1.7, 1.7]), waypoint([1.65, 1.7])], 4),
+    write('accepted', 'robot1_near_goal', proved(goal, straight(waypoint([1.7, 1.7]), waypoint([1.65, 1.7])), 4),
           "A short segment near the paper's q_g.")
 
     flat = problem('robot1-through-zero-tilt', ROBOT1, SLICE, [['-2', '0.05'], ['-2', '-0.05']])
-    write('accepted', 'robot1_through_zero_tilt', proved(flat, [waypoint([-2, 0.05]), waypoint([-2, -0.05])], 2),
+    write('accepted', 'robot1_through_zero_tilt', proved(flat, straight(waypoint([-2, 0.05]), waypoint([-2, -0.05])), 2),
           'theta passes 0, where tilt-and-torsion angles are singular and the pose is not.')
 
     flip = problem('robot1-flipped', ROBOT1, SLICE, [['1.2', '-0.05'], ['1.2', '0.05']])
-    write('accepted', 'robot1_flipped', proved(flip, [waypoint([1.2, 0.05], [-1, 0]), waypoint([1.2, -0.05], [-1, 0])], 2),
+    write('accepted', 'robot1_flipped', proved(flip, straight(waypoint([1.2, 0.05], [-1, 0]), waypoint([1.2, -0.05], [-1, 0])), 2),
           'Both waypoints are written as (phi + an odd half turn, -theta).')
 
     still = problem('robot1-start-is-goal', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.3', '1.6']])
-    write('accepted', 'robot1_start_is_goal', proved(still, [a, a], 1), 'A plan whose start is its goal.')
+    write('accepted', 'robot1_start_is_goal', proved(still, straight(a, a), 1), 'A plan whose start is its goal.')
 
     turned = problem('robot1-a-turn-later', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
-    write('accepted', 'robot1_a_turn_later', proved(turned, [waypoint([-2.3, 1.6], [4, 0]),
-          waypoint([-2.2, 1.55], [4, 0])], 8), 'Both waypoints two whole turns on: the same poses.')
+    write('accepted', 'robot1_a_turn_later', proved(turned, straight(waypoint([-2.3, 1.6], [4, 0]),
+          waypoint([-2.2, 1.55], [4, 0])), 8), 'Both waypoints two whole turns on: the same poses.')
 
     sphere = problem('robot2-sphere', ROBOT2, SPHERE, [['0.55', 'pi/2'], ['0.55', '1.4']])
-    sphere_c = proved(sphere, [waypoint([0.55, pi / 2]), waypoint([0.55, 1.4])], 8)
+    sphere_c = proved(sphere, straight(waypoint([0.55, pi / 2]), waypoint([0.55, 1.4])), 8)
     write('accepted', 'robot2_sphere', sphere_c,
           "Robot 2 on the paper's sphere (16); starts at the end of a closed range, binary64(pi/2) < pi/2.")
 
     # Refuted.
-    straight = problem('robot1-straight', ROBOT1, SLICE, [['-2.3', '1.6'], ['1.7', '1.7']])
-    ends = [waypoint([-2.3, 1.6]), waypoint([1.7, 1.7])]
+    across = problem('robot1-straight', ROBOT1, SLICE, [['-2.3', '1.6'], ['1.7', '1.7']])
+    ends = straight(waypoint([-2.3, 1.6]), waypoint([1.7, 1.7]))
     at, worst = None, None
     for k in range(65):
-        lengths, f0, v, det = statics(straight, between(*ends, k / 64))
+        lengths, f0, v, det = statics(across, parameters(across, ends, 0, k / 64))
         i = min(range(6), key=lambda n: f0[n] - v[n])
         if worst is None or f0[i] - v[i] < worst[1]:
             at, worst = k, (i, f0[i] - v[i])
-    tension = certificate(straight, ends, 'refuted', witness={
+    tension = certificate(across, ends, 'refuted', witness={
         'at': {'segment': 0, 's': dyadic(at, 64)}, 'kind': 'tension_min', 'cable': worst[0] + 1,
         'value': enclosing(worst[1]), 'limit': '0.05'})
     write('accepted', 'refuted_tension_min', tension, "The straight motion q_s to q_g: a cable would have to push.")
 
     up = copy.deepcopy(tension)
-    best = max(((k, i, f0[i] + v[i]) for k in range(65) for _, f0, v, _ in [statics(straight, between(*ends, k / 64))]
+    best = max(((k, i, f0[i] + v[i]) for k in range(65) for _, f0, v, _ in [statics(across, parameters(across, ends, 0, k / 64))]
                 for i in range(6)), key=lambda t: t[2])
     up['witness'] = {'at': {'segment': 0, 's': dyadic(best[0], 64)}, 'kind': 'tension_max', 'cable': best[1] + 1,
                      'value': enclosing(best[2]), 'limit': '0.5'}
@@ -284,7 +344,7 @@ def main():
     far = problem('robot1-too-far', ROBOT1, high_slice('0.6'), [['0', '0'], ['1', '0']])
     _, lengths = geometry(far, [0.0, 0.0])
     i = max(range(6), key=lambda n: lengths[n])
-    write('accepted', 'refuted_length_max', certificate(far, [waypoint([0, 0])], 'refuted', witness={
+    write('accepted', 'refuted_length_max', certificate(far, straight(waypoint([0, 0])), 'refuted', witness={
         'at': {'waypoint': 0}, 'kind': 'length_max', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.55'}),
         "A path of a single waypoint, the query's first, 600 mm below the base: the cables do not reach.")
     close = problem('robot1-in-the-base', ROBOT1, high_slice('0'), [['1', '0'], ['0', '0']])
@@ -292,13 +352,13 @@ def main():
     i = min(range(6), key=lambda n: lengths[n])
     close['robot']['length_m'][i] = ['0.3', '0.55']
     assert lengths[i] < 0.3
-    write('accepted', 'refuted_length_min', certificate(close, [waypoint([0, 0])], 'refuted', witness={
+    write('accepted', 'refuted_length_min', certificate(close, straight(waypoint([0, 0])), 'refuted', witness={
         'at': {'waypoint': 0}, 'kind': 'length_min', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.3'}),
         "The query's second waypoint, in the plane of the base, where J is singular: the length is refuted all the same.")
 
-    dets = [statics(straight, between(*ends, k / 64))[3] for k in range(65)]
+    dets = [statics(across, parameters(across, ends, 0, k / 64))[3] for k in range(65)]
     k = next(k for k in range(64) if dets[k] * dets[k + 1] < 0)
-    singular = certificate(straight, ends, 'refuted', witness={
+    singular = certificate(across, ends, 'refuted', witness={
         'kind': 'singular', 'at': {'segment': 0, 's': dyadic(k, 64)}, 'to': {'segment': 0, 's': dyadic(k + 1, 64)}})
     write('accepted', 'refuted_singular', singular, 'det J changes sign between two places of the straight motion.')
 
@@ -309,7 +369,7 @@ def main():
                          'pz': '0.35 + 0*t^0', 'phi': '-2.3 + (t*1 - t^1)*1000 - 0*t', 'theta': '1.6',
                          'sigma': '(34)*pi/180'})
     closed = problem('robot1-closing', ROBOT1, closing, [['0.1'], ['0.2']])
-    closed_c = proved(closed, [waypoint([0.1], [2]), waypoint([0.2], [2])], 8)
+    closed_c = proved(closed, straight(waypoint([0.1], [2]), waypoint([0.2], [2])), 8)
     write('accepted', 'robot1_closing', closed_c, 'The pose plainly closes along the periodic parameter; whole turns on.')
 
     # Well formed, but false: every digest is right.
@@ -337,7 +397,7 @@ def main():
     reject('margin_zero', near_c, 'A margin of zero proves no strict inequality.', 'not positive',
            raise_margin('tension_N', 0, '0'))
     reject('wrench_scale_below_one', near_c, 'Less than K is covered.', 'below 1', raise_margin('wrench_scale', 0, '0.99'))
-    lo = min(statics(near, between(a, m, 0.5))[1])
+    lo = min(statics(near, parameters(near, near_c['path'], 0, 0.5))[1])
     reject('tension_limit_above', near_c, 'A cable has to pull harder than it does.', 'lower tension margin',
            lambda c: c['problem']['robot'].update(tension_N=[['%.3f' % (lo + 0.02), '0.5']] * 6))
     reject('length_limit_below', near_c, 'A cable is shorter than it has to be.', 'upper length margin',
@@ -372,16 +432,16 @@ def main():
         c['path']['waypoints'][0] = waypoint([0.55, math.nextafter(pi / 2, 2)])
         c['problem']['query']['waypoints'][0] = ['0.55', '1.5707963267948968']
     reject('range_left', sphere_c, 'A parameter starts one ulp outside its closed range.', 'in its range', leave)
-    def refuted_at(x, query=straight):
+    def refuted_at(x, query=across):
         _, f0, v, _ = statics(query, x)
         i = min(range(6), key=lambda n: f0[n] - v[n])
         assert f0[i] - v[i] < 0.05
         return {'kind': 'tension_min', 'cable': i + 1, 'value': enclosing(f0[i] - v[i]), 'limit': '0.05'}
     outside = [0.0, 3.0]
-    write('rejected', 'refuted_beside_the_query', certificate(straight, [waypoint(outside)], 'refuted', witness={
+    write('rejected', 'refuted_beside_the_query', certificate(across, straight(waypoint(outside)), 'refuted', witness={
         'at': {'waypoint': 0}, **refuted_at(outside)}),
         "True of a pose that the query does not ask for: it says nothing of the case.", "none of the query's")
-    write('rejected', 'refuted_path_leads_elsewhere', certificate(straight, [ends[0], waypoint(outside)], 'refuted',
+    write('rejected', 'refuted_path_leads_elsewhere', certificate(across, straight(ends['waypoints'][0], waypoint(outside)), 'refuted',
         witness={'at': {'waypoint': 1}, **refuted_at(outside)}),
         "A path from the query's start to a pose that the query does not ask for.", 'query waypoint 1')
     reject('witness_violates_nothing', tension, 'At the witness the tension is within its limits.', 'violates',
@@ -391,13 +451,13 @@ def main():
     reject('same_sign', singular, 'det D does not change its sign between these.', 'same sign',
            lambda c: c['witness'].update(to=c['witness']['at']))
     # The platform is turned upside down by a jump, not by passing a singular pose: a mirror image through z = 0.
-    jump = copy.deepcopy(straight)
+    jump = copy.deepcopy(across)
     jump['space'].update(parameters=[{'name': 't', 'kind': 'real'}], flip=None,
                          pose={'px': '0', 'py': '0', 'pz': '0.35*sqrt(t^2)/t', 'phi': '0', 'theta': '0', 'sigma': '0.6'})
     jump['query']['waypoints'] = [['-1'], ['1']]
     d0, d1 = statics(jump, [-1.0])[3], statics(jump, [1.0])[3]
     assert d0 * d1 < 0, (d0, d1)
-    write('rejected', 'sign_change_by_a_jump', certificate(jump, [waypoint([-1]), waypoint([1])], 'refuted', witness={
+    write('rejected', 'sign_change_by_a_jump', certificate(jump, straight(waypoint([-1]), waypoint([1])), 'refuted', witness={
         'kind': 'singular', 'at': {'waypoint': 0}, 'to': {'waypoint': 1}}),
         'det J has opposite signs at the ends, but the path jumps between them, so that no pose need be singular.',
         'not confirmed')
@@ -449,7 +509,7 @@ def main():
                    pose={'px': '0', 'py': '0', 'pz': '0.35 + 8*(1 - t/(2*pi))', 'phi': '-2.3', 'theta': '1.6',
                          'sigma': '(34)*pi/180'})
     fallen = problem('robot1-falling', ROBOT1, falling, [['0'], ['0']])
-    write('malformed', 'periodic_position', proved(fallen, [waypoint([0.0], [2])] * 2, 1),
+    write('malformed', 'periodic_position', proved(fallen, straight(*[waypoint([0.0], [2])] * 2), 1),
           'A position that is not the same after a turn of a periodic parameter.', 'pz: expected the same pose')
 
     def pose(**coordinates):
