@@ -281,12 +281,36 @@ def write(folder, name, c, why, expect=None):
 
 
 def changed(c, edit, reseal=True):
-    c = copy.deepcopy(c)
+    c = json.loads(json.dumps(c))  # a copy of each waypoint, also where several are one object
     edit(c)
     return seal(c) if reseal else c
 
 
+def reject(name, c, why, expect, edit=lambda c: None):
+    """Well formed, but false: every digest is right."""
+    write('rejected', name, changed(c, edit), why, expect)
+
+
+def malform(name, why, expect, edit, c, reseal=True):
+    """Against the format."""
+    write('malformed', name, changed(c, edit, reseal), why, expect)
+
+
+def raise_margin(key, factor, text=None):
+    def edit(c):
+        for s in c['segments']:
+            s['margins'][key] = text or '%.6e' % (float(s['margins'][key]) * factor)
+        c['margins'][key] = min((s['margins'][key] for s in c['segments']), key=float)
+    return edit
+
+
 def main():
+    explicit_motions()
+    splines()
+    implied_motions()
+
+
+def explicit_motions():
     near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
     a, m, b = waypoint([-2.3, 1.6]), waypoint([-2.26, 1.57]), waypoint([-2.2, 1.55])
     near_c = proved(near, straight(a, m, b))
@@ -373,16 +397,6 @@ def main():
     write('accepted', 'robot1_closing', closed_c, 'The pose plainly closes along the periodic parameter; whole turns on.')
 
     # Well formed, but false: every digest is right.
-    def reject(name, c, why, expect, edit=lambda c: None):
-        write('rejected', name, changed(c, edit), why, expect)
-
-    def raise_margin(key, factor, text=None):
-        def edit(c):
-            for s in c['segments']:
-                s['margins'][key] = text or '%.6e' % (float(s['margins'][key]) * factor)
-            c['margins'][key] = min((s['margins'][key] for s in c['segments']), key=float)
-        return edit
-
     def robot(key, i, value):
         def edit(c):
             c['problem']['robot'][key][i] = value
@@ -467,40 +481,39 @@ def main():
     write('rejected', 'undefined_expression', bad, 'sqrt(-1) is no real number, not even times 0.', 'square root')
 
     # Against the format.
-    def malform(name, why, expect, edit, c=near_c, reseal=True):
-        write('malformed', name, changed(c, edit, reseal), why, expect)
-
+    def malform_near(name, why, expect, edit, **more):
+        malform(name, why, expect, edit, near_c, **more)
     def set_boxes(boxes):
         def edit(c):
             c['segments'][0]['boxes'] = boxes
         return edit
-    malform('boxes_with_a_gap', 'A part of the segment is in no box.', 'boxes', set_boxes([['0', '1/4'], ['1/2', '1']]))
-    malform('boxes_overlapping', 'Boxes tile; they do not overlap.', 'boxes', set_boxes([['0', '3/4'], ['1/2', '1']]))
-    malform('boxes_stop_early', 'The last box does not reach 1.', 'boxes', set_boxes([['0', '1/2']]))
-    malform('boxes_empty', 'No box at all.', 'boxes', set_boxes([]))
-    malform('box_no_dyadic', 'Ends are dyadic.', 'power of two', set_boxes([['0', '1/3'], ['1/3', '1']]))
-    malform('box_not_lowest', 'Ends are in lowest terms.', 'lowest terms', set_boxes([['0', '2/4'], ['2/4', '1']]))
-    malform('margins_not_the_worst', 'The top level claims more than a segment.', 'margins',
+    malform_near('boxes_with_a_gap', 'A part of the segment is in no box.', 'boxes', set_boxes([['0', '1/4'], ['1/2', '1']]))
+    malform_near('boxes_overlapping', 'Boxes tile; they do not overlap.', 'boxes', set_boxes([['0', '3/4'], ['1/2', '1']]))
+    malform_near('boxes_stop_early', 'The last box does not reach 1.', 'boxes', set_boxes([['0', '1/2']]))
+    malform_near('boxes_empty', 'No box at all.', 'boxes', set_boxes([]))
+    malform_near('box_no_dyadic', 'Ends are dyadic.', 'power of two', set_boxes([['0', '1/3'], ['1/3', '1']]))
+    malform_near('box_not_lowest', 'Ends are in lowest terms.', 'lowest terms', set_boxes([['0', '2/4'], ['2/4', '1']]))
+    malform_near('margins_not_the_worst', 'The top level claims more than a segment.', 'margins',
             lambda c: c['margins'].update(tension_N='1'))
-    malform('margins_of_no_segment', 'The top level claims a number that no segment has.', 'margins',
+    malform_near('margins_of_no_segment', 'The top level claims a number that no segment has.', 'margins',
             lambda c: c['margins'].update(tension_N='1e-9'))
-    malform('claim_reworded', 'The theorem is not the one of the verdict.', 'claim',
+    malform_near('claim_reworded', 'The theorem is not the one of the verdict.', 'claim',
             lambda c: c.update(claim=c['claim'].replace('every', 'some')))
-    malform('claim_of_another_verdict', 'The theorem is not the one of the verdict.', 'claim',
+    malform_near('claim_of_another_verdict', 'The theorem is not the one of the verdict.', 'claim',
             lambda c: c.update(claim=CLAIMS['refuted']))
-    malform('altered', 'A digit changed after it was sealed.', 'altered',
+    malform_near('altered', 'A digit changed after it was sealed.', 'altered',
             lambda c: c['margins'].update(tension_N='1e-9'), reseal=False)
-    malform('limits_reversed', 'lower < upper.', 'lower < upper', robot('tension_N', 2, ['0.5', '0.05']))
-    malform('limit_negative', 'Cables do not push.', '0 <= lower', robot('tension_N', 2, ['-0.1', '0.5']))
-    malform('ellipsoid_asymmetric', 'E is symmetric.', 'symmetric',
+    malform_near('limits_reversed', 'lower < upper.', 'lower < upper', robot('tension_N', 2, ['0.5', '0.05']))
+    malform_near('limit_negative', 'Cables do not push.', '0 <= lower', robot('tension_N', 2, ['-0.1', '0.5']))
+    malform_near('ellipsoid_asymmetric', 'E is symmetric.', 'symmetric',
             lambda c: c['problem']['load']['ellipsoid'][0].__setitem__(1, '1'))
-    malform('flip_of_others', 'phi is not the parameter that flip says.', 'flip',
+    malform_near('flip_of_others', 'phi is not the parameter that flip says.', 'flip',
             lambda c: c['problem']['space'].update(flip=[1, 0]))
-    malform('flip_mentioned', 'sigma depends on phi, so that (phi + pi, -theta) is another pose.', 'flip',
+    malform_near('flip_mentioned', 'sigma depends on phi, so that (phi + pi, -theta) is another pose.', 'flip',
             lambda c: c['problem']['space']['pose'].update(sigma='2*phi'))
-    malform('flip_theta_periodic', 'theta is of kind real where (phi + pi, -theta) is the same pose.', 'theta of kind real',
+    malform_near('flip_theta_periodic', 'theta is of kind real where (phi + pi, -theta) is the same pose.', 'theta of kind real',
             lambda c: c['problem']['space']['parameters'][1].update(kind='periodic'))
-    malform('flip_phi_real', 'phi is of kind periodic where (phi + pi, -theta) is the same pose.', 'phi of kind periodic',
+    malform_near('flip_phi_real', 'phi is of kind periodic where (phi + pi, -theta) is the same pose.', 'phi of kind periodic',
             lambda c: c['problem']['space']['parameters'][0].update(kind='real'))
     # Half turns of a parameter that is no angle would detach the path from the query: here the typed start, t = 0,
     # is 8.35 m below the base, and the path stays at t = 2 pi, 0.35 m below it.
@@ -522,7 +535,7 @@ def main():
             closed_c)
     malform('periodic_squared', 'No multiple of 2 pi.', 'sigma: expected the same', pose(sigma='t*t'), closed_c)
     malform('periodic_exponential', 'exp does not close.', 'theta: expected the same', pose(theta='exp(t)'), closed_c)
-    malform('query_of_one_waypoint', 'A query leads from one waypoint to another.', 'at least two waypoints',
+    malform_near('query_of_one_waypoint', 'A query leads from one waypoint to another.', 'at least two waypoints',
             lambda c: c['problem']['query']['waypoints'].pop())
     def fix(c):
         c['problem']['space'].update(parameters=[], flip=None)
@@ -533,27 +546,27 @@ def main():
             lambda c: c['problem']['query']['waypoints'][0].__setitem__(0, '0*rs + 0.55'), sphere_c)
     malform('range_with_a_name', "So are a range's ends.", 'known name',
             lambda c: c['problem']['space']['parameters'][1].update(range=['-pi/2 + 0*rs', 'pi/2']), sphere_c)
-    malform('no_parameters', 'Nothing could move.', 'at least one parameter', fix)
-    malform('expression_with_a_tab', 'Blanks are the only white space.', 'printable', pose(px='0\t'))
-    malform('expression_not_ascii', 'A minus sign of another script.', 'printable', pose(px='\u22120'))
-    malform('half_turn_of_a_real', 'Half turns are for periodic parameters.', 'half_turns',
+    malform_near('no_parameters', 'Nothing could move.', 'at least one parameter', fix)
+    malform_near('expression_with_a_tab', 'Blanks are the only white space.', 'printable', pose(px='0\t'))
+    malform_near('expression_not_ascii', 'A minus sign of another script.', 'printable', pose(px='\u22120'))
+    malform_near('half_turn_of_a_real', 'Half turns are for periodic parameters.', 'half_turns',
             lambda c: c['path']['waypoints'][0].update(half_turns=[0, 2]))
-    malform('one_waypoint', 'A path of one waypoint has no segment to prove.', 'at least two',
+    malform_near('one_waypoint', 'A path of one waypoint has no segment to prove.', 'at least two',
             lambda c: (c.update(segments=[], margins={}), c['path'].update(waypoints=c['path']['waypoints'][:1])))
-    malform('waypoint_decimal', 'Waypoints are binary64.', 'binary64',
+    malform_near('waypoint_decimal', 'Waypoints are binary64.', 'binary64',
             lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, '-2.3'))
-    malform('waypoint_rounded', 'A 54th bit: no binary64.', 'binary64',
+    malform_near('waypoint_rounded', 'A 54th bit: no binary64.', 'binary64',
             lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, '-0x1.26666666666668p+1'))
-    malform('waypoint_infinite', 'Finite.', 'binary64', lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, 'inf'))
-    malform('decimal_nan', 'nan is no decimal.', 'decimal', lambda c: c['problem']['load']['wrench'].__setitem__(0, 'nan'))
-    malform('number_for_string', 'Reals are strings.', 'a string',
+    malform_near('waypoint_infinite', 'Finite.', 'binary64', lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, 'inf'))
+    malform_near('decimal_nan', 'nan is no decimal.', 'decimal', lambda c: c['problem']['load']['wrench'].__setitem__(0, 'nan'))
+    malform_near('number_for_string', 'Reals are strings.', 'a string',
             lambda c: c['problem']['load']['wrench'].__setitem__(0, 0))
-    malform('fractional_number', 'No JSON number carries a real value.', 'no integer',
+    malform_near('fractional_number', 'No JSON number carries a real value.', 'no integer',
             lambda c: c.update(illustration=0.5))
-    malform('unknown_key', 'Keys are fixed.', 'no key', lambda c: c.update(note='hello'))
-    malform('expression_unknown_name', 'A name that is neither parameter nor constant.', 'known name',
+    malform_near('unknown_key', 'Keys are fixed.', 'no key', lambda c: c.update(note='hello'))
+    malform_near('expression_unknown_name', 'A name that is neither parameter nor constant.', 'known name',
             lambda c: c['problem']['space']['pose'].update(sigma='omega'))
-    malform('constant_named_pi', 'pi has a meaning already.', "not 'pi'",
+    malform_near('constant_named_pi', 'pi has a meaning already.', "not 'pi'",
             lambda c: c['problem']['space'].update(constants={'pi': '3'}))
     whole = json.dumps(near_c).encode('ascii')
     write('malformed', 'cut', whole[:len(whole) // 2], 'Half a file.', 'cut')
@@ -568,6 +581,300 @@ def main():
     write('malformed', 'duplicate_key', whole.replace(b'"verdict": "proved"', b'"verdict": "proved", "verdict": "proved"'),
           'Which of the two counts?', 'twice')
     write('malformed', 'deep', b'[' * 100000, 'A nesting bomb.', 'deep')
+
+
+def splines():
+    near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
+    a, m, b = waypoint([-2.3, 1.6]), waypoint([-2.26, 1.57]), waypoint([-2.2, 1.55])
+    across = problem('robot1-straight', ROBOT1, SLICE, [['-2.3', '1.6'], ['1.7', '1.7']])
+    bend = spline(a, waypoint([-2.27, 1.59]), m, b)
+    bend_c = proved(near, bend, 4, samples=100)
+    write('accepted', 'spline', bend_c, 'A cubic B-spline, triple at both ends.')
+    inner = problem('robot1-spline-through', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.26', '1.57'], ['-2.2', '1.55']])
+    write('accepted', 'spline_through_three', proved(inner, spline(a, m, m, m, b), 4, samples=100),
+          'The waypoint in the middle stands three times, so that the spline goes through it.')
+    reel = waypoint([-2.3, -1.6], [3, 0])
+    turned_spline = problem('robot1-spline-still', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.3', '1.6']])
+    write('accepted', 'spline_flipped', proved(turned_spline, path([reel] * 4, True), 1),
+          'A spline that stands still, at the other representation of its pose.')
+    across_spline = spline(waypoint([-2.3, 1.6]), waypoint([-0.3, 1.65]), waypoint([1.7, 1.7]))
+    worst = min(((k, n, i, f0[i] - v[i]) for k in range(4) for n in range(9)
+                 for _, f0, v, _ in [statics(across, parameters(across, across_spline, k, n / 8))] for i in range(6)),
+                key=lambda t: t[3])
+    spline_tension = certificate(across, across_spline, 'refuted', witness={
+        'at': {'segment': worst[0], 's': dyadic(worst[1], 8)}, 'kind': 'tension_min', 'cable': worst[2] + 1,
+        'value': enclosing(worst[3]), 'limit': '0.05'})
+    write('accepted', 'refuted_spline', spline_tension, 'A spline on which a cable would have to push.')
+    signs = [(k, n, statics(across, parameters(across, across_spline, k, n / 16))[3]) for k in range(4) for n in range(17)]
+    i = next(i for i in range(len(signs) - 1) if signs[i][2] * signs[i + 1][2] < 0)
+    write('accepted', 'refuted_spline_singular', certificate(across, across_spline, 'refuted', witness={
+        'kind': 'singular', 'at': {'segment': 0, 's': '0'},
+        'to': {'segment': signs[i + 1][0], 's': dyadic(signs[i + 1][1], 16)}}),
+        'det J changes sign along a spline, over several segments.')
+    # Well formed, but false.
+    def unpin(c):
+        c['path']['waypoints'].pop(0)
+        c['segments'].pop()
+    renumber = lambda edit: lambda c: (edit(c), [s.update({'from': k, 'to': k + 3}) for k, s in enumerate(c['segments'])],
+                                       c.update(margins=of_segments(near, bend, c['segments'])['margins']))
+    reject('spline_begins_beside_the_query', bend_c, 'The start stands only twice: the spline begins beside it.',
+           'query waypoint 0', renumber(unpin))
+    def release(c):
+        c['path']['waypoints'].pop()
+        c['segments'].pop()
+    reject('spline_ends_beside_the_query', bend_c, 'The goal stands only twice: the spline ends before it.',
+           'query waypoint 1', renumber(release))
+    reject('spline_passes_by', proved(inner, spline(a, m, m, b), 4, samples=40),
+           'The waypoint in the middle stands only twice: the spline passes beside it.', 'query waypoint 1')
+    reject('spline_margin_too_high', bend_c, 'The tension margin is claimed 1 % too high.', 'tension margin',
+           raise_margin('tension_N', 1.01))
+    reject('spline_taken_for_straight', changed(bend_c, lambda c: c['path'].update(waypoints=[a, b] * 4)),
+           'A spline through other waypoints.', 'query waypoint 0')
+    def swing(c):
+        c['path']['waypoints'][3] = waypoint([-0.3, 1.65])
+    reject('spline_control_point_outside', bend_c, 'A control point far outside C draws the spline with it.', 'segment 0', swing)
+
+    # Against the format.
+    malform('spline_of_three', 'A spline has four control points a segment.', 'at least four',
+            lambda c: c['path'].update(waypoints=[a, a, a]), bend_c)
+    malform('spline_segment_of_two', "A spline's segment has four control points.", 'to: expected an integer from 3 to 3',
+            lambda c: c['segments'][0].update(to=1), bend_c)
+    malform('spline_segment_missing', 'One segment for each four successive waypoints.', 'segments: expected an array',
+            lambda c: c['segments'].pop(), bend_c)
+    malform('spline_witness_at_a_waypoint', 'A spline need not pass its control points.', "the key 'segment'",
+            lambda c: c['witness'].update(at={'waypoint': 3}), spline_tension)
+    malform('spline_witness_beyond', 'There are as many segments as three fewer than waypoints.', 'witness.at.segment: expected',
+            lambda c: c['witness'].update(at={'segment': len(c['path']['waypoints']) - 3, 's': '0'}), spline_tension)
+    malform('interpolation_unknown', 'There are two laws.', "expected 'straight-in-parameters' or 'cubic-b-spline'",
+            lambda c: c['path'].update(interpolation='quintic'), bend_c)
+
+
+def implied_motions():
+    free = [{'name': n, 'kind': k} for n, k in (('px', 'real'), ('py', 'real'), ('pz', 'real'), ('phi', 'periodic'),
+                                                ('theta', 'real'), ('sigma', 'real'))]
+    ball = {'parameters': free, 'constants': {'rs': '0.13', 'zs': '0.306'}, 'flip': [3, 4],
+            'pose': {p['name']: p['name'] for p in free}, 'constraints': ['px^2 + py^2 + (pz - zs)^2 - rs^2']}
+    def on_sphere(a1, a2):
+        return [0.13 * cos(a2) * cos(a1), 0.13 * cos(a2) * sin(a1), 0.306 - 0.13 * sin(a2), a1 - pi, pi / 2 - a2, 0.0]
+    def on_ball(a1, a2, half_turns=None):
+        x = on_sphere(a1, a2)
+        return waypoint(x, half_turns, [x[0] / 0.13, x[1] / 0.13, (x[2] - 0.306) / 0.13, 0, 0, 0])
+    def typed(w):
+        return ['%.17g' % float.fromhex(x) for x in w['x']]
+    def between_typed(*waypoints):
+        return [typed(w) for w in waypoints]
+
+    u, v, w = on_ball(0.55, 1.5), on_ball(0.6, 1.45), on_ball(0.6, 1.4)
+    ball_problem = problem('robot2-ball', ROBOT2, ball, between_typed(u, w))
+    ball_c = proved(ball_problem, straight(u, v, w, tubes=[2**-9, 2**-10]), 2, samples=60)
+    write('accepted', 'implied_sphere', ball_c,
+          'The platform stays on a sphere, free to turn; two segments with tubes of different widths.')
+    accepted_spline = proved(ball_problem, spline(u, v, w, tubes=[2**-9] * 4), 2, samples=60)
+    write('accepted', 'implied_sphere_spline', accepted_spline, 'The same along a spline: smooth, and on the sphere.')
+    write('accepted', 'implied_start_is_goal', proved(problem('robot2-ball-still', ROBOT2, ball, between_typed(u, u)),
+          straight(u, u, tubes=[2**-20]), 1, samples=1), 'A plan whose start is its goal, on the sphere.')
+
+    facing = dict(ball, flip=None, constraints=['px + rs*sin(theta)*cos(phi)', 'py + rs*sin(theta)*sin(phi)',
+                                                'pz - zs + rs*cos(theta)', 'sigma'])
+    def gradients(x):
+        """The transpose of dC/dlambda, by rows."""
+        f, t = x[3], x[4]
+        r = 0.13
+        return [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -r * sin(t) * sin(f), r * sin(t) * cos(f), 0, 0,
+                r * cos(t) * cos(f), r * cos(t) * sin(f), -r * sin(t), 0, 0, 0, 0, 1]
+    def facing_at(a1, a2):
+        x = on_sphere(a1, a2)
+        return waypoint(x, None, gradients(x))
+    u4, w4 = facing_at(0.55, 1.5), facing_at(0.55, 1.4)
+    facing_problem = problem('robot2-facing', ROBOT2, facing, between_typed(u4, w4))
+    write('accepted', 'implied_facing', proved(facing_problem, straight(u4, w4, tubes=[2**-8]), 2, samples=60),
+          'Four constraints: on the sphere, and turned towards its centre.')
+
+    # Toy spaces: the pose depends on t, and what x does is up to the constraint.
+    def toy(constraint, *extra, x=None, pose=None):
+        return {'parameters': [{'name': 't', 'kind': 'real'}, x or {'name': 'x', 'kind': 'real'}] +
+                [{'name': n, 'kind': 'real'} for n in extra], 'constants': {}, 'flip': None,
+                'pose': dict({'px': '0.001*x', 'py': '0', 'pz': '0.35', 'phi': '-2.3 + 0.1*t', 'theta': '1.6 - 0.05*t',
+                              'sigma': '(34)*pi/180'}, **(pose or {})),
+                'constraints': [constraint] if isinstance(constraint, str) else constraint}
+    def toy_path(space, points, normals, tubes, law=straight):
+        """From (t, x, ...) to (t, x, ...)."""
+        points = [waypoint(x, None, n) for x, n in zip(points, normals)]
+        return problem('toy', ROBOT1, space, between_typed(points[0], points[-1])), law(*points, tubes=tubes)
+    def toy_c(constraint, points=((0, 0), (1, 0)), normals=((0, 1), (0, 1)), tubes=(0.5,), boxes=1, **more):
+        return asserted(*toy_path(toy(constraint, **more), points, normals, tubes), boxes)
+
+    write('accepted', 'implied_one_of_two_sheets', toy_c('(x - t/16)*(x + 1)', tubes=[0.125]),
+          'The constraint has two sheets; the tube holds one of them.')
+    write('accepted', 'implied_between_close_zeros', toy_c('(x^2 - 1e-18)*(1 + t)', points=((0, 1e-9), (1, 1e-9)),
+          tubes=[2**-31]), 'Two zeros 2e-9 apart, of which a very thin tube holds one.')
+    write('accepted', 'implied_narrow_then_wide', toy_c('x + t^2/16', points=((0, 0), (0.5, -1 / 64), (1, -1 / 16)),
+          normals=((0, 1),) * 3, tubes=[2**-6, 4]), 'At the joint a wide tube has the same zero as a narrow one.')
+    write('accepted', 'implied_oblique_normals', toy_c('x - t/16', normals=((0.25, 1), (-0.5, 2))),
+          'Normals need not be normal, nor of length 1, nor constant.')
+    write('accepted', 'implied_two_coupled', asserted(*toy_path(toy(['x + z - t/8', 'x - z + t^2/8'], 'z'),
+          ((0, 0, 0), (1, 0, 0.125)), ((0, 0, 1, 1, 1, -1),) * 2, [0.5]), 2), 'Two constraints, mixed by their normals.')
+    within = {'name': 'x', 'kind': 'range', 'range': ['-1/8', '1/8']}
+    write('accepted', 'implied_within_range', toy_c('x - t*(1 - t)/4', x=within),
+          'Between its ends the motion comes close to the end of a range.')
+
+    def implied_slice(constraint):
+        space = copy.deepcopy(SLICE)
+        space['parameters'].append({'name': 'z', 'kind': 'real'})
+        space['pose']['pz'] = 'z'
+        space.update(flip=None, constraints=[constraint])
+        return space
+    def z_up(phi, theta, half_turns=None):
+        return waypoint([phi, theta, 0.35], half_turns, [0, 0, 1])
+    wave = problem('robot1-wave', ROBOT1, implied_slice('z - 0.35 - 0.01*sin(phi + 2.3)'),
+                   between_typed(z_up(-2.3, 1.6), z_up(1.7, 1.7)))
+    wave_ends = straight(z_up(-2.3, 1.6), z_up(1.7, 1.7), tubes=[0.0625])
+    scan = [(n, statics(wave, parameters(wave, wave_ends, 0, n / 64))) for n in range(65)]
+    n, i, value = min(((n, i, f0[i] - v[i]) for n, (_, f0, v, _) in scan for i in range(6)), key=lambda t: t[2])
+    wave_tension = certificate(wave, wave_ends, 'refuted', witness={
+        'at': {'segment': 0, 's': dyadic(n, 64)}, 'kind': 'tension_min', 'cable': i + 1, 'value': enclosing(value),
+        'limit': '0.05'})
+    write('accepted', 'refuted_implied', wave_tension, 'On an implied motion a cable would have to push.')
+    n = next(n for n in range(64) if scan[n][1][3] * scan[n + 1][1][3] < 0)
+    wave_singular = certificate(wave, wave_ends, 'refuted', witness={
+        'kind': 'singular', 'at': {'segment': 0, 's': dyadic(n, 64)}, 'to': {'segment': 0, 's': dyadic(n + 1, 64)}})
+    write('accepted', 'refuted_implied_singular', wave_singular, 'det J changes sign on an implied motion.')
+    here = problem('robot1-wave-here', ROBOT1, implied_slice('z - 0.55 - 0.01*sin(phi + 2.3)'),
+                   between_typed(z_up(-2.3, 1.6), z_up(1.7, 1.7)))
+    one = path([waypoint([-2.3, 1.6, 0.5625], None, [0, 0, 1])], tubes=[0.0625])
+    here['query']['waypoints'] = [typed(one['waypoints'][0]), typed(z_up(1.7, 1.7))]
+    _, lengths = geometry(here, [-2.3, 1.6, 0.55])
+    i = max(range(6), key=lambda n: lengths[n])
+    assert lengths[i] > 0.55
+    write('accepted', 'refuted_implied_waypoint', certificate(here, one, 'refuted', witness={
+        'at': {'waypoint': 0}, 'kind': 'length_max', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.55'}),
+        'A path of one waypoint, and of one tube: the pose on the constraint, 12.5 mm above the waypoint, is too far.')
+
+    # Well formed, but false: no motion, or not the only one, or not where it has to be.
+    unique, inside, exists = 'it may not be the only one in its tube', 'it may leave its tube', 'the motion on the constraints'
+    reject('implied_tube_too_narrow', ball_c, 'The sphere bulges out of the tube.', inside,
+           lambda c: c['path'].update(tubes=[hex64(2**-16)] * 2))
+    reject('implied_tube_holds_two_sheets', toy_c('(x - t/8)*(x + 1)', tubes=[1.5]), 'The tube holds two sheets.', unique)
+    reject('implied_tube_around_the_sphere', ball_c, 'The tube reaches the other side of the sphere.', unique,
+           lambda c: c['path'].update(tubes=[hex64(0.5)] * 2))
+    reject('implied_close_zeros', toy_c('(x^2 - 1e-18)*(1 + t)'), 'Two zeros 2e-9 apart, both in the tube.', exists)
+    reject('implied_double_zero', toy_c('x^2'), 'There is one zero; but it is double, so that rounding C would lose it.', exists)
+    reject('implied_triple_zero', toy_c('x^3'), 'There is one zero, and it is singular.', exists)
+    reject('implied_no_zero', toy_c('x^2 + 1e-30', normals=((0.5, 1),) * 2), 'There is no zero at all.', exists)
+    reject('implied_no_zero_in_the_tube', toy_c('x - 1', tubes=[0.875]), 'The zero is outside the tube.', inside)
+    reject('implied_zero_at_the_end_of_the_tube', toy_c('x - 1', tubes=[1]), 'The zero is not inside the tube, but at its end.', inside)
+    reject('implied_without_y', toy_c('t - t + 0*x'), 'The constraint says nothing of x: any is a zero.', exists)
+    reject('implied_never_fulfilled', toy_c('1 + 0*x'), 'The constraint is a constant.', exists)
+    reject('implied_jump_of_atan2', toy_c('x - 0.01*atan2(t - 0.3, -1)'), 'The zero jumps where atan2 passes its cut.', 'atan2')
+    reject('implied_jump_of_a_sign', toy_c('x - 0.01*sqrt((t - 0.3)^2)/(t - 0.3)'), 'The zero jumps where t - 0.3 changes its sign.',
+           exists)
+    reject('implied_jump_between_boxes', toy_c('x - 0.01*atan2(t - 0.5, -1)', boxes=2),
+           'The zero jumps just where one box ends and the next begins.', 'atan2')
+    reject('implied_pole', toy_c('x - 0.001/(t - 0.5)', boxes=2), 'The zero runs off to infinity.', exists)
+    reject('implied_root_in_the_tube', toy_c('sqrt(x + 0.01) - 0.1'), 'C is not defined in all of the tube.', 'square root')
+    reject('implied_kink', toy_c('x + sqrt(x^2)/2', normals=((0.5, 1),) * 2),
+           'One zero, but C has no derivative there.', exists)
+    reject('implied_normals_tangent', toy_c('x - t/16', normals=((1, 1 / 16),) * 2), 'The normals lie in the surface.', exists)
+    reject('implied_normals_vanish', toy_c('x', normals=((0, 1), (0, 0))), 'The normals vanish at the end.', exists)
+    reject('implied_normals_flip', toy_c('x', normals=((0, 1), (0, -1))), 'The normals change their sign half-way, where they vanish.',
+           exists)
+    reject('implied_normals_flip_inside_a_box', toy_c('x', normals=((0, 1), (0, -2)), boxes=2),
+           'So they do at 1/3, no end or middle of a box.', exists)
+    reject('implied_normals_turn_into_the_surface', toy_c('x', normals=((1, 1), (1, -1))), 'The normals turn through the surface.', exists)
+    reject('implied_rank_deficient', asserted(*toy_path(toy(['x + z - t/8', '2*x + 2*z - t/4'], 'z'),
+           ((0, 0, 0), (1, 0, 0.125)), ((0, 0, 1, 0, 0, 1),) * 2, [0.5])), 'The second constraint repeats the first.', exists)
+    reject('implied_rank_lost_on_the_way', asserted(*toy_path(toy(['x', 'x + z*(t - 0.3)'], 'z'),
+           ((0, 0, 0), (1, 0, 0)), ((0, 0, 1, 0, 0, 1),) * 2, [0.5])), 'At t = 0.3 the two constraints are one.', exists)
+    reject('implied_normals_dependent', asserted(*toy_path(toy(['x', 'z'], 'z'),
+           ((0, 0, 0), (1, 0, 0)), ((0, 0, 1, 1, 1, 1),) * 2, [0.5])), 'The two normals are one.', exists)
+    reject('implied_range_left', toy_c('x - 0.51*t*(1 - t)', x=within), 'Between the waypoints the motion leaves a range.', 'x in its range')
+    reject('implied_range_left_at_the_end', toy_c('x - t/4', points=((0, 0), (1, 0.125)), x=within),
+           'The waypoint is in its range, the pose on the constraint next to it is not.', 'x in its range')
+    reject('implied_range_left_by_a_waypoint', toy_c('x', points=((0, 0), (1, 0.25)), x=within),
+           'The motion is in its range, but a waypoint is not.', 'waypoint 1: x in its range')
+    reject('implied_wide_tube_at_the_joint', toy_c('x*(x - 0.01)', points=((0, 0), (0.5, 0.0005), (1, 0.01)),
+           normals=((0, 1),) * 3, tubes=[2**-9, 2**-5]),
+           'From one sheet to another: the second tube holds both, so that the motion could jump.', unique)
+    reject('implied_narrow_tubes_at_the_joint', toy_c('x*(x - 0.01)', points=((0, 0), (0.5, 0.0005), (1, 0.01)),
+           normals=((0, 1),) * 3, tubes=[2**-9, 2**-11]),
+           'From one sheet to another: at the joint neither is in the narrow tube.', inside)
+    reject('implied_pose_off', ball_c, 'Robot and path are those of the proof, the sphere is 4 mm lower.', 'false',
+           lambda c: (c['problem']['space']['constants'].update(zs='0.310'), c['path'].update(tubes=[hex64(2**-6)] * 2)))
+    reject('implied_margin_too_high', ball_c, 'The tension margin is claimed 1 % too high.', 'tension margin',
+           raise_margin('tension_N', 1.01))
+    reject('implied_spline_with_other_normals', changed(accepted_spline, lambda c:
+           c['path']['waypoints'][1]['normals'].__setitem__(0, '0x1p-8')),
+           'The start stands three times, but not with the same normals.', 'query waypoint 0')
+    reject('implied_one_ulp_beside_the_query', ball_c, 'The path starts one ulp beside what was typed.', 'query waypoint 0',
+           lambda c: c['path']['waypoints'][0]['x'].__setitem__(0, hex64(math.nextafter(float.fromhex(u['x'][0]), 0))))
+    reject('implied_witness_violates_nothing', wave_tension, 'At the witness the tension is within its limits.', 'violates',
+           lambda c: c['witness'].update(at={'segment': 0, 's': '0'}))
+    reject('implied_witness_without_a_motion', wave_tension, 'In so thin a tube there is no motion to refute.', inside,
+           lambda c: c['path'].update(tubes=[hex64(2**-40)]))
+    reject('implied_witness_of_another_sheet', wave_tension, 'The tube holds two motions: which of them is refuted?', exists,
+           lambda c: (c['problem']['space'].update(constraints=['(z - 0.35 - 0.01*sin(phi + 2.3))*(z - 0.3)']),
+                      c['path'].update(tubes=[hex64(0.125)])))
+    def mirror(constraint, tubes, points):
+        """The platform hangs in z; a change of sheet turns det J over."""
+        space = implied_slice(constraint)
+        space['pose'].update(phi='0*phi', theta='0*theta', sigma='0.6')
+        points = [waypoint(x, None, [0, 0, 1]) for x in points]
+        pr = problem('mirror', ROBOT1, space, between_typed(points[0], points[-1]))
+        assert statics(pr, [0, 0, 0.35])[3] * statics(pr, [0, 0, -0.35])[3] < 0
+        return certificate(pr, straight(*points, tubes=tubes), 'refuted', witness={
+            'kind': 'singular', 'at': {'waypoint': 0}, 'to': {'waypoint': len(points) - 1}})
+    reject('implied_sign_change_by_a_jump', mirror('z - 0.1*atan2(theta + 0.3, -1)', [0.5], [(0, -1, 0), (0, 1, 0)]),
+           'det J has opposite signs, but the motion jumps between them.', 'atan2')
+    reject('implied_sign_change_of_two_sheets', mirror('(z - 0.35)*(z + 0.35)', [0.25, 1.0, 0.25],
+           [(-1, 0, 0.35), (-0.5, 0, 0.35), (0.5, 0, -0.35), (1, 0, -0.35)]),
+           'det J has opposite signs on two sheets, and nothing leads from one to the other.', exists)
+
+    # Against the format.
+    def on(path_edit):
+        return lambda c: path_edit(c['path'])
+    sheet_c = toy_c('x - t/8')
+    bare_c = asserted(problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.3', '1.6']]),
+                      straight(waypoint([-2.3, 1.6]), waypoint([-2.3, 1.6])))
+    malform('tubes_missing', 'One tube a segment.', 'path.tubes: expected an array of 2', on(lambda p: p.update(tubes=[])), ball_c)
+    malform('tubes_one_too_many', 'One tube a segment.', 'path.tubes: expected an array of 2',
+            on(lambda p: p['tubes'].append('0x1p-9')), ball_c)
+    malform('tubes_of_a_spline', 'One tube a segment, three fewer than waypoints.', 'path.tubes: expected an array of 4',
+            on(lambda p: p['tubes'].extend(p['tubes'][:2])), accepted_spline)
+    malform('tubes_of_an_explicit_motion', 'Without constraints there are no tubes.', 'path.tubes: expected an array of 0',
+            on(lambda p: p.update(tubes=['0x1p-9'])), bare_c)
+    malform('tube_zero', 'A tube has a width.', 'a positive width', on(lambda p: p.update(tubes=['0x0p+0'])), sheet_c)
+    malform('tube_negative', 'A tube has a width.', 'a positive width', on(lambda p: p.update(tubes=['-0x1p-9'])), sheet_c)
+    malform('tube_infinite', 'Finite.', 'binary64', on(lambda p: p.update(tubes=['inf'])), sheet_c)
+    malform('tube_decimal', 'Tubes are binary64.', 'binary64', on(lambda p: p.update(tubes=['0.5'])), sheet_c)
+    malform('normals_missing', 'Each waypoint has its normals.', "the key 'normals'",
+            on(lambda p: p['waypoints'][1].pop('normals')), sheet_c)
+    malform('normals_of_an_explicit_motion', 'Without constraints there are no normals.', "no key 'normals'",
+            on(lambda p: p['waypoints'][0].update(normals=[])), bare_c)
+    malform('normals_too_few', 'One a parameter and constraint.', 'normals: expected an array of 2',
+            on(lambda p: p['waypoints'][0].update(normals=['0x1p+0'])), sheet_c)
+    malform('normals_too_many', 'One a parameter and constraint.', 'normals: expected an array of 2',
+            on(lambda p: p['waypoints'][0].update(normals=['0x1p+0'] * 4)), sheet_c)
+    malform('normals_infinite', 'Finite.', 'binary64', on(lambda p: p['waypoints'][0].update(normals=['0x1p+0', '0x1p+1024'])),
+            sheet_c)
+    malform('normals_by_rows', 'Rows are not nested.', 'a string',
+            on(lambda p: p['waypoints'][0].update(normals=[['0x1p+0'], ['0x0p+0']])), sheet_c)
+    def constraints(*texts):
+        return lambda c: c['problem']['space'].update(constraints=list(texts))
+    malform('constraints_as_many_as_parameters', 'Nothing could move.', 'fewer constraints than parameters',
+            constraints('x', 't'), sheet_c)
+    malform('constraint_of_an_unknown_name', 'Constraints are of the parameters, not of the pose.', 'known name', constraints('px'), sheet_c)
+    malform('constraint_an_equation', 'A constraint is an expression, which is to be 0.', 'an operator or the end',
+            constraints('x = 0'), sheet_c)
+    malform('constraint_with_a_name', 'Constraints are strings.', 'a string', constraints({'x': '0'}), sheet_c)
+    malform('constraint_that_does_not_close', 'A turn of phi leads to another surface.', "plainly so, where the periodic parameter 'phi'",
+            constraints('px^2 + py^2 + (pz - zs)^2 - rs^2 + phi'), changed(ball_c, lambda c: c['problem']['space'].update(flip=None)))
+    malform('constraint_whole_turns', 'Nor is C the same that grows by 2 pi a turn.', "plainly so, where the periodic parameter 'phi'",
+            constraints('phi - 1', ), changed(ball_c, lambda c: c['problem']['space'].update(flip=None)))
+    malform('flip_in_a_constraint', '(phi + pi, -theta) may be off the surface.', 'constraints that mention neither',
+            constraints('px^2 + py^2 + (pz - zs)^2 - rs^2 + 0*theta'), ball_c)
+    def seventh(c):
+        c['problem']['space']['parameters'].append({'name': 'seventh', 'kind': 'real'})
+    malform('constrained_seven_parameters', 'There are at most six.', 'at most 6', seventh, ball_c)
 
 
 if __name__ == '__main__':
