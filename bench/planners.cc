@@ -50,9 +50,8 @@ constexpr double kResolution = 0.001;
 constexpr double kBitStarSeconds = 1.0;  // of the processor, so that a busy machine takes nothing from it
 /// Real parameters without a range: theta, which may pass through 0 to either side; both goals are reachable.
 constexpr double kThetaBound = 2.2;
-/// A* over six parameters ends by this many charts or seconds, whatever comes first.
-constexpr int kChartBudget = 3000;
-constexpr double kSecondsBudget = 60;
+/// A* over six parameters is an anytime search that takes what it is given.
+constexpr double kBudgetSeconds = 0.2;
 
 struct Rounds {
   int taut = 21;
@@ -208,8 +207,8 @@ const std::vector<Variant>& variants() {
 // Indices into variants().
 enum : std::size_t { kGreedyAsFound, kGreedyTaut, kAStarAsFound, kAStarTaut, kGreedyByParameters, kAStarByParameters };
 
-/// Whether the variant is run once, until a budget is spent.
-bool over_budget(const Query& query, const Variant& variant) {
+/// Whether the variant is run until a budget is spent.
+bool is_on_budget(const Query& query, const Variant& variant) {
   return query.case_.problem.space.parameters.size() == 6 && variant.strategy == Strategy::kAStar;
 }
 
@@ -218,20 +217,14 @@ void run_taut(const Query& query, const Variant& variant, const Poses& poses, Me
   case_.planner.strategy = variant.strategy;
   case_.planner.smoothing = variant.smoothing;
   if (variant.by_parameters) case_.planner.cost = Cost::kParameters;
-  std::stop_source stop;
-  std::jthread timekeeper;
-  const bool limited = over_budget(query, variant);
-  if (limited) {
-    case_.planner.max_charts = kChartBudget;
-    timekeeper = std::jthread([&stop](const std::stop_token& done) {
-      const auto end = Clock::now() + std::chrono::duration<double>(kSecondsBudget);
-      while (!done.stop_requested() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      stop.request_stop();
-    });
+  const bool on_budget = is_on_budget(query, variant);
+  if (on_budget) {
+    case_.planner.has_budget = true;
+    case_.planner.max_seconds = kBudgetSeconds;
   }
   const Stopwatch watch;
   Planner planner(case_);
-  const Plan result = planner.plan({}, stop.get_token());
+  const Plan result = planner.plan({}, {});
   const double wall = watch.wall();
   const double cpu = watch.cpu();
   ++into.runs;
@@ -244,7 +237,7 @@ void run_taut(const Query& query, const Variant& variant, const Poses& poses, Me
   into.search.push_back(result.statistics.plan_seconds);
   into.prove.push_back(result.statistics.prove_seconds);
   into.smooth.push_back(result.statistics.smooth_seconds);
-  if (into.cost.empty()) {  // the planner is deterministic
+  if (into.cost.empty() || on_budget) {  // else the planner is deterministic
     std::vector<Point> path;
     for (const Waypoint& waypoint : result.path.waypoints) {
       Point q = waypoint.x;
@@ -510,16 +503,7 @@ Row measure(const Query& query, const Rounds& rounds) {
     fmt::print(stderr, "\r{} {}: round {} of {} ", query.robot, query.name, round + 1, most);
     const auto seed = static_cast<unsigned>(round + 1);
     for (std::size_t v = 0; v < variants().size(); ++v) {
-      if (!over_budget(query, variants()[v])) {
-        if (round < rounds.taut) run_taut(query, variants()[v], poses, row.taut[v]);
-      } else if (round == 0) {
-        const bool same_search_failed = v == kAStarTaut && !row.taut[kAStarAsFound].found();
-        if (same_search_failed) {
-          row.taut[v] = row.taut[kAStarAsFound];
-        } else {
-          run_taut(query, variants()[v], poses, row.taut[v]);
-        }
-      }
+      if (round < rounds.taut) run_taut(query, variants()[v], poses, row.taut[v]);
     }
     if (round < rounds.rrt) ompl_query.run(Tool::kRrtConnect, seed, row.rrt);
     if (round < rounds.bit_star) {

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "atlas/clear_edge.h"
 #include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
 #include "certify/certificate.h"
+#include "cli/time_budget.h"
 
 namespace taut {
 namespace {
@@ -100,26 +102,18 @@ AtlasKey atlas_key(const Case& the_case) {
 /// Edges may come this much closer to a limit than the charts' centres that they join.
 constexpr double kEdgeClearanceShare = 0.5;
 
-std::string no_path_reason(const SearchResult& result, const Atlas& atlas, std::size_t leg) {
-  switch (result.status) {
-    case SearchStatus::kExhausted:
-      return fmt::format(
-          "no path from waypoint {} to {} of the query: the component of the start was covered by {} charts of radius "
-          "{} "
-          "and the goal was not met. That is evidence, not proof, that none exists",
-          leg, leg + 1, atlas.size(), atlas.options().radius);
-    case SearchStatus::kChartLimit:
-      return fmt::format("no path from waypoint {} to {} of the query within {} charts: budget spent", leg, leg + 1,
-                         atlas.size());
-    case SearchStatus::kOutside:
-      return fmt::format("waypoint {} or {} of the query is outside the manifold in floating point", leg, leg + 1);
-    case SearchStatus::kInterrupted: return "interrupted";
-    case SearchStatus::kFound: break;
-  }
-  return "";
-}
+/// Above so many parameters there are more charts than an A* that wants them all can make.
+constexpr int kMostParametersForAllCharts = 3;
 
 }  // namespace
+
+/// One of the ways between two waypoints of the query.
+struct Planner::Leg {
+  SearchResult found;
+  std::vector<Coordinates> vertices;  ///< of the path found, pulled taut where the case wants that
+  double cost_found = 0;
+  double cost = std::numeric_limits<double>::infinity();
+};
 
 /// Which edges search and shortening may use: those that look clear and, with a prover, are proved.
 class Planner::Edges {
@@ -133,7 +127,7 @@ class Planner::Edges {
     return accepted;
   }
 
-  /// The proof of an edge that was asked about, else null.
+  /// The proof of an edge that was asked about and is proved, else null.
   [[nodiscard]] const SegmentProof* find(const Segment& segment) const {
     if (segment.law != Interpolation::kStraight) return nullptr;
     const Waypoint& a = *segment.control[0];
@@ -141,7 +135,7 @@ class Planner::Edges {
     const auto shifted = [](int half_turns) { return half_turns != 0; };
     if (std::ranges::any_of(a.half_turns, shifted) || std::ranges::any_of(b.half_turns, shifted)) return nullptr;
     const auto it = proofs_.find({a.x, b.x});
-    return it == proofs_.end() ? nullptr : &it->second;
+    return it == proofs_.end() || it->second.verdict != Verdict::kProved ? nullptr : &it->second;
   }
 
   [[nodiscard]] double proving_seconds() const { return proving_seconds_; }
@@ -150,12 +144,13 @@ class Planner::Edges {
 
  private:
   bool proved(const Waypoint& a, const Waypoint& b) {
-    const auto start = Clock::now();
-    SegmentProof proof = prover_->prove(Segment::straight(a, b));
-    const bool is_proved = proof.verdict == Verdict::kProved;
-    if (is_proved) proofs_.insert_or_assign({a.x, b.x}, std::move(proof));
-    proving_seconds_ += seconds_since(start);
-    return is_proved;
+    const auto [it, is_new] = proofs_.try_emplace({a.x, b.x});
+    if (is_new) {
+      const auto start = Clock::now();
+      it->second = prover_->prove(Segment::straight(a, b));
+      proving_seconds_ += seconds_since(start);
+    }
+    return it->second.verdict == Verdict::kProved;
   }
 
   const ClearEdge& looks_clear_;
@@ -210,15 +205,12 @@ std::optional<Plan> Planner::judge_query() const {
 /// A path through the query on edges that `edges` accepts; nothing, and the reason, where there is none.
 std::optional<Path> Planner::find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
                                        PlanStatistics& statistics, std::string& reason) {
-  const auto edge_ok = [&](const Coordinates& a, const Coordinates& b) { return edges.ok(a, b); };
-  const auto length = [&](const Coordinates& a, const Coordinates& b) { return length_.along(a, b); };
   const auto distance = [&](const Coordinates& a, const Coordinates& b) { return length_.distance(a, b); };
   SearchProblem search_problem;
   // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search soon.
   search_problem.cost = distance;
   search_problem.heuristic = distance;
-  search_problem.edge_ok = edge_ok;
-  search_problem.stop = stop;
+  search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return edges.ok(a, b); };
   if (progress) {
     search_problem.progress = [&](const SearchProgress& p) { progress({p.charts, edges.checked()}); };
   }
@@ -228,29 +220,94 @@ std::optional<Path> Planner::find_path(Edges& edges, const Progress& progress, c
   for (std::size_t leg = 0; leg + 1 < query_.size(); ++leg) {
     search_problem.start = to_coordinates(query_[leg]);
     search_problem.goal = to_coordinates(query_[leg + 1]);
-    const SearchResult found = search(*atlas_, search_problem, {.weight = search_weight(case_.planner.strategy)});
-    statistics.nodes_expanded += found.nodes_expanded;
-    if (found.status != SearchStatus::kFound) {
-      // An edge whose proof was interrupted looks rejected, and the search exhausted.
-      reason = stop.stop_requested() ? "interrupted" : no_path_reason(found, *atlas_, leg);
+    TimeBudget budget(seconds_for_leg(leg), stop);
+    search_problem.stop = budget.token();
+    std::atomic<bool>* const interrupt = std::exchange(prover_.interrupt, &budget.over());
+    const Leg best = find_leg(search_problem, edges, statistics);
+    prover_.interrupt = interrupt;
+    if (best.found.status != SearchStatus::kFound) {
+      const bool ran_out = best.found.status == SearchStatus::kChartLimit || budget.over();
+      statistics.budget_spent = ran_out && !stop.stop_requested();
+      reason = stop.stop_requested() ? "interrupted" : no_path_reason(best.found, leg);
       return std::nullopt;
     }
-    std::vector<Coordinates> vertices;
-    for (const PathVertex& vertex : found.path) vertices.push_back(vertex.coordinates);
-    double leg_cost = 0;
-    for (std::size_t k = 1; k < vertices.size(); ++k) leg_cost += length(vertices[k - 1], vertices[k]);
-    statistics.cost_found += leg_cost;
-    if (case_.planner.smoothing == Smoothing::kShorten) {
-      const auto start = Clock::now();
-      const double proving_before = edges.proving_seconds();
-      leg_cost = shorten(vertices, {length, edge_ok, stop}).cost_after;
-      statistics.smooth_seconds += seconds_since(start) - (edges.proving_seconds() - proving_before);
-    }
-    statistics.cost += leg_cost;
-    append_leg(path, vertices, found.path.back(), reached, case_.problem.space.flip);
-    reached = compose(reached, found.path.back().image);
+    statistics.cost_found += best.cost_found;
+    statistics.cost += best.cost;
+    append_leg(path, best.vertices, best.found.path.back(), reached, case_.problem.space.flip);
+    reached = compose(reached, best.found.path.back().image);
   }
   return path;
+}
+
+/// The shortest path of a leg, as far as strategy and budget go; not found, and why, where there is none.
+Planner::Leg Planner::find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics) {
+  Leg best;
+  const auto keep_better = [&](const SearchResult& found) {
+    Leg leg = pull_taut(found, problem, edges, statistics);
+    if (leg.cost < best.cost) best = std::move(leg);
+  };
+  SearchResult last;
+  if (is_anytime()) {
+    last = search_anytime(*atlas_, problem, keep_better);
+    statistics.budget_spent |= last.factor > 1;
+  } else {
+    last = search(*atlas_, problem, {.weight = search_weight(case_.planner.strategy)});
+    if (last.status == SearchStatus::kFound) keep_better(last);
+  }
+  statistics.nodes_expanded += last.nodes_expanded;
+  statistics.factor = std::max(statistics.factor, last.factor);
+  if (last.status != SearchStatus::kFound) best.found = std::move(last);
+  return best;
+}
+
+Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
+                                PlanStatistics& statistics) const {
+  const auto length = [&](const Coordinates& a, const Coordinates& b) { return length_.along(a, b); };
+  Leg leg;
+  leg.found = found;
+  for (const PathVertex& vertex : found.path) leg.vertices.push_back(vertex.coordinates);
+  for (std::size_t k = 1; k < leg.vertices.size(); ++k) leg.cost_found += length(leg.vertices[k - 1], leg.vertices[k]);
+  leg.cost = leg.cost_found;
+  if (case_.planner.smoothing == Smoothing::kShorten) {
+    const auto start = Clock::now();
+    const double proving_before = edges.proving_seconds();
+    leg.cost = shorten(leg.vertices, {length, problem.edge_ok, problem.stop}).cost_after;
+    statistics.smooth_seconds += seconds_since(start) - (edges.proving_seconds() - proving_before);
+  }
+  return leg;
+}
+
+bool Planner::is_anytime() const {
+  return case_.planner.strategy == Strategy::kAStar &&
+         (case_.planner.has_budget || manifold_->dimension() > kMostParametersForAllCharts);
+}
+
+/// The legs that are left share the time that is left.
+double Planner::seconds_for_leg(std::size_t leg) const {
+  return (case_.planner.max_seconds - seconds_since(begin_)) / static_cast<double>(query_.size() - 1 - leg);
+}
+
+std::string Planner::no_path_reason(const SearchResult& result, std::size_t leg) const {
+  const std::string what = fmt::format("no path from waypoint {} to {} of the query", leg, leg + 1);
+  const std::string best = fmt::format(
+      "best so far: a chart whose distance to waypoint {} is {:.3g}, by the case's cost", leg + 1, result.nearest);
+  switch (result.status) {
+    case SearchStatus::kExhausted:
+      return fmt::format(
+          "{}: the component of the start was covered by {} charts of radius {}{} and the goal was not met; {}. That "
+          "is "
+          "evidence, not proof, that none exists",
+          what, atlas_->size(), atlas_->options().radius,
+          manifold_->dimension() > Polytope::kMaxDimension ? ", as densely as sampled directions tell," : "", best);
+    case SearchStatus::kChartLimit:
+      return fmt::format("{}: the budget of {} charts is spent; {}", what, atlas_->options().max_charts, best);
+    case SearchStatus::kInterrupted:
+      return fmt::format("{}: the budget of {} s is spent; {}", what, case_.planner.max_seconds, best);
+    case SearchStatus::kOutside:
+      return fmt::format("waypoint {} or {} of the query is outside the manifold in floating point", leg, leg + 1);
+    case SearchStatus::kFound: break;
+  }
+  return "";
 }
 
 Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
@@ -258,7 +315,7 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   const std::stop_callback on_stop(stop, [&] { interrupted = true; });
   prover_.interrupt = &interrupted;
 
-  const auto start = Clock::now();
+  const auto start = begin_ = Clock::now();
   Plan result;
   if (auto answer = judge_query()) {
     result = std::move(*answer);
@@ -266,7 +323,8 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   } else {
     result.statistics.prove_seconds = seconds_since(start);
     seek_and_prove(progress, stop, result);
-    if (result.proof.verdict == Verdict::kUndecided && atlas_file_ && !stop.stop_requested()) {
+    const bool may_go_on = !stop.stop_requested() && !result.statistics.budget_spent;
+    if (result.proof.verdict == Verdict::kUndecided && atlas_file_ && may_go_on) {
       atlas_.emplace(*manifold_, key_.options);
       atlas_file_.reset();
       seek_and_prove(progress, stop, result);
@@ -280,11 +338,11 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   return result;
 }
 
-/// First on edges that only look clear; if the path is not proved, on edges that are.
+/// On edges that only look clear; if the path is not proved, or has to be kept at any time, on edges that are.
 void Planner::seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result) {
-  const Prover* const without_proofs = nullptr;
-  const bool done = try_plan(without_proofs, progress, stop, result) || stop.stop_requested();
-  if (!done) try_plan(&prover_, progress, stop, result);
+  const Prover* const edge_prover = is_anytime() ? &prover_ : nullptr;  // what is kept has to be proved by then
+  const bool done = try_plan(edge_prover, progress, stop, result) || stop.stop_requested();
+  if (!done && edge_prover == nullptr) try_plan(&prover_, progress, stop, result);
 }
 
 bool Planner::grow_atlas(const Progress& progress, const std::stop_token& stop) {
@@ -299,6 +357,8 @@ bool Planner::grow_atlas(const Progress& progress, const std::stop_token& stop) 
 bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result) {
   PlanStatistics& statistics = result.statistics;
   statistics.cost = statistics.cost_found = 0;
+  statistics.factor = 1;
+  statistics.budget_spent = false;
   const ClearEdge looks_clear(sampler_, kEdgeClearanceShare * clearance_);
   Edges edges(looks_clear, edge_prover);
   result.proof = {};

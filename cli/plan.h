@@ -4,8 +4,12 @@
 // (atlas/clear_edge.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
 // each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
 // its proof is gathered, never inferred from the search.
+//
+// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is pulled taut
+// on proved edges, and the shortest such path is the result. What the budget cuts short is the search for a shorter one.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,6 +33,8 @@ struct PlanStatistics {
   int edges_checked = 0;  ///< by samples or by proof, for search and shortening
   int edges_rejected = 0;
   double cost_found = 0;      ///< of the path that the search found, by the case's cost
+  double factor = 1;          ///< that path is at most so many times as long as the shortest on the charts' graph
+  bool budget_spent = false;  ///< before the search ended by itself
   double cost = 0;            ///< of the path
   double plan_seconds = 0;    ///< atlas and search, without the proofs made within
   double smooth_seconds = 0;  ///< shortening, without the proofs made within
@@ -70,12 +76,19 @@ class Planner {
 
  private:
   class Edges;
+  struct Leg;
 
   [[nodiscard]] std::optional<Plan> judge_query() const;
   void seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result);
+  [[nodiscard]] bool is_anytime() const;
   bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
   [[nodiscard]] std::optional<Path> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
                                               PlanStatistics& statistics, std::string& reason);
+  [[nodiscard]] Leg find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics);
+  [[nodiscard]] Leg pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
+                              PlanStatistics& statistics) const;
+  [[nodiscard]] double seconds_for_leg(std::size_t leg) const;
+  [[nodiscard]] std::string no_path_reason(const SearchResult& result, std::size_t leg) const;
 
   const Case& case_;
   Prover prover_;
@@ -88,6 +101,7 @@ class Planner {
   double chart_clearance_;  ///< clearance_, or less if the stored atlas was made with less
   std::unique_ptr<Manifold> manifold_;
   std::optional<Atlas> atlas_;
+  std::chrono::steady_clock::time_point begin_;  ///< of the call of plan()
 };
 
 }  // namespace taut

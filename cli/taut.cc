@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
@@ -73,6 +74,7 @@ struct PlanArguments {
   std::string atlas;
   std::string save_atlas;
   bool grow = false;
+  double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
 };
 
@@ -148,8 +150,21 @@ std::string sentence(const Plan& plan) {
   return fmt::format("undecided: {}.", proof.reason);
 }
 
+/// What the search knows of its path.
+std::string length_sentence(const PlanStatistics& s) {
+  const std::string spent = s.budget_spent ? "; the budget is spent" : "";
+  if (s.factor == 1) return "The path found is the shortest on the charts' graph" + spent;
+  if (!std::isfinite(s.factor)) return "The path found is the first, not the shortest, on the charts' graph" + spent;
+  return fmt::format("The path found is at most {:.4g} times as long as the shortest on the charts' graph{}", s.factor,
+                     spent);
+}
+
 int run_plan(const PlanArguments& arguments) {
-  const Case case_ = load_case(arguments.case_path);
+  Case case_ = load_case(arguments.case_path);
+  if (arguments.budget_seconds > 0) {
+    case_.planner.max_seconds = arguments.budget_seconds;
+    case_.planner.has_budget = true;
+  }
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / std::filesystem::path(arguments.case_path).stem()
                             : std::filesystem::path(arguments.out);
@@ -187,6 +202,8 @@ int run_plan(const PlanArguments& arguments) {
                                     {"edges_rejected", s.edges_rejected},
                                     {"cost", s.cost},
                                     {"cost_found", s.cost_found},
+                                    {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nullptr},
+                                    {"budget_spent", s.budget_spent},
                                     {"plan_seconds", s.plan_seconds},
                                     {"smooth_seconds", s.smooth_seconds},
                                     {"prove_seconds", s.prove_seconds},
@@ -203,6 +220,7 @@ int run_plan(const PlanArguments& arguments) {
           "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
           s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, 1e3 * s.plan_seconds,
           1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
+      if (result.proof.verdict == Verdict::kProved) fmt::print("{}.\n", length_sentence(s));
     }
     fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
     if (saves_atlas) {
@@ -260,6 +278,9 @@ int run(int argc, char** argv) {
       plan_command->add_option("--save-atlas", plan_arguments.save_atlas, "write all charts into this file");
   plan_command->add_flag("--grow", plan_arguments.grow, "make all charts that can be reached before they are saved")
       ->needs(save_atlas);
+  plan_command
+      ->add_option("--budget", plan_arguments.budget_seconds, "seconds for planning and proving, before the case's own")
+      ->check(CLI::PositiveNumber);
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
 
   std::string certificate_path;

@@ -577,7 +577,8 @@ int read_count(const Field& field, int largest) {
 }
 
 PlannerOptions read_planner(const Field& field) {
-  const Map map = field.map({"strategy", "cost", "radius", "epsilon", "max_charts", "clearance", "smooth"});
+  const Map map =
+      field.map({"strategy", "cost", "radius", "epsilon", "max_charts", "max_seconds", "clearance", "smooth"});
   PlannerOptions planner;
   if (const auto strategy = map.find("strategy")) {
     planner.strategy =
@@ -591,6 +592,8 @@ PlannerOptions read_planner(const Field& field) {
   if (const auto radius = map.find("radius")) planner.radius = read_positive(*radius);
   if (const auto epsilon = map.find("epsilon")) planner.epsilon = read_positive(*epsilon);
   if (const auto max_charts = map.find("max_charts")) planner.max_charts = read_count(*max_charts, 100'000'000);
+  if (const auto max_seconds = map.find("max_seconds")) planner.max_seconds = read_positive(*max_seconds);
+  planner.has_budget = map.find("max_charts") || map.find("max_seconds");
   if (const auto clearance = map.find("clearance")) {
     planner.clearance = read_fraction(*clearance);
   }

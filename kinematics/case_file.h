@@ -1,6 +1,7 @@
 // Case files: YAML in, exact Problem out (docs/case-format.md).
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "kinematics/problem.h"
@@ -20,6 +21,8 @@ struct PlannerOptions {
   double radius = 0.15;   ///< chart radius r [rad]
   double epsilon = 0.15;  ///< largest distance from chart to manifold [rad]
   int max_charts = 200000;
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< of planning and proving
+  bool has_budget = false;                                       ///< the case states max_charts or max_seconds
   /// Least distance to a limit, over half its range, that a path should keep where start and goal do.
   double clearance = 0.01;
   Smoothing smoothing = Smoothing::kShorten;  ///< what is done to the path found, before it is proved as a whole

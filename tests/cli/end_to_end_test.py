@@ -133,6 +133,58 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(summary["segments"], len(self.certificate()["segments"]))
         self.assertEqual(summary["margins"], self.certificate()["margins"])
 
+    def budgeted(self, planner):
+        good = text_of(os.path.join(CASES, "robot2-free-q2-q3.yaml"))
+        return self.write("budget.yaml", re.sub(r"planner: {.*}", f"planner: {{{planner}}}", good))
+
+    def test_a_budget_that_is_spent_without_a_path_says_so_and_how_near_it_came(self):
+        tiny = "radius: 0.01, epsilon: 0.01"
+        for planner, budget in ((f"strategy: astar, max_charts: 40, {tiny}", "40 charts"),
+                                (f"strategy: greedy, max_charts: 40, {tiny}", "40 charts"),
+                                ("strategy: astar, max_seconds: 1e-9", "1e-09 s")):
+            with self.subTest(planner=planner):
+                result = run(TAUT, "plan", self.budgeted(planner), "--out", self.out)
+                self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+                self.assertRegex(result.stdout, f"undecided: .*the budget of {budget} is spent; best so far: ")
+                self.assertEqual(self.certificate()["verdict"], "undecided")
+
+    def test_a_budget_of_charts_gives_the_best_path_within_it(self):
+        summary = {}
+        for charts in (60, 600):
+            case = self.budgeted(f"strategy: astar, max_charts: {charts}")
+            result = run(TAUT, "plan", case, "--out", self.path(str(charts)), "--json")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            summary[charts] = json.loads(result.stdout)
+            self.assertTrue(summary[charts]["budget_spent"])
+            self.assertLessEqual(summary[charts]["charts"], charts)
+            checked = run(CHECK, self.path(str(charts), "certificate.json"), case)
+            self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        self.assertLessEqual(summary[600]["cost"], summary[60]["cost"])
+
+    def test_the_result_says_whether_its_search_came_to_an_end(self):
+        case = os.path.join(CASES, "robot1-slice-qs1-qg.yaml")
+        whole = json.loads(run(TAUT, "plan", case, "--out", self.out, "--json").stdout)
+        self.assertEqual((whole["within_factor"], whole["budget_spent"]), (1, False))
+        generous = run(TAUT, "plan", case, "--out", self.out, "--budget", "1000")
+        self.assertEqual(generous.returncode, 0, generous.stderr)
+        self.assertIn("the shortest on the charts' graph.", generous.stdout)
+        greedy = run(TAUT, "plan", os.path.join(CASES, "robot2-free-q2-q3.yaml"), "--out", self.out)
+        self.assertIn("the first, not the shortest", greedy.stdout)
+
+    def test_an_unreachable_goal_names_what_was_exhausted(self):
+        # Only the straight way from q_s to q_g is left, which slackens a cable.
+        text = re.sub(r"slice: {.*}", "surface: {parameters: {u: [0, 1]}, pose: {px: 0, py: 0, pz: 350, phi: -2.3 + 4*u, "
+                      "theta: 1.6 + u/10, sigma: 34 deg}}", text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml")))
+        text = re.sub(r"  waypoints:.*?\n\n", "  waypoints:\n    - {u: 0}\n    - {u: 1}\n\n", text, flags=re.S)
+        for strategy in ("astar", "greedy"):
+            with self.subTest(strategy=strategy):
+                case = self.write("straight.yaml", text.replace("astar", strategy))
+                result = run(TAUT, "plan", case, "--out", self.out)
+                self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+                self.assertRegex(result.stdout, r"undecided: no path from waypoint 0 to 1 of the query: the component of the "
+                                 r"start was covered by \d+ charts of radius 0.15 .* not met; best so far: a chart whose "
+                                 r"distance to waypoint 1 is [\d.]+.* evidence, not proof")
+
     def test_one_lowered_anchor_in_the_certificate_is_noticed(self):
         run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
         text = text_of(self.path("certificate.json"))
@@ -172,7 +224,7 @@ class EndToEnd(unittest.TestCase):
     def test_missing_files_and_wrong_flags_exit_with_3(self):
         case = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
         in_the_way = self.write("file", "")
-        for arguments in (["plan", self.path("none.yaml")], ["plan"], ["plan", case, "--speed", "9"], [], ["fly"],
+        for arguments in (["plan", self.path("none.yaml")], ["plan"], ["plan", case, "--speed", "9"], ["plan", case, "--budget", "0"], [], ["fly"],
                           ["plan", case, "--out", in_the_way], ["report", self.path("none.json")],
                           ["report", self.write("no.json", "{")], ["report", self.write("list.json", "[]")]):
             with self.subTest(arguments=arguments):

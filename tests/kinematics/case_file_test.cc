@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,18 @@ TEST(CaseFile, ReadsThePapersSlice) {
   EXPECT_EQ(read.planner.radius, 0.15);
   EXPECT_EQ(read.expect, Expectation::kProved);
   EXPECT_THAT(read.description, HasSubstr("OUR RECONSTRUCTION"));
+}
+
+TEST(CaseFile, KnowsWhetherABudgetIsStated) {
+  Sections sections;
+  EXPECT_FALSE(parse(sections).planner.has_budget);
+  sections.tail = "planner: {max_charts: 70}\n";
+  EXPECT_TRUE(parse(sections).planner.has_budget);
+  EXPECT_EQ(parse(sections).planner.max_charts, 70);
+  EXPECT_TRUE(std::isinf(parse(sections).planner.max_seconds));
+  sections.tail = "planner: {max_seconds: 0.2}\n";
+  EXPECT_TRUE(parse(sections).planner.has_budget);
+  EXPECT_EQ(parse(sections).planner.max_seconds, 0.2);
 }
 
 TEST(CaseFile, AParameterThatIsNamedLikeAUnitIsAnOperand) {
@@ -363,6 +376,7 @@ TEST(CaseFile, RejectsEveryMistake) {
       {&Sections::tail, "planner: {radius: 0}\n", "planner.radius: got '0', expected a number above zero"},
       {&Sections::tail, "planner: {epsilon: .inf}\n", "planner.epsilon: got '.inf', expected a decimal number"},
       {&Sections::tail, "planner: {max_charts: 1.5}\n", "planner.max_charts: got '1.5', expected a whole number"},
+      {&Sections::tail, "planner: {max_seconds: 0}\n", "planner.max_seconds: got '0', expected a number above zero"},
       {&Sections::tail, "planner: {max_charts: 99999999999999}\n", "expected a whole number from 1"},
       {&Sections::tail, "expect: yes\n", "expect: got 'yes', expected one of proved, refuted, undecided"},
       {&Sections::tail, "---\ntaut: 1\n", "got 2 YAML documents"},
