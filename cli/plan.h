@@ -5,8 +5,8 @@
 // each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
 // its proof is gathered, never inferred from the search.
 //
-// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is pulled taut
-// on proved edges, and the shortest such path is the result. What the budget cuts short is the search for a shorter one.
+// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is pulled
+// taut on proved edges, and the shortest such path is the result. What the budget cuts short is the search for a shorter one.
 #pragma once
 
 #include <chrono>
