@@ -50,7 +50,7 @@ PathLength::Place PathLength::place(const Coordinates& q) const {
 
 double PathLength::between(const Place& a, const Place& b) const {
   if (cost_ == Cost::kGreatCircle) return arc((a.p_WP - b.p_WP).norm(), sphere_radius_);
-  return arc((a.r_WP - b.r_WP).norm() / std::numbers::sqrt2, 1.0);  // ‖R_a − R_b‖_F = 2√2 sin(angle/2)
+  return rotation_angle(a.r_WP, b.r_WP);
 }
 
 double PathLength::distance(const Coordinates& a, const Coordinates& b) const {

@@ -8,13 +8,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "atlas/clear_edge.h"
 #include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
 #include "certify/certificate.h"
+#include "cli/smooth.h"
 #include "cli/time_budget.h"
+#include "kinematics/geometry.h"
+#include "kinematics/motion_length.h"
 
 namespace taut {
 namespace {
@@ -25,11 +29,10 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 // ---- Waypoints and the planner's coordinates --------------------------------------------------------------------------
 
-Coordinates to_coordinates(const Waypoint& waypoint) {
-  Coordinates q(static_cast<int>(waypoint.x.size()));
-  for (int j = 0; j < q.size(); ++j) q[j] = waypoint.x[static_cast<std::size_t>(j)];
-  return q;
+Coordinates to_coordinates(const std::vector<double>& x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<int>(x.size()));
 }
+Coordinates to_coordinates(const Waypoint& waypoint) { return to_coordinates(waypoint.x); }
 
 Waypoint to_waypoint(const Coordinates& q) {
   return {std::vector<double>(q.data(), q.data() + q.size()), std::vector<int>(static_cast<std::size_t>(q.size()), 0)};
@@ -66,6 +69,16 @@ std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) 
   std::vector<Coordinates> all;
   for (const Waypoint& waypoint : waypoints) all.push_back(to_coordinates(waypoint));
   return all;
+}
+
+/// Halfway along the straight way from a to b.
+Waypoint halfway(const Waypoint& a, const Waypoint& b) {
+  Waypoint middle = a;
+  for (std::size_t j = 0; j < a.x.size(); ++j) {
+    const double turned = std::numbers::pi * (b.half_turns[j] - a.half_turns[j]);
+    middle.x[j] = 0.5 * (a.x[j] + b.x[j] + turned);
+  }
+  return middle;
 }
 
 /// As much of the clearance asked for as keeps the query's waypoints inside the manifold.
@@ -203,8 +216,9 @@ std::optional<Plan> Planner::judge_query() const {
 }
 
 /// A path through the query on edges that `edges` accepts; nothing, and the reason, where there is none.
-std::optional<Path> Planner::find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
-                                       PlanStatistics& statistics, std::string& reason) {
+std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progress& progress,
+                                                     const std::stop_token& stop, PlanStatistics& statistics,
+                                                     std::string& reason) {
   const auto distance = [&](const Coordinates& a, const Coordinates& b) { return length_.distance(a, b); };
   SearchProblem search_problem;
   // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search soon.
@@ -216,6 +230,7 @@ std::optional<Path> Planner::find_path(Edges& edges, const Progress& progress, c
   }
   Path path;
   path.waypoints = {query_.front()};
+  std::vector<std::size_t> stops = {0};
   Image reached;
   for (std::size_t leg = 0; leg + 1 < query_.size(); ++leg) {
     search_problem.start = to_coordinates(query_[leg]);
@@ -234,9 +249,10 @@ std::optional<Path> Planner::find_path(Edges& edges, const Progress& progress, c
     statistics.cost_found += best.cost_found;
     statistics.cost += best.cost;
     append_leg(path, best.vertices, best.found.path.back(), reached, case_.problem.space.flip);
+    stops.push_back(path.waypoints.size() - 1);
     reached = compose(reached, best.found.path.back().image);
   }
-  return path;
+  return FoundPath{std::move(path), std::move(stops)};
 }
 
 /// The shortest path of a leg, as far as strategy and budget go; not found, and why, where there is none.
@@ -268,7 +284,7 @@ Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& 
   for (const PathVertex& vertex : found.path) leg.vertices.push_back(vertex.coordinates);
   for (std::size_t k = 1; k < leg.vertices.size(); ++k) leg.cost_found += length(leg.vertices[k - 1], leg.vertices[k]);
   leg.cost = leg.cost_found;
-  if (case_.planner.smoothing == Smoothing::kShorten) {
+  if (case_.planner.smoothing != Smoothing::kNone) {
     const auto start = Clock::now();
     const double proving_before = edges.proving_seconds();
     leg.cost = shorten(leg.vertices, {length, problem.edge_ok, problem.stop}).cost_after;
@@ -362,19 +378,51 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   const ClearEdge looks_clear(sampler_, kEdgeClearanceShare * clearance_);
   Edges edges(looks_clear, edge_prover);
   result.proof = {};
-  std::optional<Path> path = find_path(edges, progress, stop, statistics, result.proof.reason);
+  std::optional<FoundPath> found = find_path(edges, progress, stop, statistics, result.proof.reason);
   statistics.edges_checked += edges.checked();
   statistics.edges_rejected += edges.rejected();
   statistics.prove_seconds += edges.proving_seconds();
-  if (!path) {
+  if (!found) {
     result.path.waypoints = query_;
     return true;
   }
   const auto start = Clock::now();
-  result.path = std::move(*path);
+  result.path = std::move(found->path);
   result.proof = prove_path(prover_, result.path, [&](const Segment& segment) { return edges.find(segment); });
   statistics.prove_seconds += seconds_since(start);
-  return result.proof.verdict == Verdict::kProved;
+  if (result.proof.verdict != Verdict::kProved) return false;
+  if (case_.planner.smoothing == Smoothing::kSpline) round_corners(found->stops, stop, result);
+  measure(result.path, statistics);
+  return true;
+}
+
+/// Puts a spline in the place of the path, where a proved one is found.
+void Planner::round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const {
+  const auto start = Clock::now();
+  const auto length = [&](const Path& path) {
+    return motion_length(path, curve_parameters, [&](const std::vector<double>& a, const std::vector<double>& b) {
+      return length_.distance(to_coordinates(a), to_coordinates(b));
+    });
+  };
+  const SmoothProblem problem{prover_, kEdgeClearanceShare * clearance_, length, halfway, stop};
+  if (std::optional<SmoothPath> rounded = smooth(plan.path, stops, problem)) {
+    plan.path = std::move(rounded->path);
+    plan.proof = std::move(rounded->proof);
+    plan.statistics.cost = rounded->length;
+  }
+  plan.statistics.smooth_seconds += seconds_since(start);
+}
+
+void Planner::measure(const Path& path, PlanStatistics& statistics) const {
+  const auto length = [&](auto distance) {
+    return motion_length(path, curve_parameters, [&](const std::vector<double>& a, const std::vector<double>& b) {
+      return distance(sampler_.pose(a), sampler_.pose(b));
+    });
+  };
+  statistics.length_m = length([](const Pose<double>& a, const Pose<double>& b) { return (a.p_WP - b.p_WP).norm(); });
+  statistics.angle_rad = length([](const Pose<double>& a, const Pose<double>& b) {
+    return rotation_angle(rotation(a.phi, a.theta, a.sigma), rotation(b.phi, b.theta, b.sigma));
+  });
 }
 
 }  // namespace taut

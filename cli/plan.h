@@ -36,6 +36,8 @@ struct PlanStatistics {
   double factor = 1;          ///< that path is at most so many times as long as the shortest on the charts' graph
   bool budget_spent = false;  ///< before the search ended by itself
   double cost = 0;            ///< of the path
+  double length_m = 0;        ///< of the way of the platform's origin
+  double angle_rad = 0;       ///< that the platform turns on the way
   double plan_seconds = 0;    ///< atlas and search, without the proofs made within
   double smooth_seconds = 0;  ///< shortening, without the proofs made within
   double prove_seconds = 0;
@@ -82,8 +84,14 @@ class Planner {
   void seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result);
   [[nodiscard]] bool is_anytime() const;
   bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
-  [[nodiscard]] std::optional<Path> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
-                                              PlanStatistics& statistics, std::string& reason);
+  struct FoundPath {
+    Path path;
+    std::vector<std::size_t> stops;  ///< of the path's waypoints, those of the query
+  };
+  [[nodiscard]] std::optional<FoundPath> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
+                                                   PlanStatistics& statistics, std::string& reason);
+  void round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const;
+  void measure(const Path& path, PlanStatistics& statistics) const;
   [[nodiscard]] Leg find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics);
   [[nodiscard]] Leg pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
                               PlanStatistics& statistics) const;

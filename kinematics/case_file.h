@@ -10,7 +10,7 @@ namespace taut {
 
 enum class Strategy { kAStar, kGreedyBestFirst };
 enum class Cost { kRotation, kGreatCircle, kParameters };
-enum class Smoothing { kNone, kShorten };
+enum class Smoothing { kNone, kShorten, kSpline };
 enum class Expectation { kNone, kProved, kRefuted, kUndecided };
 
 /// How to search; floating point, since a search proves nothing. Lengths and angles share one scale, see

@@ -72,4 +72,10 @@ template <class S>
   return sqrt(sqr(d(0)) + sqr(d(1)) + sqr(d(2)));
 }
 
+/// The angle ‖log(aᵀ b)‖ between two orientations [rad], from the chord ‖a − b‖_F = 2√2 sin(angle/2).
+[[nodiscard]] inline double rotation_angle(const Matrix3<double>& a, const Matrix3<double>& b) {
+  constexpr double kTwoRootsOfTwo = 2.8284271247461903;
+  return 2.0 * std::asin(std::min(1.0, (a - b).norm() / kTwoRootsOfTwo));
+}
+
 }  // namespace taut

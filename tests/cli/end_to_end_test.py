@@ -234,7 +234,7 @@ class EndToEnd(unittest.TestCase):
 
     def test_an_interrupted_plan_is_undecided_and_leaves_whole_files(self):
         good = text_of(os.path.join(CASES, "robot2-sphere-q1-q2-q3.yaml"))
-        case = self.write("long.yaml", re.sub(r"radius: 0.15, epsilon: 0.15", "radius: 0.002, epsilon: 0.002", good))
+        case = self.write("long.yaml", re.sub(r"radius: 0.15, epsilon: 0.15", "radius: 0.0007, epsilon: 0.0007", good))
         process = subprocess.Popen([TAUT, "plan", case, "--out", self.out], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
         time.sleep(1.0)
