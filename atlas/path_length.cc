@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "kinematics/geometry.h"
 #include "kinematics/input_error.h"

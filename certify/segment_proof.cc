@@ -25,7 +25,7 @@ Segment Prover::segment(const Waypoint& a, const Waypoint& b) const {
 
 double Prover::suitable_tube(const Segment& segment) const {
   constexpr int kSamples = 8;    // intervals of s
-  constexpr double kRoom = 4.0;  // times the largest |y| seen
+  constexpr double kRoom = 1.5;  // times the largest |y| seen; a wider tube is harder to prove free of other motions
   constexpr double kLeast = 0x1p-30;
   double largest = 0;
   for (int k = 0; k <= kSamples; ++k) {
@@ -33,7 +33,7 @@ double Prover::suitable_tube(const Segment& segment) const {
     if (!deviation) return 0;
     largest = std::max(largest, *deviation);
   }
-  return std::exp2(std::ceil(std::log2(std::max(kRoom * largest, kLeast))));
+  return std::max(kRoom * largest, kLeast);
 }
 
 const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {

@@ -87,8 +87,8 @@ class Smoother {
 
   std::optional<SmoothPath> finish(double length) {
     SmoothPath result{path_, {}, length, judged_};
-    result.proof = prove_path(problem_.prover, result.path,
-                              [&](const Segment& segment) { return &proofs_.at(key_of(segment)); });
+    result.proof =
+        prove_path(problem_.prover, result.path, [&](const Segment& segment) { return &proofs_.at(key_of(segment)); });
     if (result.proof.verdict != Verdict::kProved) return std::nullopt;
     return result;
   }

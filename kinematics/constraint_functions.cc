@@ -63,7 +63,8 @@ std::vector<double> ConstraintFunctions::normals(const Waypoint& waypoint) const
 std::optional<ConstraintFunctions::Vector> ConstraintFunctions::project(const Vector& lambda,
                                                                         const Jacobian& normals) const {
   constexpr int kMostSteps = 20;
-  constexpr double kConverged = 1e-13;  // [m, rad]
+  constexpr double kConverged = 1e-13;  // relative to the parameters, in metres and radians
+  const double scale = std::max(1.0, lambda.lpNorm<Eigen::Infinity>());
   Vector y = Vector::Zero(count_);
   Vector values;
   Jacobian jacobian;
@@ -73,7 +74,7 @@ std::optional<ConstraintFunctions::Vector> ConstraintFunctions::project(const Ve
     const Vector correction = g_y.partialPivLu().solve(values);
     if (!correction.allFinite()) return std::nullopt;
     y -= correction;
-    if (correction.lpNorm<Eigen::Infinity>() <= kConverged) return y;
+    if (correction.lpNorm<Eigen::Infinity>() <= kConverged * scale) return y;
   }
   return std::nullopt;
 }

@@ -8,6 +8,9 @@
 // The scalar S of the pose may be a centred form or a dual number over the model's scalar K.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "kinematics/model.h"
 
 namespace taut {

@@ -1,6 +1,7 @@
 find_package(Threads REQUIRED)
 taut_add_test(cli time_budget LABELS unit LIBS Threads::Threads)
 
+taut_add_test(cli smooth LABELS unit LIBS taut_plan)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME cli.end_to_end COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})

@@ -1,5 +1,8 @@
 // The soundness campaign: random robots and segments, half of them with a hidden violation, against a 200-bit oracle.
 //
+// Segments are straight or of a spline, and in some spaces the motion is only implied by constraints: then the oracle finds it
+// by Newton's method at 200 bits, with gradients of its own.
+//
 // For each trial one quantity (f0 − v, f0 + v or d of one cable) is followed along a segment to its extremum s*, and its limit is
 // set, as an exact decimal of 45 digits, a distance δ from the oracle's value there: inside the path's range by δ (a violation
 // as narrow as √δ, which no sampling sees), or outside it by δ. Then:
@@ -23,6 +26,8 @@
 #include <random>
 
 #include "certify/segment_proof.h"
+#include "kinematics/constraint_functions.h"
+#include "kinematics/motion_length.h"
 #include "kinematics/statics.h"
 #include "tests/oracle/oracle_at_origin.h"
 #include "tests/support/robots.h"
@@ -45,19 +50,36 @@ DecimalText decimal(const BigFloat& x) {
 }
 DecimalText decimal(double x) { return fmt::format("{:.6e}", x); }
 
+using Vector = std::vector<BigFloat>;
+
+/// Constraints and their gradients, written a second time.
+struct OracleConstraints {
+  std::function<Vector(const Vector&)> values;
+  std::function<std::vector<Vector>(const Vector&)> gradients;
+};
+
 /// A problem, a segment of it, and its pose at s by a route of its own.
 struct Trial {
   Problem problem;
-  Waypoint a, b;
-  std::function<oracle::Big6(const std::vector<BigFloat>&)> pose;
+  std::array<Waypoint, 4> controls;
+  Interpolation law = Interpolation::kStraight;
+  std::optional<OracleConstraints> constraints;
+  std::function<oracle::Big6(const Vector&)> pose;
+
+  [[nodiscard]] Segment segment(const Prover& prover) const {
+    Segment segment = curve();
+    if (constraints) segment.tube = prover.suitable_tube(segment);
+    return segment;
+  }
+  [[nodiscard]] Segment curve() const { return {law, {&controls[0], &controls[1], &controls[2], &controls[3]}, 0}; }
 };
 
-oracle::Big6 slice_pose(const std::vector<BigFloat>& q) {
+oracle::Big6 slice_pose(const Vector& q) {
   return {BigFloat(0.0), BigFloat(0.0), oracle::big("0.35"),
           q[0],          q[1],          BigFloat(34.0) * oracle::pi() / BigFloat(180.0)};
 }
 
-oracle::Big6 sphere_pose(const std::vector<BigFloat>& q) {
+oracle::Big6 sphere_pose(const Vector& q) {
   const BigFloat rs = oracle::big("0.13");
   const BigFloat ring = rs * oracle::cosine(q[1]);
   return {
@@ -105,51 +127,188 @@ Problem random_robot(Random& random, double& size) {
   return problem;
 }
 
+/// Robot 2 with its z axis through a fixed point, given by three constraints on five parameters (the paper's (16), implicitly).
+Problem implicit_sphere() {
+  Problem problem = testing::robot2_sphere();
+  problem.space = SpaceText{};
+  for (const char* name : {"px", "py", "pz", "phi", "theta"}) {
+    const bool periodic = std::string(name) == "phi";
+    problem.space.parameters.push_back({name, periodic ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+  }
+  problem.space.pose = {"px", "py", "pz", "phi", "theta", "0"};
+  problem.space.constraints = {"px + 0.13*sin(theta)*cos(phi)", "py + 0.13*sin(theta)*sin(phi)",
+                               "pz - 0.306 + 0.13*cos(theta)"};
+  return problem;
+}
+
+OracleConstraints implicit_sphere_oracle() {
+  const auto r = [] { return oracle::big("0.13"); };
+  return {[r](const Vector& q) {
+            const BigFloat ring = r() * oracle::sine(q[4]);
+            return Vector{q[0] + ring * oracle::cosine(q[3]), q[1] + ring * oracle::sine(q[3]),
+                          q[2] - oracle::big("0.306") + r() * oracle::cosine(q[4])};
+          },
+          [r](const Vector& q) {
+            const BigFloat zero(0.0);
+            const BigFloat one(1.0);
+            const BigFloat c = oracle::cosine(q[3]);
+            const BigFloat s = oracle::sine(q[3]);
+            const BigFloat ring = r() * oracle::sine(q[4]);
+            const BigFloat rise = r() * oracle::cosine(q[4]);
+            return std::vector<Vector>{{one, zero, zero, -ring * s, rise * c},
+                                       {zero, one, zero, ring * c, rise * s},
+                                       {zero, zero, one, zero, -ring}};
+          }};
+}
+
+/// p on a sphere about the origin through the first waypoint (up to six digits); orientation free.
+void put_on_sphere(Trial& trial) {
+  const std::vector<double>& x = trial.controls[0].x;
+  const DecimalText square = decimal(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  trial.problem.space.constraints = {"px^2 + py^2 + pz^2 - " + square};
+  trial.constraints = OracleConstraints{
+      [square](const Vector& q) { return Vector{q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - oracle::big(square)}; },
+      [](const Vector& q) {
+        const BigFloat two(2.0);
+        const BigFloat zero(0.0);
+        return std::vector<Vector>{{two * q[0], two * q[1], two * q[2], zero, zero, zero}};
+      }};
+}
+
+/// Next to the constraints, as a planner would put it, but not on them; with normals.
+void bring_near(const ConstraintFunctions& functions, Waypoint& waypoint, Random& random) {
+  waypoint.normals = functions.normals(waypoint);
+  const double distance = std::pow(10.0, uniform(random, -12, -2));
+  const std::vector<double> on = functions.parameters(Segment::straight(waypoint, waypoint), 0);
+  for (std::size_t j = 0; j < on.size(); ++j) waypoint.x[j] = on[j] + distance * (waypoint.x[j] - on[j]);
+  waypoint.normals = functions.normals(waypoint);
+}
+
+/// Control points 1, 2, 3 by random steps from point 0, in proportion to `scale`.
+void walk(Trial& trial, Random& random, double step, const std::vector<double>& scale) {
+  trial.controls[0].half_turns.assign(trial.controls[0].x.size(), 0);
+  trial.law = random() % 3 == 0 ? Interpolation::kCubicBSpline : Interpolation::kStraight;
+  for (std::size_t k = 1; k < 4; ++k) {
+    trial.controls[k] = trial.controls[k - 1];
+    if (random() % 16 == 0) continue;  // control points may be equal
+    for (std::size_t j = 0; j < scale.size(); ++j) trial.controls[k].x[j] += step * scale[j] * uniform(random, -1, 1);
+  }
+}
+
 Trial make_trial(Random& random) {
   static const Problem slice = testing::robot1_slice();
   static const Problem sphere = testing::robot2_sphere();
-  const auto straight = [&](std::vector<double> from, double step) {
-    std::vector<double> to = from;
-    for (double& x : to) x += step * uniform(random, -1, 1);
-    const std::vector<int> none(from.size(), 0);
-    return std::pair{Waypoint{std::move(from), none}, Waypoint{std::move(to), none}};
-  };
+  static const Problem on_sphere = implicit_sphere();
+  constexpr double kStep = 0.15;
   Trial trial;
-  switch (random() % 4) {
-    case 0: {
+  std::vector<double>& from = trial.controls[0].x;
+  switch (random() % 6) {
+    case 0:
       trial.problem = slice;
-      std::tie(trial.a, trial.b) = straight({uniform(random, -3.2, 3.2), uniform(random, -0.2, 2.0)}, 0.15);
+      from = {uniform(random, -3.2, 3.2), uniform(random, -0.2, 2.0)};
+      walk(trial, random, kStep, {1, 1});
       trial.pose = slice_pose;
       break;
-    }
-    case 1: {
+    case 1:
       trial.problem = sphere;
-      std::tie(trial.a, trial.b) = straight({uniform(random, -3.2, 3.2), uniform(random, -0.5, 1.4)}, 0.15);
+      from = {uniform(random, -3.2, 3.2), uniform(random, -0.5, 1.1)};  // a spline's points stay below pi/2
+      walk(trial, random, kStep, {1, 1});
       trial.pose = sphere_pose;
+      break;
+    case 2: {
+      trial.problem = on_sphere;
+      const double phi = uniform(random, -3.2, 3.2);
+      const double theta = uniform(random, 0.1, 2.0);
+      from = {-0.13 * std::sin(theta) * std::cos(phi), -0.13 * std::sin(theta) * std::sin(phi),
+              0.306 - 0.13 * std::cos(theta), phi, theta};
+      walk(trial, random, kStep, {0.01, 0.01, 0.01, 1, 1});
+      trial.constraints = implicit_sphere_oracle();
+      trial.pose = [](const Vector& q) { return oracle::Big6{q[0], q[1], q[2], q[3], q[4], BigFloat(0.0)}; };
       break;
     }
     default: {
       double size = 1;
       trial.problem = random_robot(random, size);
-      std::vector<double> from;
       for (int k = 0; k < 2; ++k) from.push_back(size * uniform(random, -0.4, 0.4));
       from.push_back(size * uniform(random, 0.7, 2.0));
       from.push_back(uniform(random, -3.2, 3.2));
       from.push_back(uniform(random, 0.0, 0.6));
       from.push_back(uniform(random, -0.5, 0.5));
-      std::tie(trial.a, trial.b) = straight(from, 0.15);
-      for (std::size_t k = 0; k < 3; ++k) trial.b.x[k] = from[k] + size * (trial.b.x[k] - from[k]);
-      trial.pose = [](const std::vector<BigFloat>& q) { return oracle::Big6{q[0], q[1], q[2], q[3], q[4], q[5]}; };
+      walk(trial, random, kStep, {size, size, size, 1, 1, 1});
+      trial.pose = [](const Vector& q) { return oracle::Big6{q[0], q[1], q[2], q[3], q[4], q[5]}; };
+      if (random() % 3 == 0) put_on_sphere(trial);
     }
+  }
+  if (trial.constraints) {
+    const ConstraintFunctions functions(trial.problem);
+    for (Waypoint& waypoint : trial.controls) bring_near(functions, waypoint, random);
   }
   return trial;
 }
 
-std::vector<BigFloat> parameters_at(const Trial& trial, double s) {
-  std::vector<BigFloat> q;
-  for (std::size_t j = 0; j < trial.a.x.size(); ++j) {
-    const BigFloat start(trial.a.x[j]);
-    q.push_back(start + BigFloat(s) * (BigFloat(trial.b.x[j]) - start));
+/// The segment's mix at s of what `value` reads from the control points.
+template <class F>
+BigFloat mix(const Trial& trial, double s, F value) {
+  const BigFloat t(s);
+  const BigFloat u = BigFloat(1.0) - t;
+  if (trial.law == Interpolation::kStraight) return u * value(trial.controls[0]) + t * value(trial.controls[1]);
+  const BigFloat three(3.0);
+  const BigFloat four(4.0);
+  const BigFloat six(6.0);
+  const BigFloat t2 = t * t;
+  const BigFloat t3 = t2 * t;
+  return (u * u * u * value(trial.controls[0]) + (three * t3 - six * t2 + four) * value(trial.controls[1]) +
+          (three * t2 - three * t3 + three * t + BigFloat(1.0)) * value(trial.controls[2]) +
+          t3 * value(trial.controls[3])) /
+         six;
+}
+
+/// Gauss elimination of a small system.
+Vector solve(std::vector<Vector> a, Vector b) {
+  const std::size_t n = b.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t pivot = c;
+    for (std::size_t i = c + 1; i < n; ++i) {
+      if (abs(a[i][c]) > abs(a[pivot][c])) pivot = i;
+    }
+    std::swap(a[c], a[pivot]);
+    std::swap(b[c], b[pivot]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == c) continue;
+      const BigFloat factor = a[i][c] / a[c][c];
+      for (std::size_t j = c; j < n; ++j) a[i][j] -= factor * a[c][j];
+      b[i] -= factor * b[c];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) b[i] /= a[i][i];
+  return b;
+}
+
+Vector parameters_at(const Trial& trial, double s) {
+  Vector q;
+  const std::size_t m = trial.controls[0].x.size();
+  for (std::size_t j = 0; j < m; ++j) q.push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.x[j]); }));
+  if (!trial.constraints) return q;
+  const std::size_t k = trial.problem.space.constraints.size();
+  std::vector<Vector> normals(m);
+  for (std::size_t j = 0; j < m; ++j) {
+    for (std::size_t i = 0; i < k; ++i) {
+      normals[j].push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.normals[j * k + i]); }));
+    }
+  }
+  constexpr int kNewtonSteps = 9;  // doubling some 3 digits
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const std::vector<Vector> gradients = trial.constraints->gradients(q);
+    std::vector<Vector> g_y(k, Vector(k));
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t l = 0; l < k; ++l) {
+        for (std::size_t j = 0; j < m; ++j) g_y[i][l] += gradients[i][j] * normals[j][l];
+      }
+    }
+    const Vector y = solve(g_y, trial.constraints->values(q));
+    for (std::size_t j = 0; j < m; ++j) {
+      for (std::size_t i = 0; i < k; ++i) q[j] -= normals[j][i] * y[i];
+    }
   }
   return q;
 }
@@ -218,11 +377,11 @@ void run_trial(std::uint64_t seed, Tally& tally) {
   const MarginId id{static_cast<MarginKind>(random() % 4), static_cast<int>(random() % 6)};
   const Model<double> model = make_model<double>(trial.problem);
   const Evaluator<double> pose_of(pose_tape(trial.problem));
+  std::optional<ConstraintFunctions> constraints;
+  if (trial.constraints) constraints.emplace(trial.problem);
   const auto evaluate = [&](double s) {
-    std::vector<double> q;
-    for (std::size_t j = 0; j < trial.a.x.size(); ++j) {
-      q.push_back(trial.a.x[j] + s * (trial.b.x[j] - trial.a.x[j]));
-    }
+    const std::vector<double> q =
+        constraints ? constraints->parameters(trial.curve(), s) : curve_parameters(trial.curve(), s);
     return statics(model, evaluate_pose(pose_of, std::span<const double>(q)));
   };
   const double sign = is_upper(id.kind) ? -1.0 : 1.0;
@@ -292,7 +451,7 @@ void run_trial(std::uint64_t seed, Tally& tally) {
   limit(trial.problem, id) = decimal(quantity(at_extremum, id) + shift);
 
   const Prover prover(trial.problem);
-  const SegmentProof proof = prover.prove(trial.a, trial.b);
+  const SegmentProof proof = prover.prove(trial.segment(prover));
   tally.boxes += proof.boxes_judged;
   tally.multiprecision += proof.boxes_multiprecision;
   const auto breach = [&](const char* what) {
