@@ -1,6 +1,7 @@
 #include "certify/motion.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
@@ -69,7 +70,7 @@ class ImpliedMotion {
 
   /// λ = ℓ + N y over T; nothing if (a) fails.
   [[nodiscard]] bool parameters(Parameters<I>& result) {
-    if (!(tube_ > 0) || !start_newton()) return false;
+    if (!(tube_ > 0) || !std::isfinite(tube_) || !start_newton()) return false;
     Vector whole;
     whole.fill(I(-tube_, tube_));
     const Step first = krawczyk(whole);
@@ -278,6 +279,15 @@ class ImpliedMotion {
   Vector residual_;  ///< A g(ŷ, m)
 };
 
+/// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of anything
+/// else.
+bool has_normals(const Segment& segment, std::size_t count) {
+  return std::ranges::all_of(segment.controls(), [&](const Waypoint* waypoint) {
+    return waypoint->normals.size() == waypoint->x.size() * count &&
+           std::ranges::all_of(waypoint->normals, [](double x) { return std::isfinite(x); });
+  });
+}
+
 template <class I, std::size_t K = 1>
 bool implied_parameters(const MotionModel<I>& model, const Segment& segment, const I& range, const I& mid,
                         const I& offset, Parameters<I>& parameters) {
@@ -326,7 +336,8 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
   result.status = Status::kKnown;
   if (model.constraints) {
-    if (!implied_parameters(model, segment, range, mid, offset, parameters)) {
+    if (!has_normals(segment, model.constraints->count) ||
+        !implied_parameters(model, segment, range, mid, offset, parameters)) {
       result.status = Status::kUnproved;
       return result;
     }

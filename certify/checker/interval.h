@@ -178,6 +178,11 @@ inline bool certainly_negative(const Interval& a) { return mpfr_sgn(a.upper()) <
 inline bool certainly_nonnegative(const Interval& a) { return mpfr_sgn(a.lower()) >= 0; }
 inline bool certainly_nonpositive(const Interval& a) { return mpfr_sgn(a.upper()) <= 0; }
 
+/// Every number in a is in b.
+inline bool is_within(const Interval& a, const Interval& b) {
+  return mpfr_lessequal_p(b.lower(), a.lower()) && mpfr_lessequal_p(a.upper(), b.upper());
+}
+
 inline Interval max(const Interval& a, const Interval& b) {  // (a + b + |a - b|) / 2 would lose bits
   if (certainly_nonnegative(a - b)) return a;
   if (certainly_nonnegative(b - a)) return b;

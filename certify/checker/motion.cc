@@ -93,22 +93,43 @@ class ImpliedMotion {
   ImpliedMotion(const std::vector<Expression>& constraints, const Curve& curve)
       : constraints_(constraints), curve_(curve) {}
 
-  /// @throws Undefined unless there is exactly one zero with |y_i| <= tube, for every u.
-  [[nodiscard]] Zero zero(double tube) const {
-    constexpr int kSteps = 12;  // each nearly squares the error, down to what the width of the box and rounding leave
+  /// From an approximation of y at the middle of the box. @throws Undefined unless there is exactly one zero with
+  /// |y_i| <= tube, for every u.
+  [[nodiscard]] Zero zero(double tube, const Vector6<Interval>& near) const {
+    const std::size_t k = constraints_.size();
     const Interval t{mpq_class(tube)};
-    Vector6<Interval> Y;
-    for (std::size_t i = 0; i < constraints_.size(); ++i) Y[i] = t * Interval::plus_minus_one();
-    Zero result;
-    for (int step = 0; step < kSteps; ++step) {
-      result = krawczyk(Y);
-      for (std::size_t i = 0; i < constraints_.size(); ++i) {
-        if (step == 0 && !certainly_positive(t - abs(result.y[i]))) throw Undefined("it may leave its tube");
-        Y[i] = intersection(Y[i], result.y[i]);
-      }
+    Vector6<Interval> whole;
+    for (std::size_t i = 0; i < k; ++i) whole[i] = t * Interval::plus_minus_one();
+    (void)krawczyk(whole);  // so there is at most one
+
+    const Vector6<Interval> guess = krawczyk(near).y;
+    Vector6<Interval> Z = near;
+    for (std::size_t i = 0; i < k; ++i) {
+      Z[i] += Interval(2) * abs(guess[i] - near[i]) * Interval::plus_minus_one();
+      if (!certainly_positive(t - abs(Z[i]))) throw Undefined("it may leave its tube");
     }
-    result.y = Y;
+    Zero result = krawczyk(Z);
+    for (std::size_t i = 0; i < k; ++i) {
+      if (!is_within(result.y[i], Z[i])) throw Undefined("it may not exist");
+    }
+    constexpr int kNarrowings = 3;  // each takes away most of what the last one left of the curvature's part
+    for (int step = 0; step < kNarrowings; ++step) {
+      for (std::size_t i = 0; i < k; ++i) Z[i] = intersection(Z[i], result.y[i]);
+      result = krawczyk(Z);
+    }
+    for (std::size_t i = 0; i < k; ++i) result.y[i] = intersection(Z[i], result.y[i]);
     return result;
+  }
+
+  /// About where y is, of a box that is a single s.
+  [[nodiscard]] Vector6<Interval> approximate_zero() const {
+    constexpr int kSteps = 12;  // of Newton's method, which is what K of a single y is
+    Vector6<Interval> y;
+    for (int step = 0; step < kSteps; ++step) {
+      y = krawczyk(y).y;
+      for (Interval& x : y) x = middle(x);
+    }
+    return y;
   }
 
  private:
@@ -196,10 +217,12 @@ class ImpliedMotion {
 Vector6<Form> implied(const Problem& problem, std::span<const Waypoint> controls, double tube, const Box& box,
                       const Curve& over_box) {
   const std::size_t k = problem.constraints.size();
-  const Zero range = ImpliedMotion(problem.constraints, over_box).zero(tube);
   const mpq_class m = (box.begin + box.end) / 2;
   const Curve at_mid = curve(controls, {m, m}, k);
-  const Zero mid = ImpliedMotion(problem.constraints, at_mid).zero(tube);
+  const ImpliedMotion motion_at_mid(problem.constraints, at_mid);
+  const Vector6<Interval> near = motion_at_mid.approximate_zero();
+  const Zero mid = motion_at_mid.zero(tube, near);
+  const Zero range = ImpliedMotion(problem.constraints, over_box).zero(tube, near);
   Vector6<Form> result;
   for (std::size_t i = 0; i < k; ++i) result[i] = Form::enclose(mid.y[i], range.slope[i], range.y[i]);
   return result;

@@ -13,13 +13,14 @@
 //     g(y, u) = g(c, 0) + h' u + G' (y - c)   for some h' in h and G' in G.                                          (1)
 // Take any matrix A, M = I - A G, ||M|| <= rho < 1 (row sums), and
 //     K = c - A g(c, 0) - A h [-1, 1] + M (Y - c).
-// For each u, y -> y - A g(y, u) maps Y into K by (1), and shrinks distances (largest component) by rho. Where K is
-// within Y it thus has exactly one fixed point in Y; and since A G' = I - M' is non-singular, so is A, and fixed
-// points are the zeros of g. Whatever Y and A are,
-//     a zero in Y is in K too,                                                                                       (2)
-// by which Y is narrowed, again and again, about y(u). By (1) between two zeros, y is continuous in u, hence
-// differentiable by the implicit function theorem, with G' y' = -h', that is y' = -A h' + M' y':
-//     |y'_i| <= max_k |(A h)_k| / (1 - rho),   and y' in -A h + M y'.                                                (3)
+// For each u, y -> y - A g(y, u) maps Y into K by (1), and shrinks distances (largest component) by rho. Since
+// A G' = I - M' is non-singular, so is A, and the fixed points of this map are the zeros of g. So Y has
+//     at most one zero,   and exactly one where K is within Y.                                                       (2)
+// The first half is shown of the whole tube, the second of a small box in it. Whatever Y and A are,
+//     a zero in Y is in K too,                                                                                       (3)
+// by which Y is narrowed about y(u). By (1) between two zeros, y is continuous in u, hence differentiable by the
+// implicit function theorem, with G' y' = -h', that is y' = -A h' + M' y':
+//     |y'_i| <= max_k |(A h)_k| / (1 - rho),   and y' in -A h + M y'.                                                (4)
 #pragma once
 
 #include <vector>

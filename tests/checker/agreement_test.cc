@@ -1,0 +1,166 @@
+// Prover and checker, each held against the other: what one proves the other confirms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "certify/certificate.h"
+#include "certify/checker/check.h"
+#include "certify/path_proof.h"
+#include "kinematics/constraint_functions.h"
+#include "kinematics/input_error.h"
+#include "tests/checker/fixtures.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using checker::check_certificate;
+using checker::CheckResult;
+using checker::Outcome;
+using nlohmann::json;
+
+std::vector<ExpressionText> typed(const Waypoint& waypoint) {
+  std::vector<ExpressionText> result;
+  for (const double x : waypoint.x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", x);
+    result.push_back(text);
+  }
+  return result;
+}
+
+/// The query is made to fit the path, so that only the path is judged.
+CheckResult check(Problem problem, const Path& path, const PathProof& proof) {
+  problem.query = {typed(path.waypoints.front()), typed(path.waypoints.back())};
+  return check_certificate(make_certificate(problem, path, proof, json()).dump());
+}
+
+bool has_half_turns(const Path& path) {
+  return std::ranges::any_of(path.waypoints, [](const Waypoint& waypoint) {
+    return std::ranges::any_of(waypoint.half_turns, [](int n) { return n % 2 != 0; });
+  });
+}
+
+TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
+  int decided = 0;
+  for (const char* folder : {"accepted", "rejected"}) {
+    for (const auto& file : checker::certificates(folder)) {
+      SCOPED_TRACE(file);
+      const json certificate = json::parse(checker::read_text(file));
+      try {
+        const Problem problem = problem_from_json(certificate["problem"]);
+        const Path path = path_from_json(certificate["path"]);
+        const PathProof proof = prove_path(Prover(problem, {.max_boxes = 5000, .max_multiprecision_boxes = 500}), path);
+        if (std::string(folder) == "accepted") {
+          EXPECT_NE(proof.verdict, Verdict::kUndecided) << proof.reason;
+          EXPECT_EQ(proof.verdict == Verdict::kProved, certificate["verdict"] == "proved");
+        }
+        if (proof.verdict == Verdict::kUndecided || has_half_turns(path)) continue;
+        ++decided;
+        const CheckResult result = check(problem, path, proof);
+        const bool of_the_path = result.message.find("query waypoint") == std::string::npos;
+        EXPECT_TRUE(result.outcome == Outcome::kAccepted || !of_the_path) << result.message;
+      } catch (const InputError&) {
+        EXPECT_STREQ(folder, "rejected");
+      }
+    }
+  }
+  EXPECT_GT(decided, 50);
+}
+
+/// t leads the pose nowhere; x is up to the constraint. So a proof is about nothing but the motion.
+Problem toy(const ExpressionText& constraint) {
+  Problem problem = testing::robot1_slice();
+  problem.space = SpaceText{};
+  problem.space.parameters = {{"t", ParameterKind::kReal, "", ""}, {"x", ParameterKind::kReal, "", ""}};
+  problem.space.pose = {"0", "0", "0.35", "-2.3", "1.6", "(34)*pi/180"};
+  problem.space.constraints = {constraint};
+  problem.query = {{"0", "0"}, {"1", "0"}};
+  return problem;
+}
+
+/// Expressions that are smooth nearly everywhere, and have poles, jumps, kinks and holes elsewhere.
+ExpressionText random_expression(std::mt19937_64& random, int depth) {
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto number = [&] { return std::to_string(pick(7)) + "." + std::to_string(pick(100)); };
+  if (depth == 0) return pick(3) == 0 ? number() : pick(2) == 0 ? "t" : "x";
+  const ExpressionText a = random_expression(random, depth - 1);
+  const ExpressionText b = random_expression(random, depth - 1);
+  switch (pick(12)) {
+    case 0: return "(" + a + ")+(" + b + ")";
+    case 1: return "(" + a + ")-(" + b + ")";
+    case 2:
+    case 3: return "(" + a + ")*(" + b + ")";
+    case 4: return "(" + a + ")/(" + b + " - " + number() + ")";
+    case 5: return "atan2(" + a + " - " + number() + ", " + b + ")";
+    case 6: return "sqrt(" + a + ")";
+    case 7: return "(" + a + " - " + number() + ")^" + std::to_string(pick(5) - 2);
+    case 8: return "tan(" + a + ")";
+    case 9: return "exp(" + a + ")";
+    case 10: return "log(" + a + " + " + number() + ")";
+    default: return "sin(3*(" + a + "))";
+  }
+}
+
+/// The zeros of y -> C at s in the tube, each told from a jump by bisection.
+int zeros(const ConstraintFunctions& functions, const Segment& segment, double s) {
+  constexpr int kSteps = 400;
+  const auto mix = [&](auto value) { return (1 - s) * value(*segment.control[0]) + s * value(*segment.control[1]); };
+  const auto g = [&](double y) {
+    ConstraintFunctions::Vector lambda(2), values;
+    ConstraintFunctions::Jacobian jacobian;
+    for (std::size_t j = 0; j < 2; ++j) {
+      lambda[static_cast<int>(j)] =
+          mix([&](const Waypoint& w) { return w.x[j]; }) + y * mix([&](const Waypoint& w) { return w.normals[j]; });
+    }
+    functions.evaluate(lambda, values, jacobian);
+    return values[0];
+  };
+  int count = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    double low = segment.tube * (2.0 * k / kSteps - 1), high = segment.tube * (2.0 * (k + 1) / kSteps - 1);
+    if (!std::isfinite(g(low)) || !std::isfinite(g(high))) return -1;
+    if ((g(low) > 0) == (g(high) > 0)) continue;
+    const double scale = std::abs(g(low)) + std::abs(g(high));
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      ((g(low) > 0) == (g(middle) > 0) ? low : high) = middle;
+    }
+    if (std::abs(g(low)) + std::abs(g(high)) < 1e-3 * scale + 1e-12) ++count;
+  }
+  return count;
+}
+
+TEST(Agreement, ThereIsOneMotionWhereEitherOfThemSaysSo) {
+  std::mt19937_64 random(2);
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  int proved = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const double slope = std::exp(uniform(-3, 1));
+    const ExpressionText constraint = std::to_string(slope) + "*x - " + std::to_string(uniform(0, 0.3)) + "*(" +
+                                      random_expression(random, 1 + trial % 3) + ")";
+    const Problem problem = toy(constraint);
+    const ConstraintFunctions functions(problem);
+    std::array<Waypoint, 2> ends;
+    for (int i = 0; i < 2; ++i) {
+      ends[static_cast<std::size_t>(i)] = {{static_cast<double>(i), uniform(-0.5, 0.5)},
+                                           {0, 0},
+                                           {uniform(-0.5, 0.5), trial % 4 == 0 ? uniform(-1, 2) : 1.0}};
+    }
+    Segment segment = Segment::straight(ends[0], ends[1]);
+    const double deviation = functions.deviation(segment, 0.5).value_or(0.1);
+    segment.tube = std::exp2(uniform(-1, 3)) * std::max(deviation, 1e-3);
+    const Path path{{ends[0], ends[1]}, Interpolation::kStraight, {segment.tube}};
+    const PathProof proof = prove_path(Prover(problem, {.max_boxes = 300, .max_multiprecision_boxes = 5}), path);
+    ASSERT_NE(proof.verdict, Verdict::kRefuted) << constraint;
+    if (proof.verdict == Verdict::kUndecided) continue;
+    ++proved;
+    for (int k = 0; k <= 20; ++k) EXPECT_EQ(zeros(functions, segment, k / 20.0), 1) << constraint << " at " << k / 20.0;
+    const CheckResult result = check(problem, path, proof);
+    EXPECT_EQ(result.outcome, Outcome::kAccepted) << constraint << ": " << result.message;
+  }
+  EXPECT_GT(proved, 100);
+}
+
+}  // namespace
+}  // namespace taut
