@@ -19,6 +19,9 @@ constexpr double kMaxSlope = 0.5;
 constexpr double kDistanceGrowth = 4.0;
 // Charts further away than this many radii have bisectors that leave the chart's ball alone.
 constexpr double kReach = 2.0;
+// The same where polytopes are sampled. Charts have 2^n times as many others within twice the distance, and the nearer ones
+// shorten all rays that those further away would.
+constexpr double kSampledReach = 1.4;
 // Half side of the cube that a polytope begins as, in radii: all its corners are outside the ball, also for n = 1.
 constexpr double kCube = 1.25;
 constexpr const char* kOutside = "its centre is outside the domain";
@@ -41,9 +44,10 @@ struct View {
   double distance_ba;
 
   View(const Frame& a, const Frame& b) {
-    const double squared_distance = (b.point() - a.point()).squaredNorm();
-    u_ab = a.tangent_coordinates(b.point());
-    u_ba = b.tangent_coordinates(a.point());
+    const Eigen::VectorXd from_a_to_b = b.point() - a.point();
+    const double squared_distance = from_a_to_b.squaredNorm();
+    u_ab = a.tangent_part(from_a_to_b);
+    u_ba = -b.tangent_part(from_a_to_b);
     distance_ab = std::sqrt(std::max(0.0, squared_distance - u_ab.squaredNorm()));
     distance_ba = std::sqrt(std::max(0.0, squared_distance - u_ba.squaredNorm()));
   }
@@ -59,7 +63,9 @@ bool tangents_agree(const Frame& a, const Frame& b, double min_cosine) {
   for (int i = 0; i < product.rows(); ++i) {
     for (int j = 0; j < product.cols(); ++j) product(i, j) = a.tangent().col(i).dot(b.tangent().col(j));
   }
-  return absolute_determinant(product) >= min_cosine;
+  // The singular values s_i are cosines: prod s_i^2 >= 1 - sum (1 - s_i^2), which nearly always settles it.
+  const double least_squared = 1.0 - static_cast<double>(product.rows()) + product.squaredNorm();
+  return least_squared >= min_cosine * min_cosine || absolute_determinant(product) >= min_cosine;
 }
 
 // Whether the tangent spaces of a parent and a new centre fit each other; if so, the radius at which a manifold as
@@ -125,7 +131,10 @@ void AtlasOptions::validate() const {
   require(max_charts >= 1, "max_charts must be positive");
 }
 
-Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options) : manifold_(manifold), options_(options) {
+Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options)
+    : manifold_(manifold),
+      options_(options),
+      reach_(manifold.dimension() > Polytope::kMaxDimension ? kSampledReach : kReach) {
   options_.validate();
   if (manifold.dimension() < 1 || manifold.dimension() > kMaxDimension) {
     throw std::invalid_argument("Atlas: manifold dimension must be between 1 and 6");
@@ -225,12 +234,12 @@ int Atlas::insert(double radius) {
   charts_.push_back(std::make_unique<Chart>(
       Chart{std::move(candidate_), radius, make_polytope(manifold_.dimension(), radius), false}));
   const auto centre = charts_[id]->frame.point();
-  const double reach = kReach * radius;
+  const double reach = reach_ * radius;
   const NeighbourIndex::Point place = NeighbourIndex::locate(centre);
   near_.clear();
   index_.visit(place, reach, [&](int other, double /*squared_distance*/) {
     const double squared_distance = (frame(other).point() - centre).squaredNorm();
-    const double both_reach = kReach * std::max(radius, this->radius(other));
+    const double both_reach = reach_ * std::max(radius, this->radius(other));
     if (squared_distance <= both_reach * both_reach) near_.emplace_back(squared_distance, other);
   });
   std::sort(near_.begin(), near_.end());
@@ -242,7 +251,7 @@ int Atlas::insert(double radius) {
 void Atlas::separate(int a, int b, double squared_distance) {
   Chart& chart_a = restored(a);
   Chart& chart_b = restored(b);
-  const double reach = std::min(kReach * std::max(chart_a.radius, chart_b.radius),
+  const double reach = std::min(reach_ * std::max(chart_a.radius, chart_b.radius),
                                 2 * std::max(circumradius(chart_a), circumradius(chart_b)));
   if (squared_distance > reach * reach) return;
   const View view(chart_a.frame, chart_b.frame);

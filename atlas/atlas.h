@@ -117,6 +117,7 @@ class Atlas {
 
   const Manifold& manifold_;
   AtlasOptions options_;
+  double reach_;  ///< up to how far centres bound each other's polytopes, in radii
   const AtlasFile* file_ = nullptr;
   mutable std::vector<std::unique_ptr<Chart>> charts_;  ///< null: as in the file
   NeighbourIndex index_;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "atlas/manifold.h"
@@ -48,8 +49,9 @@ class NeighbourIndex {
   template <class Visit>
   void visit(const Point& point, double reach, Visit&& visit) const {
     scan(recent_, 0, recent_.size(), point, reach, visit);
-    descend(stored_, 0, stored_.size(), point, reach, visit);
-    for (const auto& tree : trees_) descend(tree, 0, tree.size(), point, reach, visit);
+    Cell everywhere;
+    descend(stored_, 0, stored_.size(), point, reach, everywhere, visit);
+    for (const auto& tree : trees_) descend(tree, 0, tree.size(), point, reach, everywhere, visit);
   }
 
   /// Distances computed so far: what a look-up costs, whatever the machine.
@@ -73,17 +75,36 @@ class NeighbourIndex {
     }
   }
 
+  /// What is known of the part of space that a descent has come to: the point's distance from it, squared, and along each
+  /// coordinate (Arya, Mount 1993: incremental distances).
+  struct Cell {
+    double squared_distance = 0;
+    Point gaps{};
+  };
+
   template <class Visit>
   void descend(std::span<const Entry> entries, std::size_t begin, std::size_t end, const Point& point, double reach,
-               Visit&& visit) const {
+               Cell& cell, Visit&& visit) const {
     if (end - begin <= kBucket) return scan(entries, begin, end, point, reach, visit);
     const std::size_t middle = begin + (end - begin) / 2;
     const Entry& node = entries[middle];
     const double limit = std::max(reach, node.largest_reach);
     const double gap = point[node.split] - node.point[node.split];
-    if (gap <= limit) descend(entries, begin, middle, point, reach, visit);
+    double& known_gap = cell.gaps[static_cast<std::size_t>(node.split)];
+    const double here = cell.squared_distance;
+    const double beyond = here - known_gap * known_gap + gap * gap;  // of the half that the point is not in
+    const auto half = [&](std::size_t from, std::size_t to, bool holds_point) {
+      if (holds_point) return descend(entries, from, to, point, reach, cell, visit);
+      if (beyond > limit * limit) return;
+      const double before = std::exchange(known_gap, gap);
+      cell.squared_distance = beyond;
+      descend(entries, from, to, point, reach, cell, visit);
+      cell.squared_distance = here;
+      known_gap = before;
+    };
+    half(begin, middle, gap <= 0);
     if (std::abs(gap) <= limit) scan(entries, middle, middle + 1, point, reach, visit);
-    if (-gap <= limit) descend(entries, middle + 1, end, point, reach, visit);
+    half(middle + 1, end, gap >= 0);
   }
 
   std::span<const Entry> stored_;  ///< one tree, or none
