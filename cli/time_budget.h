@@ -25,6 +25,7 @@ class TimeBudget {
   }
   TimeBudget(const TimeBudget&) = delete;
   TimeBudget& operator=(const TimeBudget&) = delete;
+  ~TimeBudget() = default;
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
   /// The same as a flag.

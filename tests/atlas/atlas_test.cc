@@ -98,6 +98,29 @@ TEST(Atlas, CoversNearlyAllOfFourDimensionsAndMore) {
   }
 }
 
+// Neighbours are those that end each other's rays: fewer than there are, but enough to get everywhere.
+TEST(Atlas, ConnectsAllChartsOfFourDimensionsAndMore) {
+  for (const int n : {4, 5, 6}) {
+    const testing::FlatTorus box(std::vector<double>(static_cast<std::size_t>(n), 0.45));
+    AtlasOptions few = options(0.4, 0.2);
+    few.max_charts = 2000;
+    Atlas atlas(box, few);
+    atlas.add(Coordinates::Zero(n));
+    atlas.grow_all();
+    std::vector<int> reached{0};
+    std::vector<bool> seen(static_cast<std::size_t>(atlas.size()));
+    seen[0] = true;
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      for (const int next : atlas.neighbours(reached[k])) {
+        if (seen[static_cast<std::size_t>(next)]) continue;
+        seen[static_cast<std::size_t>(next)] = true;
+        reached.push_back(next);
+      }
+    }
+    EXPECT_EQ(static_cast<int>(reached.size()), atlas.size()) << n;
+  }
+}
+
 TEST(Atlas, KeepsChartsWithinEpsilonByShrinkingThem) {
   const auto torus = testing::torus();
   Atlas atlas(torus, options(0.3, 0.02));  // the tube's curvature is 2.5: 0.02 is left at about 0.126
