@@ -56,12 +56,33 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Dya
   return witness;
 }
 
+/// Of waypoint `index`: refute_waypoint() on a segment that stays there.
+std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, std::string& undecided) {
+  const DyadicBox whole;
+  if (prover.prove(still).verdict == Verdict::kProved) return std::nullopt;
+  if (!prover.certainly_in_ranges(*still.control[0])) {
+    undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
+    return std::nullopt;
+  }
+  const BoxVerdict verdict = prover.judge(still, whole);
+  if (verdict.kind == BoxVerdict::Kind::kRefuted) {
+    return make_witness(prover, still, whole, verdict.worst, PathPoint{false, index, 0});
+  }
+  undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
+              : verdict.kind == BoxVerdict::Kind::kNoMotion
+                  ? "no single pose on the constraints was proved to exist there"
+              : verdict.kind == BoxVerdict::Kind::kOutOfRange ? "a parameter is outside its closed range, or may be"
+              : verdict.kind == BoxVerdict::Kind::kFault      ? "the pose or an equation is not defined there"
+                                                              : "a margin vanishes there, or nearly so";
+  return std::nullopt;
+}
+
 }  // namespace
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known) {
   PathProof result;
   if (path.segments() == 0) {
-    if (path.waypoints.size() == 1) result.witness = refute_waypoint(prover, path.waypoints[0], 0, result.reason);
+    if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason);
     if (result.witness) result.verdict = Verdict::kRefuted;
     if (result.reason.empty()) result.reason = "the path has no segment";
     return result;
@@ -111,24 +132,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
 
 std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
                                            std::string& undecided) {
-  const DyadicBox whole;
-  const Segment still = prover.segment(waypoint, waypoint);
-  if (prover.prove(still).verdict == Verdict::kProved) return std::nullopt;
-  if (!prover.certainly_in_ranges(waypoint)) {
-    undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
-    return std::nullopt;
-  }
-  const BoxVerdict verdict = prover.judge(still, whole);
-  if (verdict.kind == BoxVerdict::Kind::kRefuted) {
-    return make_witness(prover, still, whole, verdict.worst, PathPoint{false, index, 0});
-  }
-  undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
-              : verdict.kind == BoxVerdict::Kind::kNoMotion
-                  ? "no single pose on the constraints was proved to exist there"
-              : verdict.kind == BoxVerdict::Kind::kOutOfRange ? "a parameter is outside its closed range, or may be"
-              : verdict.kind == BoxVerdict::Kind::kFault      ? "the pose or an equation is not defined there"
-                                                              : "a margin vanishes there, or nearly so";
-  return std::nullopt;
+  return refute_pose(prover, prover.segment(waypoint, waypoint), index, undecided);
 }
 
 double nearest_binary64(const ExpressionText& expression) {

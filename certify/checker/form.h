@@ -6,8 +6,8 @@
 // below applies the chain rule to these three statements, and throws Undefined unless its result is defined and
 // differentiable on the whole of [-1, 1]. So the existence of a Form also proves that its function is continuous.
 //
-// With mid equal to range, nothing is cut off, and the same rules differentiate a function over any box of values: then
-// slope holds its derivatives in the direction of the arguments' slopes, at every point of the box.
+// Where mid is range, nothing is cut off, and the same rules differentiate functions of several variables over a box of
+// values: with slope 1 for one variable and 0 for the others, slope holds the partial derivative at every point of the box.
 #pragma once
 
 #include "certify/checker/interval.h"

@@ -71,14 +71,10 @@ struct Zero {
   Vector6<Interval> slope;  ///< y'
 };
 
-/// The numbers that a Form has in common for all u, and what they change by per unit of some direction: with one enclosure
-/// as mid and range a Form differentiates over any set of values, in any set of directions.
-Interval derivative(const Expression& f, const std::vector<Interval>& values, const std::vector<Interval>& directions) {
-  std::vector<Form> forms(values.size());
-  for (std::size_t j = 0; j < forms.size(); ++j) {
-    forms[j].mid = forms[j].range = values[j];
-    forms[j].slope = directions[j];
-  }
+/// The partial derivative by parameter j over a box of values: with mid equal to range, Forms differentiate.
+Interval derivative(const Expression& f, const std::vector<Interval>& values, std::size_t j) {
+  std::vector<Form> forms(values.begin(), values.end());
+  forms[j].slope = Interval(1);
   return f.evaluate(forms).slope;
 }
 
@@ -140,8 +136,16 @@ class ImpliedMotion {
     Matrix6<Interval> G = identity();
     Vector6<Interval> h;
     for (std::size_t e = 0; e < k; ++e) {
-      for (std::size_t i = 0; i < k; ++i) G[e][i] = derivative(constraints_[e], values, direction(i));
-      h[e] = derivative(constraints_[e], values, drift(Y));
+      G[e][e] = Interval(0);
+      for (std::size_t j = 0; j < values.size(); ++j) {
+        const Interval partial = derivative(constraints_[e], values, j);
+        Interval drift = curve_.line[j].slope;
+        for (std::size_t i = 0; i < k; ++i) {
+          G[e][i] += partial * curve_.normals[j][i].range;
+          drift += curve_.normals[j][i].slope * Y[i];
+        }
+        h[e] += partial * drift;
+      }
     }
     const Matrix6<Interval> A = middle(inverse(middle(G)));
     const Matrix6<Interval> AG = multiply(A, G);
@@ -181,23 +185,6 @@ class ImpliedMotion {
     for (std::size_t j = 0; j < curve_.line.size(); ++j) {
       result.push_back(curve_.line[j].*where);
       for (std::size_t i = 0; i < constraints_.size(); ++i) result[j] += curve_.normals[j][i].*where * y[i];
-    }
-    return result;
-  }
-
-  /// Its derivative by y_i.
-  [[nodiscard]] std::vector<Interval> direction(std::size_t i) const {
-    std::vector<Interval> result;
-    for (const std::vector<Form>& row : curve_.normals) result.push_back(row[i].range);
-    return result;
-  }
-
-  /// Its derivative by u.
-  [[nodiscard]] std::vector<Interval> drift(const Vector6<Interval>& y) const {
-    std::vector<Interval> result;
-    for (std::size_t j = 0; j < curve_.line.size(); ++j) {
-      result.push_back(curve_.line[j].slope);
-      for (std::size_t i = 0; i < constraints_.size(); ++i) result[j] += curve_.normals[j][i].slope * y[i];
     }
     return result;
   }

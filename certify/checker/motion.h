@@ -9,7 +9,7 @@
 //             the tube |y_i| <= t. That there is exactly one is shown as follows.
 //
 // Let Y be a box, c its middle, and let G and h enclose the partial derivatives of g by y and by u, on all of Y and for
-// all u. Walking from (c, 0) to (y, u) along one coordinate after the other, the mean value theorem says
+// all u (by the chain rule, from those of C on a box of parameters). Between (c, 0) and (y, u) the mean value theorem says
 //     g(y, u) = g(c, 0) + h' u + G' (y - c)   for some h' in h and G' in G.                                          (1)
 // Take any matrix A, M = I - A G, ||M|| <= rho < 1 (row sums), and
 //     K = c - A g(c, 0) - A h [-1, 1] + M (Y - c).

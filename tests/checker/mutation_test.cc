@@ -73,7 +73,8 @@ void for_each_mutant(const Json& original, const std::function<void(const Mutant
 }
 
 TEST(Mutation, WithoutNewDigestsNothingPasses) {
-  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular"}) {
+  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped",
+                           "implied_start_is_goal", "refuted_implied_singular"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
       EXPECT_EQ(check_certificate(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
@@ -96,35 +97,20 @@ std::set<std::string> accepted_mutants(const Json& original, const std::string& 
   return result;
 }
 
-TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
-  const Json original = accepted("robot1_start_is_goal");
-  struct Rule {
-    const char* why;
-    std::regex what;
-    bool of_zero = false;  ///< only where the original is "0"
-    int uses = 0;
-  };
-  std::vector<Rule> rules = {
-      {"Who wrote it, what it is called and its pictures prove nothing.",
-       std::regex("/(generator|illustration|problem/name).*")},
-      {"-0 is 0.", std::regex("/problem/.*: changes its sign"), true},
-      {"Far less than the 0.5 % between the margins claimed and the true ones.",
-       std::regex("/problem/.*: becomes 1e-400"), true},
-      {"A higher upper limit.",
-       std::regex("/problem/robot/(tension_N|length_m)/./1: (gets a leading 2|becomes 1e400)")},
-      {"A lower lower limit.", std::regex("/problem/robot/(tension_N|length_m)/./0: becomes 1e-400")},
-      {"A larger E is a smaller K.", std::regex("/problem/load/ellipsoid/(.)/\\1: (gets a leading 2|becomes 1e400)")},
-      {"Start and goal are one: the query may say so once, twice or three times.",
-       std::regex("/problem/query/waypoints: (gets one more|loses its last)")},
-      {"A constant that nothing uses.", std::regex("/problem/space/constants: gets a key")},
-      {"The path does not use the flip.", std::regex("/problem/space/flip: becomes null")},
-      {"Another robot, of which the claim holds as well (by the equations of make_certificates.py).",
-       std::regex("/problem/robot/base_anchors_m/(2/0|4/1|5/1): becomes 1e-400|"
-                  "/problem/robot/(base|platform)_anchors_m: is reversed")}};
-  for (const std::string& what : accepted_mutants(original, "")) {
+struct Rule {
+  const char* why;
+  std::regex what;
+  bool of_zero = false;  ///< only where the original is "0" or "0x0p+0"
+  int uses = 0;
+};
+
+/// Each accepted alteration below `root` is one of these, and each of these occurs.
+void expect_accepted_mutants(const std::string& name, const std::string& root, std::vector<Rule> rules) {
+  const Json original = accepted(name);
+  for (const std::string& what : accepted_mutants(original, root)) {
     const Pointer at(what.substr(0, what.find(": ")));
     const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule& r) {
-      return std::regex_match(what, r.what) && (!r.of_zero || original[at] == "0");
+      return std::regex_match(what, r.what) && (!r.of_zero || original[at] == "0" || original[at] == "0x0p+0");
     });
     if (rule == rules.end()) {
       ADD_FAILURE() << "accepted: " << what;
@@ -135,12 +121,60 @@ TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
   for (const Rule& rule : rules) EXPECT_GT(rule.uses, 0) << rule.why;
 }
 
+TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
+  expect_accepted_mutants(
+      "robot1_start_is_goal", "",
+      {{"Who wrote it, what it is called and its pictures prove nothing.",
+        std::regex("/(generator|illustration|problem/name).*")},
+       {"-0 is 0.", std::regex("/problem/.*: changes its sign"), true},
+       {"Far less than the 0.5 % between the margins claimed and the true ones.",
+        std::regex("/problem/.*: becomes 1e-400"), true},
+       {"A higher upper limit.",
+        std::regex("/problem/robot/(tension_N|length_m)/./1: (gets a leading 2|becomes 1e400)")},
+       {"A lower lower limit.", std::regex("/problem/robot/(tension_N|length_m)/./0: becomes 1e-400")},
+       {"A larger E is a smaller K.", std::regex("/problem/load/ellipsoid/(.)/\\1: (gets a leading 2|becomes 1e400)")},
+       {"Start and goal are one: the query may say so once, twice or three times.",
+        std::regex("/problem/query/waypoints: (gets one more|loses its last)")},
+       {"A constant that nothing uses.", std::regex("/problem/space/constants: gets a key")},
+       {"The path does not use the flip.", std::regex("/problem/space/flip: becomes null")},
+       {"Another robot, of which the claim holds as well (by the equations of make_certificates.py).",
+        std::regex("/problem/robot/base_anchors_m/(2/0|4/1|5/1): becomes 1e-400|"
+                   "/problem/robot/(base|platform)_anchors_m: is reversed")}});
+}
+
+TEST(Mutation, OfASplineOnlyTrueStatementsPass) { expect_accepted_mutants("spline_flipped", "/path", {}); }
+
+TEST(Mutation, OfAnImpliedMotionOnlyTrueStatementsPass) {
+  const Rule minus_zero = {"-0 is 0.", std::regex("/path/waypoints/./x/.: changes its sign"), true};
+  const Rule other_normals = {"Any normals will do that do not lie in the surface.",
+                              std::regex("/path/waypoints/./normals/.: (becomes 0x1p\\+0|changes its sign)")};
+  expect_accepted_mutants("implied_start_is_goal", "/path", {minus_zero, other_normals});
+  expect_accepted_mutants(
+      "implied_start_is_goal", "/problem/space",
+      {{"The radius stands squared.", std::regex("/problem/space/constants/rs: changes its sign")},
+       {"A constant that nothing uses.", std::regex("/problem/space/constants: gets a key")},
+       {"The path does not use the flip.", std::regex("/problem/space/flip: becomes null")},
+       {"sigma is 0.", std::regex("/problem/space/pose/sigma: (becomes 1e-400|changes its sign)")}});
+  expect_accepted_mutants("implied_within_range", "/path",
+                          {minus_zero,
+                           other_normals,
+                           {"A wider tube, with one motion too.", std::regex("/path/tubes/0: becomes 0x1p\\+0")}});
+  expect_accepted_mutants(
+      "implied_within_range", "/problem/space/constraints",
+      {{"The same surface.", std::regex("/problem/space/constraints/0: changes its sign")},
+       {"Another, of which it is true.", std::regex("/problem/space/constraints/0: becomes \"x\"")}});
+}
+
 TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {
   EXPECT_EQ(accepted_mutants(accepted("refuted_tension_min"), "/witness"),
             (std::set<std::string>{"/witness/value/0: becomes -1e400", "/witness/value/0: gets a leading 2",
                                    "/witness/value/1: becomes 1e-400", "/witness/value/1: becomes 1e400",
                                    "/witness/value/1: changes its sign"}));  // both ends of it are negative
   EXPECT_EQ(accepted_mutants(accepted("refuted_singular"), "/witness"), std::set<std::string>{});
+  EXPECT_EQ(accepted_mutants(accepted("refuted_implied_singular"), "/witness"), std::set<std::string>{});
+  EXPECT_EQ(
+      accepted_mutants(accepted("refuted_spline_singular"), "/witness"),
+      (std::set<std::string>{"/witness/at/segment: plus 2", "/witness/to/segment: plus 2"}));  // true of these too
 }
 
 TEST(Mutation, ACutFileIsMalformed) {
