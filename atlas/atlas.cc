@@ -152,17 +152,30 @@ Atlas::Atlas(const Manifold& manifold, const AtlasOptions& options, const AtlasF
 }
 
 void Atlas::restore(int id) const {
-  auto chart = std::make_unique<Chart>(Chart{{}, file_->radius(id), file_->polytope(id), file_->complete(id)});
-  if (!manifold_.frame_at(file_->coordinates(id), chart->frame)) file_->fail_at(id, kOutside);
-  charts_[id] = std::move(chart);
+  static_cast<void>(frame(id));
+  charts_[id] = std::make_unique<Chart>(Chart{std::move(stored_frames_.extract(id).mapped()), file_->radius(id),
+                                              file_->polytope(id), file_->complete(id)});
+  const auto owed = owed_cuts_.extract(id);
+  if (owed.empty()) return;
+  const Frame& own = charts_[id]->frame;
+  for (const int other : owed.mapped()) {
+    const Frame& theirs = charts_[other]->frame;
+    clip(*charts_[id], own.tangent_coordinates(theirs.point()), (own.point() - theirs.point()).squaredNorm() / 2,
+         other);
+  }
 }
 
 double Atlas::radius(int id) const { return charts_[id] ? charts_[id]->radius : file_->radius(id); }
 
-const Frame& Atlas::frame(int id) {
+double Atlas::circumradius(int id) const {
+  return charts_[id] ? taut::circumradius(*charts_[id]) : file_->circumradius(id);
+}
+
+const Frame& Atlas::frame(int id) const {
   if (charts_[id]) return charts_[id]->frame;
-  if (!manifold_.frame_at(file_->coordinates(id), stored_frame_)) file_->fail_at(id, kOutside);
-  return stored_frame_;
+  const auto [frame, is_new] = stored_frames_.try_emplace(id);
+  if (is_new && !manifold_.frame_at(file_->coordinates(id), frame->second)) file_->fail_at(id, kOutside);
+  return frame->second;
 }
 
 Coordinates Atlas::coordinates(int id) const {
@@ -249,17 +262,19 @@ int Atlas::insert(double radius) {
 }
 
 void Atlas::separate(int a, int b, double squared_distance) {
-  Chart& chart_a = restored(a);
-  Chart& chart_b = restored(b);
-  const double reach = std::min(reach_ * std::max(chart_a.radius, chart_b.radius),
-                                2 * std::max(circumradius(chart_a), circumradius(chart_b)));
+  const double reach =
+      std::min(reach_ * std::max(radius(a), radius(b)), 2 * std::max(circumradius(a), circumradius(b)));
   if (squared_distance > reach * reach) return;
-  const View view(chart_a.frame, chart_b.frame);
+  const View view(frame(a), frame(b));
   if (!view.near(kDistanceGrowth * options_.epsilon)) return;
   const double min_cosine = cosine_of_double_angle(options_.min_tangent_cosine);
-  if (!tangents_agree(chart_a.frame, chart_b.frame, min_cosine)) return;
-  clip(chart_a, view.u_ab, squared_distance / 2, b);
-  clip(chart_b, view.u_ba, squared_distance / 2, a);
+  if (!tangents_agree(frame(a), frame(b), min_cosine)) return;
+  if (charts_[a]) {
+    clip(*charts_[a], view.u_ab, squared_distance / 2, b);
+  } else if (squared_distance / 2 < circumradius(a) * view.u_ab.norm()) {
+    owed_cuts_[a].push_back(b);
+  }
+  clip(*charts_[b], view.u_ba, squared_distance / 2, a);
 }
 
 bool Atlas::grow_all(const std::function<bool()>& go_on) {
@@ -269,18 +284,19 @@ bool Atlas::grow_all(const std::function<bool()>& go_on) {
   return true;
 }
 
-// A polytope gains no facet of a chart that was there before it: what bounds a stored chart that nobody looked at bounds it yet.
+bool Atlas::is_as_stored(int id) const { return !charts_[id] && !owed_cuts_.contains(id); }
+
 bool Atlas::is_bounded_by(int chart, int other) const {
-  return charts_[chart] ? has_facet(*charts_[chart], other) : file_->are_neighbours(chart, other);
+  return is_as_stored(chart) ? file_->are_neighbours(chart, other) : has_facet(restored(chart), other);
 }
 
 std::vector<int> Atlas::neighbours(int chart) const {
   std::vector<int> result;
-  if (charts_[chart]) {
-    result = std::visit([](const auto& polytope) { return polytope.cutting_facets(); }, charts_[chart]->polytope);
-  } else {
+  if (is_as_stored(chart)) {
     const std::span<const int> stored = file_->neighbours(chart);
     result.assign(stored.begin(), stored.end());
+  } else {
+    result = std::visit([](const auto& polytope) { return polytope.cutting_facets(); }, restored(chart).polytope);
   }
   std::erase_if(result, [&](int other) { return !is_bounded_by(other, chart); });
   return result;

@@ -25,6 +25,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -112,17 +113,22 @@ class Atlas {
   }
   void restore(int id) const;
   double radius(int id) const;
-  const Frame& frame(int id);  ///< without restoring the chart; until the next call
+  double circumradius(int id) const;  ///< of the polytope; not less than it is, where cuts are owed
+  const Frame& frame(int id) const;
+  bool is_as_stored(int id) const;
   bool is_bounded_by(int chart, int other) const;
 
   const Manifold& manifold_;
   AtlasOptions options_;
   double reach_;  ///< up to how far centres bound each other's polytopes, in radii
   const AtlasFile* file_ = nullptr;
-  mutable std::vector<std::unique_ptr<Chart>> charts_;  ///< null: as in the file
+  // Of a stored chart, whatever is needed is made when it is needed first: its frame, its polytope. Until then it is null here,
+  // and cuts by charts that came later are owed to it.
+  mutable std::vector<std::unique_ptr<Chart>> charts_;
+  mutable std::unordered_map<int, Frame> stored_frames_;
+  mutable std::unordered_map<int, std::vector<int>> owed_cuts_;
   NeighbourIndex index_;
   Frame candidate_;                           ///< the frame about to become a chart
-  Frame stored_frame_;                        ///< what frame() returns for a stored chart
   std::vector<std::pair<double, int>> near_;  ///< buffer of insert(): squared distance, chart
   long frame_evaluations_ = 0;
 };

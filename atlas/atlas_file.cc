@@ -101,7 +101,7 @@ struct AtlasFile::Header {
 
 std::string AtlasFile::bytes_of(const Atlas& atlas, const AtlasKey& key, double clearance) {
   const auto count = static_cast<std::size_t>(atlas.size());
-  std::vector<double> coordinates, radii;
+  std::vector<double> coordinates, radii, circumradii;
   std::vector<std::uint64_t> polytope_ends, polytope_hashes, neighbour_ends;
   std::vector<int> neighbours;
   std::vector<std::uint8_t> complete;
@@ -111,6 +111,7 @@ std::string AtlasFile::bytes_of(const Atlas& atlas, const AtlasKey& key, double 
     const auto centre = chart.frame.coordinates();
     coordinates.insert(coordinates.end(), centre.begin(), centre.end());
     radii.push_back(chart.radius);
+    circumradii.push_back(std::visit([](const auto& polytope) { return polytope.circumradius(); }, chart.polytope));
     complete.push_back(chart.complete ? 1 : 0);
     const std::vector<int> around = atlas.neighbours(id);
     neighbours.insert(neighbours.end(), around.begin(), around.end());
@@ -127,6 +128,7 @@ std::string AtlasFile::bytes_of(const Atlas& atlas, const AtlasKey& key, double 
   append_values(tables, point.data(), static_cast<std::size_t>(point.size()));
   append(tables, coordinates);
   append(tables, radii);
+  append(tables, circumradii);
   append(tables, polytope_ends);
   append(tables, polytope_hashes);
   append(tables, neighbour_ends);
@@ -211,9 +213,9 @@ void AtlasFile::read_tables(const Header& header) {
   Cursor cursor(bytes);
   const bool all_there = cursor.take(count, places_) && cursor.take(header.ambient_dimension, first_point_) &&
                          cursor.take(count * header.coordinate_dimension, coordinates_) && cursor.take(count, radii_) &&
-                         cursor.take(count, polytope_ends_) && cursor.take(count, polytope_hashes_) &&
-                         cursor.take(count, neighbour_ends_) && cursor.take(header.neighbours, neighbours_) &&
-                         cursor.take(count, complete_);
+                         cursor.take(count, circumradii_) && cursor.take(count, polytope_ends_) &&
+                         cursor.take(count, polytope_hashes_) && cursor.take(count, neighbour_ends_) &&
+                         cursor.take(header.neighbours, neighbours_) && cursor.take(count, complete_);
   if (!all_there || cursor.rest() != 0 || !ascends_to(neighbour_ends_, neighbours_.size()) ||
       !ascends_to(polytope_ends_, header.polytope_bytes)) {
     refuse("the atlas is damaged: its tables do not fit each other");
@@ -256,6 +258,7 @@ void AtlasFile::require_sound_tables(double largest_radius) const {
   }
   for (int id = 0; id < size(); ++id) {
     if (!(radii_[id] >= kLeastRadius * largest_radius && radii_[id] <= largest_radius)) fail_at(id, "radius");
+    if (!finite(circumradii_[id])) fail_at(id, "size of its polytope");
     const std::span<const int> around = neighbours(id);
     const bool ascending = std::ranges::adjacent_find(around, std::greater_equal<>()) == around.end();
     if (!ascending || (!around.empty() && (around.front() < 0 || around.back() >= size())) || are_neighbours(id, id)) {

@@ -46,6 +46,7 @@ class AtlasFile {
   [[nodiscard]] double clearance() const { return clearance_; }
   [[nodiscard]] Coordinates coordinates(int chart) const;
   [[nodiscard]] double radius(int chart) const { return radii_[chart]; }
+  [[nodiscard]] double circumradius(int chart) const { return circumradii_[chart]; }
   [[nodiscard]] bool complete(int chart) const { return complete_[chart] != 0; }
   /// Ascending.
   [[nodiscard]] std::span<const int> neighbours(int chart) const;
@@ -78,7 +79,7 @@ class AtlasFile {
   std::size_t polytopes_begin_ = 0;
   std::unique_ptr<std::byte[]> tables_;  ///< what the spans below look into
   std::span<const NeighbourIndex::Entry> places_;
-  std::span<const double> first_point_, coordinates_, radii_;
+  std::span<const double> first_point_, coordinates_, radii_, circumradii_;
   std::span<const std::uint64_t> polytope_ends_, polytope_hashes_, neighbour_ends_;
   std::span<const int> neighbours_;
   std::span<const std::uint8_t> complete_;

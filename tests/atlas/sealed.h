@@ -32,7 +32,7 @@ struct AtlasFilePlaces {
   explicit AtlasFilePlaces(const std::string& bytes) : charts(number_at<std::uint32_t>(bytes, kCharts)) {
     const auto coordinates = number_at<std::uint32_t>(bytes, 184);
     const auto ambient = number_at<std::uint32_t>(bytes, 188);
-    polytope_ends = kTables + charts * 88 + 8 * (ambient + charts * (coordinates + 1));
+    polytope_ends = kTables + charts * 88 + 8 * (ambient + charts * (coordinates + 2));
     polytope_hashes = polytope_ends + 8 * charts;
     polytopes = kTables + number_at<std::uint64_t>(bytes, kTableBytes);
     complete = polytopes - charts;
