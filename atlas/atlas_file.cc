@@ -247,11 +247,12 @@ void AtlasFile::require_key(const Header& header, const AtlasKey& key) const {
 void AtlasFile::require_sound_tables(double largest_radius) const {
   if (!(clearance_ >= 0 && clearance_ < 1)) refuse("the atlas is damaged: its clearance is none");
   const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::ranges::all_of(coordinates_, finite)) refuse("the atlas is damaged: its coordinates are not finite");
+  // Places that are not where their charts are only hide these: neither they nor reaches need to make sense.
   std::vector<bool> seen(radii_.size());
   for (const NeighbourIndex::Entry& place : places_) {
     const bool known = place.id >= 0 && place.id < size() && !seen[place.id];
-    if (!known || place.split < 0 || place.split >= NeighbourIndex::kDimension || !(place.reach > 0) ||
-        !finite(place.reach) || !finite(place.largest_reach) || !std::ranges::all_of(place.point, finite)) {
+    if (!known || place.split < 0 || place.split >= NeighbourIndex::kDimension) {
       refuse("the atlas is damaged: its index of places is none");
     }
     seen[place.id] = true;
@@ -259,13 +260,12 @@ void AtlasFile::require_sound_tables(double largest_radius) const {
   for (int id = 0; id < size(); ++id) {
     if (!(radii_[id] >= kLeastRadius * largest_radius && radii_[id] <= largest_radius)) fail_at(id, "radius");
     if (!finite(circumradii_[id])) fail_at(id, "size of its polytope");
-    const std::span<const int> around = neighbours(id);
-    const bool ascending = std::ranges::adjacent_find(around, std::greater_equal<>()) == around.end();
-    if (!ascending || (!around.empty() && (around.front() < 0 || around.back() >= size())) || are_neighbours(id, id)) {
-      fail_at(id, "neighbours");
+    int before = -1;
+    for (const int neighbour : neighbours(id)) {
+      if (neighbour <= before || neighbour >= size() || neighbour == id) fail_at(id, "neighbours");
+      before = neighbour;
     }
   }
-  if (!std::ranges::all_of(coordinates_, finite)) refuse("the atlas is damaged: its coordinates are not finite");
 }
 
 Coordinates AtlasFile::coordinates(int chart) const {
