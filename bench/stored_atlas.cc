@@ -94,9 +94,9 @@ std::string text_with_query(const std::string& file, const Problem& problem, con
 }
 
 /// Wall clock of a child process, its output thrown away [ms].
-double run_process(const std::vector<std::string>& arguments) {
+double run_process(std::vector<std::string> arguments) {
   std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   const auto start = Clock::now();
   const pid_t child = ::fork();
