@@ -108,7 +108,7 @@ class ImpliedMotion {
     for (std::size_t i = 0; i < k; ++i) {
       if (!is_within(result.y[i], Z[i])) throw Undefined("it may not exist");
     }
-    constexpr int kNarrowings = 3;  // each takes away most of what the last one left of the curvature's part
+    constexpr int kNarrowings = 2;  // each takes away most of what the last one left of the curvature's part
     for (int step = 0; step < kNarrowings; ++step) {
       for (std::size_t i = 0; i < k; ++i) Z[i] = intersection(Z[i], result.y[i]);
       result = krawczyk(Z);
@@ -117,13 +117,20 @@ class ImpliedMotion {
     return result;
   }
 
-  /// About where y is, of a box that is a single s.
+  /// About where y is, of a box that is a single s: Newton's method, which is what K of a single y is.
   [[nodiscard]] Vector6<Interval> approximate_zero() const {
-    constexpr int kSteps = 12;  // of Newton's method, which is what K of a single y is
+    constexpr int kMostSteps = 20;
     Vector6<Interval> y;
-    for (int step = 0; step < kSteps; ++step) {
-      y = krawczyk(y).y;
-      for (Interval& x : y) x = middle(x);
+    Interval last;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Vector6<Interval> next = krawczyk(y).y;
+      Interval moved;
+      for (std::size_t i = 0; i < 6; ++i) {
+        moved = max(moved, abs(next[i] - y[i]));
+        y[i] = middle(next[i]);
+      }
+      if (step > 0 && !certainly_positive(last - Interval(2) * moved)) break;  // what is left is rounding
+      last = moved;
     }
     return y;
   }
