@@ -598,7 +598,8 @@ PlannerOptions read_planner(const Field& field) {
     planner.clearance = read_fraction(*clearance);
   }
   if (const auto smooth = map.find("smooth")) {
-    planner.smoothing = read_choice<Smoothing>(*smooth, {{"none", Smoothing::kNone}, {"shorten", Smoothing::kShorten}, {"spline", Smoothing::kSpline}});
+    planner.smoothing = read_choice<Smoothing>(
+        *smooth, {{"none", Smoothing::kNone}, {"shorten", Smoothing::kShorten}, {"spline", Smoothing::kSpline}});
   }
   return planner;
 }
