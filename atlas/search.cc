@@ -84,6 +84,10 @@ class Search {
         continue;
       }
       adopt(candidate);
+      if (!is_likely(candidate.child)) {
+        reject(candidate.child);
+        continue;
+      }
       if (candidate.child != goal_) {
         close(candidate.child);
         continue;
@@ -188,6 +192,17 @@ class Search {
     return value;
   }
 
+  // Whether the edge above an adopted node may stand, as far as is asked so early.
+  bool is_likely(int node) const {
+    if (!problem_.edge_likely || result_.edges_rejected == 0) return true;
+    return problem_.edge_likely(nodes_[nodes_[node].parent].coordinates, nodes_[node].coordinates);
+  }
+
+  void reject(int node) {
+    ++result_.edges_rejected;
+    rejected_.insert(key(nodes_[node].parent, node));
+  }
+
   // Puts the edges from the start to the goal to edge_ok. Returns the node below the first that fails.
   int first_broken_edge() {
     std::vector<int> nodes;
@@ -206,8 +221,7 @@ class Search {
   // Strikes out the edge above `broken` and opens the subtree below again: all other closed nodes keep their cost, since
   // striking out edges makes no path shorter.
   void repair(int broken) {
-    ++result_.edges_rejected;
-    rejected_.insert(key(nodes_[broken].parent, broken));
+    reject(broken);
     std::vector<int> kept;
     std::vector<int> subtree;
     for (const int node : closed_) {  // parents come before their children

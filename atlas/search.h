@@ -42,6 +42,9 @@ struct SearchProblem {
   std::function<double(const Coordinates& a, const Coordinates& goal)> heuristic;
   /// Whether the robot may go straight from a to b. Called only for edges of a candidate path.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
+  /// May be empty. A necessary condition of edge_ok that costs little: once an edge has failed, edges are put to it as soon as
+  /// they would join the search tree, so that fewer have to be struck out of it later.
+  std::function<bool(const Coordinates& a, const Coordinates& b)> edge_likely;
   std::function<void(const SearchProgress&)> progress;  ///< may be empty
   std::stop_token stop;                                 ///< looked at before each expansion and each edge_ok
 };

@@ -133,9 +133,11 @@ class Planner::Edges {
  public:
   Edges(const ClearEdge& looks_clear, const Prover* prover) : looks_clear_(looks_clear), prover_(prover) {}
 
+  [[nodiscard]] bool looks_clear(const Coordinates& a, const Coordinates& b) const { return looks_clear_(a, b); }
+
   bool ok(const Coordinates& a, const Coordinates& b) {
     ++checked_;
-    const bool accepted = looks_clear_(a, b) && (prover_ == nullptr || proved(to_waypoint(a), to_waypoint(b)));
+    const bool accepted = looks_clear(a, b) && (prover_ == nullptr || proved(to_waypoint(a), to_waypoint(b)));
     if (!accepted) ++rejected_;
     return accepted;
   }
@@ -225,6 +227,7 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
   search_problem.cost = distance;
   search_problem.heuristic = distance;
   search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return edges.ok(a, b); };
+  search_problem.edge_likely = [&](const Coordinates& a, const Coordinates& b) { return edges.looks_clear(a, b); };
   if (progress) {
     search_problem.progress = [&](const SearchProgress& p) { progress({p.charts, edges.checked()}); };
   }
