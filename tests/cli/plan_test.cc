@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "kinematics/input_error.h"
 #include "tests/atlas/sealed.h"
 #include "tests/support/temporary_file.h"
@@ -107,6 +109,34 @@ TEST(StoredAtlas, ThatLeadsNowhereIsSetAside) {
   const Plan answer = Planner(the_case, file.path()).plan({}, {});
   EXPECT_EQ(answer.proof.verdict, Verdict::kProved);
   EXPECT_EQ(answer.statistics.charts_stored, 0);
+}
+
+// With its checksums made right: whatever a file says, it is refused or the answer is what it is without the file.
+TEST(StoredAtlas, ThatIsForgedIsRefusedOrCostsTimeAtMost) {
+  const Case the_case = case_of("robot1-slice-qs1-qg");
+  Planner planner(the_case);
+  static_cast<void>(planner.plan({}, {}));
+  const std::string bytes = planner.atlas_bytes();
+  const testing::AtlasFilePlaces places(bytes);
+  std::mt19937 random(1);
+  int proved = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::string forged = bytes;
+    const std::size_t from = round % 3 == 0 ? places.polytopes : testing::AtlasFilePlaces::kTables;
+    for (int flips = 1 + round % 4; flips > 0; --flips) {
+      const std::size_t at = from + random() % (forged.size() - from);
+      forged[at] = static_cast<char>(forged[at] ^ (1u << random() % 8));
+    }
+    testing::seal(forged, places);
+    const TemporaryFile file(forged);
+    try {
+      const Plan answer = Planner(the_case, file.path()).plan({}, {});
+      ASSERT_EQ(answer.proof.verdict, Verdict::kProved) << round << ": " << answer.proof.reason;
+      ++proved;
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_GT(proved, 20) << "some forgeries are plausible";
 }
 
 TEST(StoredAtlas, OfAnotherProblemIsRefused) {
