@@ -249,6 +249,7 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
       reason = stop.stop_requested() ? "interrupted" : no_path_reason(best.found, leg);
       return std::nullopt;
     }
+    if (stop.stop_requested()) statistics.budget_spent = false;
     statistics.cost_found += best.cost_found;
     statistics.cost += best.cost;
     append_leg(path, best.vertices, best.found.path.back(), reached, case_.problem.space.flip);

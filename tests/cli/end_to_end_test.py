@@ -314,6 +314,19 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(refuted.returncode, 1, refuted.stderr)
         self.assertEqual(os.listdir(self.out), ["a"])
 
+    def test_an_interrupted_anytime_plan_gives_its_best_path(self):
+        case = self.budgeted("strategy: astar, max_seconds: 1000, radius: 0.05, epsilon: 0.05")
+        process = subprocess.Popen([TAUT, "plan", case, "--out", self.out, "--json"], stdout=subprocess.PIPE, text=True)
+        time.sleep(2.0)
+        self.assertIsNone(process.poll(), "it should take longer than two seconds")
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, output)
+        summary = json.loads(output)
+        self.assertFalse(summary["budget_spent"])
+        self.assertNotEqual(summary["within_factor"], 1)
+        self.assertEqual(run(CHECK, self.path("certificate.json"), case).returncode, 0)
+
     def test_version(self):
         result = run(TAUT, "--version")
         self.assertEqual(result.returncode, 0)
