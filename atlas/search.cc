@@ -84,11 +84,12 @@ class Search {
         continue;
       }
       adopt(candidate);
-      if (!is_likely(candidate.child)) {
+      const bool is_goal = candidate.child == goal_;
+      if (is_goal ? !accept_edge(goal_) : !is_likely(candidate.child)) {
         reject(candidate.child);
         continue;
       }
-      if (candidate.child != goal_) {
+      if (!is_goal) {
         close(candidate.child);
         continue;
       }
@@ -146,7 +147,14 @@ class Search {
     nodes_[node].closed = true;
     closed_.push_back(node);
     for (const int neighbour : atlas_.neighbours(node)) offer(node, neighbour);
-    expand(node);
+    if (!problem_.straight_to_goal) return expand(node);
+    offer(node, goal_);
+    if (!atlas_.complete(node)) postpone(node);
+  }
+
+  // The node's surroundings are finished when its turn comes again.
+  void postpone(int node) {
+    open_.push({priority(node, nodes_[node].cost), nodes_[node].cost, nodes_[node].cost, node, node});
   }
 
   // Makes charts around a closed node and offers them to every closed neighbour that they have.
@@ -165,7 +173,7 @@ class Search {
       chart_limit_hit_ = true;
       return;
     }
-    open_.push({priority(node, nodes_[node].cost), nodes_[node].cost, nodes_[node].cost, node, node});
+    postpone(node);
   }
 
   void offer(int parent, int child) {
@@ -194,7 +202,7 @@ class Search {
 
   // Whether the edge above an adopted node may stand, as far as is asked so early.
   bool is_likely(int node) const {
-    if (!problem_.edge_likely || result_.edges_rejected == 0) return true;
+    if (!problem_.edge_likely || !tree_edge_failed_) return true;
     return problem_.edge_likely(nodes_[nodes_[node].parent].coordinates, nodes_[node].coordinates);
   }
 
@@ -208,20 +216,25 @@ class Search {
     std::vector<int> nodes;
     for (int node = goal_; node != start_; node = nodes_[node].parent) nodes.push_back(node);
     for (auto it = nodes.rbegin(); it != nodes.rend(); ++it) {
-      Node& node = nodes_[*it];
-      if (node.edge_accepted) continue;
       if (problem_.stop.stop_requested()) return kNone;
-      ++result_.edges_checked;
-      if (!problem_.edge_ok(nodes_[node.parent].coordinates, node.coordinates)) return *it;
-      node.edge_accepted = true;
+      if (!accept_edge(*it)) return *it;
     }
     return kNone;
+  }
+
+  // Puts the edge from the node's parent to edge_ok, once.
+  bool accept_edge(int child) {
+    Node& node = nodes_[child];
+    if (node.edge_accepted) return true;
+    ++result_.edges_checked;
+    return node.edge_accepted = problem_.edge_ok(nodes_[node.parent].coordinates, node.coordinates);
   }
 
   // Strikes out the edge above `broken` and opens the subtree below again: all other closed nodes keep their cost, since
   // striking out edges makes no path shorter.
   void repair(int broken) {
     reject(broken);
+    tree_edge_failed_ = true;
     std::vector<int> kept;
     std::vector<int> subtree;
     for (const int node : closed_) {  // parents come before their children
@@ -263,6 +276,7 @@ class Search {
   std::vector<int> closed_;  // in the order of closing
   std::priority_queue<Candidate> open_;
   std::unordered_set<std::uint64_t> rejected_;
+  bool tree_edge_failed_ = false;  // struck out of a path that had reached the goal
   bool chart_limit_hit_ = false;
   double lowest_heuristic_ = std::numeric_limits<double>::infinity();
   SearchResult result_;

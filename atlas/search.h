@@ -4,7 +4,7 @@
 // of their own, made first; the goal is reached when charts grown from the start meet its chart.
 //
 // Edges are validated lazily: only those of a path that would be the answer are put to `edge_ok`, which may cost a
-// hundred times a chart. One that fails is struck out for good (both ways), the search tree is repaired below it, and
+// hundred times a chart; the last edge first. One that fails is struck out for good (both ways), the search tree is repaired below it, and
 // the search goes on. A path found with weight 1 is shortest among those on the charts' graph whose edges are ok, one found with weight w at
 // most w times as long, if the heuristic is consistent: |h(a) - h(b)| <= cost(a, b), h(goal) = 0.
 //
@@ -42,9 +42,12 @@ struct SearchProblem {
   std::function<double(const Coordinates& a, const Coordinates& goal)> heuristic;
   /// Whether the robot may go straight from a to b. Called only for edges of a candidate path.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
-  /// May be empty. A necessary condition of edge_ok that costs little: once an edge has failed, edges are put to it as soon as
-  /// they would join the search tree, so that fewer have to be struck out of it later.
+  /// May be empty. A necessary condition of edge_ok that costs little: once an edge of a candidate path has failed, edges are put to it as
+  /// soon as they would join the search tree, so that fewer have to be struck out of it later.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_likely;
+  /// Adds to the charts' graph an edge from every chart straight to the goal: most are not ok, and the one that is saves
+  /// all charts beyond it. `edge_ok` is then asked often and should be quick to refuse.
+  bool straight_to_goal = false;
   std::function<void(const SearchProgress&)> progress;  ///< may be empty
   std::stop_token stop;                                 ///< looked at before each expansion and each edge_ok
 };

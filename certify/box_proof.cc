@@ -28,8 +28,6 @@ double DyadicBox::mid() const { return std::ldexp(static_cast<double>(2 * k + 1)
 
 namespace {
 
-constexpr mpfr_prec_t kModelPrecision = 256;
-
 /// Intervals are bounded (interval.h), so a number beyond binary64 is refused here.
 Interval outward(const MpInterval& x) {
   const double lower = lower_bound(x);
@@ -40,38 +38,6 @@ Interval outward(const MpInterval& x) {
   return {lower, upper};
 }
 
-template <int Rows, int Columns>
-Eigen::Matrix<Interval, Rows, Columns> outward(const Eigen::Matrix<MpInterval, Rows, Columns>& x) {
-  Eigen::Matrix<Interval, Rows, Columns> result;
-  for (int i = 0; i < Rows; ++i) {
-    for (int j = 0; j < Columns; ++j) result(i, j) = outward(x(i, j));
-  }
-  return result;
-}
-
-template <class To, class From>
-void outward_all(std::array<To, kCables>& to, const std::array<From, kCables>& from) {
-  for (std::size_t i = 0; i < kCables; ++i) to[i] = outward(from[i]);
-}
-
-Model<Interval> outward(const Model<MpInterval>& fine) {
-  Model<Interval> model;
-  outward_all(model.p_WA, fine.p_WA);
-  outward_all(model.p_PB, fine.p_PB);
-  outward_all(model.p_MB, fine.p_MB);
-  model.p_PM = outward(fine.p_PM);
-  outward_all(model.tension_lower, fine.tension_lower);
-  outward_all(model.tension_upper, fine.tension_upper);
-  outward_all(model.length_lower, fine.length_lower);
-  outward_all(model.length_upper, fine.length_upper);
-  model.wrench = outward(fine.wrench);
-  model.ellipsoid = outward(fine.ellipsoid);
-  model.ellipsoid_root = outward(fine.ellipsoid_root);
-  model.ellipsoid_is_diagonal = fine.ellipsoid_is_diagonal;
-  model.characteristic_length = fine.characteristic_length;
-  return model;
-}
-
 }  // namespace
 
 ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
@@ -79,8 +45,29 @@ ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
-  const PrecisionScope precision(kModelPrecision);
-  return {outward(make_model<MpInterval>(problem)), make_motion_model<Interval>(problem)};
+  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem)};
+  Model<Interval>& model = result.model;
+  const bool is_diagonal = has_diagonal_ellipsoid(problem.load);
+  const bool is_bounded = run_upward([&] {
+    model = make_model_without_ellipsoid<Interval>(problem);
+    if (is_diagonal) set_ellipsoid(problem.load, model);
+  });
+  if (!is_bounded) throw InputError("robot, load: got a number beyond the range of binary64");
+  if (is_diagonal) return result;
+
+  // E may be so close to singular that binary64 can't tell that it has a root.
+  constexpr mpfr_prec_t kEllipsoidPrecision = 256;
+  const PrecisionScope precision(kEllipsoidPrecision);
+  Model<MpInterval> fine;
+  set_ellipsoid(problem.load, fine);
+  model.ellipsoid_is_diagonal = false;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      model.ellipsoid(i, j) = outward(fine.ellipsoid(i, j));
+      model.ellipsoid_root(i, j) = outward(fine.ellipsoid_root(i, j));
+    }
+  }
+  return result;
 }
 
 namespace {

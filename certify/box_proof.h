@@ -49,7 +49,7 @@ struct ProofModel {
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.
 [[nodiscard]] ProofModel<MpInterval> make_mp_proof_model(const Problem& problem);
-/// The binary64 enclosure of make_mp_proof_model at 256 bits.
+/// In binary64 intervals. @throws InputError likewise.
 [[nodiscard]] ProofModel<Interval> make_proof_model(const Problem& problem);
 
 /// What is known over one box.

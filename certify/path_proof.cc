@@ -136,6 +136,9 @@ std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint&
 }
 
 double nearest_binary64(const ExpressionText& expression) {
+  const bool is_plain = !expression.empty() && expression.find_first_not_of("0123456789.-") == std::string::npos &&
+                        expression.find('-', 1) == std::string::npos;
+  if (is_plain) return ScalarTraits<double>::from_decimal(expression) + 0.0;  // −0 to 0
   constexpr mpfr_prec_t kMostBits = 4096;
   for (mpfr_prec_t bits = 128; bits <= kMostBits; bits *= 2) {
     const PrecisionScope precision(bits);

@@ -112,6 +112,9 @@ AtlasKey atlas_key(const Case& the_case) {
   return {sha256(problem), {.clearance = the_case.planner.clearance}, atlas_options(the_case.planner)};
 }
 
+/// Edges longer than this in the parameters are measured along their way [rad, m].
+constexpr double kLongEdge = 0.5;
+
 /// Edges may come this much closer to a limit than the charts' centres that they join.
 constexpr double kEdgeClearanceShare = 0.5;
 
@@ -183,19 +186,20 @@ Planner::Planner(const Case& the_case, const std::filesystem::path& atlas_file)
       query_(query_waypoints(the_case.problem)),
       length_(sampler_, the_case.planner.cost, to_coordinates(query_)),
       clearance_(possible_clearance(the_case.planner.clearance, sampler_, query_)),
-      key_(atlas_key(the_case)),
       chart_clearance_(clearance_) {
   if (!atlas_file.empty()) {
-    atlas_file_.emplace(atlas_file, key_);
+    atlas_file_.emplace(atlas_file, atlas_key(the_case));
     chart_clearance_ = std::min(clearance_, atlas_file_->clearance());
   }
   manifold_ = make_wrench_feasible_manifold(the_case.problem, sampler_, {.clearance = chart_clearance_});
   if (atlas_file_) {
-    atlas_.emplace(*manifold_, key_.options, *atlas_file_);
+    atlas_.emplace(*manifold_, atlas_options(the_case.planner), *atlas_file_);
   } else {
-    atlas_.emplace(*manifold_, key_.options);
+    atlas_.emplace(*manifold_, atlas_options(the_case.planner));
   }
 }
+
+std::string Planner::atlas_bytes() const { return AtlasFile::bytes_of(*atlas_, atlas_key(case_), chart_clearance_); }
 
 /// The answer where a waypoint of the query is infeasible, or can't be told.
 std::optional<Plan> Planner::judge_query() const {
@@ -224,7 +228,10 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
   const auto distance = [&](const Coordinates& a, const Coordinates& b) { return length_.distance(a, b); };
   SearchProblem search_problem;
   // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search soon.
-  search_problem.cost = distance;
+  search_problem.cost = [&](const Coordinates& a, const Coordinates& b) {
+    return (b - a).squaredNorm() > kLongEdge * kLongEdge ? length_.along(a, b) : length_.distance(a, b);
+  };
+  search_problem.straight_to_goal = true;
   search_problem.heuristic = distance;
   search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return edges.ok(a, b); };
   search_problem.edge_likely = [&](const Coordinates& a, const Coordinates& b) { return edges.looks_clear(a, b); };
@@ -345,7 +352,7 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
     seek_and_prove(progress, stop, result);
     const bool may_go_on = !stop.stop_requested() && !result.statistics.budget_spent;
     if (result.proof.verdict == Verdict::kUndecided && atlas_file_ && may_go_on) {
-      atlas_.emplace(*manifold_, key_.options);
+      atlas_.emplace(*manifold_, atlas_options(case_.planner));
       atlas_file_.reset();
       seek_and_prove(progress, stop, result);
     }

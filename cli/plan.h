@@ -74,7 +74,7 @@ class Planner {
 
   [[nodiscard]] const Atlas& atlas() const { return *atlas_; }
   /// Of a file for the atlas. @pre the atlas has a chart.
-  [[nodiscard]] std::string atlas_bytes() const { return AtlasFile::bytes_of(*atlas_, key_, chart_clearance_); }
+  [[nodiscard]] std::string atlas_bytes() const;
 
  private:
   class Edges;
@@ -104,7 +104,6 @@ class Planner {
   std::vector<Waypoint> query_;
   PathLength length_;
   double clearance_;  ///< as much of what the case asks for as the query's waypoints leave
-  AtlasKey key_;
   std::optional<AtlasFile> atlas_file_;
   double chart_clearance_;  ///< clearance_, or less if the stored atlas was made with less
   std::unique_ptr<Manifold> manifold_;

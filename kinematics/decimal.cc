@@ -1,10 +1,10 @@
 #include "kinematics/decimal.h"
 
 #include <fmt/format.h>
+#include <xmmintrin.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cfenv>
 #include <charconv>
 #include <cmath>
 
@@ -134,11 +134,12 @@ cpp_rational Decimal::rational() const {
 double ScalarTraits<double>::from_decimal(const std::string& text) {
   double value = 0;
   const auto read = [&value](const std::string& digits) {
-    // from_chars multiplies short numbers in the current rounding mode, which a prover may have set upward.
-    const int mode = std::fegetround();
-    std::fesetround(FE_TONEAREST);
+    // from_chars multiplies short numbers in the current rounding mode, which a prover may have set upward: in MXCSR
+    // alone, so that fegetround() knows nothing of it.
+    const unsigned mode = _mm_getcsr();
+    _mm_setcsr(mode & ~static_cast<unsigned>(_MM_ROUND_MASK));
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    std::fesetround(mode);
+    _mm_setcsr(mode);
     return error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
   };
   if (!read(text)) read(Decimal::parse(text).text());  // a leading plus sign, or no decimal at all

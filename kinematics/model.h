@@ -50,8 +50,14 @@ struct Model {
 /// E^-1 = L L^T from E = M M^T (Cholesky), L = M^-T. For an enclosing scalar, positive diagonal enclosures prove that E is
 /// positive definite. @throws InputError where a pivot is not positive.
 template <class S>
-[[nodiscard]] Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid);
+[[nodiscard]] Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid, bool is_diagonal = false);
 
+template <class S>
+[[nodiscard]] Model<S> make_model_without_ellipsoid(const Problem& problem);
+/// Sets `ellipsoid`, `ellipsoid_is_diagonal` and `ellipsoid_root`. @throws InputError as ellipsoid_root.
+template <class S>
+void set_ellipsoid(const LoadText& load, Model<S>& model);
+/// Both.
 template <class S>
 [[nodiscard]] Model<S> make_model(const Problem& problem);
 

@@ -6,7 +6,17 @@
 namespace taut {
 
 template <class S>
-Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid) {
+Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid, bool is_diagonal) {
+  if (is_diagonal) {
+    Matrix6<S> root;
+    for (int i = 0; i < 6; ++i) {
+      if (!certainly_positive(ellipsoid(i, i))) {
+        throw InputError("load.ellipsoid: got a matrix that is not (provably) positive definite");
+      }
+      for (int j = 0; j < 6; ++j) root(i, j) = i == j ? S(S(1.0) / sqrt(ellipsoid(i, i))) : S(0.0);
+    }
+    return root;
+  }
   // E = M M^T, M lower triangular.
   Matrix6<S> m;
   for (int i = 0; i < 6; ++i) {
@@ -42,7 +52,7 @@ Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid) {
 }
 
 template <class S>
-Model<S> make_model(const Problem& problem) {
+Model<S> make_model_without_ellipsoid(const Problem& problem) {
   using Traits = ScalarTraits<S>;
   Model<S> model;
   const auto vector = [](const std::array<DecimalText, 3>& text) {
@@ -66,16 +76,38 @@ Model<S> make_model(const Problem& problem) {
     reach += std::sqrt(square) / kCables;
   }
   model.characteristic_length = reach;
-  model.ellipsoid_is_diagonal = true;
-  for (int i = 0; i < 6; ++i) {
-    model.wrench(i) = Traits::from_decimal(problem.load.wrench[static_cast<std::size_t>(i)]);
-    for (int j = 0; j < 6; ++j) {
-      const DecimalText& text = problem.load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      model.ellipsoid(i, j) = Traits::from_decimal(text);
-      if (i != j && text != "0") model.ellipsoid_is_diagonal = false;  // canonical decimals: zero is "0"
+  for (int i = 0; i < 6; ++i) model.wrench(i) = Traits::from_decimal(problem.load.wrench[static_cast<std::size_t>(i)]);
+  return model;
+}
+
+/// Of a canonical decimal.
+inline bool is_zero(const DecimalText& text) { return text == "0"; }
+
+inline bool has_diagonal_ellipsoid(const LoadText& load) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (i != j && !is_zero(load.ellipsoid[i][j])) return false;
     }
   }
-  model.ellipsoid_root = ellipsoid_root(model.ellipsoid);
+  return true;
+}
+
+template <class S>
+void set_ellipsoid(const LoadText& load, Model<S>& model) {
+  model.ellipsoid_is_diagonal = has_diagonal_ellipsoid(load);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const DecimalText& text = load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      model.ellipsoid(i, j) = is_zero(text) ? S(0.0) : S(ScalarTraits<S>::from_decimal(text));
+    }
+  }
+  model.ellipsoid_root = ellipsoid_root(model.ellipsoid, model.ellipsoid_is_diagonal);
+}
+
+template <class S>
+Model<S> make_model(const Problem& problem) {
+  Model<S> model = make_model_without_ellipsoid<S>(problem);
+  set_ellipsoid(problem.load, model);
   return model;
 }
 

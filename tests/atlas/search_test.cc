@@ -100,6 +100,44 @@ TEST(Search, CrossesAPlaneAlmostStraight) {
   }
 }
 
+TEST(Search, StraightToTheGoalNeedsNoChartsWhereNothingIsInTheWay) {
+  const testing::FlatSpace plane(2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
+  for (const double weight : {1.0, 1.5, kGreedy}) {
+    Atlas atlas(plane, options(0.1, 0.1));
+    SearchProblem query = problem(coordinates({-0.8, -0.7}), coordinates({0.8, 0.6}));
+    query.straight_to_goal = true;
+    const SearchResult result = search(atlas, query, {.weight = weight});
+    expect_sound(result, query, plane);
+    EXPECT_EQ(result.path.size(), 2u);
+    EXPECT_NEAR(result.cost, (query.goal - query.start).norm(), 1e-12);
+  }
+}
+
+// Walking round a wall, x = 0 for |y| <= 0.5, the goal comes into sight beyond its end.
+TEST(Search, StraightToTheGoalShortensTheWayRoundAWall) {
+  const testing::FlatSpace plane(2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
+  const auto crosses = [](const Coordinates& a, const Coordinates& b) {
+    if (a[0] * b[0] > 0) return false;
+    return std::abs(a[1] + (b[1] - a[1]) * a[0] / (a[0] - b[0])) <= 0.5;
+  };
+  SearchProblem query = problem(coordinates({-0.6, 0.05}), coordinates({0.6, 0.05}));
+  query.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return !crosses(a, b); };
+  for (const double weight : {1.0, kGreedy}) {
+    Atlas centres_only(plane, options(0.1, 0.1));
+    const SearchResult longer = search(centres_only, query, {.weight = weight});
+    query.straight_to_goal = true;
+    Atlas atlas(plane, options(0.1, 0.1));
+    const SearchResult result = search(atlas, query, {.weight = weight});
+    query.straight_to_goal = false;
+    expect_sound(result, query, plane);
+    EXPECT_LT(result.charts, longer.charts);
+    if (weight == 1.0) {
+      EXPECT_LT(result.cost, longer.cost);
+    }
+    EXPECT_GE(result.cost, 2 * std::hypot(0.6, 0.45) - 1e-12);
+  }
+}
+
 TEST(Search, AStarIsShortestOnAFinishedAtlas) {
   const testing::FlatTorus torus({0, 0});
   for (int seed = 0; seed < 20; ++seed) {

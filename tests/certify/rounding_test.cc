@@ -47,6 +47,18 @@ TEST(Rounding, RunsUpwardAndRestoresTheCallersMode) {
   }
 }
 
+TEST(Rounding, OutlastsTheReadingOfADecimal) {
+  int after = 0;
+  double tenth = 0;
+  const bool sound = run_upward([&] {
+    tenth = ScalarTraits<double>::from_decimal("0.1");
+    after = direction();
+  });
+  EXPECT_TRUE(sound);
+  EXPECT_EQ(tenth, 0.1);
+  EXPECT_EQ(after, 1);
+}
+
 TEST(Rounding, RestoresTheCallersModeAfterAnException) {
   std::fesetround(FE_DOWNWARD);
   bool thrown = false;

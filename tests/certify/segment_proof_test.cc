@@ -204,7 +204,11 @@ TEST(Prover, RestoresTheCallersRoundingMode) {
 TEST(Prover, AWildlyScaledProblemIsNeverProvedByOverflow) {
   Problem problem = robot1_slice();
   for (auto& row : problem.load.ellipsoid) row.fill("0");
-  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e-600";  // K beyond binary64
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e-300";
+  for (auto& anchor :
+       problem.robot.platform_anchors_m) {  // of a platform too small to hold K: tensions beyond binary64
+    for (DecimalText& coordinate : anchor) coordinate += "e-200";
+  }
   const SegmentProof proof = Prover(problem).prove(kStart, kNearStart);
   EXPECT_NE(proof.verdict, Verdict::kProved);
 }

@@ -96,7 +96,7 @@ TEST(StoredAtlas, ServesAQueryNearerToALimitThanItsClearance) {
 }
 
 TEST(StoredAtlas, ThatLeadsNowhereIsSetAside) {
-  const Case the_case = case_of("robot1-slice-qs1-qg");
+  const Case the_case = case_of("robot1-slice-qs-qg");
   Case beginning = the_case;
   beginning.planner.max_charts = 20;
   Planner planner(beginning);
