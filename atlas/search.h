@@ -42,8 +42,8 @@ struct SearchProblem {
   std::function<double(const Coordinates& a, const Coordinates& goal)> heuristic;
   /// Whether the robot may go straight from a to b. Called only for edges of a candidate path.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
-  /// May be empty. A necessary condition of edge_ok that costs little: once an edge of a candidate path has failed, edges are put to it as
-  /// soon as they would join the search tree, so that fewer have to be struck out of it later.
+  /// May be empty. A necessary condition of edge_ok that costs little: once an edge of a candidate path has failed,
+  /// edges are put to it as soon as they would join the search tree, so that fewer have to be struck out of it later.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_likely;
   /// Adds to the charts' graph an edge from every chart straight to the goal: most are not ok, and the one that is saves
   /// all charts beyond it. `edge_ok` is then asked often and should be quick to refuse.

@@ -403,7 +403,6 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   statistics.prove_seconds += seconds_since(start);
   if (result.proof.verdict != Verdict::kProved) return false;
   if (case_.planner.smoothing == Smoothing::kSpline) round_corners(found->stops, stop, result);
-  measure(result.path, statistics);
   return true;
 }
 
@@ -424,16 +423,17 @@ void Planner::round_corners(const std::vector<std::size_t>& stops, const std::st
   plan.statistics.smooth_seconds += seconds_since(start);
 }
 
-void Planner::measure(const Path& path, PlanStatistics& statistics) const {
+MotionLengths Planner::measure(const Path& path) const {
   const auto length = [&](auto distance) {
     return motion_length(path, curve_parameters, [&](const std::vector<double>& a, const std::vector<double>& b) {
       return distance(sampler_.pose(a), sampler_.pose(b));
     });
   };
-  statistics.length_m = length([](const Pose<double>& a, const Pose<double>& b) { return (a.p_WP - b.p_WP).norm(); });
-  statistics.angle_rad = length([](const Pose<double>& a, const Pose<double>& b) {
+  const auto way = [](const Pose<double>& a, const Pose<double>& b) { return (a.p_WP - b.p_WP).norm(); };
+  const auto turn = [](const Pose<double>& a, const Pose<double>& b) {
     return rotation_angle(rotation(a.phi, a.theta, a.sigma), rotation(b.phi, b.theta, b.sigma));
-  });
+  };
+  return {length(way), length(turn)};
 }
 
 }  // namespace taut

@@ -36,8 +36,6 @@ struct PlanStatistics {
   double factor = 1;          ///< that path is at most so many times as long as the shortest on the charts' graph
   bool budget_spent = false;  ///< before the search ended by itself
   double cost = 0;            ///< of the path
-  double length_m = 0;        ///< of the way of the platform's origin
-  double angle_rad = 0;       ///< that the platform turns on the way
   double plan_seconds = 0;    ///< atlas and search, without the proofs made within
   double smooth_seconds = 0;  ///< shortening, without the proofs made within
   double prove_seconds = 0;
@@ -47,6 +45,11 @@ struct Plan {
   Path path;  ///< found path; or the waypoint that refutes; or the waypoints of the query where there is no path
   PathProof proof;
   PlanStatistics statistics;
+};
+
+struct MotionLengths {
+  double length_m = 0;   ///< of the way of the platform's origin
+  double angle_rad = 0;  ///< that the platform turns on the way
 };
 
 struct PlanProgress {
@@ -72,6 +75,8 @@ class Planner {
   /// @returns whether nothing is left.
   bool grow_atlas(const Progress& progress, const std::stop_token& stop);
 
+  [[nodiscard]] MotionLengths measure(const Path& path) const;
+
   [[nodiscard]] const Atlas& atlas() const { return *atlas_; }
   /// Of a file for the atlas. @pre the atlas has a chart.
   [[nodiscard]] std::string atlas_bytes() const;
@@ -91,7 +96,6 @@ class Planner {
   [[nodiscard]] std::optional<FoundPath> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
                                                    PlanStatistics& statistics, std::string& reason);
   void round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const;
-  void measure(const Path& path, PlanStatistics& statistics) const;
   [[nodiscard]] Leg find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics);
   [[nodiscard]] Leg pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
                               PlanStatistics& statistics) const;

@@ -191,6 +191,8 @@ int run_plan(const PlanArguments& arguments) {
   write_whole(files);
 
   const PlanStatistics& s = result.statistics;
+  const bool is_proved = result.proof.verdict == Verdict::kProved;
+  const MotionLengths lengths = is_proved ? planner.measure(result.path) : MotionLengths{};
   if (arguments.json) {
     const nlohmann::json summary = {{"verdict", certificate["verdict"]},
                                     {"segments", result.proof.segments.size()},
@@ -204,8 +206,8 @@ int run_plan(const PlanArguments& arguments) {
                                     {"cost_found", s.cost_found},
                                     {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nullptr},
                                     {"budget_spent", s.budget_spent},
-                                    {"length_m", s.length_m},
-                                    {"angle_rad", s.angle_rad},
+                                    {"length_m", lengths.length_m},
+                                    {"angle_rad", lengths.angle_rad},
                                     {"plan_seconds", s.plan_seconds},
                                     {"smooth_seconds", s.smooth_seconds},
                                     {"prove_seconds", s.prove_seconds},
@@ -221,9 +223,9 @@ int run_plan(const PlanArguments& arguments) {
           "{} charts, {} expanded; {} edges looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n"
           "On its way the platform's origin moves {:.4g} m, and the platform turns {:.4g} rad.\n"
           "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
-          s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, s.length_m, s.angle_rad,
-          1e3 * s.plan_seconds, 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
-      if (result.proof.verdict == Verdict::kProved) fmt::print("{}.\n", length_sentence(s));
+          s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, lengths.length_m,
+          lengths.angle_rad, 1e3 * s.plan_seconds, 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
+      if (is_proved) fmt::print("{}.\n", length_sentence(s));
     }
     fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
     if (saves_atlas) {

@@ -18,6 +18,6 @@ using ShortDistance = std::function<double(const std::vector<double>& a, const s
 
 /// Sum of distances over `pieces` pieces a segment, extrapolated from half as many; error of order pieces^-4.
 [[nodiscard]] double motion_length(const Path& path, const ParametersAt& parameters, const ShortDistance& distance,
-                                 int pieces = 16);
+                                   int pieces = 16);
 
 }  // namespace taut
