@@ -68,17 +68,13 @@ class ImpliedMotion {
     }
   }
 
-  /// λ = ℓ + N y over T; nothing if (a) fails.
+  /// λ = ℓ + N y over T; nothing if (a) or (b) fails.
   [[nodiscard]] bool parameters(Parameters<I>& result) {
     if (!(tube_ > 0) || !std::isfinite(tube_) || !start_newton()) return false;
     Vector whole;
     whole.fill(I(-tube_, tube_));
-    const Step first = krawczyk(whole);
-    Vector inside = first.image;
-    for (std::size_t i = 0; i < K; ++i) {
-      if (!(lower_bound(inside[i]) > -tube_ && upper_bound(inside[i]) < tube_)) return false;
-      inside[i] = hull(inside[i], centre_[i]);
-    }
+    Vector inside;
+    if (!stay_inside(krawczyk(whole), inside)) return false;
     const Step second = krawczyk(inside);
     Square<Upper, K> q;
     if (!neumann_bound<I>(magnitudes(second.rest), q)) return false;
@@ -108,7 +104,7 @@ class ImpliedMotion {
   using J = Jet<I, kMaxConstrainedParameters>;
 
   struct Step {
-    Vector image;       ///< K(T) of (a), with a box in the place of Y
+    Vector image;       ///< (c)
     Square<I, K> rest;  ///< I − A g_y
     Vector drift;       ///< A g_t
   };
@@ -226,7 +222,28 @@ class ImpliedMotion {
     return true;
   }
 
-  /// (a) with `box`, which contains ŷ, in the place of Y.
+  /// The box ŷ ± w of (b), where it is inside the tube and ρ < 1.
+  [[nodiscard]] bool stay_inside(const Step& over_tube, Vector& box) const {
+    Upper rho(0.0);
+    Upper largest(0.0);
+    for (std::size_t i = 0; i < K; ++i) {
+      Upper row_sum(0.0);
+      for (const I& x : over_tube.rest[i]) row_sum += Upper(magnitude(x));
+      rho = std::max(rho, row_sum);
+      largest = std::max(largest, Upper(magnitude(residual_[i])) + Upper(magnitude(over_tube.drift[i] * offset_)));
+    }
+    if (!(rho < Upper(1.0))) return false;  // also where a NaN slipped in
+    const Upper gap = Scalars<I>::one_minus_lower(rho);
+    if (!(Upper(0.0) < gap)) return false;
+    const I w = Scalars<I>::symmetric(largest / gap);
+    for (std::size_t i = 0; i < K; ++i) {
+      box[i] = centre_[i] + w;
+      if (!(lower_bound(box[i]) > -tube_ && upper_bound(box[i]) < tube_)) return false;
+    }
+    return true;
+  }
+
+  /// (c) for a box Z that contains ŷ.
   [[nodiscard]] Step krawczyk(const Vector& box) const {
     const Gradient over = gradient(box, &Centered<I>::range);
     Step step;

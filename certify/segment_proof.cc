@@ -24,8 +24,10 @@ Segment Prover::segment(const Waypoint& a, const Waypoint& b) const {
 }
 
 double Prover::suitable_tube(const Segment& segment) const {
-  constexpr int kSamples = 8;    // intervals of s
-  constexpr double kRoom = 1.5;  // times the largest |y| seen; a wider tube is harder to prove free of other motions
+  constexpr int kSamples = 8;  // intervals of s
+  constexpr double kRoom =
+      4.0;  // times the largest |y| seen: between ends on the constraints y is about a parabola, for which
+            // (b) of motion.h needs 1 + 2/(1 − ρ), and little room would cost boxes
   constexpr double kLeast = 0x1p-30;
   double largest = 0;
   for (int k = 0; k <= kSamples; ++k) {
