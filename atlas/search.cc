@@ -22,7 +22,8 @@ struct Node {
   bool edge_accepted = false;  // the edge from the parent
   int parent = kNone;
   double cost = 0;          // from the start; of a closed node
-  double heuristic = -1;    // negative: not computed yet
+  double heuristic = -1;    // negative: not computed yet, nor is the next
+  double remaining = 0;     // distance to the goal in the coordinates
   Image image;              // of a closed node
   Coordinates coordinates;  // unwrapped, of a closed node
 };
@@ -30,14 +31,17 @@ struct Node {
 // A way to reach a node; or, with child == parent, a node whose surroundings are not finished.
 struct Candidate {
   double priority;
-  double cost;  // of the child, from the start
+  double remaining;  // of the child
+  double cost;       // of the child, from the start
   double parent_cost;
   int child;
   int parent;
 
-  // Of equals, the one further along comes first; ids make the order total.
+  // Of equals, the one that looks nearer to the goal comes first: a heuristic that knows only a part of a pose, as the
+  // angle that is left to turn, leaves many. Then the one further along; ids make the order total.
   bool operator<(const Candidate& other) const {
     if (priority != other.priority) return priority > other.priority;
+    if (remaining != other.remaining) return remaining > other.remaining;
     if (cost != other.cost) return cost < other.cost;
     if (child != other.child) return child > other.child;
     return parent > other.parent;
@@ -154,7 +158,7 @@ class Search {
 
   // The node's surroundings are finished when its turn comes again.
   void postpone(int node) {
-    open_.push({priority(node, nodes_[node].cost), nodes_[node].cost, nodes_[node].cost, node, node});
+    push(node, node, nodes_[node].cost, nodes_[node].cost);
   }
 
   // Makes charts around a closed node and offers them to every closed neighbour that they have.
@@ -183,18 +187,21 @@ class Search {
     const double parent_cost = nodes_[parent].cost;
     const double cost = parent_cost + problem_.cost(from, to);
     if (cost + heuristic(child) >= options_.cost_bound) return;
-    open_.push({priority(child, cost), cost, parent_cost, child, parent});
+    push(parent, child, parent_cost, cost);
   }
 
-  double priority(int node, double cost) {
-    return greedy_ ? heuristic(node) : cost + options_.weight * heuristic(node);
+  void push(int parent, int child, double parent_cost, double cost) {
+    const double priority = greedy_ ? heuristic(child) : cost + options_.weight * heuristic(child);
+    open_.push({priority, nodes_[child].remaining, cost, parent_cost, child, parent});
   }
 
   double heuristic(int node) {
     double& value = nodes_[node].heuristic;
     if (value < 0) {
       const Coordinates& at = base(node);
-      value = problem_.heuristic(at, symmetry_.apply(problem_.goal, symmetry_.nearest_image(problem_.goal, at)));
+      const Coordinates goal = symmetry_.apply(problem_.goal, symmetry_.nearest_image(problem_.goal, at));
+      value = problem_.heuristic(at, goal);
+      nodes_[node].remaining = (goal - at).norm();
       lowest_heuristic_ = std::min(lowest_heuristic_, value);
     }
     return value;
@@ -288,7 +295,7 @@ double next_weight(double weight) { return weight > kLastWeight ? (1 + weight) /
 
 void SearchOptions::validate() const {
   if (!(weight >= 1)) throw std::invalid_argument("SearchOptions: weight must be at least 1");
-  if (!(cost_bound > 0)) throw std::invalid_argument("SearchOptions: cost_bound must be positive");
+  if (!(cost_bound >= 0)) throw std::invalid_argument("SearchOptions: cost_bound must not be negative");
 }
 
 SearchResult search(Atlas& atlas, const SearchProblem& problem, const SearchOptions& options) {

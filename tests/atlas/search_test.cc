@@ -409,6 +409,17 @@ TEST(AnytimeSearch, KeepsTheBestPathWhenStopped) {
   EXPECT_TRUE(std::isinf(result.factor));
 }
 
+TEST(AnytimeSearch, TakesAnyPathWhereAllCostNothing) {
+  const testing::FlatSpace space(4, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
+  Atlas atlas(space, options(0.15, 0.15));
+  const SearchProblem query = problem(Coordinates::Constant(4, -0.5), Coordinates::Constant(4, 0.5),
+                                      [](const Coordinates&, const Coordinates&) { return 0.0; });
+  const SearchResult result = search_anytime(atlas, query, [](const SearchResult&) {});
+  expect_sound(result, query, space);
+  EXPECT_EQ(result.factor, 1);
+  EXPECT_LT(result.charts, 100) << "the goal's direction is followed all the same";
+}
+
 TEST(AnytimeSearch, SaysWhenThereIsNoPath) {
   const testing::FlatSpace disc(2, [](const Coordinates& x) { return x.norm() < 1 || x[0] > 2; });
   Atlas atlas(disc, options(0.1, 0.1));
