@@ -157,9 +157,7 @@ class Search {
   }
 
   // The node's surroundings are finished when its turn comes again.
-  void postpone(int node) {
-    push(node, node, nodes_[node].cost, nodes_[node].cost);
-  }
+  void postpone(int node) { push(node, node, nodes_[node].cost, nodes_[node].cost); }
 
   // Makes charts around a closed node and offers them to every closed neighbour that they have.
   void expand(int node) {
