@@ -12,20 +12,31 @@ class Shortener {
 
   ShortenResult run() {
     result_.cost_before = result_.cost_after = total();
+    for (double edges = kFewestEdges; edges <= options_.edges && may_go_on(); edges *= 2) {
+      sweep_until_settled(result_.cost_after / edges);
+    }
+    leave_out();
+    result_.cost_after = total();
+    return result_;
+  }
+
+ private:
+  // The path finds its way as a whole with few vertices; many would take far more sweeps.
+  static constexpr double kFewestEdges = 2.0;
+
+  void sweep_until_settled(double edge_length) {
     for (int sweep = 0; sweep < options_.max_sweeps && may_go_on(); ++sweep) {
       leave_out();
-      divide();
+      divide(edge_length);
       for (std::size_t k = 1; k + 1 < path_.size() && may_go_on(); ++k) relax(k);
       for (std::size_t k = path_.size() - 1; k-- > 1 && may_go_on();) relax(k);
       const double cost = total();
       const double gain = result_.cost_after - cost;
       result_.cost_after = cost;
-      if (sweep > 0 && gain < options_.least_gain * cost) break;
+      if (gain < options_.least_gain * cost) break;
     }
-    return result_;
   }
 
- private:
   [[nodiscard]] bool may_go_on() const {
     return result_.edges_checked < options_.max_edges_checked && !problem_.stop.stop_requested();
   }
@@ -48,7 +59,7 @@ class Shortener {
       for (std::size_t k = from; k + 1 < path_.size(); ++k) along += cost(k, k + 1);
       std::size_t to = path_.size() - 1;
       while (to > from + 1) {
-        if (cost(from, to) <= along && edge_ok(path_[from], path_[to])) {
+        if (cost(from, to) <= (1 + kLeastLocalGain) * along && edge_ok(path_[from], path_[to])) {
           path_.erase(path_.begin() + static_cast<std::ptrdiff_t>(from) + 1,
                       path_.begin() + static_cast<std::ptrdiff_t>(to));
           break;
@@ -61,14 +72,15 @@ class Shortener {
     }
   }
 
-  /// Halves edges until none is longer than edge_length. The halves of an edge that is ok are ok, but for rounding at
+  /// Halves edges until none is longer than `edge_length`. The halves of an edge that is ok are ok, but for rounding at
   /// the new vertex, so they are asked about.
-  void divide() {
+  void divide(double edge_length) {
     for (std::size_t k = 0; k + 1 < path_.size() && may_go_on();) {
       const Coordinates middle = 0.5 * (path_[k] + path_[k + 1]);
-      const bool divided = cost(k, k + 1) > options_.edge_length && edge_ok(path_[k], middle) &&
-                           edge_ok(middle, path_[k + 1]) &&
-                           problem_.cost(path_[k], middle) + problem_.cost(middle, path_[k + 1]) <= cost(k, k + 1);
+      const double whole = cost(k, k + 1);
+      const bool divided =
+          whole > edge_length && edge_ok(path_[k], middle) && edge_ok(middle, path_[k + 1]) &&
+          problem_.cost(path_[k], middle) + problem_.cost(middle, path_[k + 1]) <= (1 + kCostTolerance) * whole;
       if (divided) {
         path_.insert(path_.begin() + static_cast<std::ptrdiff_t>(k) + 1, middle);
       } else {
@@ -132,7 +144,9 @@ class Shortener {
     return x;
   }
 
+  // Relative: costs are measured by samples.
   static constexpr double kLeastLocalGain = 1e-6;
+  static constexpr double kCostTolerance = 1e-4;
 
   std::vector<Coordinates>& path_;
   const ShortenProblem& problem_;

@@ -1,9 +1,10 @@
 // Shortens a path: what a search through chart centres leaves jerky is pulled taut.
 //
 // Alternates three moves on the vertices between start and goal, as long as they pay: a vertex is left out; a vertex is
-// moved towards where its neighbours want it; an edge much longer than the others' is divided, so that a path may
-// follow a geodesic that is not straight in the coordinates. A move is made only if it lowers the cost and every new edge is
-// ok. So the result is never longer than what came in, and its edges are as good as `edge_ok` says.
+// moved towards where its neighbours want it; a long edge is divided, so that a path may follow a geodesic that is not
+// straight in the coordinates. What counts as long is halved from half the path down to a sixteenth: the path finds its way
+// as a whole first. A move is made only if it lowers the cost and every new edge is ok. So the result is never longer than
+// what came in, up to the error of `cost`, and its edges are as good as `edge_ok` says.
 #pragma once
 
 #include <functional>
@@ -15,8 +16,8 @@
 namespace taut {
 
 struct ShortenOptions {
-  double edge_length = 0.25;  ///< edges longer than this, in `distance`, are divided
-  double least_gain = 1e-4;   ///< a sweep that lowers the cost by less than this share is the last
+  double edges = 16;         ///< edges longer than the whole path divided by this are divided, in the end
+  double least_gain = 1e-4;  ///< a sweep that lowers the cost by less than this share is the last
   int max_sweeps = 60;
   int max_edges_checked = 4000;
 };

@@ -80,6 +80,24 @@ TEST(Shorten, NeverLengthens) {
   EXPECT_LE(length(path), before);
 }
 
+TEST(Shorten, FollowsAGeodesicThatIsNotStraightInTheCoordinates) {
+  // Polar coordinates (radius, angle): the straight way in the plane is curved in them, and one edge has to be divided.
+  const auto place = [](const Coordinates& q) { return Eigen::Vector2d(q[0] * std::cos(q[1]), q[0] * std::sin(q[1])); };
+  const auto along = [&](const Coordinates& a, const Coordinates& b) {
+    constexpr int kPieces = 50;
+    double sum = 0;
+    for (int k = 0; k < kPieces; ++k) {
+      sum += (place(a + (b - a) * (1.0 * k / kPieces)) - place(a + (b - a) * ((k + 1.0) / kPieces))).norm();
+    }
+    return sum;
+  };
+  std::vector<Coordinates> path = {at(1, 0), at(1, 2)};
+  const ShortenResult result = shorten(path, {along, [](const Coordinates&, const Coordinates&) { return true; }, {}});
+  const double best = (place(path.front()) - place(path.back())).norm();
+  EXPECT_GE(result.cost_after, best);
+  EXPECT_LE(result.cost_after, 1.005 * best);
+}
+
 TEST(Shorten, AStraightPathStaysStraight) {
   DiscWorld world;
   std::vector<Coordinates> path = {at(-2, 2), at(0, 2), at(2, 2)};
