@@ -99,9 +99,11 @@ class ImpliedMotion {
     (void)krawczyk(whole);  // so there is at most one
 
     const Vector6<Interval> guess = krawczyk(near).y;
+    Interval farthest;
+    for (std::size_t i = 0; i < k; ++i) farthest = max(farthest, abs(guess[i] - near[i]));
     Vector6<Interval> Z = near;
     for (std::size_t i = 0; i < k; ++i) {
-      Z[i] += Interval(2) * abs(guess[i] - near[i]) * Interval::plus_minus_one();
+      Z[i] += Interval(2) * farthest * Interval::plus_minus_one();
       if (!certainly_positive(t - abs(Z[i]))) throw Undefined("it may leave its tube");
     }
     Zero result = krawczyk(Z);

@@ -714,6 +714,9 @@ def implied_motions():
           'Normals need not be normal, nor of length 1, nor constant.')
     write('accepted', 'implied_two_coupled', asserted(*toy_path(toy(['x + z - t/8', 'x - z + t^2/8'], 'z'),
           ((0, 0, 0), (1, 0, 0.125)), ((0, 0, 1, 1, 1, -1),) * 2, [0.5]), 2), 'Two constraints, mixed by their normals.')
+    write('accepted', 'implied_one_y_stays_zero', asserted(*toy_path(toy(['x - t^2/8', 'z - (x - t^2/8)^2'], 'z'),
+          ((0, 0, 0), (1, 0.125, 0)), ((0, 0, 1, 0, 0, 1),) * 2, [0.125])),
+          'One unknown is 0 all along while the other moves: a box about both has to have room for both.')
     within = {'name': 'x', 'kind': 'range', 'range': ['-1/8', '1/8']}
     write('accepted', 'implied_within_range', toy_c('x - t*(1 - t)/4', x=within),
           'Between its ends the motion comes close to the end of a range.')
