@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "atlas/edge_motion.h"
+
 namespace taut {
 namespace {
 
@@ -20,19 +22,16 @@ bool ClearEdge::operator()(const Coordinates& a, const Coordinates& b) const {
     if (sign == 0) sign = statics.determinant;
     return statics.determinant * sign > 0;
   };
-  const auto pose_at = [&](double s) {
-    const Coordinates q = a + s * (b - a);
-    return sampler_.pose({q.data(), static_cast<std::size_t>(q.size())});
-  };
-  const Pose<double> first = pose_at(0);
-  const Pose<double> last = pose_at(1);
+  const EdgeMotion motion(sampler_, a, b);
+  const Pose<double> first = motion.pose(0);
+  const Pose<double> last = motion.pose(1);
   if (!clear(last) || !clear(first)) return false;
   const double way = (last.p_WP - first.p_WP).norm() / sampler_.model().characteristic_length + (b - a).norm();
   double spacing = way;
   double half = 0.5;  // of the spacing, in s
   for (int level = 0; spacing > kStep && level < kMostLevels; ++level, spacing *= 0.5, half *= 0.5) {
     for (double s = half; s < 1.0; s += 2.0 * half) {
-      if (!clear(pose_at(s))) return false;
+      if (!clear(motion.pose(s))) return false;
     }
   }
   return true;

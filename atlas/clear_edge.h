@@ -13,7 +13,7 @@ class ClearEdge {
   /// `sampler` has to outlive this.
   ClearEdge(const PoseSampler& sampler, double clearance) : sampler_(sampler), clearance_(clearance) {}
 
-  /// Whether all sampled poses of the motion straight in the parameters from a to b keep the clearance, with one sign of
+  /// Whether all sampled poses of the motion from a to b (edge_motion.h) keep the clearance, with one sign of
   /// det J. Ends first, then ever finer: an unsafe edge is often found out by its middle.
   [[nodiscard]] bool operator()(const Coordinates& a, const Coordinates& b) const;
 

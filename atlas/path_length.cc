@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atlas/edge_motion.h"
 #include "kinematics/geometry.h"
 #include "kinematics/input_error.h"
 
@@ -22,14 +23,27 @@ PathLength::PathLength(const PoseSampler& sampler, Cost cost, const std::vector<
   if (cost == Cost::kGreatCircle) fit_sphere(near);
 }
 
+/// A point of the space in that direction.
+Coordinates PathLength::point_near(const Coordinates& centre, const Coordinates& away) const {
+  constexpr double kReach = 0.7;
+  constexpr double kLeastReach = 1e-3;
+  const auto& constraints = sampler_.constraints();
+  if (!constraints) return centre + kReach * away;
+  for (double reach = kReach; reach > kLeastReach; reach *= 0.7) {
+    if (const auto reached = constraints->nearest(centre + reach * away)) return *reached;
+  }
+  return centre;
+}
+
 void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
   constexpr int kSamples = 24;
   Eigen::MatrixXd equations(kSamples, 4);
   Eigen::VectorXd squares(kSamples);
   for (int k = 0; k < kSamples; ++k) {
-    Coordinates q = near[static_cast<std::size_t>(k) % near.size()];
-    for (int j = 0; j < q.size(); ++j) q[j] += 0.7 * std::sin(1.0 + 2.3 * k + 5.1 * j);
-    const Vector3<double> p = sampler_.pose(span_of(q)).p_WP;
+    const Coordinates& centre = near[static_cast<std::size_t>(k) % near.size()];
+    Coordinates away(centre.size());
+    for (int j = 0; j < away.size(); ++j) away[j] = std::sin(1.0 + 2.3 * k + 5.1 * j);
+    const Vector3<double> p = sampler_.pose(span_of(point_near(centre, away))).p_WP;
     equations.row(k) << 2.0 * p.transpose(), 1.0;
     squares[k] = p.squaredNorm();
   }
@@ -41,8 +55,9 @@ void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
   }
 }
 
-PathLength::Place PathLength::place(const Coordinates& q) const {
-  const Pose<double> pose = sampler_.pose(span_of(q));
+PathLength::Place PathLength::place(const Coordinates& q) const { return place(sampler_.pose(span_of(q))); }
+
+PathLength::Place PathLength::place(const Pose<double>& pose) const {
   if (cost_ == Cost::kGreatCircle) return {pose.p_WP, {}};
   return {pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma)};
 }
@@ -63,14 +78,14 @@ double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   // and over single ones. A double piece is at most this long in the parameters.
   constexpr double kDoublePiece = 0.4;
   constexpr int kMostPieces = 1000;
-  const Coordinates step = b - a;
-  const int pieces = 2 * std::clamp(static_cast<int>(std::ceil(step.norm() / kDoublePiece)), 1, kMostPieces);
+  const int pieces = 2 * std::clamp(static_cast<int>(std::ceil((b - a).norm() / kDoublePiece)), 1, kMostPieces);
   double coarse = 0;
   double fine = 0;
-  Place even = place(a);
+  const EdgeMotion motion(sampler_, a, b);
+  Place even = place(motion.pose(0));
   for (int k = 1; k < pieces; k += 2) {
-    const Place middle = place(a + (static_cast<double>(k) / pieces) * step);
-    const Place end = place(a + (static_cast<double>(k + 1) / pieces) * step);
+    const Place middle = place(motion.pose(static_cast<double>(k) / pieces));
+    const Place end = place(motion.pose(static_cast<double>(k + 1) / pieces));
     coarse += between(even, end);
     fine += between(even, middle) + between(middle, end);
     even = end;

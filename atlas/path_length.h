@@ -1,6 +1,6 @@
 // How long a motion is, by the cost that a case names, in binary64.
 //
-// A motion straight in the parameters curves in space: its length is that of its own curve, not the distance between its
+// A motion straight in the parameters curves in space, as does one on constraints: its length is that of its own curve, not the distance between its
 // ends. Distances are the heuristic of a search: no motion between two poses is shorter.
 #pragma once
 
@@ -18,7 +18,7 @@ class PathLength {
   /// @throws InputError if the positions p of the space do not lie on one sphere, for kGreatCircle.
   PathLength(const PoseSampler& sampler, Cost cost, const std::vector<Coordinates>& near);
 
-  /// Of the motion straight in the parameters from a to b: rotation angle [rad], way of the origin [m], or length in the
+  /// Of the motion from a to b (edge_motion.h): rotation angle [rad], way of the origin [m], or length in the
   /// parameters. Never less than distance(a, b); its relative error is of fourth order in the distance of samples.
   [[nodiscard]] double along(const Coordinates& a, const Coordinates& b) const;
 
@@ -31,8 +31,10 @@ class PathLength {
     Vector3<double> p_WP;
     Matrix3<double> r_WP;
   };
+  [[nodiscard]] Place place(const Pose<double>& pose) const;
   [[nodiscard]] Place place(const Coordinates& q) const;
   [[nodiscard]] double between(const Place& a, const Place& b) const;
+  [[nodiscard]] Coordinates point_near(const Coordinates& centre, const Coordinates& away) const;
   void fit_sphere(const std::vector<Coordinates>& near);
 
   const PoseSampler& sampler_;

@@ -1,6 +1,7 @@
 #include "atlas/shorten.h"
 
 #include <array>
+#include <cmath>
 
 namespace taut {
 namespace {
@@ -40,6 +41,7 @@ class Shortener {
   [[nodiscard]] bool may_go_on() const {
     return result_.edges_checked < options_.max_edges_checked && !problem_.stop.stop_requested();
   }
+  [[nodiscard]] bool project(Coordinates& vertex) const { return !problem_.project || problem_.project(vertex); }
   [[nodiscard]] double cost(std::size_t a, std::size_t b) const { return problem_.cost(path_[a], path_[b]); }
   [[nodiscard]] double total() const {
     double sum = 0;
@@ -76,10 +78,10 @@ class Shortener {
   /// the new vertex, so they are asked about.
   void divide(double edge_length) {
     for (std::size_t k = 0; k + 1 < path_.size() && may_go_on();) {
-      const Coordinates middle = 0.5 * (path_[k] + path_[k + 1]);
+      Coordinates middle = 0.5 * (path_[k] + path_[k + 1]);
       const double whole = cost(k, k + 1);
       const bool divided =
-          whole > edge_length && edge_ok(path_[k], middle) && edge_ok(middle, path_[k + 1]) &&
+          whole > edge_length && project(middle) && edge_ok(path_[k], middle) && edge_ok(middle, path_[k + 1]) &&
           problem_.cost(path_[k], middle) + problem_.cost(middle, path_[k + 1]) <= (1 + kCostTolerance) * whole;
       if (divided) {
         path_.insert(path_.begin() + static_cast<std::ptrdiff_t>(k) + 1, middle);
@@ -93,7 +95,9 @@ class Shortener {
   void relax(std::size_t k) {
     const Coordinates& before = path_[k - 1];
     const Coordinates& after = path_[k + 1];
-    const auto local = [&](const Coordinates& x) { return problem_.cost(before, x) + problem_.cost(x, after); };
+    const auto local = [&](Coordinates x) {
+      return project(x) ? problem_.cost(before, x) + problem_.cost(x, after) : HUGE_VAL;
+    };
     const double now = local(path_[k]);
     const Coordinates target = minimiser(path_[k], (after - before).norm(), local);
     const double best = local(target);
@@ -101,8 +105,8 @@ class Shortener {
     constexpr int kHalvings = 5;
     double step = 1.0;
     for (int halving = 0; halving < kHalvings && may_go_on(); ++halving, step *= 0.5) {
-      const Coordinates x = path_[k] + step * (target - path_[k]);
-      if (local(x) < now * (1 - kLeastLocalGain) && edge_ok(before, x) && edge_ok(x, after)) {
+      Coordinates x = path_[k] + step * (target - path_[k]);
+      if (project(x) && local(x) < now * (1 - kLeastLocalGain) && edge_ok(before, x) && edge_ok(x, after)) {
         path_[k] = x;
         return;
       }

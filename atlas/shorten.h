@@ -28,6 +28,9 @@ struct ShortenProblem {
   /// Whether the robot may go straight from a to b.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
   std::stop_token stop;
+  /// Moves a vertex onto the manifold, where straight lines between its points leave it; false where that fails. May be
+  /// empty.
+  std::function<bool(Coordinates& vertex)> project = {};
 };
 
 struct ShortenResult {

@@ -1,8 +1,12 @@
 #include "atlas/wrench_feasible_manifold.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/constraint_functions.h"
 #include "kinematics/geometry.h"
 #include "kinematics/jet.h"
 #include "kinematics/statics.h"
@@ -19,16 +23,22 @@ CoordinateSymmetry symmetry_of(const SpaceText& space) {
   return symmetry;
 }
 
-/// Written for up to N parameters; fewer leave the last partial derivatives unused.
+/// Parameters and their derivatives in n directions; all parameters' own directions where there are no constraints.
+template <int N>
+using ParameterJets = std::array<Jet<double, N>, kMaxCoordinates>;
+
+/// Written for up to N dimensions; fewer leave the last partial derivatives unused.
 template <int N>
 class WrenchFeasibleManifold final : public Manifold {
  public:
   WrenchFeasibleManifold(const Problem& problem, const PoseSampler& sampler, MetricWeights weights)
-      : n_(static_cast<int>(problem.space.parameters.size())),
+      : m_(static_cast<int>(problem.space.parameters.size())),
+        n_(m_ - static_cast<int>(problem.space.constraints.size())),
         weights_(weights),
         symmetry_(symmetry_of(problem.space)),
         model_(sampler.model()),
-        pose_(sampler.tape()) {
+        pose_(sampler.tape()),
+        constraints_(sampler.constraints()) {
     for (const Parameter& parameter : problem.space.parameters) {
       ranges_.push_back(parameter.kind == ParameterKind::kRange
                             ? std::array<double, 2>{evaluate_constant<double>(parameter.range_lower),
@@ -38,23 +48,24 @@ class WrenchFeasibleManifold final : public Manifold {
   }
 
   [[nodiscard]] int dimension() const override { return n_; }
-  [[nodiscard]] int ambient_dimension() const override { return kPoseSize + 2 * n_ + 3 * kCables; }
-  [[nodiscard]] int coordinate_dimension() const override { return n_; }
+  [[nodiscard]] int ambient_dimension() const override { return kPoseSize + 2 * m_ + 3 * kCables; }
+  [[nodiscard]] int coordinate_dimension() const override { return m_; }
   [[nodiscard]] CoordinateSymmetry symmetry() const override { return symmetry_; }
 
   [[nodiscard]] bool frame_at(const Coordinates& coordinates, Frame& frame) const override {
     using J = Jet<double, N>;
-    std::array<J, N> parameters;
-    for (int j = 0; j < n_; ++j) {
-      const auto& range = ranges_[static_cast<std::size_t>(j)];
-      if (!(range[0] <= coordinates[j] && coordinates[j] <= range[1])) return false;
-      parameters[static_cast<std::size_t>(j)] = J(coordinates[j], j);
+    frame.resize(m_, ambient_dimension(), n_);
+    ParameterJets<N> parameters;
+    if (!(constraints_ ? put_constrained(coordinates, parameters, frame) : put_free(coordinates, parameters, frame))) {
+      return false;
     }
-    const Pose<J> pose = evaluate_pose(pose_, std::span<const J>(parameters.data(), static_cast<std::size_t>(n_)));
+    for (std::size_t j = 0; j < ranges_.size(); ++j) {
+      if (!(ranges_[j][0] <= parameters[j].value && parameters[j].value <= ranges_[j][1])) return false;
+    }
+    const Pose<J> pose = evaluate_pose(pose_, std::span<const J>(parameters.data(), static_cast<std::size_t>(m_)));
     const Matrix3<J> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
     const CableGeometry<J> geometry = cable_geometry(model_, pose.p_WP, r_WP);
 
-    frame.resize(n_, ambient_dimension(), n_);
     frame.coordinates() = coordinates;
     auto point = frame.point();
     auto tangent = frame.tangent();
@@ -69,13 +80,51 @@ class WrenchFeasibleManifold final : public Manifold {
     for (int i = 0; i < 3; ++i) put(pose.p_WP(i), 1.0 / model_.characteristic_length);
     for (int i = 0; i < 3; ++i) put(r_WP(i, 0), std::sqrt(0.5));
     for (int i = 0; i < 3; ++i) put(r_WP(i, 1), std::sqrt(0.5));
-    for (int j = 0; j < n_; ++j) put_parameter(j, parameters[static_cast<std::size_t>(j)], put);
+    for (int j = 0; j < m_; ++j) put_parameter(j, parameters[static_cast<std::size_t>(j)], put);
     if (!put_slacks(geometry, put)) return false;
     return orthonormalise(frame);
   }
 
+  /// With constraints: from the lifted point along the normals at the frame's coordinates, back to the constraints.
+  [[nodiscard]] bool project(const Frame& frame, const TangentVector& u, Coordinates& coordinates) const override {
+    coordinates = frame.coordinates() + frame.lift() * u;
+    if (!constraints_) return true;
+    ConstraintFunctions::Vector values;
+    ConstraintFunctions::Jacobian jacobian;
+    constraints_->evaluate(frame.coordinates(), values, jacobian);
+    const ConstraintFunctions::Jacobian normals = ConstraintFunctions::normals(jacobian);
+    const auto y = constraints_->project(coordinates, normals);
+    if (y) coordinates += normals * *y;
+    return y.has_value();
+  }
+
  private:
   static constexpr int kPoseSize = 12;
+
+  bool put_free(const Coordinates& coordinates, ParameterJets<N>& parameters, Frame& frame) const {
+    for (int j = 0; j < m_; ++j) parameters[static_cast<std::size_t>(j)] = Jet<double, N>(coordinates[j], j);
+    frame.lift().setIdentity();
+    return true;
+  }
+
+  /// The point on the constraints near the coordinates, which may be off them a little, and the directions in which it may
+  /// move: an orthonormal basis of the null space of C'. False where the rank is not full.
+  bool put_constrained(const Coordinates& coordinates, ParameterJets<N>& parameters, Frame& frame) const {
+    const auto at = constraints_->nearest(coordinates);
+    if (!at) return false;
+    ConstraintFunctions::Vector values;
+    ConstraintFunctions::Jacobian jacobian;
+    constraints_->evaluate(*at, values, jacobian);
+    const Eigen::HouseholderQR<ConstraintFunctions::Jacobian> qr(jacobian.transpose());
+    const ConstraintFunctions::Jacobian q = qr.householderQ();
+    frame.lift() = q.rightCols(n_);
+    for (int j = 0; j < m_; ++j) {
+      Jet<double, N>& x = parameters[static_cast<std::size_t>(j)];
+      x = Jet<double, N>((*at)[j]);
+      for (int k = 0; k < n_; ++k) x.partial[static_cast<std::size_t>(k)] = frame.lift()(j, k);
+    }
+    return true;
+  }
 
   template <class Put>
   void put_parameter(int j, const Jet<double, N>& x, Put&& put) const {
@@ -167,11 +216,10 @@ class WrenchFeasibleManifold final : public Manifold {
     return clear;
   }
 
-  /// Gram–Schmidt on the columns of dx/dλ = Φ T; then dλ/du = T^-1.
+  /// Gram–Schmidt on the columns of dx/dv = Φ T, v along the columns of the lift L; then dλ/du = L T^-1.
   bool orthonormalise(Frame& frame) const {
     auto tangent = frame.tangent();
     auto lift = frame.lift();
-    lift.setIdentity();
     for (int k = 0; k < n_; ++k) {
       for (int j = 0; j < k; ++j) {
         const double overlap = tangent.col(j).dot(tangent.col(k));
@@ -186,11 +234,13 @@ class WrenchFeasibleManifold final : public Manifold {
     return true;
   }
 
+  int m_;
   int n_;
   MetricWeights weights_;
   CoordinateSymmetry symmetry_;
   Model<double> model_;
   Evaluator<Jet<double, N>> pose_;
+  std::optional<ConstraintFunctions> constraints_;
   std::vector<std::array<double, 2>> ranges_;
 };
 
@@ -202,7 +252,11 @@ std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, 
 
 std::unique_ptr<Manifold> make_wrench_feasible_manifold(const Problem& problem, const PoseSampler& sampler,
                                                         MetricWeights weights) {
-  switch (problem.space.parameters.size()) {
+  if (problem.space.parameters.size() > kMaxDimension) {
+    throw FieldError("space.parameters", fmt::format("{} parameters", problem.space.parameters.size()),
+                     fmt::format("expected at most {} to plan in", kMaxDimension));
+  }
+  switch (problem.space.parameters.size() - problem.space.constraints.size()) {
     case 1:
     case 2: return std::make_unique<WrenchFeasibleManifold<2>>(problem, sampler, weights);
     case 3: return std::make_unique<WrenchFeasibleManifold<3>>(problem, sampler, weights);

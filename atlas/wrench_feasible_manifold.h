@@ -4,6 +4,10 @@
 // derivatives are closed form. So a chart needs one 6x6 inverse and no iteration: coordinates are the parameters of
 // the case's space, and a point over tangent coordinates u has the parameters λ_c + lift·u.
 //
+// With constraints C(λ) = 0 (SpaceText::constraints) a point is still named by all m parameters, of which n = m − k may be
+// chosen: the tangent space is that of the parameters along the null space of C', and a step on it ends with Newton's method on
+// C alone. Coordinates may be off the constraints a little, as typed waypoints are; the frame's point is the one on them.
+//
 // The metric is a choice; it decides how many charts there are. Distances are measured between the vectors
 //
 //   ( R / √2,  p / ℓ,  ω λ̂,  κ log g,  κ log s,  κ log t )

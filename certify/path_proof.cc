@@ -154,12 +154,15 @@ double nearest_binary64(const ExpressionText& expression) {
 
 std::vector<Waypoint> query_waypoints(const Problem& problem) {
   std::vector<Waypoint> waypoints;
+  std::optional<ConstraintFunctions> constraints;
+  if (!problem.space.constraints.empty()) constraints.emplace(problem);
   for (const auto& typed : problem.query) {
     Waypoint waypoint;
     for (const ExpressionText& expression : typed) {
       waypoint.x.push_back(nearest_binary64(expression));
       waypoint.half_turns.push_back(0);
     }
+    if (constraints) waypoint.normals = constraints->normals(waypoint);
     waypoints.push_back(std::move(waypoint));
   }
   return waypoints;

@@ -58,7 +58,8 @@ using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 /// @throws InputError if it is not finite or can't be told at 4096 bits.
 [[nodiscard]] double nearest_binary64(const ExpressionText& expression);
 
-/// The waypoints of the query, each coordinate moved to the nearest binary64.
+/// The waypoints of the query, each coordinate moved to the nearest binary64; with their normals where the space has
+/// constraints.
 [[nodiscard]] std::vector<Waypoint> query_waypoints(const Problem& problem);
 
 }  // namespace taut

@@ -32,7 +32,7 @@ double Prover::suitable_tube(const Segment& segment) const {
   double largest = 0;
   for (int k = 0; k <= kSamples; ++k) {
     const std::optional<double> deviation = constraints_->deviation(segment, static_cast<double>(k) / kSamples);
-    if (!deviation) return 0;
+    if (!deviation) return kLeast;
     largest = std::max(largest, *deviation);
   }
   return std::max(kRoom * largest, kLeast);

@@ -55,8 +55,8 @@ class Prover {
   /// @throws InputError if the problem can't be enclosed (E not positive definite).
   explicit Prover(const Problem& problem, ProofOptions options = {});
 
-  /// The straight segment a→b; where the space has constraints, with a tube that suits it: some
-  /// room around what floating point finds on the constraints (0, which proves nothing, where it finds nothing).
+  /// The straight segment a→b; where the space has constraints, with a tube that suits it: some room around what floating
+  /// point finds on the constraints (2^-30, which will prove nothing, where it finds nothing).
   [[nodiscard]] Segment segment(const Waypoint& a, const Waypoint& b) const;
   [[nodiscard]] double suitable_tube(const Segment& segment) const;
 

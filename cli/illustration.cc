@@ -13,7 +13,7 @@ nlohmann::json illustrate(const Problem& problem, const Atlas& atlas, const Plan
     return nlohmann::json{fmt::format("{:.5g}", q[0]), fmt::format("{:.5g}", q[1])};
   };
   nlohmann::json charts = nlohmann::json::array();
-  if (problem.space.parameters.size() == 2) {
+  if (problem.space.parameters.size() == 2 && problem.space.constraints.empty()) {
     for (int id = 0; id < std::min(atlas.size(), kMostCharts); ++id) {
       const Chart& chart = atlas.chart(id);
       std::vector<std::pair<double, Coordinates>> corners;

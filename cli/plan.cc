@@ -34,11 +34,14 @@ Coordinates to_coordinates(const std::vector<double>& x) {
 }
 Coordinates to_coordinates(const Waypoint& waypoint) { return to_coordinates(waypoint.x); }
 
-Waypoint to_waypoint(const Coordinates& q) {
-  return {std::vector<double>(q.data(), q.data() + q.size()), std::vector<int>(static_cast<std::size_t>(q.size()), 0)};
+Waypoint to_waypoint(const Coordinates& q, const PoseSampler& sampler) {
+  Waypoint waypoint{std::vector<double>(q.data(), q.data() + q.size()),
+                    std::vector<int>(static_cast<std::size_t>(q.size()), 0)};
+  if (sampler.constraints()) waypoint.normals = sampler.constraints()->normals(waypoint);
+  return waypoint;
 }
 
-/// The same pose in the image `image`, exactly.
+/// The same pose in the image `image`, exactly. Normals stay: constraints repeat with a turn, and mention no angle of a flip.
 Waypoint apply(const Image& image, const std::optional<std::array<int, 2>>& flip, Waypoint waypoint) {
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
     const bool negated = image.flipped && flip && static_cast<std::size_t>((*flip)[1]) == j;
@@ -58,11 +61,25 @@ Image compose(Image first, const Image& second) {
 /// Appends a leg, seen in the image that the path has reached; its first vertex is there already. Vertices between the
 /// query's waypoints are ours to choose; the goal is kept exact.
 void append_leg(Path& path, const std::vector<Coordinates>& leg, const PathVertex& goal, const Image& reached,
-                const std::optional<std::array<int, 2>>& flip) {
+                const std::optional<std::array<int, 2>>& flip, const PoseSampler& sampler) {
   for (std::size_t k = 1; k + 1 < leg.size(); ++k) {
-    path.waypoints.push_back(apply(reached, flip, to_waypoint(leg[k])));
+    path.waypoints.push_back(apply(reached, flip, to_waypoint(leg[k], sampler)));
   }
-  path.waypoints.push_back(apply(reached, flip, apply(goal.image, flip, to_waypoint(goal.base))));
+  path.waypoints.push_back(apply(reached, flip, apply(goal.image, flip, to_waypoint(goal.base, sampler))));
+}
+
+/// Moves coordinates onto the constraints; false where that fails.
+bool project(const PoseSampler& sampler, Coordinates& q) {
+  const auto reached = sampler.constraints()->nearest(q);
+  if (reached) q = *reached;
+  return reached.has_value();
+}
+
+/// Where the space has constraints, gives each segment, or the only waypoint, its tube.
+void set_tubes(Path& path, const Prover& prover) {
+  if (prover.problem().space.constraints.empty() || !path.tubes.empty()) return;
+  const std::size_t count = std::max<std::size_t>(1, path.segments());
+  for (std::size_t k = 0; k < count; ++k) path.tubes.push_back(prover.suitable_tube(path.segment(k)));
 }
 
 std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) {
@@ -71,13 +88,19 @@ std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) 
   return all;
 }
 
-/// Halfway along the straight way from a to b.
-Waypoint halfway(const Waypoint& a, const Waypoint& b) {
+/// Halfway along the straight way from a to b, and back on the constraints if there are any.
+Waypoint halfway(const PoseSampler& sampler, const Waypoint& a, const Waypoint& b) {
   Waypoint middle = a;
   for (std::size_t j = 0; j < a.x.size(); ++j) {
     const double turned = std::numbers::pi * (b.half_turns[j] - a.half_turns[j]);
     middle.x[j] = 0.5 * (a.x[j] + b.x[j] + turned);
   }
+  if (!sampler.constraints()) return middle;
+  // With a's half turns the constraints are where they are without, but for rounding.
+  Coordinates q = to_coordinates(middle);
+  project(sampler, q);
+  middle.x = {q.data(), q.data() + q.size()};
+  middle.normals = sampler.constraints()->normals(middle);
   return middle;
 }
 
@@ -86,7 +109,7 @@ double possible_clearance(double wanted, const PoseSampler& sampler, const std::
   constexpr double kLeastClearance = 1e-9;
   double least = HUGE_VAL;
   for (const Waypoint& waypoint : query) {
-    least = std::min(least, sampler.clearance(sampler.statics(sampler.pose(waypoint.x))));
+    least = std::min(least, sampler.clearance(sampler.statics(sampler.pose(waypoint))));
   }
   double clearance = wanted;
   while (clearance >= least && clearance > kLeastClearance) clearance *= 0.3;
@@ -134,13 +157,15 @@ struct Planner::Leg {
 /// Which edges search and shortening may use: those that look clear and, with a prover, are proved.
 class Planner::Edges {
  public:
-  Edges(const ClearEdge& looks_clear, const Prover* prover) : looks_clear_(looks_clear), prover_(prover) {}
+  Edges(const ClearEdge& looks_clear, const PoseSampler& sampler, const Prover* prover)
+      : looks_clear_(looks_clear), sampler_(sampler), prover_(prover) {}
 
   [[nodiscard]] bool looks_clear(const Coordinates& a, const Coordinates& b) const { return looks_clear_(a, b); }
 
   bool ok(const Coordinates& a, const Coordinates& b) {
     ++checked_;
-    const bool accepted = looks_clear(a, b) && (prover_ == nullptr || proved(to_waypoint(a), to_waypoint(b)));
+    const bool accepted =
+        looks_clear(a, b) && (prover_ == nullptr || proved(to_waypoint(a, sampler_), to_waypoint(b, sampler_)));
     if (!accepted) ++rejected_;
     return accepted;
   }
@@ -165,13 +190,14 @@ class Planner::Edges {
     const auto [it, is_new] = proofs_.try_emplace({a.x, b.x});
     if (is_new) {
       const auto start = Clock::now();
-      it->second = prover_->prove(Segment::straight(a, b));
+      it->second = prover_->prove(a, b);
       proving_seconds_ += seconds_since(start);
     }
     return it->second.verdict == Verdict::kProved;
   }
 
   const ClearEdge& looks_clear_;
+  const PoseSampler& sampler_;
   const Prover* prover_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, SegmentProof> proofs_;
   double proving_seconds_ = 0;
@@ -259,7 +285,7 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
     if (stop.stop_requested()) statistics.budget_spent = false;
     statistics.cost_found += best.cost_found;
     statistics.cost += best.cost;
-    append_leg(path, best.vertices, best.found.path.back(), reached, case_.problem.space.flip);
+    append_leg(path, best.vertices, best.found.path.back(), reached, case_.problem.space.flip, sampler_);
     stops.push_back(path.waypoints.size() - 1);
     reached = compose(reached, best.found.path.back().image);
   }
@@ -298,7 +324,9 @@ Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& 
   if (case_.planner.smoothing != Smoothing::kNone) {
     const auto start = Clock::now();
     const double proving_before = edges.proving_seconds();
-    leg.cost = shorten(leg.vertices, {length, problem.edge_ok, problem.stop}).cost_after;
+    std::function<bool(Coordinates&)> onto_constraints;
+    if (sampler_.constraints()) onto_constraints = [&](Coordinates& q) { return project(sampler_, q); };
+    leg.cost = shorten(leg.vertices, {length, problem.edge_ok, problem.stop, onto_constraints}).cost_after;
     statistics.smooth_seconds += seconds_since(start) - (edges.proving_seconds() - proving_before);
   }
   return leg;
@@ -358,6 +386,7 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
     }
   }
   prover_.interrupt = nullptr;
+  set_tubes(result.path, prover_);
   PlanStatistics& statistics = result.statistics;
   statistics.charts = atlas_->size();
   statistics.charts_stored = atlas_file_ ? atlas_file_->size() : 0;
@@ -387,7 +416,7 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   statistics.factor = 1;
   statistics.budget_spent = false;
   const ClearEdge looks_clear(sampler_, kEdgeClearanceShare * clearance_);
-  Edges edges(looks_clear, edge_prover);
+  Edges edges(looks_clear, sampler_, edge_prover);
   result.proof = {};
   std::optional<FoundPath> found = find_path(edges, progress, stop, statistics, result.proof.reason);
   statistics.edges_checked += edges.checked();
@@ -399,6 +428,7 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   }
   const auto start = Clock::now();
   result.path = std::move(found->path);
+  set_tubes(result.path, prover_);
   result.proof = prove_path(prover_, result.path, [&](const Segment& segment) { return edges.find(segment); });
   statistics.prove_seconds += seconds_since(start);
   if (result.proof.verdict != Verdict::kProved) return false;
@@ -409,12 +439,14 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
 /// Puts a spline in the place of the path, where a proved one is found.
 void Planner::round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const {
   const auto start = Clock::now();
+  const auto curve = [&](const Segment& segment, double s) { return sampler_.parameters(segment, s); };
   const auto length = [&](const Path& path) {
-    return motion_length(path, curve_parameters, [&](const std::vector<double>& a, const std::vector<double>& b) {
+    return motion_length(path, curve, [&](const std::vector<double>& a, const std::vector<double>& b) {
       return length_.distance(to_coordinates(a), to_coordinates(b));
     });
   };
-  const SmoothProblem problem{prover_, kEdgeClearanceShare * clearance_, length, halfway, stop};
+  const auto middle = [&](const Waypoint& a, const Waypoint& b) { return halfway(sampler_, a, b); };
+  const SmoothProblem problem{prover_, kEdgeClearanceShare * clearance_, length, middle, stop};
   if (std::optional<SmoothPath> rounded = smooth(plan.path, stops, problem)) {
     plan.path = std::move(rounded->path);
     plan.proof = std::move(rounded->proof);
@@ -424,8 +456,9 @@ void Planner::round_corners(const std::vector<std::size_t>& stops, const std::st
 }
 
 MotionLengths Planner::measure(const Path& path) const {
+  const auto curve = [&](const Segment& segment, double s) { return sampler_.parameters(segment, s); };
   const auto length = [&](auto distance) {
-    return motion_length(path, curve_parameters, [&](const std::vector<double>& a, const std::vector<double>& b) {
+    return motion_length(path, curve, [&](const std::vector<double>& a, const std::vector<double>& b) {
       return distance(sampler_.pose(a), sampler_.pose(b));
     });
   };

@@ -20,8 +20,8 @@
 #include "cli/files.h"
 #include "cli/illustration.h"
 #include "cli/plan.h"
-#include "kinematics/geometry.h"
 #include "kinematics/input_error.h"
+#include "kinematics/pose_sampler.h"
 #include "reports/html_report.h"
 
 namespace taut {
@@ -41,9 +41,9 @@ std::string shortest(double x) { return fmt::format("{}", x); }
 
 // ---- path.csv --------------------------------------------------------------------------------------------------------
 
-/// One waypoint a line: λ = x + π·half_turns, and the pose there (rounded). x reads back bit for bit.
+/// One waypoint a line: λ = x + π·half_turns, and the pose there (rounded; where the space has constraints, the one on them). x reads back bit for bit.
 std::string path_csv(const Problem& problem, const Path& path) {
-  const Evaluator<double> pose_of(pose_tape(problem));
+  const PoseSampler sampler(problem);
   std::string csv = "waypoint";
   for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",x.{}", parameter.name);
   for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",half_turns.{}", parameter.name);
@@ -51,13 +51,9 @@ std::string path_csv(const Problem& problem, const Path& path) {
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
     const Waypoint& waypoint = path.waypoints[k];
     csv += std::to_string(k);
-    std::vector<double> parameters;
-    for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
-      csv += "," + shortest(waypoint.x[j]);
-      parameters.push_back(waypoint.x[j] + ScalarTraits<double>::pi() * waypoint.half_turns[j]);
-    }
+    for (const double x : waypoint.x) csv += "," + shortest(x);
     for (const int half_turns : waypoint.half_turns) csv += "," + std::to_string(half_turns);
-    const Pose<double> pose = evaluate_pose(pose_of, std::span<const double>(parameters));
+    const Pose<double> pose = sampler.pose(waypoint);
     for (const double value : {pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta, pose.sigma}) {
       csv += "," + shortest(value);
     }
@@ -160,7 +156,7 @@ std::string length_sentence(const PlanStatistics& s) {
 }
 
 int run_plan(const PlanArguments& arguments) {
-  Case case_ = load_case(arguments.case_path);
+  Case case_ = load_case(arguments.case_path, require_query_on_constraints);
   if (arguments.budget_seconds > 0) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;

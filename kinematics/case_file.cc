@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numeric>
 #include <optional>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -81,6 +82,8 @@ class Places {
       const std::string on_surface = "space.surface" + path.substr(std::string("space").size());
       if (nodes_.contains(on_surface)) path = on_surface;
     }
+    const std::string constraints = "space.constraints";
+    if (path.starts_with(constraints)) path.replace(0, constraints.size(), "space.implicit");
     std::string known = path;
     while (!known.empty() && !nodes_.contains(known)) {
       known.erase(std::min(known.find_last_of(".["), known.size() - 1));
@@ -527,18 +530,67 @@ Space read_surface(const Field& field, const Units& units) {
   return space;
 }
 
+/// All six pose coordinates, unbounded.
+Space all_poses(const Units& units) {
+  Space space;
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) set_free(space, i, units);
+  set_flip(space.text);
+  return space;
+}
+
+/// The expression with its names replaced; numbers such as 1e3 mention no name. @pre it parses.
+ExpressionText substitute(const ExpressionText& expression, const std::map<std::string, ExpressionText>& replacements) {
+  static const std::regex token("[0-9.]+([eE][+-]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*|[^A-Za-z_0-9.]+");
+  ExpressionText result;
+  for (std::sregex_iterator it(expression.begin(), expression.end(), token), end; it != end; ++it) {
+    const auto replacement = replacements.find(it->str());
+    result += replacement == replacements.end() ? it->str() : replacement->second;
+  }
+  return result;
+}
+
+/// Constraints on the pose, in the case's length unit and radians, as constraints of the space's parameters.
+void read_constraints(Space& space, const Field& field, const Units& units) {
+  const std::string expected = "an expression of px, py, pz, phi, theta and sigma that is to be 0";
+  std::map<std::string, ExpressionText> in_parameters;
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+    const ExpressionText& coordinate = space.text.pose[i];
+    const ExpressionText operand = coordinate == kPoseNames[i] ? coordinate : "(" + coordinate + ")";
+    in_parameters[kPoseNames[i]] = i < 3 ? expression_from_si(operand, units[Dimension::kLength]) : operand;
+  }
+  for (const Field& item : field.list("a list of expressions that are to be 0")) {
+    const ExpressionText typed = item.text(expected);
+    const ExpressionTape tape = in_field(item, [&] {
+      return ExpressionTape({typed}, {kPoseNames.begin(), kPoseNames.end()}, {});
+    });
+    const auto mentions = [&](std::size_t i) { return tape.depends_on(0, static_cast<int>(i)); };
+    bool mentions_parameter = false;
+    for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+      mentions_parameter |= mentions(i) && space.text.pose[i] == kPoseNames[i];
+    }
+    if (!mentions_parameter) item.fail("an expression that mentions a coordinate of the pose that is not fixed");
+    if (mentions(3) || mentions(4)) space.text.flip.reset();
+    space.text.constraints.push_back(substitute(typed, in_parameters));
+  }
+  if (space.text.constraints.empty()) field.fail("at least one constraint");
+}
+
 Space read_space(const Field& field, const Units& units) {
   const Map map = field.map({"slice", "surface", "implicit", "free"});
-  if (map.entries().size() != 1) {
-    field.complain(
-        fmt::format("got {} kinds of space, expected one of slice, surface, implicit, free", map.entries().size()));
+  const auto slice = map.find("slice"), surface = map.find("surface"), free = map.find("free");
+  const auto implicit = map.find("implicit");
+  const int bases = slice.has_value() + surface.has_value() + free.has_value();
+  if (bases + implicit.has_value() == 0 || bases > 1 || (surface && implicit)) {
+    field.complain(fmt::format(
+        "got {} kinds of space, expected one of slice, surface, free and implicit, or implicit with slice or free",
+        map.entries().size()));
   }
-  const auto& [kind, space] = map.entries().front();
-  if (kind == "slice") return read_slice(space, units);
-  if (kind == "surface") return read_surface(space, units);
-  if (kind == "free") return read_free(space, units);
-  space.complain(
-      "got 'implicit', expected slice, surface or free: implicit spaces are not supported yet by this version");
+  Space space = slice     ? read_slice(*slice, units)
+                : surface ? read_surface(*surface, units)
+                : free    ? read_free(*free, units)
+                          : all_poses(units);
+  if (implicit) read_constraints(space, *implicit, units);
+  return space;
 }
 
 std::vector<std::vector<ExpressionText>> read_query(const Field& field, const Space& space) {
@@ -626,6 +678,7 @@ Case read_case(const Field& root) {
   result.problem.load = read_load(map.at("load"), units);
   const Space space = read_space(map.at("space"), units);
   result.problem.space = space.text;
+  result.length_unit = units[Dimension::kLength];
   result.problem.query = read_query(map.at("query"), space);
   if (const auto planner = map.find("planner")) result.planner = read_planner(*planner);
   if (const auto expect = map.find("expect")) {
@@ -685,7 +738,7 @@ std::string leading_comment(const std::string& text) {
 
 }  // namespace
 
-Case parse_case(const std::string& text, const std::string& name) {
+Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check) {
   Places places(name);
   if (text.size() > kMaxFileBytes) {
     throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes));
@@ -698,6 +751,7 @@ Case parse_case(const std::string& text, const std::string& name) {
     }
     Case result = read_case(Field(places, documents.front(), ""));
     validate(result.problem);
+    if (check) check(result);
     result.description = leading_comment(text);
     return result;
   } catch (const FieldError& error) {
@@ -707,14 +761,14 @@ Case parse_case(const std::string& text, const std::string& name) {
   }
 }
 
-Case load_case(const std::string& path) {
+Case load_case(const std::string& path, const CaseCheck& check) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxFileBytes + 1, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && !file.eof()) {
     throw InputError(fmt::format("{}: got no readable file, expected a case file", path));
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_case(text, path);
+  return parse_case(text, path, check);
 }
 
 }  // namespace taut

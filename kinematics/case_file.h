@@ -1,10 +1,12 @@
 // Case files: YAML in, exact Problem out (docs/case-format.md).
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 
 #include "kinematics/problem.h"
+#include "kinematics/units.h"
 
 namespace taut {
 
@@ -32,12 +34,16 @@ struct Case {
   Problem problem;
   PlannerOptions planner;
   Expectation expect = Expectation::kNone;
-  std::string description;  ///< the file's leading comment block, for reports
+  std::string description;                         ///< the file's leading comment block, for reports
+  Unit length_unit = si_unit(Dimension::kLength);  ///< of bare lengths, for messages
 };
 
+/// What else is asked of a case: throws a FieldError, which then gets its place in the file.
+using CaseCheck = std::function<void(const Case&)>;
+
 /// @throws InputError with file, line, field, the value seen and what was expected.
-[[nodiscard]] Case load_case(const std::string& path);
+[[nodiscard]] Case load_case(const std::string& path, const CaseCheck& check = {});
 /// As load_case, from text; `name` stands for the file in messages.
-[[nodiscard]] Case parse_case(const std::string& text, const std::string& name);
+[[nodiscard]] Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check = {});
 
 }  // namespace taut

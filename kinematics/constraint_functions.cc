@@ -1,8 +1,12 @@
 #include "kinematics/constraint_functions.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 
 namespace taut {
 
@@ -28,12 +32,12 @@ void ConstraintFunctions::evaluate(const Vector& lambda, Vector& values, Jacobia
   }
 }
 
-bool ConstraintFunctions::has_full_rank(const Jacobian& jacobian) {
+int ConstraintFunctions::rank(const Jacobian& jacobian) {
   constexpr double kRankThreshold = 1e-9;  // relative; far above rounding
-  if (!jacobian.allFinite()) return false;
-  Eigen::ColPivHouseholderQR<Jacobian> qr(jacobian.transpose());
+  if (!jacobian.allFinite()) return 0;
+  Eigen::ColPivHouseholderQR<Jacobian> qr(jacobian.rowwise().normalized().transpose());
   qr.setThreshold(kRankThreshold);
-  return qr.rank() == jacobian.rows();
+  return static_cast<int>(qr.rank());
 }
 
 ConstraintFunctions::Jacobian ConstraintFunctions::normals(const Jacobian& jacobian) {
@@ -44,19 +48,23 @@ ConstraintFunctions::Jacobian ConstraintFunctions::normals(const Jacobian& jacob
   return unit.transpose() * eigen.operatorInverseSqrt();
 }
 
+ConstraintFunctions::Jacobian ConstraintFunctions::normals_at(const Vector& lambda) const {
+  Vector values;
+  Jacobian jacobian;
+  evaluate(lambda, values, jacobian);
+  if (!has_full_rank(jacobian)) return Jacobian::Zero(parameters_, count_);
+  return normals(jacobian);
+}
+
 std::vector<double> ConstraintFunctions::normals(const Waypoint& waypoint) const {
   Vector lambda(parameters_);
   for (int j = 0; j < parameters_; ++j) {
     const auto i = static_cast<std::size_t>(j);
     lambda[j] = waypoint.x[i] + ScalarTraits<double>::pi() * waypoint.half_turns[i];
   }
-  Vector values;
-  Jacobian jacobian;
-  evaluate(lambda, values, jacobian);
-  std::vector<double> result(static_cast<std::size_t>(parameters_ * count_), 0.0);
-  if (!has_full_rank(jacobian)) return result;
+  std::vector<double> result(static_cast<std::size_t>(parameters_ * count_));
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(result.data(), parameters_,
-                                                                                     count_) = normals(jacobian);
+                                                                                     count_) = normals_at(lambda);
   return result;
 }
 
@@ -77,6 +85,17 @@ std::optional<ConstraintFunctions::Vector> ConstraintFunctions::project(const Ve
     if (correction.lpNorm<Eigen::Infinity>() <= kConverged * scale) return y;
   }
   return std::nullopt;
+}
+
+std::optional<ConstraintFunctions::Vector> ConstraintFunctions::nearest(const Vector& lambda) const {
+  Vector values;
+  Jacobian jacobian;
+  evaluate(lambda, values, jacobian);
+  if (!has_full_rank(jacobian)) return std::nullopt;
+  const Jacobian n = normals(jacobian);
+  const std::optional<Vector> y = project(lambda, n);
+  if (!y) return std::nullopt;
+  return lambda + n * *y;
 }
 
 ConstraintFunctions::Place ConstraintFunctions::place(const Segment& segment, double s) const {
@@ -103,6 +122,66 @@ std::vector<double> ConstraintFunctions::parameters(const Segment& segment, doub
   Place at = place(segment, s);
   if (const std::optional<Vector> y = project(at.lambda, at.normals)) at.lambda += at.normals * *y;
   return {at.lambda.data(), at.lambda.data() + at.lambda.size()};
+}
+
+namespace {
+
+/// How far apart two parameter vectors are, whose parameters are coordinates of the pose.
+struct Deviation {
+  double length = 0;  ///< [m]
+  double angle = 0;   ///< [rad]
+};
+
+Deviation deviation_between(const SpaceText& space, const ConstraintFunctions::Vector& a,
+                            const ConstraintFunctions::Vector& b) {
+  Deviation result;
+  for (int j = 0; j < a.size(); ++j) {
+    const std::string& name = space.parameters[static_cast<std::size_t>(j)].name;
+    double& part = std::find(kPoseNames.begin(), kPoseNames.begin() + 3, name) != kPoseNames.begin() + 3 ? result.length
+                                                                                                         : result.angle;
+    part = std::hypot(part, a[j] - b[j]);
+  }
+  return result;
+}
+
+}  // namespace
+
+void require_query_on_constraints(const Case& case_) {
+  const Problem& problem = case_.problem;
+  if (problem.space.constraints.empty()) return;
+  const ConstraintFunctions constraints(problem);
+  const double size = make_model<double>(problem).characteristic_length;
+  for (std::size_t k = 0; k < problem.query.size(); ++k) {
+    const std::string here = fmt::format("query.waypoints[{}]", k);
+    ConstraintFunctions::Vector lambda(static_cast<int>(problem.query[k].size()));
+    for (int j = 0; j < lambda.size(); ++j) {
+      lambda[j] = evaluate_constant<double>(problem.query[k][static_cast<std::size_t>(j)]);
+    }
+    ConstraintFunctions::Vector values;
+    ConstraintFunctions::Jacobian jacobian;
+    constraints.evaluate(lambda, values, jacobian);
+    if (const int rank = ConstraintFunctions::rank(jacobian); rank < constraints.count()) {
+      throw FieldError(
+          "space.constraints", "",
+          fmt::format("got constraints of rank {} at {}, expected rank {}: there they contradict or repeat each "
+                      "other, or their derivatives vanish",
+                      rank, here, constraints.count()));
+    }
+    const auto reached = constraints.nearest(lambda);
+    if (!reached) {
+      throw FieldError(here, "a waypoint off the constraints",
+                       "expected one on them: no pose on them was found near it");
+    }
+    const Deviation off = deviation_between(problem.space, lambda, *reached);
+    if (std::hypot(off.length / size, off.angle) <= kWaypointTolerance) continue;
+    const Unit& unit = case_.length_unit;
+    const double factor = ScalarTraits<double>::from_decimal(unit.factor.text());
+    throw FieldError(here,
+                     fmt::format("a waypoint that is {:.3g} {} and {:.3g} rad off the constraints", off.length / factor,
+                                 unit.name, off.angle),
+                     fmt::format("expected at most {:.3g} {}, or {} rad", kWaypointTolerance * size / factor, unit.name,
+                                 kWaypointTolerance));
+  }
 }
 
 }  // namespace taut

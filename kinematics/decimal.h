@@ -23,6 +23,7 @@ class Decimal {
   /// ".5", "+1E-4". Nothing else, no white space. @throws InputError with the text seen and what was expected.
   [[nodiscard]] static Decimal parse(std::string_view text);
 
+  [[nodiscard]] bool is_power_of_ten() const { return mantissa_ == 1; }
   /// 1 / value, for a power of ten. @throws InputError for any other value.
   [[nodiscard]] Decimal reciprocal_of_power_of_ten() const;
 

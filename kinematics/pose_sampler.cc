@@ -2,10 +2,19 @@
 
 #include <algorithm>
 
+#include "kinematics/motion_length.h"
+
 namespace taut {
 
 PoseSampler::PoseSampler(const Problem& problem)
-    : model_(make_model<double>(problem)), tape_(pose_tape(problem)), pose_(tape_) {}
+    : model_(make_model<double>(problem)), tape_(pose_tape(problem)), pose_(tape_) {
+  if (!problem.space.constraints.empty()) constraints_.emplace(problem);
+}
+
+std::vector<double> PoseSampler::parameters(const Segment& segment, double s) const {
+  if (constraints_) return constraints_->parameters(segment, s);
+  return curve_parameters(segment, s);
+}
 
 double PoseSampler::clearance(const Statics<double>& statics) const {
   if (!statics.regular) return -1.0;

@@ -3,8 +3,12 @@
 // For what proposes and what draws; nothing here is proved.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "kinematics/constraint_functions.h"
+#include "kinematics/segment.h"
 #include "kinematics/statics.h"
 
 namespace taut {
@@ -17,7 +21,17 @@ class PoseSampler {
   [[nodiscard]] const Model<double>& model() const { return model_; }
   [[nodiscard]] const ExpressionTape& tape() const { return tape_; }  ///< of the pose
 
+  /// Only in a space with constraints.
+  [[nodiscard]] const std::optional<ConstraintFunctions>& constraints() const { return constraints_; }
+
+  /// Parameters of the motion (segment.h) at s: on the constraints, where the space has some and Newton's method finds them.
+  [[nodiscard]] std::vector<double> parameters(const Segment& segment, double s) const;
+
   [[nodiscard]] Pose<double> pose(std::span<const double> parameters) const { return evaluate_pose(pose_, parameters); }
+  /// The pose that a path reaches at a waypoint.
+  [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const {
+    return pose(parameters(Segment::straight(waypoint, waypoint), 0));
+  }
   [[nodiscard]] Statics<double> statics(const Pose<double>& pose) const { return taut::statics(model_, pose); }
 
   /// The least distance to a limit of any cable, over half the range between the limits: 0 on a limit, negative beyond
@@ -28,6 +42,7 @@ class PoseSampler {
   Model<double> model_;
   ExpressionTape tape_;
   Evaluator<double> pose_;
+  std::optional<ConstraintFunctions> constraints_;
 };
 
 }  // namespace taut

@@ -107,4 +107,12 @@ std::string expression_to_si(const std::string& text, const Unit& unit) {
   return factor == "1" ? text : fmt::format("({})*{}", text, factor);
 }
 
+std::string expression_from_si(const std::string& text, const Unit& unit) {
+  if (unit.factor.text() == "1") return text;
+  if (unit.factor.is_power_of_ten()) {
+    return fmt::format("({}*{})", unit.factor.reciprocal_of_power_of_ten().text(), text);
+  }
+  return fmt::format("({}/{})", text, unit.factor.text());
+}
+
 }  // namespace taut

@@ -37,5 +37,7 @@ struct Unit {
 [[nodiscard]] std::string decimal_to_si(const std::string& text, const Unit& unit);
 /// An expression of that unit in SI: "(x)*0.001"; the text itself where the factor is one.
 [[nodiscard]] std::string expression_to_si(const std::string& text, const Unit& unit);
+/// An SI expression, a name or in parentheses, in that unit: "(1000*px)", "(px/0.0254)". @pre the unit is no degree.
+[[nodiscard]] std::string expression_from_si(const std::string& text, const Unit& unit);
 
 }  // namespace taut

@@ -40,15 +40,26 @@ double dyadic_approximation(const std::string& text) {
   return value;
 }
 
-Path read_path(const json& path, std::size_t parameters) {
+std::vector<double> approximations(const json& list) {
+  std::vector<double> values;
+  for (const json& text : list) values.push_back(approximation(text.get<std::string>()));
+  return values;
+}
+
+Path read_path(const json& path, const SpaceText& space) {
+  const std::size_t parameters = space.parameters.size();
+  const std::size_t normals = parameters * space.constraints.size();
   Path result;
+  if (path.at("interpolation") == "cubic-b-spline") result.interpolation = Interpolation::kCubicBSpline;
+  result.tubes = approximations(path.at("tubes"));
   for (const json& entry : path.at("waypoints")) {
-    Waypoint waypoint;
-    for (const json& text : entry.at("x")) waypoint.x.push_back(approximation(text.get<std::string>()));
-    waypoint.half_turns = entry.at("half_turns").get<std::vector<int>>();
-    if (waypoint.x.size() != parameters || waypoint.half_turns.size() != parameters) {
-      throw InputError(fmt::format("certificate: path.waypoints[{}]: expected {} values of x and of half_turns",
-                                   result.waypoints.size(), parameters));
+    Waypoint waypoint{approximations(entry.at("x")), entry.at("half_turns").get<std::vector<int>>()};
+    if (entry.contains("normals")) waypoint.normals = approximations(entry["normals"]);
+    if (waypoint.x.size() != parameters || waypoint.half_turns.size() != parameters ||
+        waypoint.normals.size() != normals) {
+      throw InputError(
+          fmt::format("certificate: path.waypoints[{}]: expected {} values of x and of half_turns, and {} of normals",
+                      result.waypoints.size(), parameters, normals));
     }
     result.waypoints.push_back(std::move(waypoint));
   }
@@ -74,8 +85,7 @@ PathPointView read_point(const json& point, const Path& path) {
     result.index = read_index(point.at("waypoint"), path.waypoints.size(), "waypoint");
     result.position = result.index;
   } else {
-    const std::size_t segments = path.waypoints.empty() ? 0 : path.waypoints.size() - 1;
-    result.index = read_index(point.at("segment"), segments, "segment");
+    result.index = read_index(point.at("segment"), path.segments(), "segment");
     result.s = point.at("s").get<std::string>();
     result.position = result.index + dyadic_approximation(*result.s);
   }
@@ -148,7 +158,7 @@ CertificateView read(const json& certificate) {
   view.problem = problem_from_json(certificate.at("problem"));
   const json& path = certificate.at("path");
   view.interpolation = path.at("interpolation").get<std::string>();
-  view.path = read_path(path, view.problem.space.parameters.size());
+  view.path = read_path(path, view.problem.space);
   view.problem_sha256 = certificate.at("problem_sha256").get<std::string>();
   view.path_sha256 = certificate.at("path_sha256").get<std::string>();
   view.footer_sha256 = certificate.at("footer").at("sha256").get<std::string>();

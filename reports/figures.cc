@@ -458,6 +458,8 @@ std::string unit(const SpaceText& space, std::size_t j) {
   return angular ? "rad" : "";
 }
 
+bool is_plane(const SpaceText& space) { return space.parameters.size() == 2 && space.constraints.empty(); }
+
 Html tension_figure(const Scene& scene) { return all_cables(scene, tension_panel); }
 Html length_figure(const Scene& scene) { return all_cables(scene, length_panel); }
 
@@ -473,7 +475,7 @@ Html pose_figure(const Scene& scene) {
 
 Html slice_figure(const Scene& scene) {
   const SpaceText& space = scene.view.problem.space;
-  if (space.parameters.size() != 2) return {};
+  if (!is_plane(space)) return {};
   const std::array<Span, 2> spans = {window(scene, 0), window(scene, 1)};
   const bool same_unit = unit(space, 0) == unit(space, 1);
   const double ratio = same_unit ? std::clamp(spans[1].length() / spans[0].length(), 0.3, 1.0) : 0.6;

@@ -28,7 +28,9 @@ struct Scene {
 [[nodiscard]] Html length_figure(const Scene& scene);
 /// Position and orientation of the platform along the path.
 [[nodiscard]] Html pose_figure(const Scene& scene);
-/// The plane of two parameters with the feasible set, the atlas and the path; nothing unless there are two.
+/// Whether any values of the space's parameters, which are two, give a pose: then there is a plane to draw.
+[[nodiscard]] bool is_plane(const SpaceText& space);
+/// The plane of two parameters with the feasible set, the atlas and the path; nothing unless there is one.
 [[nodiscard]] Html slice_figure(const Scene& scene);
 
 }  // namespace taut

@@ -367,6 +367,12 @@ Html space_tables(const Problem& problem) {
   Html result = table({{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
                 table({{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
   if (!constants.empty()) result += html("<p>Constants, as the expressions use them:</p><ul>{}</ul>\n", constants);
+  Html constraints;
+  for (const ExpressionText& c : space.constraints) constraints += html("<li><code>{} = 0</code></li>\n", c);
+  if (!constraints.empty()) {
+    result +=
+        html("<p>Constraints, which every pose of the path fulfils exactly (m, rad):</p><ul>{}</ul>\n", constraints);
+  }
   if (space.flip) result += html("<p>(φ, θ) and (φ + π, −θ) are the same pose, and count as such.</p>\n");
   return result;
 }
@@ -402,7 +408,7 @@ Html waypoint_table(const Scene& scene) {
     for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
       rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], waypoint.half_turns[j])));
     }
-    const Pose<double> pose = scene.sampler.pose(resolved(waypoint));
+    const Pose<double> pose = scene.sampler.pose(waypoint);
     pose_rows.push_back({html("{}", k)});
     for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
     for (const double angle : {pose.phi, pose.theta, pose.sigma}) {
@@ -547,7 +553,7 @@ Html contents(const Scene& scene) {
   link(sampled, "tensions", "Tensions");
   link(sampled, "lengths", "Lengths");
   link(scene.view.margins.has_value(), "margins", "Margins");
-  link(scene.view.problem.space.parameters.size() == 2, "slice", "Plane");
+  link(is_plane(scene.view.problem.space), "slice", "Plane");
   link(true, "recheck", "Check again");
   return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
 }

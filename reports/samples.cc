@@ -26,25 +26,15 @@ std::vector<double> resolved(const Waypoint& waypoint) {
   return result;
 }
 
-Pose<double> Sampler::pose(const std::vector<double>& parameters) const {
-  return evaluate_pose<double>(pose_, parameters);
-}
-
 PathSample Sampler::at(const Path& path, double position) const {
   const std::size_t last = path.waypoints.size() - 1;
   const std::size_t k = std::min(static_cast<std::size_t>(position), last);
-  const double s = position - static_cast<double>(k);
+  const Segment segment = k < last ? path.segment(k) : Segment::straight(path.waypoints[last], path.waypoints[last]);
   PathSample sample;
   sample.position = position;
-  sample.parameters = resolved(path.waypoints[k]);
-  if (s > 0) {
-    const std::vector<double> next = resolved(path.waypoints[std::min(k + 1, last)]);
-    for (std::size_t j = 0; j < next.size(); ++j) {
-      sample.parameters[j] = (1 - s) * sample.parameters[j] + s * next[j];
-    }
-  }
+  sample.parameters = poses_.parameters(segment, position - static_cast<double>(k));
   sample.pose = pose(sample.parameters);
-  sample.statics = statics(model_, sample.pose);
+  sample.statics = poses_.statics(sample.pose);
   return sample;
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "kinematics/segment.h"
+#include "kinematics/pose_sampler.h"
 #include "kinematics/statics.h"
 
 namespace taut {
@@ -20,17 +20,17 @@ struct PathSample {
 /// Evaluates poses and statics of one problem in floating point.
 class Sampler {
  public:
-  explicit Sampler(const Problem& problem) : model_(make_model<double>(problem)), pose_(pose_tape(problem)) {}
+  explicit Sampler(const Problem& problem) : poses_(problem) {}
 
-  [[nodiscard]] const Model<double>& model() const { return model_; }
-  [[nodiscard]] Pose<double> pose(const std::vector<double>& parameters) const;
+  [[nodiscard]] const Model<double>& model() const { return poses_.model(); }
+  [[nodiscard]] Pose<double> pose(const std::vector<double>& parameters) const { return poses_.pose(parameters); }
+  [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const { return poses_.pose(waypoint); }
   [[nodiscard]] PathSample at(const Path& path, double position) const;
   /// About `budget` poses in order, among them both ends and, where the budget allows, every waypoint.
   [[nodiscard]] std::vector<PathSample> along(const Path& path, std::size_t budget) const;
 
  private:
-  Model<double> model_;
-  Evaluator<double> pose_;
+  PoseSampler poses_;
 };
 
 /// λ = x + π half_turns.
