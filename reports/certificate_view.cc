@@ -111,7 +111,7 @@ UndecidedView read_undecided(const json& undecided, const Path& path) {
   UndecidedView result;
   result.reason = undecided.at("reason").get<std::string>();
   if (const json& segment = undecided.at("segment"); !segment.is_null()) {
-    result.segment = read_index(segment, path.waypoints.empty() ? 0 : path.waypoints.size() - 1, "segment");
+    result.segment = read_index(segment, path.segments(), "segment");
   }
   if (const json& box = undecided.at("box"); !box.is_null()) {
     result.box_lower = box.at(0).get<std::string>();

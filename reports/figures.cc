@@ -18,8 +18,9 @@ constexpr double kPanelWidth = 270;  ///< of small multiples, three to a row
 constexpr double kPanelHeight = 150;
 
 Axis path_axis(const Scene& scene) {
-  const double last = std::max(1.0, static_cast<double>(scene.view.path.waypoints.size()) - 1);
-  return {{0, last}, html("waypoint"), 8, true};
+  const Path& path = scene.view.path;
+  const Html label = html("{}", path.interpolation == Interpolation::kStraight ? "waypoint" : "segment");
+  return {{0, std::max(1.0, static_cast<double>(path.segments()))}, label, 8, true};
 }
 
 /// The witness's points and the open box, over the whole height of a plot along the path.
@@ -327,9 +328,9 @@ Html slice_path(const Scene& scene, const Plot& plot) {
   if (path.waypoints.empty()) return {};
   std::vector<PlotPoint> points;
   Html dots;
+  for (const PathSample& sample : scene.samples) points.push_back({sample.parameters[0], sample.parameters[1]});
   for (const Waypoint& waypoint : path.waypoints) {
     const std::vector<double> at = resolved(waypoint);
-    points.push_back({at[0], at[1]});
     dots += html("<circle cx=\"{}\" cy=\"{}\" r=\"2.2\"/>", coordinate(plot.x(at[0])), coordinate(plot.y(at[1])));
   }
   const std::string line = plot.polyline(points);
@@ -507,13 +508,13 @@ Html robot_figure(const Scene& scene) {
   std::vector<std::pair<Html, double>> views = {{html("Waypoint 0 (start)"), 0.0}};
   if (const auto& witness = scene.view.witness) {
     views.emplace_back(html("At the witness"), witness->at.position);
-  } else if (path.waypoints.size() > 2) {
-    const std::size_t middle = path.waypoints.size() / 2;
-    views.emplace_back(html("Waypoint {}", middle), static_cast<double>(middle));
+  } else if (path.segments() > 1) {
+    const std::size_t middle = path.segments() / 2;
+    const char* what = path.interpolation == Interpolation::kStraight ? "Waypoint" : "Start of segment";
+    views.emplace_back(html("{} {}", what, middle), static_cast<double>(middle));
   }
-  if (path.waypoints.size() > 1) {
-    const std::size_t last = path.waypoints.size() - 1;
-    views.emplace_back(html("Waypoint {} (goal)", last), static_cast<double>(last));
+  if (path.segments() > 0) {
+    views.emplace_back(html("Waypoint {} (goal)", path.waypoints.size() - 1), static_cast<double>(path.segments()));
   }
 
   const Camera camera(scene.sampler.model().wrench);

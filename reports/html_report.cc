@@ -85,7 +85,7 @@ std::string closest_text(const Scene& scene) {
   const std::optional<Closest> tension = closest_tension(model, scene.samples);
   const std::optional<Closest> length = closest_length(model, scene.samples);
   if (!tension || !length) return "";
-  const int last = std::max(0, static_cast<int>(scene.view.path.waypoints.size()) - 2);
+  const int last = std::max(0, static_cast<int>(scene.view.path.segments()) - 1);
   const auto segment = [&](const Closest& c) { return std::min(static_cast<int>(c.position), last); };
   const auto limit = [](const Closest& c) { return c.upper ? "upper" : "lower"; };
   return fmt::format(
@@ -207,10 +207,25 @@ Html header(const Scene& scene) {
 
 Html formulas(const CertificateView& view) {
   if (view.verdict == "undecided") return {};
+  const Html curve =
+      view.path.interpolation == Interpolation::kStraight
+          ? html("(1 − s) λ<sub>k</sub> + s λ<sub>k+1</sub>")
+          : html(
+                "((1 − s)<sup>3</sup> λ<sub>k</sub> + (3s<sup>3</sup> − 6s<sup>2</sup> + 4) λ<sub>k+1</sub> + "
+                "(−3s<sup>3</sup> + 3s<sup>2</sup> + 3s + 1) λ<sub>k+2</sub> + s<sup>3</sup> λ<sub>k+3</sub>)/6");
+  const Html motion =
+      view.problem.space.constraints.empty()
+          ? html("<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose({}),&ensp;s ∈ [0, 1]</p>\n", curve)
+          : html(
+                "<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose(ℓ<sub>k</sub>(s) + N<sub>k</sub>(s) y(s)),&ensp;"
+                "ℓ<sub>k</sub>(s) = {},&ensp;s ∈ [0, 1]</p>\n"
+                "<p>y(s) <span class=\"up\">the only</span> y <span class=\"up\">with</span> C(ℓ<sub>k</sub>(s) + "
+                "N<sub>k</sub>(s) y) = 0, |y<sub>i</sub>| ≤ r<sub>k</sub></p>\n",
+                curve);
   const Html path = html(
-      "<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose((1 − s) λ<sub>k</sub> + s λ<sub>k+1</sub>),&ensp;s ∈ [0, 1]"
-      "</p>\n<p>K <span class=\"up\">=</span> {{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 "
-      "}}</p>\n");
+      "{}<p>K <span class=\"up\">=</span> {{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 "
+      "}}</p>\n",
+      motion);
   if (view.verdict == "refuted") {
     return html(
         "<div class=\"formulas\">{}"
@@ -423,16 +438,37 @@ Html waypoint_table(const Scene& scene) {
   return table(columns, rows);
 }
 
+/// How the path is on the constraints, and how far that takes it from the waypoints.
+Html on_constraints(const Scene& scene) {
+  const std::vector<double>& tubes = scene.view.path.tubes;
+  const double widest = tubes.empty() ? 0 : *std::max_element(tubes.begin(), tubes.end());
+  return html(
+      " All poses of the motion lie on the constraints, exactly; waypoints lie near them, and the poses shown are "
+      "those "
+      "on them. The motion is at most {:.3g} (m, rad; r<sub>k</sub> along each column of N) from what the waypoints "
+      "alone "
+      "would give.",
+      widest);
+}
+
 Html path_section(const Scene& scene) {
   const std::size_t count = scene.view.path.waypoints.size();
   if (count == 0) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
+  const Html segments =
+      scene.view.path.interpolation == Interpolation::kStraight
+          ? html("segment k leads from waypoint k to waypoint k + 1")
+          : html(
+                "segment k is the piece of a spline that waypoints k to k + 3 control, passing through a waypoint only "
+                "where that stands three times in a row");
+  const bool constrained = !scene.view.problem.space.constraints.empty();
   return section(
       "path", "Path",
-      html("<p>{}, numbered from 0; segment k leads from waypoint k to waypoint k + 1. Interpolation: "
-           "<code>{}</code>. Parameters are exact: the decimals read back to the binary64 numbers of the "
+      html("<p>{}, numbered from 0; {}. Interpolation: "
+           "<code>{}</code>.{} Parameters are exact: the decimals read back to the binary64 numbers of the "
            "certificate bit for bit, and a multiple of π is added where it is written. Pose coordinates are rounded, "
            "and angles are not wrapped.</p>\n",
-           plural(count, "waypoint"), scene.view.interpolation) +
+           plural(count, "waypoint"), segments, scene.view.interpolation,
+           constrained ? on_constraints(scene) : Html()) +
           pose_figure(scene) +
           folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene)));
 }

@@ -27,12 +27,15 @@ std::vector<double> resolved(const Waypoint& waypoint) {
 }
 
 PathSample Sampler::at(const Path& path, double position) const {
-  const std::size_t last = path.waypoints.size() - 1;
-  const std::size_t k = std::min(static_cast<std::size_t>(position), last);
-  const Segment segment = k < last ? path.segment(k) : Segment::straight(path.waypoints[last], path.waypoints[last]);
+  const std::size_t segments = path.segments();
+  const bool at_end = position >= static_cast<double>(segments);
+  const std::size_t k = at_end && segments > 0 ? segments - 1 : static_cast<std::size_t>(position);
+  const bool at_last_waypoint = at_end && path.interpolation == Interpolation::kStraight;
+  const Waypoint& last = path.waypoints.back();
   PathSample sample;
   sample.position = position;
-  sample.parameters = poses_.parameters(segment, position - static_cast<double>(k));
+  sample.parameters = at_last_waypoint ? poses_.parameters(Segment::straight(last, last), 0)
+                                       : poses_.parameters(path.segment(k), position - static_cast<double>(k));
   sample.pose = pose(sample.parameters);
   sample.statics = poses_.statics(sample.pose);
   return sample;
@@ -41,7 +44,7 @@ PathSample Sampler::at(const Path& path, double position) const {
 std::vector<PathSample> Sampler::along(const Path& path, std::size_t budget) const {
   std::vector<PathSample> samples;
   if (path.waypoints.empty()) return samples;
-  const std::size_t segments = path.waypoints.size() - 1;
+  const std::size_t segments = path.segments();
   if (segments == 0) return {at(path, 0)};
   const std::size_t per_segment = std::max<std::size_t>(1, budget / segments);
   const std::size_t count = std::min(per_segment * segments, std::max(budget, std::size_t{2}));

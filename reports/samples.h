@@ -9,7 +9,7 @@
 
 namespace taut {
 
-/// A pose of the path. `position` counts waypoints: k + s is the point s of segment k.
+/// A pose of the path. `position` counts segments: k + s is the point s of segment k.
 struct PathSample {
   double position = 0;
   std::vector<double> parameters;

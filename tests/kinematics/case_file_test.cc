@@ -124,6 +124,48 @@ TEST(CaseFile, KnowsWhetherABudgetIsStated) {
   EXPECT_EQ(parse(sections).planner.max_seconds, 0.2);
 }
 
+TEST(CaseFile, ConstraintsAreOfTheParametersInMetres) {
+  Sections sections;
+  sections.space = "space: {implicit: ['px^2 + py^2 + (pz - 306)^2 - 130^2', 1e3*sigma*px + exp(2*py)]}\n";
+  const std::string pose = "{px: 0, py: 0, pz: 436, phi: 0, theta: 0, sigma: 0}";
+  sections.query = "query: {waypoints: [" + pose + ", " + pose + "]}\n";
+  EXPECT_THAT([&] { parse(sections); },
+              ThrowsMessage<InputError>(HasSubstr("the periodic parameter sigma grows by 2*pi")));
+  sections.space = "space: {implicit: ['px^2 + py^2 + (pz - 306)^2 - 130^2', 1e3*sin(sigma)*px + exp(2*py)]}\n";
+  const SpaceText space = parse(sections).problem.space;
+  EXPECT_EQ(space.parameters.size(), 6u);
+  EXPECT_THAT(space.constraints, ElementsAre("(1000*px)^2 + (1000*py)^2 + ((1000*pz) - 306)^2 - 130^2",
+                                             "1e3*sin(sigma)*(1000*px) + exp(2*(1000*py))"));
+  EXPECT_EQ(space.flip, (std::array{3, 4})) << "neither phi nor theta is mentioned";
+}
+
+TEST(CaseFile, ConstraintsMentionWhatASliceFixes) {
+  Sections sections;
+  sections.units = "units: {length: in, angle: deg}\n";
+  sections.space = "space: {slice: {py: 7, sigma: 34}, implicit: [px*py - theta*sin(sigma)]}\n";
+  sections.query = "query: {waypoints: [{px: 0, pz: 1, phi: 2, theta: 0}, {px: 0, pz: 2, phi: 2, theta: 0}]}\n";
+  const SpaceText space = parse(sections).problem.space;
+  EXPECT_THAT(space.constraints, ElementsAre("(px/0.0254)*((0.1778)/0.0254) - theta*sin(((34)*pi/180))"));
+  EXPECT_EQ(space.flip, std::nullopt) << "theta is mentioned";
+}
+
+TEST(CaseFile, ConstraintsMayComeWithABox) {
+  Sections sections;
+  sections.space = "space: {free: {px: [-1, 1], py: [-1, 1], pz: [0, 2]}, implicit: [px - py]}\n";
+  const std::string pose = "{px: 0, py: 0, pz: 1, phi: 0, theta: 0, sigma: 0}";
+  sections.query = "query: {waypoints: [" + pose + ", " + pose + "]}\n";
+  const SpaceText space = parse(sections).problem.space;
+  EXPECT_EQ(space.parameters[2].kind, ParameterKind::kRange);
+  EXPECT_EQ(space.parameters[2].range_upper, "0.002");
+  EXPECT_THAT(space.constraints, ElementsAre("(1000*px) - (1000*py)"));
+}
+
+TEST(CaseFile, WhatACheckObjectsToHasItsPlace) {
+  const auto object = [](const Case& /*read*/) { throw FieldError("query.waypoints[1]", "this", "expected that"); };
+  EXPECT_THAT([&] { (void)parse_case(Sections().text(), "test.yaml", object); },
+              ThrowsMessage<InputError>("test.yaml:11:46: query.waypoints[1]: got this, expected that"));
+}
+
 TEST(CaseFile, AParameterThatIsNamedLikeAUnitIsAnOperand) {
   Sections sections;
   sections.space =
@@ -339,7 +381,19 @@ TEST(CaseFile, RejectsEveryMistake) {
       {&Sections::load, "load: {wrench: [0, 0, 1 N*m, 0, 0, 0], " + e + "}\n", "got '1 N*m', expected a force"},
       {&Sections::space, "space: {slice: {px: 0}, free: {}}\n", "space: got 2 kinds of space"},
       {&Sections::space, "space: {}\n", "space: got 0 kinds of space"},
-      {&Sections::space, "space: {implicit: ['px^2']}\n", "not supported yet by this version"},
+      {&Sections::space, "space: {implicit: [px], surface: {}}\n", "space: got 2 kinds of space"},
+      {&Sections::space, "space: {implicit: px}\n", "test.yaml:10:19: space.implicit: got 'px', expected a list"},
+      {&Sections::space, "space: {implicit: []}\n", "space.implicit: got [], expected at least one constraint"},
+      {&Sections::space, "space: {implicit: [[px]]}\n", "space.implicit[0]: got [px], expected an expression"},
+      {&Sections::space, "space: {implicit: [px + qx]}\n",
+       "test.yaml:10:20: space.implicit[0]: expression 'px + qx', column 6: got 'qx', expected a number, one of the "
+       "names px,"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 350, sigma: 0}, implicit: [px + pz - 3]}\n",
+       "space.implicit[0]: got 'px + pz - 3', expected an expression that mentions a coordinate"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 350, sigma: 0}, implicit: [phi - 1]}\n",
+       "space.implicit[0]: got 'phi - 1', expected the same value when the periodic parameter phi grows by 2*pi"},
+      {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 350, sigma: 0}, implicit: [theta, theta + 1]}\n",
+       "space.implicit: got [theta, theta + 1], expected fewer than the 2 parameters"},
       {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 1, phi: 0, theta: 0, sigma: 0}}\n",
        "got all six coordinates"},
       {&Sections::space, "space: {slice: {px: 0, py: 0, pz: 1/0, sigma: 0}}\n",

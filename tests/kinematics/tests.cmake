@@ -4,6 +4,7 @@ taut_add_test(kinematics expression LABELS unit LIBS taut::problem ${RAPIDCHECK_
 taut_add_test(kinematics problem LABELS unit LIBS taut::problem)
 taut_add_test(kinematics case_file LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics geometry LABELS unit LIBS taut::kinematics)
+taut_add_test(kinematics constraint_functions LABELS unit LIBS taut::kinematics)
 taut_add_test(kinematics pose_sampler LABELS unit LIBS taut::kinematics)
 taut_add_test(kinematics segment LABELS unit LIBS taut::kinematics)
 foreach(header model statics jet navigation_manifold)

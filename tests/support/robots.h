@@ -13,6 +13,26 @@ inline Problem robot1_slice() { return load_case(TAUT_SOURCE_DIR "/cases/robot1-
 /// Robot 2 on the sphere of (16): parameters alpha1, alpha2.
 inline Problem robot2_sphere() { return load_case(TAUT_SOURCE_DIR "/cases/robot2-sphere-q1-q2-q3.yaml").problem; }
 
+/// Robot 2 on the same sphere given by constraints: p is on it, and the platform normal to its radius. Parameters px, py, pz,
+/// phi, theta and, if free, sigma.
+inline Problem robot2_implicit_sphere(bool sigma_free) {
+  Problem problem = robot2_sphere();
+  problem.space = SpaceText{};
+  for (std::size_t j = 0; j < 6; ++j) {
+    const bool turns = j == 3 || j == 5;
+    problem.space.pose[j] = kPoseNames[j];
+    if (j == 5 && !sigma_free) {
+      problem.space.pose[j] = "0";
+    } else {
+      problem.space.parameters.push_back(
+          {kPoseNames[j], turns ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+    }
+  }
+  problem.space.constraints = {"px + 0.13*sin(theta)*cos(phi)", "py + 0.13*sin(theta)*sin(phi)",
+                               "pz - 0.306 + 0.13*cos(theta)"};
+  return problem;
+}
+
 /// The same robot and load with all six pose coordinates free.
 inline Problem free_flying(Problem problem) {
   problem.space = SpaceText{};
