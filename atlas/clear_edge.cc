@@ -25,7 +25,7 @@ bool ClearEdge::operator()(const Coordinates& a, const Coordinates& b) const {
   const EdgeMotion motion(sampler_, a, b);
   const Pose<double> first = motion.pose(0);
   const Pose<double> last = motion.pose(1);
-  if (!clear(last) || !clear(first)) return false;
+  if (!clear(last) || !clear(first) || !motion.looks_single()) return false;
   const double way = (last.p_WP - first.p_WP).norm() / sampler_.model().characteristic_length + (b - a).norm();
   double spacing = way;
   double half = 0.5;  // of the spacing, in s

@@ -13,8 +13,14 @@ class EdgeMotion {
 
   /// At s from 0 to 1. With constraints: the pose on them; not-a-number where none is found.
   [[nodiscard]] Pose<double> pose(double s) const;
+  /// Whether a proof is likely to find one motion in a tube around the edge's line: not where the constraints bend so much
+  /// along the edge that Newton's matrix varies across the tube. True without constraints.
+  [[nodiscard]] bool looks_single() const;
 
  private:
+  [[nodiscard]] ConstraintFunctions::Vector line(double s) const { return start_ + s * step_; }
+  [[nodiscard]] ConstraintFunctions::Jacobian normals(double s) const { return start_normals_ + s * normals_step_; }
+
   const PoseSampler& sampler_;
   Coordinates start_;
   Coordinates step_;

@@ -161,6 +161,16 @@ SegmentProof Prover::prove(const Segment& segment, double clearance) const {
         break;
       case Kind::kOutOfRange: give_up(box, "a parameter leaves its closed range, or may"); return proof;
       case Kind::kNoMotion:
+        // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
+        if (box.depth < options_.motion_depth) {
+          split();
+        } else if (higher_rung) {
+          climb();
+        } else {
+          give_up(box, undecided_reason(verdict.kind));
+          return proof;
+        }
+        break;
       case Kind::kNearSingular:
       case Kind::kFault:
         if (box.depth < options_.singular_depth) {

@@ -24,6 +24,8 @@ struct ProofOptions {
   int max_depth = 48;                    ///< at most DyadicBox::kMaxDepth − 1
   int max_boxes = 200'000;               ///< boxes judged in one segment
   int max_multiprecision_boxes = 5'000;  ///< of them in MPFR, each of which takes about a millisecond
+  /// Depth from which a box for which no motion on the constraints was proved climbs the ladder, and is not split.
+  int motion_depth = 12;
   /// Depth from which a box that can't be inverted climbs the ladder and is examined for a change of sign of det J.
   int singular_depth = 16;
 };
