@@ -5,6 +5,7 @@ Usage: end_to_end_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
 import csv
 import json
+import math
 import os
 import re
 import signal
@@ -68,6 +69,40 @@ class EndToEnd(unittest.TestCase):
                 self.assertEqual(sorted(os.listdir(out)), ["certificate.json", "path.csv", "report.html"])
                 checked = run(CHECK, os.path.join(out, "certificate.json"), case)
                 self.assertEqual(checked.returncode, 2 if verdict == "undecided" else 0, checked.stdout + checked.stderr)
+
+    def cost(self, case):
+        result = run(TAUT, "plan", os.path.join(CASES, case + ".yaml"), "--out", self.path(case), "--json")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return json.loads(result.stdout)["cost"]
+
+    def test_a_sphere_by_constraints_gives_paths_as_long_as_by_parameters(self):
+        for query in ("q1-q2-q3", "sigma-free-q2-q3"):
+            with self.subTest(query=query):
+                parametric = self.cost("robot2-sphere-" + query)
+                implicit = self.cost("robot2-implicit-sphere-" + query)
+                self.assertLess(abs(implicit - parametric), 0.01 * parametric)
+
+    def test_path_csv_shows_poses_on_the_constraints(self):
+        case = "robot2-implicit-sphere-q1-q2-q3"
+        self.cost(case)
+        with open(self.path(case, "path.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            p = [float(row[name]) for name in ("px[m]", "py[m]", "pz[m]")]
+            self.assertAlmostEqual(math.hypot(p[0], p[1], p[2] - 0.306), 0.13, delta=1e-12)
+        start = self.certificate(case)["path"]["waypoints"][0]
+        self.assertEqual([float.fromhex(x) for x in start["x"]][:3], [0.0, 0.0, 0.176])
+        report = text_of(self.path(case, "report.html"))
+        self.assertIn("Constraints", report)
+        self.assertIn("(1000*py) + 130*sin(theta)*sin(phi) = 0", report)
+        self.assertNotIn("The plane of the two parameters", report)
+
+    def test_a_waypoint_off_the_constraints_is_bad_input(self):
+        good = text_of(os.path.join(CASES, "robot2-implicit-rail.yaml"))
+        case = self.write("off.yaml", good.replace("{px: 60, py: 0,", "{px: 64, py: 0,"))
+        result = run(TAUT, "plan", case, "--out", self.path("never"))
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        self.assertRegex(result.stderr, r"off\.yaml:\d+:\d+: query\.waypoints\[0\]: got a waypoint that is .* mm and 0 rad off")
 
     def test_a_certificate_of_one_case_is_not_accepted_for_another(self):
         run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)

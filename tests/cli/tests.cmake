@@ -7,3 +7,4 @@ add_test(NAME cli.end_to_end COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.end_to_end PROPERTIES LABELS "unit" TIMEOUT 300)
 taut_add_test(cli plan LABELS unit LIBS taut_plan fmt::fmt)
+taut_add_test(cli any_anchors LABELS unit LIBS taut_plan taut::reports fmt::fmt)
