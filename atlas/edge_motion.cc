@@ -28,7 +28,7 @@ Pose<double> EdgeMotion::pose(double s) const {
 
 bool EdgeMotion::looks_single() const {
   constexpr double kRoom = 1.5;    // of the tube, times |y|, as in proofs
-  constexpr double kExcess = 1.5;  // of interval arithmetic over what corners of the tube show
+  constexpr double kExcess = 3.0;  // of interval arithmetic over corners of the tube, with some for other provers
   const auto& constraints = sampler_.constraints();
   if (!constraints) return true;
   for (const double s : {0.5, 0.0, 1.0}) {
