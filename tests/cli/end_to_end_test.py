@@ -98,8 +98,8 @@ class EndToEnd(unittest.TestCase):
         self.assertNotIn("The plane of the two parameters", report)
 
     def test_a_waypoint_off_the_constraints_is_bad_input(self):
-        good = text_of(os.path.join(CASES, "robot2-implicit-rail.yaml"))
-        case = self.write("off.yaml", good.replace("{px: 60, py: 0,", "{px: 64, py: 0,"))
+        good = text_of(os.path.join(CASES, "robot2-implicit-position-on-sphere.yaml"))
+        case = self.write("off.yaml", good.replace("{px: 81.0918,", "{px: 86.0907,"))
         result = run(TAUT, "plan", case, "--out", self.path("never"))
         self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
         self.assertRegex(result.stderr, r"off\.yaml:\d+:\d+: query\.waypoints\[0\]: got a waypoint that is .* mm and 0 rad off")
