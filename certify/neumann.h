@@ -93,9 +93,9 @@ template <class I, std::size_t N>
       row_sum[i] += n[i][j];
       column_max[j] = std::max(column_max[j], n[i][j]);
     }
+    if (!(row_sum[i] < Upper(1.0))) return false;  // also where a NaN slipped in
     rho = std::max(rho, row_sum[i]);
   }
-  if (!(rho < Upper(1.0))) return false;  // also where a NaN slipped in
   const Upper gap = Scalars<I>::one_minus_lower(rho);
   if (!(Upper(0.0) < gap)) return false;
   for (std::size_t i = 0; i < N; ++i) {

@@ -41,10 +41,11 @@ std::string shortest(double x) { return fmt::format("{}", x); }
 
 // ---- path.csv --------------------------------------------------------------------------------------------------------
 
-/// One waypoint a line: λ = x + π·half_turns, and the pose there (rounded; where the space has constraints, the one on them). x reads back bit for bit.
+/// One waypoint a line: λ = x + π·half_turns, and the pose there (rounded; where the space has constraints, the one on
+/// them). x reads back bit for bit. The first column's name tells waypoints from a spline's control points.
 std::string path_csv(const Problem& problem, const Path& path) {
   const PoseSampler sampler(problem);
-  std::string csv = "waypoint";
+  std::string csv = path.interpolation == Interpolation::kStraight ? "waypoint" : "control_point";
   for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",x.{}", parameter.name);
   for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",half_turns.{}", parameter.name);
   csv += ",px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n";
@@ -129,10 +130,11 @@ std::string sentence(const Plan& plan) {
   switch (proof.verdict) {
     case Verdict::kProved:
       return fmt::format(
-          "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} segments in {} "
+          "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} {}segments in "
+          "{} "
           "boxes.\nProved margins: tension {} N, length {} m, wrench_scale {}.",
-          proof.segments.size(), proof.boxes, proof.margins.tension_N, proof.margins.length_m,
-          proof.margins.wrench_scale);
+          proof.segments.size(), plan.path.interpolation == Interpolation::kCubicBSpline ? "spline " : "", proof.boxes,
+          proof.margins.tension_N, proof.margins.length_m, proof.margins.wrench_scale);
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;
       if (w.singular) return "refuted: the force Jacobian is singular at some pose of the path.";

@@ -49,11 +49,15 @@ std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint)
   return fmt::format("({}) = ({})", names, values);
 }
 
+std::string segment_text(const CertificateView& view, int k) {
+  if (view.path.interpolation != Interpolation::kStraight) return fmt::format("segment {}", k);
+  return fmt::format("segment {}, between waypoints {} and {}", k, k, k + 1);
+}
+
 std::string point_text(const CertificateView& view, const PathPointView& point) {
   if (!point.s)
     return fmt::format("waypoint {}, {}", point.index, waypoint_text(view, view.path.waypoints[point.index]));
-  return fmt::format("s = {} of segment {}, between waypoints {} and {}", *point.s, point.index, point.index,
-                     point.index + 1);
+  return fmt::format("s = {} of {}", *point.s, segment_text(view, point.index));
 }
 
 /// "px = 0 mm, py = …, sigma = 34°": rounded.
@@ -163,8 +167,7 @@ std::vector<std::string> undecided_text(const Scene& scene) {
       fmt::format("It was neither proved nor refuted; that does not mean that it is unsafe. Reason: {}", open.reason));
   if (open.segment) {
     result.push_back(fmt::format(
-        "What is open lies on segment {}, between waypoints {} and {}{}.", *open.segment, *open.segment,
-        *open.segment + 1,
+        "What is open lies on {}{}.", segment_text(scene.view, *open.segment),
         open.box_lower.empty() ? "" : fmt::format(", from s = {} to s = {}", open.box_lower, open.box_upper)));
   }
   return result;
@@ -254,8 +257,7 @@ Html theorem(const CertificateView& view) {
   };
   const Html symbols = table(
       columns,
-      {row(html("γ<sub>k</sub>(s)"),
-           html("pose of the platform at the point s of segment k, from waypoint k to waypoint k + 1"), html("")),
+      {row(html("γ<sub>k</sub>(s)"), html("pose of the platform at the point s of segment k"), html("")),
        row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
            html("m, rad")),
        row(html("p, R"),
@@ -407,11 +409,12 @@ Html waypoint_table(const Scene& scene) {
   constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
   const Path& path = scene.view.path;
   const SpaceText& space = scene.view.problem.space;
-  std::vector<Column> columns = {{html("Waypoint"), true}};
+  const Html what = html("{}", path.interpolation == Interpolation::kStraight ? "Waypoint" : "Control point");
+  std::vector<Column> columns = {{what, true}};
   for (std::size_t j = 0; j < space.parameters.size(); ++j) {
     columns.push_back({html("<code>{}</code> {}", space.parameters[j].name, in_brackets(unit(space, j))), true});
   }
-  std::vector<Column> pose_columns = {{html("Waypoint"), true}};
+  std::vector<Column> pose_columns = {{what, true}};
   for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"}) {
     pose_columns.push_back({html("{}", name), true});
   }
