@@ -423,6 +423,7 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   statistics.edges_rejected += edges.rejected();
   statistics.prove_seconds += edges.proving_seconds();
   if (!found) {
+    result.path = {};
     result.path.waypoints = query_;
     return true;
   }

@@ -283,7 +283,11 @@ int run(int argc, char** argv) {
       ->needs(save_atlas);
   plan_command
       ->add_option("--budget", plan_arguments.budget_seconds, "seconds for planning and proving, before the case's own")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        double seconds = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
+        return is_number && seconds > 0 ? "" : "got '" + text + "', expected a number of seconds above 0";
+      });
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
 
   std::string certificate_path;

@@ -264,13 +264,42 @@ class Checker {
       if (k + passes > path.size() || !is_passed(k) || (c == last && !is_passed(path.size() - passes))) {
         throw Rejected("query waypoint " + std::to_string(c) + ": the path does not pass it, or not in its turn");
       }
+      require_reached(k, c);
+      if (c == last) require_reached(path.size() - passes, c);
     }
+  }
+
+  /// Where the space has constraints, the pose reached at the path's waypoint k, which is on them, is next to the case's waypoint c:
+  /// normals and tube are the certificate's own choice, and could lead anywhere. "The query" in docs/certificate-format.md.
+  void require_reached(std::size_t k, std::size_t c) {
+    if (certificate_.problem.constraints.empty()) return;
+    const Path& path = certificate_.path;
+    const bool is_end = k > 0 && k >= path.segments();
+    const std::size_t segment = is_end ? path.segments() - 1 : k;
+    const Box place = is_end ? Box{1, 1} : Box{0, 0};
+    escalate([&](const Model& model) {
+      std::vector<Form> typed;
+      for (std::size_t j = 0; j < path.waypoints[k].x.size(); ++j) {
+        typed.emplace_back(Interval{mpq_class(path.waypoints[k].x[j])} +
+                           Interval(path.waypoints[k].half_turns[j]) * Interval::pi());
+      }
+      const Vector6<Form> asked = model.pose(typed);
+      const Vector6<Form> reached = model.pose(parameters(certificate_.problem, path, segment, place));
+      for (std::size_t i = 0; i < 6; ++i) {
+        const Interval size = i < 3 ? model.platform_size() : Interval(1);
+        const Interval room = Interval(mpq_class(1, 50)) * size - abs(reached[i].range - asked[i].range);
+        const std::string what = "query waypoint " + std::to_string(c) + ": the pose on the constraints is next to it";
+        require(is_nonnegative(room), what);
+      }
+    });
   }
 
   /// The waypoint is one of the case's.
   void require_query_waypoint(const Waypoint& waypoint) {
     for (std::size_t c = 0; c < certificate_.problem.query.size(); ++c) {
-      if (is_same(waypoint, query_waypoint(c))) return;
+      if (!is_same(waypoint, query_waypoint(c))) continue;
+      require_reached(0, c);
+      return;
     }
     throw Rejected("the path's one waypoint is none of the query's");
   }

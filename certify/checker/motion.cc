@@ -22,24 +22,32 @@ Polynomial mix(const std::vector<mpq_class>& q) {
   }
 }
 
-/// p(m + r u).
-Form over(const Polynomial& p, const Box& box) {
+/// The coefficients of p(m + r u) as a polynomial in u.
+Polynomial over(const Polynomial& p, const Box& box) {
   const mpq_class m = (box.begin + box.end) / 2;
   const mpq_class r = (box.end - box.begin) / 2;
-  const Interval c0{mpq_class(p[0] + m * (p[1] + m * (p[2] + m * p[3])))};
-  const Interval c1{mpq_class(r * (p[1] + m * (2 * p[2] + m * 3 * p[3])))};
-  const Interval c2{mpq_class(r * r * (p[2] + 3 * m * p[3]))};
-  const Interval c3{mpq_class(r * r * r * p[3])};
-  const Interval u = Interval::plus_minus_one();
-  return Form::enclose(c0, c1 + Interval(2) * c2 * u + Interval(3) * c3 * sqr(u), c0 + (c1 + (c2 + c3 * u) * u) * u);
+  return {p[0] + m * (p[1] + m * (p[2] + m * p[3])), r * (p[1] + m * (2 * p[2] + m * 3 * p[3])),
+          r * r * (p[2] + 3 * m * p[3]), r * r * r * p[3]};
 }
 
 /// One number of each control point, mixed, over the box.
 template <class Number>
-Form over(std::span<const Waypoint> controls, const Box& box, const Number& number) {
+Polynomial over(std::span<const Waypoint> controls, const Box& box, const Number& number) {
   std::vector<mpq_class> values;
   for (const Waypoint& waypoint : controls) values.emplace_back(number(waypoint));
   return over(mix(values), box);
+}
+
+/// Of a polynomial in u with coefficients a + b pi. They are summed before u enters: the two parts may nearly cancel.
+Form form(const Polynomial& a, const Polynomial& b) {
+  std::array<Interval, 4> c;
+  for (std::size_t i = 0; i < 4; ++i) {
+    c[i] = Interval{a[i]};
+    if (b[i] != 0) c[i] += Interval{b[i]} * Interval::pi();
+  }
+  const Interval u = Interval::plus_minus_one();
+  return Form::enclose(c[0], c[1] + Interval(2) * c[2] * u + Interval(3) * c[3] * sqr(u),
+                       c[0] + (c[1] + (c[2] + c[3] * u) * u) * u);
 }
 
 struct Curve {
@@ -49,13 +57,12 @@ struct Curve {
 
 Curve curve(std::span<const Waypoint> controls, const Box& box, std::size_t constraints) {
   Curve result;
-  const Form pi{Interval::pi()};
   for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
-    const Form half_turns = over(controls, box, [&](const Waypoint& w) { return w.half_turns[j]; });
-    result.line.push_back(over(controls, box, [&](const Waypoint& w) { return w.x[j]; }) + half_turns * pi);
+    result.line.push_back(form(over(controls, box, [&](const Waypoint& w) { return w.x[j]; }),
+                               over(controls, box, [&](const Waypoint& w) { return w.half_turns[j]; })));
     std::vector<Form>& row = result.normals.emplace_back();
     for (std::size_t i = 0; i < constraints; ++i) {
-      row.push_back(over(controls, box, [&](const Waypoint& w) { return w.normals[j * constraints + i]; }));
+      row.push_back(form(over(controls, box, [&](const Waypoint& w) { return w.normals[j * constraints + i]; }), {}));
     }
   }
   return result;

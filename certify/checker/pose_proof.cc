@@ -110,6 +110,12 @@ Model::Model(const Problem& problem, int bits) : problem_(problem), bits_(bits) 
   M_inverse_ = inverse_cholesky_factor(problem.ellipsoid);
 }
 
+Interval Model::platform_size() const {
+  Interval sum;
+  for (const Vector3<Interval>& b : platform_) sum += sqrt(sqr(b[0]) + sqr(b[1]) + sqr(b[2]));
+  return sum / Interval(6);
+}
+
 Vector6<Form> Model::pose(const std::vector<Form>& parameters) const {
   Vector6<Form> result;
   for (std::size_t c = 0; c < 6; ++c) result[c] = problem_.pose[c].evaluate(parameters);

@@ -53,6 +53,9 @@ class Model {
   [[nodiscard]] Interval tension_limit(std::size_t cable, bool upper) const { return tension_[cable][upper ? 1 : 0]; }
   [[nodiscard]] Interval length_limit(std::size_t cable, bool upper) const { return length_[cable][upper ? 1 : 0]; }
 
+  /// The mean of |b_i| [m].
+  [[nodiscard]] Interval platform_size() const;
+
   // At the working precision, which should be bits(). Each throws Undefined where the box has to be split.
   [[nodiscard]] Vector6<Form> pose(const std::vector<Form>& parameters) const;
   [[nodiscard]] Geometry geometry(const Vector6<Form>& pose) const;

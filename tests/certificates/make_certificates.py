@@ -729,7 +729,7 @@ def implied_motions():
         return space
     def z_up(phi, theta, half_turns=None):
         return waypoint([phi, theta, 0.35], half_turns, [0, 0, 1])
-    wave = problem('robot1-wave', ROBOT1, implied_slice('z - 0.35 - 0.01*sin(phi + 2.3)'),
+    wave = problem('robot1-wave', ROBOT1, implied_slice('z - 0.35 - 0.003*sin(phi + 2.3)'),
                    between_typed(z_up(-2.3, 1.6), z_up(1.7, 1.7)))
     wave_ends = straight(z_up(-2.3, 1.6), z_up(1.7, 1.7), tubes=[0.0625])
     scan = [(n, statics(wave, parameters(wave, wave_ends, 0, n / 64))) for n in range(65)]
@@ -744,14 +744,25 @@ def implied_motions():
     write('accepted', 'refuted_implied_singular', wave_singular, 'det J changes sign on an implied motion.')
     here = problem('robot1-wave-here', ROBOT1, implied_slice('z - 0.55 - 0.01*sin(phi + 2.3)'),
                    between_typed(z_up(-2.3, 1.6), z_up(1.7, 1.7)))
-    one = path([waypoint([-2.3, 1.6, 0.5625], None, [0, 0, 1])], tubes=[0.0625])
+    one = path([waypoint([-2.3, 1.6, 0.552], None, [0, 0, 1])], tubes=[0.0625])
     here['query']['waypoints'] = [typed(one['waypoints'][0]), typed(z_up(1.7, 1.7))]
     _, lengths = geometry(here, [-2.3, 1.6, 0.55])
     i = max(range(6), key=lambda n: lengths[n])
     assert lengths[i] > 0.55
     write('accepted', 'refuted_implied_waypoint', certificate(here, one, 'refuted', witness={
         'at': {'waypoint': 0}, 'kind': 'length_max', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.55'}),
-        'A path of one waypoint, and of one tube: the pose on the constraint, 12.5 mm above the waypoint, is too far.')
+        'A path of one waypoint, and of one tube: the pose on the constraint, 2 mm above the waypoint, is too far.')
+
+    # A normal that is nearly tangent makes the rounding of 0.35 a way of 2 rad, to a pose that the query never asked for.
+    rounding = Fraction(0.35) - Fraction(7, 20)
+    astray = waypoint([-2.3, 1.6, 0.35], None, [1, 0, float(-rounding / 2)])
+    led = problem('robot1-led-astray', ROBOT1, implied_slice('z - 0.35'), between_typed(z_up(-2.3, 1.6), z_up(1.7, 1.7)))
+    _, f0, v, _ = statics(led, [-0.3, 1.6, 0.35])
+    i = min(range(6), key=lambda n: f0[n] - v[n])
+    assert f0[i] - v[i] < 0.05
+    write('rejected', 'implied_query_led_astray', certificate(led, path([astray], tubes=[4.0]), 'refuted', witness={
+        'at': {'waypoint': 0}, 'kind': 'tension_min', 'cable': i + 1, 'value': enclosing(f0[i] - v[i]), 'limit': '0.05'}),
+        'A true refutation of a pose 2 rad from the waypoint, where a nearly tangent normal leads.', 'next to it')
 
     # Well formed, but false: no motion, or not the only one, or not where it has to be.
     unique, inside, exists = 'it may not be the only one in its tube', 'it may leave its tube', 'the motion on the constraints'
@@ -815,7 +826,7 @@ def implied_motions():
     reject('implied_witness_without_a_motion', wave_tension, 'In so thin a tube there is no motion to refute.', inside,
            lambda c: c['path'].update(tubes=[hex64(2**-40)]))
     reject('implied_witness_of_another_sheet', wave_tension, 'The tube holds two motions: which of them is refuted?', exists,
-           lambda c: (c['problem']['space'].update(constraints=['(z - 0.35 - 0.01*sin(phi + 2.3))*(z - 0.3)']),
+           lambda c: (c['problem']['space'].update(constraints=['(z - 0.35 - 0.003*sin(phi + 2.3))*(z - 0.3)']),
                       c['path'].update(tubes=[hex64(0.125)])))
     def mirror(constraint, tubes, points):
         """The platform hangs in z; a change of sheet turns det J over."""
@@ -826,7 +837,7 @@ def implied_motions():
         assert statics(pr, [0, 0, 0.35])[3] * statics(pr, [0, 0, -0.35])[3] < 0
         return certificate(pr, straight(*points, tubes=tubes), 'refuted', witness={
             'kind': 'singular', 'at': {'waypoint': 0}, 'to': {'waypoint': len(points) - 1}})
-    reject('implied_sign_change_by_a_jump', mirror('z - 0.1*atan2(theta + 0.3, -1)', [0.5], [(0, -1, 0), (0, 1, 0)]),
+    reject('implied_sign_change_by_a_jump', mirror('z - 0.1*atan2(theta + 0.3, -1)', [0.5], [(0, -1, -0.253), (0, 1, 0.2226)]),
            'det J has opposite signs, but the motion jumps between them.', 'atan2')
     reject('implied_sign_change_of_two_sheets', mirror('(z - 0.35)*(z + 0.35)', [0.25, 1.0, 0.25],
            [(-1, 0, 0.35), (-0.5, 0, 0.35), (0.5, 0, -0.35), (1, 0, -0.35)]),
