@@ -200,7 +200,8 @@ class Search {
       const Coordinates goal = symmetry_.apply(problem_.goal, symmetry_.nearest_image(problem_.goal, at));
       value = problem_.heuristic(at, goal);
       nodes_[node].remaining = (goal - at).norm();
-      lowest_heuristic_ = std::min(lowest_heuristic_, value);
+      if (node != goal_)
+        lowest_heuristic_ = std::min(lowest_heuristic_, value);  // the goal's own chart is there from the start
     }
     return value;
   }

@@ -321,7 +321,9 @@ Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& 
   for (const PathVertex& vertex : found.path) leg.vertices.push_back(vertex.coordinates);
   for (std::size_t k = 1; k < leg.vertices.size(); ++k) leg.cost_found += length(leg.vertices[k - 1], leg.vertices[k]);
   leg.cost = leg.cost_found;
-  if (case_.planner.smoothing != Smoothing::kNone) {
+  constexpr double kNoLength = 1e-12;  // rounding of a leg whose ends are one pose, by two names
+  const bool is_shortest = leg.vertices.size() <= 2 && leg.cost <= kNoLength;
+  if (case_.planner.smoothing != Smoothing::kNone && !is_shortest) {
     const auto start = Clock::now();
     const double proving_before = edges.proving_seconds();
     std::function<bool(Coordinates&)> onto_constraints;
@@ -351,7 +353,7 @@ std::string Planner::no_path_reason(const SearchResult& result, std::size_t leg)
       return fmt::format(
           "{}: the component of the start was covered by {} charts of radius {}{} and the goal was not met; {}. That "
           "is "
-          "evidence, not proof, that none exists",
+          "evidence, not proof, that none exists; charts of a smaller planner.radius see finer",
           what, atlas_->size(), atlas_->options().radius,
           manifold_->dimension() > Polytope::kMaxDimension ? ", as densely as sampled directions tell," : "", best);
     case SearchStatus::kChartLimit:

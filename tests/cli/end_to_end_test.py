@@ -363,6 +363,13 @@ class EndToEnd(unittest.TestCase):
         self.assertNotEqual(summary["within_factor"], 1)
         self.assertEqual(run(CHECK, self.path("certificate.json"), case).returncode, 0)
 
+    def test_a_goal_that_is_the_start_by_another_name_is_one_segment(self):
+        good = text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml"))
+        case = self.write("same.yaml", re.sub(r"{phi: 1.7, theta: 1.7}", "{phi: -2.3 + pi, theta: -1.6}", good))
+        result = run(TAUT, "plan", case, "--out", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(self.certificate()["segments"]), 1)
+
     def test_version(self):
         result = run(TAUT, "--version")
         self.assertEqual(result.returncode, 0)
