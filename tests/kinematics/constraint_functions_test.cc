@@ -47,9 +47,10 @@ TEST(ConstraintFunctions, EvaluateValuesAndDerivativesInSi) {
 TEST(ConstraintFunctions, NormalsAreOrthonormalAndSpanTheRowsWhateverTheUnits) {
   Jacobian jacobian(2, 4);
   jacobian << 1, 2, 3, 4, 1e6, 0, -2e6, 1e5;
-  const Jacobian n = ConstraintFunctions::normals(jacobian);
+  const Eigen::Matrix<double, 2, 4> c = jacobian;
+  const Eigen::Matrix<double, 4, 2> n = ConstraintFunctions::normals(jacobian);
   EXPECT_LT((n.transpose() * n - Eigen::Matrix2d::Identity()).norm(), 1e-14);
-  EXPECT_LT((jacobian - jacobian * n * n.transpose()).norm(), 1e-8);
+  EXPECT_LT((c - c * n * n.transpose()).norm(), 1e-8);
 }
 
 TEST(ConstraintFunctions, RankDoesNotDependOnUnits) {
