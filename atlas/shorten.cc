@@ -121,7 +121,7 @@ class Shortener {
     double value = f(x);
     double step = 0.25 * scale;
     for (int k = 0; k < kSteps && h > 0; ++k) {
-      Coordinates gradient = Coordinates::Zero(x.size());
+      Coordinates gradient = x;  // all entries are set below
       for (int j = 0; j < x.size(); ++j) {
         Coordinates up = x;
         Coordinates down = x;
