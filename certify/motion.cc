@@ -229,10 +229,10 @@ class ImpliedMotion {
     for (std::size_t i = 0; i < K; ++i) {
       Upper row_sum(0.0);
       for (const I& x : over_tube.rest[i]) row_sum += Upper(magnitude(x));
+      if (!(row_sum < Upper(1.0))) return false;  // also where a NaN slipped in, which max() would drop
       rho = std::max(rho, row_sum);
       largest = std::max(largest, Upper(magnitude(residual_[i])) + Upper(magnitude(over_tube.drift[i] * offset_)));
     }
-    if (!(rho < Upper(1.0))) return false;  // also where a NaN slipped in
     const Upper gap = Scalars<I>::one_minus_lower(rho);
     if (!(Upper(0.0) < gap)) return false;
     const I w = Scalars<I>::symmetric(largest / gap);
