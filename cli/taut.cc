@@ -14,9 +14,11 @@
 #include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "certify/certificate.h"
+#include "certify/signature.h"
 #include "cli/files.h"
 #include "cli/illustration.h"
 #include "cli/plan.h"
@@ -70,10 +72,24 @@ struct PlanArguments {
   std::string out;
   std::string atlas;
   std::string save_atlas;
+  std::string key;  ///< file of the private key that signs, or empty
   bool grow = false;
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
 };
+
+/// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
+std::optional<SigningKey> load_signing_key(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  SigningKey key(read_whole(path), path);
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  constexpr auto kOthers = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
+  if (std::filesystem::is_regular_file(status) && (status.permissions() & kOthers) != std::filesystem::perms::none) {
+    fmt::print(stderr, "taut: warning: {}: others than its owner may use this private key (chmod 600)\n", path);
+  }
+  return key;
+}
 
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {
@@ -166,6 +182,7 @@ int run_plan(const PlanArguments& arguments) {
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / std::filesystem::path(arguments.case_path).stem()
                             : std::filesystem::path(arguments.out);
+  const std::optional<SigningKey> key = load_signing_key(arguments.key);
   if (!arguments.save_atlas.empty()) require_writable(arguments.save_atlas);
   Planner planner(case_, arguments.atlas);
   make_directories(out);
@@ -179,8 +196,9 @@ int run_plan(const PlanArguments& arguments) {
     result = planner.plan(progress, interruption.token());
     if (arguments.grow) whole_atlas = planner.grow_atlas(progress, interruption.token());
   }
-  const nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof,
-                                                      illustrate(case_.problem, planner.atlas(), result.statistics));
+  nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof,
+                                                illustrate(case_.problem, planner.atlas(), result.statistics));
+  if (key) key->sign(certificate);
   std::vector<FileContent> files = {{out / "path.csv", path_csv(case_.problem, result.path)},
                                     {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
                                     {out / "report.html", html_report(certificate)}};
@@ -242,7 +260,10 @@ void require_unaltered(const nlohmann::json& certificate, const std::string& pat
   const bool has_footer =
       body.is_object() && body.contains("footer") && body["footer"].is_object() && body["footer"].contains("sha256");
   const nlohmann::json digest = has_footer ? body["footer"]["sha256"] : nlohmann::json();
-  if (body.is_object()) body.erase("footer");
+  if (body.is_object()) {
+    body.erase("footer");
+    body.erase("signature");
+  }
   if (digest != sha256(body)) {
     throw InputError(
         fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
@@ -288,6 +309,7 @@ int run(int argc, char** argv) {
         const bool is_number = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
         return is_number && seconds > 0 ? "" : "got '" + text + "', expected a number of seconds above 0";
       });
+  plan_command->add_option("--sign", plan_arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
 
   std::string certificate_path;

@@ -8,6 +8,7 @@
 #include "certify/checker/certificate.h"
 #include "certify/checker/motion.h"
 #include "certify/checker/pose_proof.h"
+#include "certify/checker/signature.h"
 
 namespace taut::checker {
 namespace {
@@ -382,14 +383,20 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
 
 }  // namespace
 
-CheckResult check_certificate(const std::string& text, const nlohmann::json* problem) {
+CheckResult check_certificate(const std::string& text, const nlohmann::json* problem,
+                              std::span<const std::string> trusted) {
   CheckResult result;
   try {
-    const nlohmann::json json = parse_json(text);
+    nlohmann::json json = parse_json(text);
+    result.signer = take_signature(json).value_or("");
     const Certificate certificate = read_certificate(json);
     result.verdict = json["verdict"].get<std::string>();
     result.segments = certificate.segments.size();
     result.boxes = certificate.boxes;
+    result.is_trusted = std::ranges::find(trusted, result.signer) != trusted.end();
+    if (!trusted.empty() && !result.is_trusted) {
+      throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
+    }
     if (problem != nullptr && json["problem"] != *problem) throw Rejected("the certificate is about another problem");
     Checker checker(certificate, result);
     switch (certificate.verdict) {

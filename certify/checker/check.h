@@ -3,10 +3,11 @@
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
 // arithmetic, no heuristics that could matter. To believe "accepted", read in this order: errors.h, interval.h,
 // form.h, pose_proof.h and .cc (the mathematics), check.cc (what is proved of which poses), then exact.h,
-// expression.h and certificate.h (that the numbers are those of the file).
+// expression.h and certificate.h (that the numbers are those of the file); signature.h if it matters who wrote it.
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 namespace taut::checker {
@@ -22,6 +23,8 @@ struct CheckResult {
   Outcome outcome = Outcome::kMalformed;
   std::string message = "nothing was checked";  ///< one line of printable ASCII, without the outcome itself
   std::string verdict;                          ///< the certificate's, once it was read
+  std::string signer;                           ///< public key whose signature was verified, or empty
+  bool is_trusted = false;                      ///< whether the signer is one of those asked for
   std::size_t segments = 0;
   std::size_t boxes = 0;
   std::size_t pieces = 0;  ///< boxes after splitting: how many were proved at one go
@@ -30,8 +33,10 @@ struct CheckResult {
 
 /// @param text     the whole file.
 /// @param problem  where not null: what the certificate's `problem` must equal.
+/// @param trusted  unless empty: public keys (signature.h), one of which must have signed.
 /// Never throws because of what the text says. @throws std::exception only where this program or machine fails.
 /// Cost: about a millisecond a box. Thread-safe.
-[[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr);
+[[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr,
+                                            std::span<const std::string> trusted = {});
 
 }  // namespace taut::checker

@@ -1,4 +1,4 @@
-// taut-check CERTIFICATE [CASE] [--json] [--quiet]: proves the claim of a certificate again.
+// taut-check CERTIFICATE [CASE] [--trust PUBKEY.pem]… [--json] [--quiet]: proves the claim of a certificate again.
 //
 // Results go to stdout; bad input is complained about on stderr, as wrong use is, and with --json on stdout too.
 // Exit codes: 0 accepted, 1 rejected, 2 the certificate itself is undecided, 3 malformed input or wrong use,
@@ -11,6 +11,7 @@
 
 #include "certify/checker/check.h"
 #include "certify/checker/errors.h"
+#include "certify/checker/signature.h"
 #include "kinematics/case_file.h"
 #include "kinematics/input_error.h"
 
@@ -51,27 +52,41 @@ int exit_code(Outcome outcome) {
   return 4;
 }
 
-CheckResult check_file(const std::string& certificate_path, const std::string& case_path) {
+CheckResult check_file(const std::string& certificate_path, const std::string& case_path,
+                       const std::vector<std::string>& key_paths) {
+  CheckResult malformed;
   try {
+    std::vector<std::string> trusted;
+    for (const std::string& path : key_paths) trusted.push_back(read_public_key(read_file(path), path));
     const std::string text = read_file(certificate_path);
-    if (case_path.empty()) return check_certificate(text);
+    if (case_path.empty()) return check_certificate(text, nullptr, trusted);
     const nlohmann::json problem = to_json(load_case(case_path).problem);
-    return check_certificate(text, &problem);
+    return check_certificate(text, &problem, trusted);
   } catch (const Malformed& error) {
-    return {.outcome = Outcome::kMalformed, .message = error.what(), .verdict = {}};
+    malformed.message = error.what();
   } catch (const InputError& error) {
-    return {.outcome = Outcome::kMalformed, .message = error.what(), .verdict = {}};
+    malformed.message = error.what();
   }
+  return malformed;
+}
+
+/// Who vouches for the file.
+std::string describe_signer(const CheckResult& result) {
+  if (result.signer.empty()) return "not signed";
+  return "signed by key " + fingerprint(result.signer) + (result.is_trusted ? "; trusted" : "; not trusted by anyone");
 }
 
 int run(int argc, char** argv) {
   CLI::App app("Proves the claim of a certificate again, independently of the program that wrote it.", "taut-check");
   std::string certificate_path;
   std::string case_path;
+  std::vector<std::string> key_paths;
   bool as_json = false;
   bool quiet = false;
   app.add_option("CERTIFICATE", certificate_path, "certificate.json")->required();
   app.add_option("CASE", case_path, "case that the certificate must be about");
+  app.add_option("--trust", key_paths, "reject what is not signed by this Ed25519 public key (PEM); repeatable")
+      ->allow_extra_args(false);
   app.add_flag("--json", as_json, "print one JSON object");
   app.add_flag("--quiet", quiet, "print nothing: the exit code says it");
   app.set_version_flag("--version", TAUT_VERSION);
@@ -83,9 +98,13 @@ int run(int argc, char** argv) {
   }
 
   const auto start = std::chrono::steady_clock::now();
-  const CheckResult result = check_file(certificate_path, case_path);
+  const CheckResult result = check_file(certificate_path, case_path, key_paths);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (as_json && !quiet) {
+    nlohmann::json signature;
+    if (!result.signer.empty()) {
+      signature = {{"key", fingerprint(result.signer)}, {"public_key", result.signer}, {"trusted", result.is_trusted}};
+    }
     const nlohmann::json report = {{"outcome", name(result.outcome)},
                                    {"message", result.message},
                                    {"verdict", result.verdict},
@@ -93,12 +112,14 @@ int run(int argc, char** argv) {
                                    {"boxes", result.boxes},
                                    {"pieces", result.pieces},
                                    {"bits", result.bits},
+                                   {"signature", signature},
                                    {"seconds", seconds}};
     std::cout << report.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
   } else if (!quiet && result.outcome != Outcome::kMalformed) {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << result.message << ", " << time << std::endl;
+    std::cout << name(result.outcome) << ": " << result.message << ", " << time << "; " << describe_signer(result)
+              << std::endl;
   }
   if (!quiet && result.outcome == Outcome::kMalformed) {
     std::cerr << name(result.outcome) << ": " << result.message << std::endl;
