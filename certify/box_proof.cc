@@ -20,10 +20,6 @@ const char* name(MarginKind kind) {
   return "?";
 }
 
-double DyadicBox::lower() const { return std::ldexp(static_cast<double>(k), -depth); }
-double DyadicBox::upper() const { return std::ldexp(static_cast<double>(k + 1), -depth); }
-double DyadicBox::mid() const { return std::ldexp(static_cast<double>(2 * k + 1), -depth - 1); }
-
 // ---- Models ----------------------------------------------------------------------------------------------------------
 
 namespace {
@@ -87,14 +83,14 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   using Point = typename Scalars<I>::Point;
   using Upper = UpperOf<I>;
   const Model<I>& model = problem.model;
-  const double radius = std::ldexp(1.0, -box.depth - 1);
+  const double radius = box.radius();
+  const EnclosedBox<I> s = enclose<I>(box);
 
   BoxEnclosure<I> result;
   result.offset = I(-radius, radius);
   const I& offset = result.offset;
 
-  const MotionEnclosure<I> motion =
-      enclose_motion(problem.motion, segment, I(box.lower(), box.upper()), I(box.mid()), offset);
+  const MotionEnclosure<I> motion = enclose_motion(problem.motion, segment, s.range, s.mid, offset);
   result.motion = motion.status;
   if (motion.status == MotionEnclosure<I>::Status::kUnproved) return result;
   const CableGeometry<Centered<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
@@ -275,9 +271,13 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     if (!(bound > 0 && bound > required)) all_positive = false;
     if (clearance > 0 && upper_bound(value.at_mid) <= required) too_close = true;
     if (!certainly_positive(value.at_mid)) midpoint_positive = false;
-    if (!refuted && certainly_nonpositive(value.at_mid)) {
-      refuted = true;
-      refuted_id = id;
+    if (certainly_nonpositive(value.at_mid)) {
+      const bool throughout = certainly_nonpositive(value.range);
+      if (!refuted || (throughout && !verdict.throughout)) {
+        refuted = true;
+        refuted_id = id;
+        verdict.throughout = throughout;
+      }
     }
     if (bound < lowest) {
       lowest = bound;
@@ -328,9 +328,9 @@ BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segme
   return verdict;
 }
 
-int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, double s) {
+int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s) {
   Faults<MpInterval>::clear();
-  const MpInterval point(s);
+  const auto point = enclose<MpInterval>(s);
   const MotionEnclosure<MpInterval> motion = enclose_motion(problem.motion, segment, point, point, MpInterval(0.0));
   if (motion.status == MotionEnclosure<MpInterval>::Status::kUnproved) return 0;
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };

@@ -14,9 +14,9 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include "certify/centered.h"
+#include "certify/dyadic.h"
 #include "certify/interval.h"
 #include "certify/margin.h"
 #include "certify/motion.h"
@@ -25,20 +25,6 @@
 #include "kinematics/segment.h"
 
 namespace taut {
-
-/// [k/2^depth, (k+1)/2^depth] within [0, 1].
-struct DyadicBox {
-  static constexpr int kMaxDepth = 52;  ///< ends and midpoints are binary64 numbers up to here
-  std::uint64_t k = 0;
-  int depth = 0;
-
-  [[nodiscard]] double lower() const;  ///< exact
-  [[nodiscard]] double upper() const;  ///< exact
-  [[nodiscard]] double mid() const;    ///< exact
-  [[nodiscard]] DyadicBox left() const { return {2 * k, depth + 1}; }
-  [[nodiscard]] DyadicBox right() const { return {2 * k + 1, depth + 1}; }
-  bool operator==(const DyadicBox&) const = default;
-};
 
 /// The problem ready for scalar I: constants enclosed, expressions compiled.
 template <class I>
@@ -107,7 +93,9 @@ struct BoxVerdict {
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
-  MarginId worst;        ///< the margin that decided, or stood in the way
+  MarginId worst;  ///< the margin that decided, or stood in the way
+  /// Only if kRefuted: `worst` is proved not positive on all of T.
+  bool throughout = false;
   double tension_N = 0;  ///< proved lower bounds over the box; only if kProved
   double length_m = 0;
   double wrench_scale = 0;
@@ -121,7 +109,7 @@ struct BoxVerdict {
                                    double clearance = 0);
 
 /// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
-[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, double s);
+[[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s);
 
 extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
 extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);

@@ -33,16 +33,6 @@ std::string hex_float(double x) {
   return text.data();
 }
 
-std::string dyadic(double s) {
-  int depth = 0;
-  while (s != std::floor(s)) {
-    s *= 2;
-    ++depth;
-  }
-  const auto k = static_cast<std::uint64_t>(s);
-  return depth == 0 ? std::to_string(k) : fmt::format("{}/{}", k, std::uint64_t{1} << depth);
-}
-
 namespace {
 
 json to_json(const Margins& m) {
@@ -51,7 +41,7 @@ json to_json(const Margins& m) {
 
 json to_json(const PathPoint& p) {
   if (!p.on_segment) return {{"waypoint", p.index}};
-  return {{"segment", p.index}, {"s", dyadic(p.s)}};
+  return {{"segment", p.index}, {"s", p.s.text()}};
 }
 
 json to_json(const PathWitness& w) {
@@ -89,7 +79,7 @@ json segments_json(const Path& path, const PathProof& proof) {
   json segments = json::array();
   for (std::size_t k = 0; k < proof.segments.size(); ++k) {
     json boxes = json::array();
-    for (const DyadicBox& box : proof.segments[k].boxes) boxes.push_back({dyadic(box.lower()), dyadic(box.upper())});
+    for (const DyadicBox& box : proof.segments[k].boxes) boxes.push_back({box.lower().text(), box.upper().text()});
     segments.push_back({{"from", k},
                         {"to", k + controls - 1},
                         {"boxes", std::move(boxes)},
@@ -103,7 +93,7 @@ json undecided_json(const PathProof& proof) {
   if (proof.open_segment >= 0) {
     const DyadicBox& box = proof.segments[static_cast<std::size_t>(proof.open_segment)].open_box;
     result["segment"] = proof.open_segment;
-    result["box"] = {dyadic(box.lower()), dyadic(box.upper())};
+    result["box"] = {box.lower().text(), box.upper().text()};
   }
   return result;
 }

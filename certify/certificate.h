@@ -17,9 +17,6 @@ inline constexpr int kCertificateVersion = 2;
 /// "-0x1.2666666666666p+1": reads back bit for bit.
 [[nodiscard]] std::string hex_float(double x);
 
-/// "3/8": exact. @pre s = k/2^n in [0, 1]
-[[nodiscard]] std::string dyadic(double s);
-
 /// The whole certificate, footer included. `illustration` is floating-point data for pictures and proves nothing.
 [[nodiscard]] nlohmann::json make_certificate(const Problem& problem, const Path& path, const PathProof& proof,
                                               nlohmann::json illustration);

@@ -66,7 +66,7 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   }
   const BoxVerdict verdict = prover.judge(still, whole);
   if (verdict.kind == BoxVerdict::Kind::kRefuted) {
-    return make_witness(prover, still, whole, verdict.worst, PathPoint{false, index, 0});
+    return make_witness(prover, still, whole, verdict.worst, PathPoint{false, index, {}});
   }
   undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
               : verdict.kind == BoxVerdict::Kind::kNoMotion

@@ -14,7 +14,7 @@ namespace taut {
 struct PathPoint {
   bool on_segment = false;
   int index = 0;
-  double s = 0;  ///< dyadic; only on a segment
+  Dyadic s;  ///< only on a segment
 };
 
 /// What refutes a path, proved.

@@ -25,13 +25,6 @@ TEST(HexFloat, ReadsBackBitForBit) {
   EXPECT_EQ(hex_float(-2.3), "-0x1.2666666666666p+1");
 }
 
-TEST(Dyadic, IsWrittenInLowestTerms) {
-  EXPECT_EQ(dyadic(0.0), "0");
-  EXPECT_EQ(dyadic(1.0), "1");
-  EXPECT_EQ(dyadic(0.375), "3/8");
-  EXPECT_EQ(dyadic(std::ldexp(1.0, -52)), "1/4503599627370496");
-}
-
 TEST(Sha256, IsThatOfTheCanonicalText) {
   EXPECT_EQ(sha256(json::object()), "44136fa355b3678a1146ad16f7e8649e94fb4fc21fe77e8310c060f61caaff8a");  // of {}
 }

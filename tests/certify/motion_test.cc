@@ -190,25 +190,26 @@ TYPED_TEST(Motion, HoldsEverySampleOfABoxAndItsSlopes) {
       const auto trial = random_trial(surface, prover, operands);
       const Segment& segment = trial->segment;
       const int depth = operands.pick(6);
-      const DyadicBox box{static_cast<std::uint64_t>(operands.pick(1 << depth)), depth};
       const double radius = std::ldexp(1.0, -depth - 1);
+      const double lower = 2 * radius * operands.pick(1 << depth);
+      const double mid = lower + radius;
+      const double upper = mid + radius;
       MotionEnclosure<I> motion;
-      const bool sound = TypeParam::run([&] {
-        motion = enclose_motion(*model, segment, I(box.lower(), box.upper()), I(box.mid()), I(-radius, radius));
-      });
+      const bool sound = TypeParam::run(
+          [&] { motion = enclose_motion(*model, segment, I(lower, upper), I(mid), I(-radius, radius)); });
       if (!sound || motion.status != MotionEnclosure<I>::Status::kKnown) continue;
       ++known;
       const PrecisionScope precision(oracle::kBits);
       const BigFloat error(1e-45);
       std::optional<Vector> last;
       double last_s = 0;
-      for (const double s : {box.lower(), box.mid(), operands.uniform(box.lower(), box.upper()), box.upper()}) {
+      for (const double s : {lower, mid, operands.uniform(lower, upper), upper}) {
         const Exact exact = exact_motion(surface, segment, s);
         for (const BigFloat& y : exact.y) ASSERT_LE(abs(y).to_double(), segment.tube);
         for (std::size_t j = 0; j < 3; ++j) {
           const Centered<I>& p = motion.p_WP(static_cast<int>(j));
           EXPECT_TRUE(holds(p.range, exact.parameters[j], error)) << j << " at " << s << " " << print(p.range);
-          EXPECT_TRUE(s != box.mid() || holds(p.at_mid, exact.parameters[j], error)) << j << " " << print(p.at_mid);
+          EXPECT_TRUE(s != mid || holds(p.at_mid, exact.parameters[j], error)) << j << " " << print(p.at_mid);
           if (last && s != last_s) {
             const BigFloat quotient = (exact.parameters[j] - (*last)[j]) / (BigFloat(s) - BigFloat(last_s));
             EXPECT_TRUE(holds(p.slope, quotient, BigFloat(1e-40))) << j << " at " << s;

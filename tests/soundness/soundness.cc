@@ -248,8 +248,7 @@ Trial make_trial(Random& random) {
 
 /// The segment's mix at s of what `value` reads from the control points.
 template <class F>
-BigFloat mix(const Trial& trial, double s, F value) {
-  const BigFloat t(s);
+BigFloat mix(const Trial& trial, const BigFloat& t, F value) {
   const BigFloat u = BigFloat(1.0) - t;
   if (trial.law == Interpolation::kStraight) return u * value(trial.controls[0]) + t * value(trial.controls[1]);
   const BigFloat three(3.0);
@@ -284,7 +283,7 @@ Vector solve(std::vector<Vector> a, Vector b) {
   return b;
 }
 
-Vector parameters_at(const Trial& trial, double s) {
+Vector parameters_at(const Trial& trial, const BigFloat& s) {
   Vector q;
   const std::size_t m = trial.controls[0].x.size();
   for (std::size_t j = 0; j < m; ++j) q.push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.x[j]); }));
@@ -478,7 +477,8 @@ void run_trial(std::uint64_t seed, Tally& tally) {
     case Verdict::kRefuted: {
       ++tally.refuted;
       if (proof.witness->singular) break;
-      const auto at = oracle::statics(trial.problem, trial.pose(parameters_at(trial, proof.witness->box.mid())));
+      const auto at = oracle::statics(
+          trial.problem, trial.pose(parameters_at(trial, enclose<MpInterval>(proof.witness->box.mid()).lower())));
       const BigFloat value = quantity(at, proof.witness->margin);
       const BigFloat bound = oracle::big(limit(trial.problem, proof.witness->margin));
       if (is_upper(proof.witness->margin.kind) ? value < bound : value > bound) breach("refuted by a false witness");
