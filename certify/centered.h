@@ -72,6 +72,11 @@ struct Centered {
     return {exp(a.at_mid), range * a.slope, range};
   }
   friend Centered log(const Centered& a) { return {log(a.at_mid), a.slope / a.range, log(a.range)}; }
+  friend Centered asin(const Centered& a) { return {asin(a.at_mid), a.slope / cosine_of_asin(a.range), asin(a.range)}; }
+  friend Centered acos(const Centered& a) {
+    return {acos(a.at_mid), -(a.slope / cosine_of_asin(a.range)), acos(a.range)};
+  }
+  friend Centered atan(const Centered& a) { return {atan(a.at_mid), a.slope / (I(1.0) + sqr(a.range)), atan(a.range)}; }
   friend Centered atan2(const Centered& y, const Centered& x) {
     return {atan2(y.at_mid, x.at_mid), (x.range * y.slope - y.range * x.slope) / (sqr(x.range) + sqr(y.range)),
             atan2(y.range, x.range)};
@@ -84,6 +89,9 @@ struct Centered {
 
   /// Intersects `range` with the mean-value form; `offset` encloses t − m for all t in T.
   void tighten(const I& offset) { range = intersect(range, at_mid + slope * offset); }
+
+ private:
+  static I cosine_of_asin(const I& x) { return sqrt((I(1.0) + x) * (I(1.0) - x)); }
 };
 
 template <class I>

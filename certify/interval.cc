@@ -40,6 +40,11 @@ Interval increasing(MpfrUnary f, Interval x) {
   return checked(mpfr_rounded(f, x.lower(), MPFR_RNDD), mpfr_rounded(f, x.upper(), MPFR_RNDU));
 }
 
+/// A sine's values: asin and acos are NaN beyond them, and checked() would see that too.
+void require_sine(Interval x) {
+  if (!(x.lower() >= -1 && x.upper() <= 1)) Faults<Interval>::raise();
+}
+
 // ---- Sine and cosine -------------------------------------------------------------------------------------------------
 //
 // For |x| <= kTableEnd: x = k/32 + r with an integer k and |r| <= 1/64 + tiny. r is an interval: just below x = 1/64, where
@@ -161,6 +166,18 @@ Interval log(Interval x) {
   }
   return increasing(mpfr_log, x);
 }
+
+Interval asin(Interval x) {
+  require_sine(x);
+  return increasing(mpfr_asin, x);
+}
+
+Interval acos(Interval x) {
+  require_sine(x);
+  return checked(mpfr_rounded(mpfr_acos, x.upper(), MPFR_RNDD), mpfr_rounded(mpfr_acos, x.lower(), MPFR_RNDU));
+}
+
+Interval atan(Interval x) { return increasing(mpfr_atan, x); }
 
 Interval atan2(Interval y, Interval x) {
   if (!(x.lower() > 0 || y.lower() > 0 || y.upper() < 0)) {  // meets the cut or the origin

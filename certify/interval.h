@@ -9,7 +9,8 @@
 // intervals and no infinities to reason about.
 //
 // Transcendentals: sin and cos come from a table of MPFR enclosures and a Taylor remainder (interval.cc;
-// docs/theory.md, "Sine and cosine"), tan is their quotient; exp, log, atan2 ask MPFR for each end. No libm.
+// docs/theory.md, "Sine and cosine"), tan is their quotient; exp, log, asin, acos, atan, atan2 ask
+// MPFR for each end. No libm.
 #pragma once
 
 #include <immintrin.h>
@@ -107,6 +108,10 @@ inline Interval sqrt(Interval a) {
 [[nodiscard]] Interval tan(Interval x);
 [[nodiscard]] Interval exp(Interval x);
 [[nodiscard]] Interval log(Interval x);
+/// Principal values; asin and acos raise a fault where a member is beyond [−1, 1].
+[[nodiscard]] Interval asin(Interval x);
+[[nodiscard]] Interval acos(Interval x);
+[[nodiscard]] Interval atan(Interval x);
 /// Principal value; a fault where the box (x, y) meets the cut x <= 0, y = 0.
 [[nodiscard]] Interval atan2(Interval y, Interval x);
 [[nodiscard]] Interval pow_int(Interval x, int n);

@@ -65,6 +65,9 @@ class MpfrRounding {
   TAUT_DIRECTED_UNARY(cos, mpfr_cos)
   TAUT_DIRECTED_UNARY(exp, mpfr_exp)
   TAUT_DIRECTED_UNARY(log, mpfr_log)
+  TAUT_DIRECTED_UNARY(asin, mpfr_asin)
+  TAUT_DIRECTED_UNARY(acos, mpfr_acos)
+  TAUT_DIRECTED_UNARY(atan, mpfr_atan)
   TAUT_DIRECTED_BINARY(atan2, mpfr_atan2)
 #undef TAUT_DIRECTED_UNARY
 #undef TAUT_DIRECTED_BINARY
@@ -200,6 +203,29 @@ template <class T, class P>
     return interval<T, P>(T(0));
   }
   return interval<T, P>(R::log_down(x.lower()), R::log_up(x.upper()));
+}
+template <class T, class P>
+[[nodiscard]] interval<T, P> asin(const interval<T, P>& x) {
+  using R = taut::MpfrRounding<T>;
+  if (!(x.lower() >= T(-1) && x.upper() <= T(1))) {
+    taut::Faults<interval<T, P>>::raise();
+    return interval<T, P>(T(0));
+  }
+  return interval<T, P>(R::asin_down(x.lower()), R::asin_up(x.upper()));
+}
+template <class T, class P>
+[[nodiscard]] interval<T, P> acos(const interval<T, P>& x) {
+  using R = taut::MpfrRounding<T>;
+  if (!(x.lower() >= T(-1) && x.upper() <= T(1))) {
+    taut::Faults<interval<T, P>>::raise();
+    return interval<T, P>(T(0));
+  }
+  return interval<T, P>(R::acos_down(x.upper()), R::acos_up(x.lower()));
+}
+template <class T, class P>
+[[nodiscard]] interval<T, P> atan(const interval<T, P>& x) {
+  using R = taut::MpfrRounding<T>;
+  return interval<T, P>(R::atan_down(x.lower()), R::atan_up(x.upper()));
 }
 template <class T, class P>
 [[nodiscard]] interval<T, P> atan2(const interval<T, P>& y, const interval<T, P>& x) {

@@ -24,7 +24,10 @@ bool is_unary(Op op) {
     case Op::kCos:
     case Op::kTan:
     case Op::kExp:
-    case Op::kLog: return true;
+    case Op::kLog:
+    case Op::kAsin:
+    case Op::kAcos:
+    case Op::kAtan: return true;
     default: return false;
   }
 }
@@ -34,7 +37,8 @@ bool is_leaf(Op op) { return op == Op::kConstant || op == Op::kParameter; }
 }  // namespace
 
 bool is_reserved_name(const std::string& name) {
-  static constexpr std::array kReserved = {"pi", "sqrt", "sin", "cos", "tan", "exp", "log", "atan2"};
+  static constexpr std::array kReserved = {"pi",  "sqrt", "sin",  "cos",  "tan",  "exp",
+                                           "log", "asin", "acos", "atan", "atan2"};
   return std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end();
 }
 

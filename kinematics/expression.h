@@ -31,6 +31,9 @@ enum class Op : unsigned char {
   kTan,
   kExp,
   kLog,
+  kAsin,
+  kAcos,
+  kAtan,
   kAtan2,
 };
 

@@ -44,6 +44,9 @@ void Evaluator<S>::evaluate(std::span<const S> parameters, std::span<S> values) 
       case Op::kTan: slots.push_back(tan(slots[a])); break;
       case Op::kExp: slots.push_back(exp(slots[a])); break;
       case Op::kLog: slots.push_back(log(slots[a])); break;
+      case Op::kAsin: slots.push_back(asin(slots[a])); break;
+      case Op::kAcos: slots.push_back(acos(slots[a])); break;
+      case Op::kAtan: slots.push_back(atan(slots[a])); break;
       case Op::kAtan2: slots.push_back(atan2(slots[a], slots[b])); break;
     }
   }

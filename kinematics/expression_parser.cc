@@ -101,7 +101,8 @@ const auto exponent_negate = [](auto& context) { _val(context) = -_attr(context)
 
 struct Functions : x3::symbols<Op> {
   Functions() {
-    add("sqrt", Op::kSqrt)("sin", Op::kSin)("cos", Op::kCos)("tan", Op::kTan)("exp", Op::kExp)("log", Op::kLog);
+    add("sqrt", Op::kSqrt)("sin", Op::kSin)("cos", Op::kCos)("tan", Op::kTan)("exp", Op::kExp)("log", Op::kLog)(
+        "asin", Op::kAsin)("acos", Op::kAcos)("atan", Op::kAtan);
   }
 } const functions;
 

@@ -75,6 +75,9 @@ struct Jet {
     return chain(a, value, value);
   }
   friend Jet log(const Jet& a) { return chain(a, log(a.value), S(1.0) / a.value); }
+  friend Jet asin(const Jet& a) { return chain(a, asin(a.value), slope_of_asin(a.value)); }
+  friend Jet acos(const Jet& a) { return chain(a, acos(a.value), -slope_of_asin(a.value)); }
+  friend Jet atan(const Jet& a) { return chain(a, atan(a.value), S(1.0) / (S(1.0) + sqr(a.value))); }
   friend Jet atan2(const Jet& y, const Jet& x) {
     const S square = sqr(x.value) + sqr(y.value);
     return chain(y, x, atan2(y.value, x.value), x.value / square, -(y.value / square));
@@ -85,6 +88,7 @@ struct Jet {
   }
 
  private:
+  static S slope_of_asin(const S& x) { return S(1.0) / sqrt((S(1.0) + x) * (S(1.0) - x)); }
   template <class F>
   static Jet combine(const Jet& a, const Jet& b, F f) {
     Jet r;

@@ -36,6 +36,9 @@ inline bool certainly_positive(double x) { return x > 0; }
 inline double sqr(double x) { return x * x; }
 inline SinCos<double> sincos(double x) { return {std::sin(x), std::cos(x)}; }
 inline double pow_int(double x, int n) { return std::pow(x, n); }
+using std::acos;
+using std::asin;
+using std::atan;
 using std::atan2;
 using std::cos;
 using std::exp;
@@ -58,6 +61,9 @@ concept Scalar = std::copyable<S> && requires(S x, S y, const std::string& text,
   { tan(x) } -> std::convertible_to<S>;
   { exp(x) } -> std::convertible_to<S>;
   { log(x) } -> std::convertible_to<S>;
+  { asin(x) } -> std::convertible_to<S>;
+  { acos(x) } -> std::convertible_to<S>;
+  { atan(x) } -> std::convertible_to<S>;
   { atan2(x, y) } -> std::convertible_to<S>;
   { pow_int(x, n) } -> std::convertible_to<S>;
 };

@@ -39,9 +39,9 @@ class ExpressionParser {
   }
 
   static const std::map<std::string, Op>& functions() {
-    static const std::map<std::string, Op> kFunctions = {{"sqrt", Op::kSqrt},  {"sin", Op::kSin}, {"cos", Op::kCos},
-                                                         {"tan", Op::kTan},    {"exp", Op::kExp}, {"log", Op::kLog},
-                                                         {"atan2", Op::kAtan2}};
+    static const std::map<std::string, Op> kFunctions = {
+        {"sqrt", Op::kSqrt}, {"sin", Op::kSin},   {"cos", Op::kCos},   {"tan", Op::kTan},   {"exp", Op::kExp},
+        {"log", Op::kLog},   {"asin", Op::kAsin}, {"acos", Op::kAcos}, {"atan", Op::kAtan}, {"atan2", Op::kAtan2}};
     return kFunctions;
   }
 
@@ -215,6 +215,9 @@ Form Expression::evaluate(std::span<const Form> parameters) const {
         case Op::kTan: return sin(a()) / cos(a());
         case Op::kExp: return exp(a());
         case Op::kLog: return log(a());
+        case Op::kAsin: return asin(a());
+        case Op::kAcos: return acos(a());
+        case Op::kAtan: return atan(a());
         case Op::kAtan2: return atan2(a(), b());
       }
       throw std::logic_error("an operation without a meaning");

@@ -55,6 +55,9 @@ class Expression {
     kTan,
     kExp,
     kLog,
+    kAsin,
+    kAcos,
+    kAtan,
     kAtan2
   };
   /// a and b are earlier nodes; n is an exponent, or the index of a number or parameter.

@@ -85,6 +85,18 @@ inline Form power(const Form& a, int n) {
   if (a.is_constant()) return Form(power(a.mid, n));
   return Form::enclose(power(a.mid, n), Interval(n) * power(a.range, n - 1) * a.slope, power(a.range, n));
 }
+inline Form asin(const Form& a) {
+  if (a.is_constant()) return Form(asin(a.mid));
+  return Form::enclose(asin(a.mid), a.slope / sqrt(Interval(1) - sqr(a.range)), asin(a.range));
+}
+inline Form acos(const Form& a) {
+  if (a.is_constant()) return Form(acos(a.mid));
+  return Form::enclose(acos(a.mid), -a.slope / sqrt(Interval(1) - sqr(a.range)), acos(a.range));
+}
+inline Form atan(const Form& a) {
+  if (a.is_constant()) return Form(atan(a.mid));
+  return Form::enclose(atan(a.mid), a.slope / (Interval(1) + sqr(a.range)), atan(a.range));
+}
 inline Form atan2(const Form& y, const Form& x) {
   if (y.is_constant() && x.is_constant()) return Form(atan2(y.mid, x.mid));
   const Interval slope = (x.range * y.slope - y.range * x.slope) / (sqr(x.range) + sqr(y.range));

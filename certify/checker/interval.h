@@ -121,6 +121,14 @@ class Interval {
     if (mpfr_sgn(a.lower()) <= 0) throw Undefined("logarithm of what may not be positive");
     return make([&](mpfi_ptr r) { mpfi_log(r, a.x_); });
   }
+  friend Interval asin(const Interval& a) {
+    a.require_sine();
+    return make([&](mpfi_ptr r) { mpfi_asin(r, a.x_); });
+  }
+  friend Interval acos(const Interval& a) {
+    a.require_sine();
+    return make([&](mpfi_ptr r) { mpfi_acos(r, a.x_); });
+  }
   friend Interval atan(const Interval& a) {
     return make([&](mpfi_ptr r) { mpfi_atan(r, a.x_); });
   }
@@ -158,6 +166,11 @@ class Interval {
   void require_bounded() const {
     if (!mpfr_number_p(lower()) || !mpfr_number_p(upper()) || mpfr_greater_p(lower(), upper())) {
       throw Undefined("a value beyond the range of the arithmetic");
+    }
+  }
+  void require_sine() const {
+    if (mpfr_cmp_si(lower(), -1) < 0 || mpfr_cmp_si(upper(), 1) > 0) {
+      throw Undefined("arcsine or arccosine of what may be beyond [-1, 1]");
     }
   }
   /// Every binary64 passes; an argument like 10^1000000 would only burn time and memory in the reduction by pi.

@@ -92,6 +92,13 @@ struct Angle {
     return atan2(sin(t), cos(t) + S(1.5)) + atan2(S(2.0) + t * t, t);
   }
 };
+struct InverseTrigonometric {
+  template <class S>
+  static S of(const S& t) {
+    const S u = sin(t) * S(0.875);
+    return asin(u) * t - acos(u * cos(t)) + atan(t * t - S(2.0));
+  }
+};
 struct Powers {
   template <class S>
   static S of(const S& t) {
@@ -115,6 +122,9 @@ TYPED_TEST(CenteredForm, EnclosesExponentialsAndLogarithms) {
   this->template expect_enclosures<ExponentialAndLogarithm>(-3, 3);
 }
 TYPED_TEST(CenteredForm, EnclosesAngles) { this->template expect_enclosures<Angle>(-3, 3); }
+TYPED_TEST(CenteredForm, EnclosesInverseTrigonometricFunctions) {
+  this->template expect_enclosures<InverseTrigonometric>(-3, 3);
+}
 TYPED_TEST(CenteredForm, EnclosesPowers) { this->template expect_enclosures<Powers>(-3, 3); }
 TYPED_TEST(CenteredForm, EnclosesCompositions) { this->template expect_enclosures<Everything>(-3, 3); }
 
@@ -127,6 +137,9 @@ TYPED_TEST(CenteredForm, LeavingADomainIsAFault) {
     Centered<I> y;
     EXPECT_TRUE(faults([&] { y = sqrt(x); }));
     EXPECT_TRUE(faults([&] { y = log(x); }));
+    EXPECT_TRUE(faults([&] { y = asin(x); }));
+    EXPECT_TRUE(faults([&] { y = acos(-x); }));
+    EXPECT_TRUE(faults([&] { y = asin(x - Centered<I>(0.5)); })) << "no slope at 1";
     EXPECT_TRUE(faults([&] { y = reciprocal(x); }));
     EXPECT_TRUE(faults([&] { y = Centered<I>(0.0) / x; }));
     EXPECT_TRUE(faults([&] { y = pow_int(x, -1); }));

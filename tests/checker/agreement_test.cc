@@ -86,7 +86,7 @@ ExpressionText random_expression(std::mt19937_64& random, int depth) {
   if (depth == 0) return pick(3) == 0 ? number() : pick(2) == 0 ? "t" : "x";
   const ExpressionText a = random_expression(random, depth - 1);
   const ExpressionText b = random_expression(random, depth - 1);
-  switch (pick(12)) {
+  switch (pick(15)) {
     case 0: return "(" + a + ")+(" + b + ")";
     case 1: return "(" + a + ")-(" + b + ")";
     case 2:
@@ -97,7 +97,10 @@ ExpressionText random_expression(std::mt19937_64& random, int depth) {
     case 7: return "(" + a + " - " + number() + ")^" + std::to_string(pick(5) - 2);
     case 8: return "tan(" + a + ")";
     case 9: return "exp(" + a + ")";
-    case 10: return "log(" + a + " + " + number() + ")";
+    case 10: return "asin(" + a + " - " + number() + ")";
+    case 11: return "acos(" + a + " - " + number() + ")";
+    case 12: return "atan(" + a + ")";
+    case 13: return "log(" + a + " + " + number() + ")";
     default: return "sin(3*(" + a + "))";
   }
 }

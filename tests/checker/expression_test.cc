@@ -39,6 +39,9 @@ TEST(Expression, MeansTheUsualReading) {
   expect_exactly("phi - theta*rs", 5 - 7 * mpq_class(13, 100));
   expect_exactly("sqrt(9) + exp(0) + log(1) + sin(0) + cos(0) + tan(0)", 5);
   expect_exactly("atan2(1,-1)/pi", mpq_class(3, 4));
+  expect_exactly("asin(1)/pi", mpq_class(1, 2));
+  expect_exactly("acos(-1/2)/pi", mpq_class(2, 3));
+  expect_exactly("atan(-1)/pi", mpq_class(-1, 4));
   expect_exactly("((34)) * (pi)/180 / pi", mpq_class(34, 180));
 }
 
@@ -162,7 +165,7 @@ TEST(Expression, GrowsByTheTurnsThatItCounts) {
 }
 
 TEST(Expression, ReservesPiAndTheFunctions) {
-  for (const std::string name : {"pi", "sin", "atan2", "", "1a", "a-b", "a b"})
+  for (const std::string name : {"pi", "sin", "atan", "atan2", "", "1a", "a-b", "a b"})
     EXPECT_FALSE(Expression::is_free_name(name));
   for (const std::string name : {"phi", "_x", "alpha2", "PI"}) EXPECT_TRUE(Expression::is_free_name(name));
 }

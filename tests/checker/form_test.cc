@@ -59,6 +59,9 @@ TEST(Form, HoldsValuesAndSlopesOfEveryOperation) {
                                                 "atan2(1, x)",
                                                 "atan2(-1 - x^2, x - 1)",
                                                 "atan2(sin(x), cos(x))",
+                                                "asin(x/9)",
+                                                "acos(sin(x)/2)",
+                                                "atan(x^2 - x)",
                                                 "sin(x)^2 + cos(x)^2",
                                                 "x*sin(x)*exp(x/4)",
                                                 "sqrt(2)*x",
@@ -89,6 +92,8 @@ TEST(Form, ExistsOnlyWhereTheFunctionIsContinuous) {
   EXPECT_THROW((void)(Form(Interval(1)) / variable(0, 1)), Undefined);
   EXPECT_THROW((void)atan2(variable(0, 1), Form(Interval(-1))), Undefined);
   EXPECT_THROW((void)power(variable(0, 1), -3), Undefined);
+  EXPECT_THROW((void)asin(variable(0, 1)), Undefined) << "no derivative at 1";
+  EXPECT_THROW((void)acos(variable(1, 1)), Undefined);
 }
 
 }  // namespace

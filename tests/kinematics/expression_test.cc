@@ -56,6 +56,9 @@ TEST(Expression, KnowsItsFunctions) {
   EXPECT_EQ(value_at("tan(x)", x, y), std::tan(x));
   EXPECT_EQ(value_at("exp(x)", x, y), std::exp(x));
   EXPECT_EQ(value_at("log(x)", x, y), std::log(x));
+  EXPECT_EQ(value_at("asin(x)", x, y), std::asin(x));
+  EXPECT_EQ(value_at("acos(x)", x, y), std::acos(x));
+  EXPECT_EQ(value_at("atan(x)", x, y), std::atan(x));
   EXPECT_EQ(value_at("atan2(x, y)", x, y), std::atan2(x, y));
   EXPECT_EQ(value_of("pi"), std::numbers::pi);
 }
@@ -205,7 +208,7 @@ TEST(Expression, IsNotBroughtDownByHostileText) {
 }
 
 TEST(ExpressionTape, RejectsBadNames) {
-  for (const char* name : {"", "2x", "pi", "sin", "a b", "ä", "a-b"}) {
+  for (const char* name : {"", "2x", "pi", "sin", "atan", "a b", "ä", "a-b"}) {
     EXPECT_THROW(ExpressionTape({"1"}, {name}, {}), InputError) << name;
     EXPECT_THROW(ExpressionTape({"1"}, {}, {{name, "1"}}), InputError) << name;
   }

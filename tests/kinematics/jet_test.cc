@@ -54,6 +54,13 @@ TEST(Jet, DifferentiatesExponentialsLogarithmsAndAngles) {
     return S(exp(x - y) * log(x + y) + atan2(x, y) - atan2(-y, x * x));
   });
 }
+TEST(Jet, DifferentiatesInverseTrigonometry) {
+  expect_partials([](const auto& x, const auto& y) {
+    using S = std::decay_t<decltype(x)>;
+    const S small = sin(x * y) * S(0.75);
+    return S(asin(small) * y - acos(small * sin(x)) + atan(x - y * y));
+  });
+}
 TEST(Jet, DifferentiatesMixturesWithConstants) {
   const BigFloat k(0.75);
   expect_partials([&](const auto& x, const auto& y) {

@@ -32,6 +32,9 @@ inline BigFloat tan(const BigFloat& x) { return exact_detail::nearest(mpfr_tan, 
 inline BigFloat exp(const BigFloat& x) { return exact_detail::nearest(mpfr_exp, x); }
 inline BigFloat log(const BigFloat& x) { return exact_detail::nearest(mpfr_log, x); }
 inline SinCos<BigFloat> sincos(const BigFloat& x) { return {sin(x), cos(x)}; }
+inline BigFloat asin(const BigFloat& x) { return exact_detail::nearest(mpfr_asin, x); }
+inline BigFloat acos(const BigFloat& x) { return exact_detail::nearest(mpfr_acos, x); }
+inline BigFloat atan(const BigFloat& x) { return exact_detail::nearest(mpfr_atan, x); }
 inline BigFloat atan2(const BigFloat& y, const BigFloat& x) {
   return BigFloat::apply_rounded(MPFR_RNDN, mpfr_atan2, y, x);
 }
