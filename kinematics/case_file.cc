@@ -16,32 +16,15 @@
 #include "kinematics/decimal.h"
 #include "kinematics/expression.h"
 #include "kinematics/input_error.h"
+#include "kinematics/shown.h"
 #include "kinematics/units.h"
 
 namespace taut {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = 1 << 20;  // a case has a page; more is a mistake
-constexpr std::size_t kMaxShown = 60;           // characters of a wrong value in a message
 
 // --- Fields: nodes of the file that know their place ---------------------------------------------------------------
-
-/// As much of the text as a message should show: whole characters.
-std::string shorten(const std::string& text) {
-  std::size_t end = std::min(text.size(), kMaxShown);
-  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return end < text.size() ? text.substr(0, end) + "…" : text;
-}
-
-/// What a file says must not steer a terminal.
-std::string without_control_characters(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < ' ' || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-  }
-  return result;
-}
 
 bool is_list_of_scalars(const YAML::Node& node) {
   return node.IsSequence() && node.size() <= 6 &&
@@ -689,32 +672,11 @@ Case read_case(const Field& root) {
   return result;
 }
 
-/// Length of the UTF-8 character (Unicode 15, table 3-7) other than NUL that the text begins with; 0 if there is none.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) -> unsigned {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
-  };
-  const auto is_between = [](unsigned value, unsigned lowest, unsigned highest) {
-    return lowest <= value && value <= highest;
-  };
-  const unsigned lead = byte(0);
-  if (is_between(lead, 0x01, 0x7F)) return 1;
-  if (!is_between(lead, 0xC2, 0xF4)) return 0;
-  const unsigned lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;   // else there is a shorter form
-  const unsigned highest = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;  // no surrogates, none above U+10FFFF
-  const std::size_t length = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  if (!is_between(byte(1), lowest, highest)) return 0;
-  for (std::size_t i = 2; i < length; ++i) {
-    if (!is_between(byte(i), 0x80, 0xBF)) return 0;
-  }
-  return length;
-}
-
 /// @throws InputError at the first byte that is no part of a character.
 void require_utf8(const std::string& text, const Places& places) {
   YAML::Mark mark;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(std::string_view(text).substr(at));
+    const std::size_t length = utf8_character_length(std::string_view(text).substr(at));
     if (length == 0) {
       places.fail(mark, "",
                   fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[at])));

@@ -6,6 +6,8 @@ taut_add_test(kinematics case_file LABELS unit LIBS taut::problem ${RAPIDCHECK_L
 taut_add_test(kinematics geometry LABELS unit LIBS taut::kinematics)
 taut_add_test(kinematics constraint_functions LABELS unit LIBS taut::kinematics)
 taut_add_test(kinematics pose_sampler LABELS unit LIBS taut::kinematics)
+taut_add_test(kinematics nearest_si LABELS unit LIBS taut::certify fmt::fmt)
+taut_add_test(kinematics path_file LABELS unit LIBS taut::kinematics fmt::fmt)
 taut_add_test(kinematics segment LABELS unit LIBS taut::kinematics)
 foreach(header model statics jet navigation_manifold)
   taut_add_test(kinematics ${header} LABELS unit laws LIBS taut::certify)
