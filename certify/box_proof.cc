@@ -108,7 +108,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   Point unused_determinant;
   if (!invert(mid, c, unused_determinant)) return result;
 
-  // A0 = C D(m), A1 = C D'(T); N0, N; Q0, Q: (a), (b).
+  // A0 = C D(m), A1 = C S; N0, N; Q0, Q: (a), (b).
   Square<I> a0;
   Square<I> a1;
   Square<I> d_mid;
@@ -141,8 +141,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   Square<Upper> q;
   if (!neumann_bound<I>(n0, q0) || !neumann_bound<I>(n, q)) return result;
 
-  // W = |A1| Q + Q (|A1| + |A1| Q): (c).
-  Square<Upper> w = upper_product(a1_magnitude, q);
+  // W = |A1| Q0 + Q (|A1| + |A1| Q0): (c).
+  Square<Upper> w = upper_product(a1_magnitude, q0);
   Square<Upper> sum = w;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) sum[i][j] += a1_magnitude[i][j];

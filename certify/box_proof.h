@@ -1,13 +1,13 @@
 // The heart: enclosures of lengths, tensions and margins over one box of one segment.
 //
 // Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any approximation of
-// D(m)^-1. With A0 = C D(m) and A1 ⊇ C D'(T), the mean value theorem gives, entry by entry,
+// D(m)^-1. With A0 = C D(m) and A1 ⊇ C S, S the slopes of D from m (centered.h), entry by entry
 //   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                       (a)
 // If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
 //   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                                (b)
-// As D^-1 = P C, the force densities λ = P C w and the rows of Z = P C L have the slopes
-//   λ' = −P (C D') P C w,   Z' = −P (C D') P C L,   P (C D') P in A1 ± W,   W = |A1| Q + Q (|A1| + |A1| Q).          (c)
-// Values at m from (b) with N0 = |I − A0|, slopes from (c): centred forms of λ and Z, so of the tensions
+// As D^-1 = P C, the force densities λ = P C w and the rows of Z = P C L have the slopes from m
+//   −P(t) (C S) P(m) C w,   −P(t) (C S) P(m) C L,   P(t) (C S) P(m) in A1 ± W,   W = |A1| Q0 + Q (|A1| + |A1| Q0),   (c)
+// where Q0 is (b) of N0 = |I − A0|: a bound of |P(m) − I|. Values at m from Q0, so centred forms of λ and Z, and of the tensions
 //   f0_i = d_i λ_i,  v_ii = d_i |Z_i|, and of the margins  f0_i − v_ii − f_lo, f_hi − f0_i − v_ii, d_i − d_lo, d_hi − d_i.
 // Proof of each step: docs/theory.md, "A box".
 #pragma once

@@ -1,9 +1,12 @@
 // Centred forms: a function of one variable t over an interval T, enclosed at its midpoint and by its slope.
 //
 // Claim.  Centered<I>{at_mid, slope, range} stands for a function x, differentiable on T, with
-//   x(m) in at_mid,   x'(t) in slope and x(t) in range for every t in T,   m the midpoint of T,
-// and every operation keeps that. By the mean value theorem x(t) is in at_mid + slope (t − m): second-order tight, while
+//   x(m) in at_mid,   x(t) in range   and   x(t) − x(m) = σ (t − m) for some σ in slope,   for every t in T,
+// m the midpoint of T, and every operation keeps that. So x(t) is in at_mid + slope (t − m): second-order tight, while
 // `range` alone is first-order. tighten() intersects the two.
+//
+// `slope` is not an enclosure of x' over T, though any such will do for it (mean value theorem): slopes from m are about half as
+// wide, and between two other points of T the quotient of differences may lie outside. Rules: docs/theory.md, "Centred forms".
 //
 // The prover evaluates pose, rotation and force densities on this scalar; a clearance between bodies or any other
 // quantity of the pose would be evaluated on it just the same.
@@ -11,6 +14,7 @@
 
 #include <string>
 
+#include "certify/rounding.h"
 #include "kinematics/scalar.h"
 
 namespace taut {
@@ -36,7 +40,7 @@ struct Centered {
   }
   friend Centered operator-(const Centered& a) { return {-a.at_mid, -a.slope, -a.range}; }
   friend Centered operator*(const Centered& a, const Centered& b) {
-    return {a.at_mid * b.at_mid, a.slope * b.range + a.range * b.slope, a.range * b.range};
+    return {a.at_mid * b.at_mid, a.slope * b.range + a.at_mid * b.slope, a.range * b.range};
   }
   friend Centered operator/(const Centered& a, const Centered& b) { return a * reciprocal(b); }
 
@@ -45,21 +49,40 @@ struct Centered {
   friend Centered operator*(const Centered& a, const I& k) { return {a.at_mid * k, a.slope * k, a.range * k}; }
 
   friend Centered reciprocal(const Centered& a) {
-    const I inverse = reciprocal(a.range);
-    return {reciprocal(a.at_mid), -(a.slope * sqr(inverse)), inverse};
+    const I mid = reciprocal(a.at_mid);
+    const I range = reciprocal(a.range);
+    return {mid, -(a.slope * (mid * range)), range};
   }
-  friend Centered sqr(const Centered& a) {
-    const I product = a.slope * a.range;
-    return {sqr(a.at_mid), product + product, sqr(a.range)};
-  }
+  friend Centered sqr(const Centered& a) { return {sqr(a.at_mid), a.slope * (a.at_mid + a.range), sqr(a.range)}; }
   friend Centered sqrt(const Centered& a) {
-    const I root = sqrt(a.range);
-    return {sqrt(a.at_mid), a.slope / (root + root), root};
+    if (!certainly_positive(a.range)) Faults<I>::raise();  // not differentiable at 0
+    const I mid = sqrt(a.at_mid);
+    const I range = sqrt(a.range);
+    return {mid, a.slope / (mid + range), range};
   }
+  /// With x = a(m), h = a(t) − x:  sin(x + h) − sin x = h (cos x sinc h − sin x verc h),
+  ///   cos(x + h) − cos x = −h (sin x sinc h + cos x verc h),  where
+  ///   sinc h = sin h / h in [1 − h²/6, 1],   verc h = (1 − cos h) / h in h [0, 1/2].
   friend SinCos<Centered> sincos(const Centered& a) {
+    constexpr double kNear = 0.5;               // where series are tighter than sines of the ends
+    constexpr double kAboveASixth = 11.0 / 64;  // exact
     const SinCos<I> mid = sincos(a.at_mid);
-    const SinCos<I> range = sincos(a.range);
-    return {{mid.sin, range.cos * a.slope, range.sin}, {mid.cos, -(range.sin * a.slope), range.cos}};
+    const I h = hull(a.range - a.at_mid, I(0.0));
+    const I square = sqr(h);
+    const I sinc = I(1.0) - I(kAboveASixth) * square;
+    const I verc = I(0.5) * h;
+    I sin_slope = mid.cos * sinc - mid.sin * verc;
+    I cos_slope = -(mid.sin * sinc + mid.cos * verc);
+    SinCos<I> range;
+    if (upper_bound(magnitude(h)) <= kNear) {
+      const I cosine = I(1.0) - I(0.5) * square;  // cos h; sin h is in h
+      range = {mid.sin * cosine + mid.cos * h, mid.cos * cosine - mid.sin * h};
+    } else {
+      range = sincos(a.range);
+      sin_slope = intersect(sin_slope, range.cos);
+      cos_slope = intersect(cos_slope, -range.sin);
+    }
+    return {{mid.sin, sin_slope * a.slope, range.sin}, {mid.cos, cos_slope * a.slope, range.cos}};
   }
   friend Centered tan(const Centered& a) {
     const SinCos<Centered> sc = sincos(a);

@@ -37,16 +37,17 @@ class CenteredForm : public ::testing::Test {
       }
       const PrecisionScope precision(kExactBits);
       const std::string where = hex(mid) + " +- " + hex(radius);
-      ASSERT_TRUE(holds(value.at_mid, F::of(BigFloat(mid)))) << where;
-      const BigFloat step(0x1p-70);
-      const BigFloat error(1e-30);  // step^2, times a third derivative below 1e10
+      const BigFloat at_mid = F::of(BigFloat(mid));
+      ASSERT_TRUE(holds(value.at_mid, at_mid)) << where;
+      const BigFloat error(1e-30);  // of 300 bits over a difference of 2^-53 or more
       for (int k = 0; k < 8; ++k) {
         const double t = k == 0 ? mid - radius : k == 1 ? mid + radius : mid + radius * operands.uniform(-1, 1);
         const BigFloat x(t);
         const BigFloat exact = F::of(x);
         ASSERT_TRUE(holds(value.range, exact)) << where << " at " << hex(t);
         ASSERT_TRUE(holds(tightened.range, exact)) << where << " at " << hex(t);
-        const BigFloat slope = (F::of(x + step) - F::of(x - step)) / (step + step);
+        if (t == mid) continue;
+        const BigFloat slope = (exact - at_mid) / (x - BigFloat(mid));
         ASSERT_TRUE(holds(value.slope, slope, error))
             << where << " at " << hex(t) << ": " << digits(slope) << " is not in " << print(value.slope);
       }
@@ -127,6 +128,40 @@ TYPED_TEST(CenteredForm, EnclosesInverseTrigonometricFunctions) {
 }
 TYPED_TEST(CenteredForm, EnclosesPowers) { this->template expect_enclosures<Powers>(-3, 3); }
 TYPED_TEST(CenteredForm, EnclosesCompositions) { this->template expect_enclosures<Everything>(-3, 3); }
+
+/// sin has slope 0 between 0 and any multiple of pi, where its derivative is −1 or 1: only wide slopes can hold both.
+TYPED_TEST(CenteredForm, EnclosesSlopesOfWideBoxes) {
+  using I = typename TypeParam::I;
+  for (const double radius : {0.49, 0.51, 1.0, 3.0, 3.5, 6.0, 40.0}) {
+    for (const double mid : {0.0, 0.1, 1.5, -3.0, 10.0}) {
+      SinCos<Centered<I>> value;
+      ASSERT_TRUE(TypeParam::run([&] { value = sincos(Centered<I>(I(mid), I(1.0), I(mid - radius, mid + radius))); }));
+      const PrecisionScope precision(kExactBits);
+      const BigFloat m(mid);
+      for (int k = -50; k <= 50; ++k) {
+        const BigFloat x(mid + radius * k / 50);
+        ASSERT_TRUE(holds(value.sin.range, sin(x))) << mid << " " << radius << " " << k;
+        ASSERT_TRUE(holds(value.cos.range, cos(x))) << mid << " " << radius << " " << k;
+        if (k == 0) continue;
+        ASSERT_TRUE(holds(value.sin.slope, (sin(x) - sin(m)) / (x - m))) << mid << " " << radius << " " << k;
+        ASSERT_TRUE(holds(value.cos.slope, (cos(x) - cos(m)) / (x - m))) << mid << " " << radius << " " << k;
+      }
+    }
+  }
+}
+
+/// Slopes from the midpoint are half as wide as derivatives: of t² over 1 ± r they are in 2 ± r, not 2 ± 2r.
+TYPED_TEST(CenteredForm, SlopesAreTighterThanDerivatives) {
+  using I = typename TypeParam::I;
+  Centered<I> square;
+  Centered<I> product;
+  ASSERT_TRUE(TypeParam::run([&] {
+    const Centered<I> t(I(1.0), I(1.0), I(0.75, 1.25));
+    square = sqr(t);
+    product = t * t;
+  }));
+  for (const Centered<I>& x : {square, product}) EXPECT_LE(spread(x.slope), 0.5 * (1 + 1e-15));
+}
 
 TYPED_TEST(CenteredForm, LeavingADomainIsAFault) {
   using I = typename TypeParam::I;

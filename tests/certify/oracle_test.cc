@@ -168,7 +168,7 @@ TEST_F(PrintedOracle, DeterminantsHaveTheirSign) {
   const ProofModel<MpInterval> model2 = make_mp_proof_model(robot2_);
   for (const PrintedPose& p : printed_poses()) {
     const Waypoint at{p.pose, std::vector<int>(6, 0)};
-    const int sign = determinant_sign(p.robot == "robot1" ? model1 : model2, Segment::straight(at, at), 0.5);
+    const int sign = determinant_sign(p.robot == "robot1" ? model1 : model2, Segment::straight(at, at), {1, 1});
     ASSERT_EQ(sign, p.determinant[0] == '-' ? -1 : 1);
   }
 }
