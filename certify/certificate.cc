@@ -54,24 +54,45 @@ json to_json(const PathWitness& w) {
 }
 
 const char* name(Interpolation law) {
-  return law == Interpolation::kStraight ? "straight-in-parameters" : "cubic-b-spline";
+  switch (law) {
+    case Interpolation::kStraight: return "straight-in-parameters";
+    case Interpolation::kCubicBSpline: return "cubic-b-spline";
+    case Interpolation::kGeodesic: return "geodesic";
+    case Interpolation::kCableLengths: break;
+  }
+  return "straight-in-cable-lengths";
+}
+
+json hex_floats(std::span<const double> values) {
+  json list = json::array();
+  for (const double value : values) list.push_back(hex_float(value));
+  return list;
+}
+
+json waypoint_json(Interpolation law, const Waypoint& waypoint) {
+  if (has_poses(law)) {
+    const std::span<const double> x = waypoint.x;
+    json result = {{"position", hex_floats(x.first(3))}, {"quaternion", hex_floats(x.subspan(3, 4))}};
+    if (law == Interpolation::kCableLengths) result["lengths"] = hex_floats(x.subspan(7));
+    return result;
+  }
+  json result = {{"x", hex_floats(waypoint.x)}, {"half_turns", waypoint.half_turns}};
+  if (!waypoint.normals.empty()) result["normals"] = hex_floats(waypoint.normals);
+  return result;
 }
 
 json path_json(const Path& path) {
   json waypoints = json::array();
-  for (const Waypoint& waypoint : path.waypoints) {
-    json x = json::array();
-    for (const double value : waypoint.x) x.push_back(hex_float(value));
-    waypoints.push_back({{"x", std::move(x)}, {"half_turns", waypoint.half_turns}});
-    if (waypoint.normals.empty()) continue;
-    json normals = json::array();
-    for (const double value : waypoint.normals) normals.push_back(hex_float(value));
-    waypoints.back()["normals"] = std::move(normals);
+  for (const Waypoint& waypoint : path.waypoints) waypoints.push_back(waypoint_json(path.interpolation, waypoint));
+  json pose_tubes = json::array();
+  for (const PoseTube& tube : path.pose_tubes) {
+    pose_tubes.push_back({{"position", hex_float(tube.position)}, {"turn", hex_float(tube.turn)}});
   }
-  json tubes = json::array();
-  for (const double tube : path.tubes) tubes.push_back(hex_float(tube));
-  return {
-      {"interpolation", name(path.interpolation)}, {"waypoints", std::move(waypoints)}, {"tubes", std::move(tubes)}};
+  return {{"interpolation", name(path.interpolation)},
+          {"waypoints", std::move(waypoints)},
+          {"tubes", hex_floats(path.tubes)},
+          {"pose_tubes", std::move(pose_tubes)},
+          {"times", path.times.empty() ? json() : json(path.times)}};
 }
 
 json segments_json(const Path& path, const PathProof& proof) {
@@ -118,6 +139,8 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
       {"segments", proved ? segments_json(path, proof) : json::array()},
       {"margins", proved ? to_json(proof.margins) : json::object()},
       {"witness", refuted ? to_json(*proof.witness) : json()},
+      {"stretches", nullptr},
+      {"source", nullptr},
       {"undecided", proved || refuted ? json() : undecided_json(proof)},
       {"illustration", std::move(illustration)},
   };
@@ -148,26 +171,50 @@ std::vector<double> binary64s(const json& list) {
 
 }  // namespace
 
+namespace {
+
+Waypoint waypoint_from_json(Interpolation law, const json& entry) {
+  Waypoint waypoint;
+  if (has_poses(law)) {
+    waypoint.x = binary64s(entry.at("position"));
+    const auto append = [&](const json& list) {
+      for (const double value : binary64s(list)) waypoint.x.push_back(value);
+    };
+    append(entry.at("quaternion"));
+    if (law == Interpolation::kCableLengths) append(entry.at("lengths"));
+    if (waypoint.x.size() != pose_numbers(law)) throw InputError("path: a waypoint has too few or too many numbers");
+    return waypoint;
+  }
+  waypoint.x = binary64s(entry.at("x"));
+  waypoint.half_turns = entry.at("half_turns").get<std::vector<int>>();
+  if (waypoint.half_turns.size() != waypoint.x.size()) throw InputError("path: half_turns and x differ in length");
+  if (entry.contains("normals")) waypoint.normals = binary64s(entry["normals"]);
+  return waypoint;
+}
+
+Interpolation interpolation_from_json(const json& law) {
+  for (const Interpolation known : {Interpolation::kStraight, Interpolation::kCubicBSpline, Interpolation::kGeodesic,
+                                    Interpolation::kCableLengths}) {
+    if (law == name(known)) return known;
+  }
+  throw InputError("path.interpolation: got " + law.dump());
+}
+
+}  // namespace
+
 Path path_from_json(const json& path) {
   try {
     Path result;
-    const json& law = path.at("interpolation");
-    if (law == name(Interpolation::kCubicBSpline)) {
-      result.interpolation = Interpolation::kCubicBSpline;
-    } else if (law != name(Interpolation::kStraight)) {
-      throw InputError("path.interpolation: got " + law.dump());
-    }
+    result.interpolation = interpolation_from_json(path.at("interpolation"));
     for (const json& entry : path.at("waypoints")) {
-      Waypoint waypoint;
-      waypoint.x = binary64s(entry.at("x"));
-      waypoint.half_turns = entry.at("half_turns").get<std::vector<int>>();
-      if (waypoint.half_turns.size() != waypoint.x.size()) {
-        throw InputError("path: half_turns and x differ in length");
-      }
-      if (entry.contains("normals")) waypoint.normals = binary64s(entry["normals"]);
-      result.waypoints.push_back(std::move(waypoint));
+      result.waypoints.push_back(waypoint_from_json(result.interpolation, entry));
     }
     result.tubes = binary64s(path.at("tubes"));
+    for (const json& tube : path.at("pose_tubes")) {
+      const std::vector<double> sizes = binary64s(json::array({tube.at("position"), tube.at("turn")}));
+      result.pose_tubes.push_back({sizes[0], sizes[1]});
+    }
+    if (const json& times = path.at("times"); !times.is_null()) result.times = times.get<std::vector<std::string>>();
     return result;
   } catch (const json::exception& error) {
     throw InputError(std::string("path: ") + error.what());

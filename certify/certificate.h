@@ -9,7 +9,7 @@
 namespace taut {
 
 /// Of the format that is written.
-inline constexpr int kCertificateVersion = 2;
+inline constexpr int kCertificateVersion = 3;
 
 /// SHA-256 of the canonical JSON of `value`, 64 lower-case hex digits.
 [[nodiscard]] std::string sha256(const nlohmann::json& value);

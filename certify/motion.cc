@@ -350,6 +350,7 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
                                   const I& offset) {
   using Status = typename MotionEnclosure<I>::Status;
   MotionEnclosure<I> result;
+  if (has_poses(segment.law)) return result;
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
   result.status = Status::kKnown;
   if (model.constraints) {

@@ -60,7 +60,7 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Dya
 std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, std::string& undecided) {
   const DyadicBox whole;
   if (prover.prove(still).verdict == Verdict::kProved) return std::nullopt;
-  if (!prover.certainly_in_ranges(*still.control[0])) {
+  if (!prover.may_follow(still)) {
     undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
     return std::nullopt;
   }

@@ -47,6 +47,14 @@ const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
   return *rung.model;
 }
 
+bool Prover::may_follow(const Segment& segment) const {
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  return std::ranges::all_of(segment.controls(), [&](const Waypoint* waypoint) {
+    if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
+    return waypoint->x.size() == pose_numbers(segment.law) && std::ranges::all_of(waypoint->x, is_finite);
+  });
+}
+
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
   if (waypoint.x.size() != fast_.motion.ranges.size() || waypoint.half_turns.size() != fast_.motion.ranges.size())
     return false;
@@ -100,8 +108,7 @@ SegmentProof Prover::prove(const Segment& segment, double clearance) const {
     proof.reason = std::move(reason);
   };
 
-  const auto in_ranges = [&](const Waypoint* waypoint) { return certainly_in_ranges(*waypoint); };
-  if (!std::ranges::all_of(segment.controls(), in_ranges)) {
+  if (!may_follow(segment)) {
     give_up({}, "a waypoint lies outside the closed range of a parameter, or may");
     return proof;
   }

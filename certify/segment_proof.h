@@ -76,6 +76,8 @@ class Prover {
   /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the highest precision.
   [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
 
+  /// Whether all control points are such as the law asks for, and certainly in their ranges where it runs through parameters.
+  [[nodiscard]] bool may_follow(const Segment& segment) const;
   /// Whether λ lies in the closed ranges of the parameters, certainly. Then so does every segment between two such waypoints.
   [[nodiscard]] bool certainly_in_ranges(const Waypoint& waypoint) const;
 

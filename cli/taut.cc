@@ -173,8 +173,15 @@ std::string length_sentence(const PlanStatistics& s) {
                      spent);
 }
 
+void require_plannable(const Case& case_) {
+  if (case_.problem.query.empty()) {
+    throw FieldError("query", "", "expected the key 'query': what to plan (a case without is for taut audit)");
+  }
+  require_query_on_constraints(case_);
+}
+
 int run_plan(const PlanArguments& arguments) {
-  Case case_ = load_case(arguments.case_path, require_query_on_constraints);
+  Case case_ = load_case(arguments.case_path, require_plannable);
   if (arguments.budget_seconds > 0) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;

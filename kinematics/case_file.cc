@@ -1,6 +1,7 @@
 #include "kinematics/case_file.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -410,6 +411,56 @@ LoadText read_load(const Field& field, const Units& units) {
   return load;
 }
 
+/// One quantity for all six cables, or six.
+std::array<DecimalText, kCables> read_for_each_cable(const Field& field, const Unit& unit) {
+  std::array<DecimalText, kCables> result;
+  if (field.node().IsScalar()) {
+    result.fill(read_quantity(field, unit));
+    for (std::size_t i = 0; i < kCables; ++i) field.remember_as(fmt::format("{}[{}]", field.path(), i));
+    return result;
+  }
+  const std::vector<Field> entries = field.list(kCables, "a quantity, or six of them");
+  for (std::size_t i = 0; i < kCables; ++i) result[i] = read_quantity(entries[i], unit);
+  return result;
+}
+
+/// The change of w0 that goes with a tolerance: of the mass, or of the wrench itself.
+void read_load_tolerance(const Map& map, const Field& load, const Units& units, TolerancesText& tolerances) {
+  const auto mass = map.find("mass");
+  const auto wrench = map.find("wrench");
+  if (mass && wrench) map.field().complain("got both of 'mass' and 'wrench', expected one of them");
+  if (wrench) {
+    const std::vector<Field> entries = wrench->list(6, "a list of three forces and three moments");
+    for (std::size_t i = 0; i < 6; ++i) tolerances.wrench[i] = read_quantity(entries[i], wrench_unit(units, i));
+  }
+  if (!mass) return;
+  const auto gravity = load.map({"point", "wrench", "mass", "gravity", "ellipsoid"}).find("gravity");
+  if (!gravity) mass->fail("a tolerance of the mass only where 'load' has 'mass' and 'gravity'; else use 'wrench'");
+  const Decimal amount = Decimal::parse(read_quantity(*mass, units[Dimension::kMass]));
+  if (amount.sign() < 0) mass->fail("a tolerance >= 0");
+  const std::vector<Field> acceleration = gravity->list(3, "a list of three accelerations in m/s^2");
+  for (std::size_t k = 0; k < 3; ++k) {
+    tolerances.wrench[k] = in_field(acceleration[k], [&] { return (amount * read_decimal(acceleration[k])).text(); });
+  }
+}
+
+TolerancesText read_tolerances(const Field& field, const Field& load, const Units& units) {
+  const Map map = field.map(
+      {"base_anchors", "platform_anchors", "load_point", "mass", "wrench", "position", "orientation", "cable_length"});
+  const Unit& length = units[Dimension::kLength];
+  TolerancesText result;
+  if (const auto entry = map.find("base_anchors")) result.base_anchor_m = read_for_each_cable(*entry, length);
+  if (const auto entry = map.find("platform_anchors")) result.platform_anchor_m = read_for_each_cable(*entry, length);
+  if (const auto entry = map.find("load_point")) result.load_point_m = read_quantity(*entry, length);
+  read_load_tolerance(map, load, units, result);
+  if (const auto entry = map.find("position")) result.position_m = read_quantity(*entry, length);
+  if (const auto entry = map.find("orientation")) {
+    result.orientation_rad = read_expression(*entry, units[Dimension::kAngle], {});
+  }
+  if (const auto entry = map.find("cable_length")) result.cable_length_m = read_for_each_cable(*entry, length);
+  return result;
+}
+
 /// The space, and the units of its parameters' bare values.
 struct Space {
   SpaceText text;
@@ -580,7 +631,11 @@ std::vector<std::vector<ExpressionText>> read_query(const Field& field, const Sp
   std::vector<std::string> names;
   for (const Parameter& parameter : space.text.parameters) names.push_back(parameter.name);
   std::vector<std::vector<ExpressionText>> waypoints;
-  for (const Field& item : field.map({"waypoints"}).at("waypoints").list("a list of at least two waypoints")) {
+  const std::string expected = "a list of at least two waypoints";
+  const Map map = field.map({"waypoints"});
+  const std::vector<Field> items = map.at("waypoints").list(expected);
+  if (items.empty()) map.at("waypoints").fail(expected);
+  for (const Field& item : items) {
     const Map waypoint = item.map(names);
     std::vector<ExpressionText>& values = waypoints.emplace_back();
     for (std::size_t j = 0; j < names.size(); ++j) {
@@ -649,7 +704,8 @@ std::string read_name(const Field& field) {
 }
 
 Case read_case(const Field& root) {
-  const Map map = root.map({"taut", "name", "units", "robot", "load", "space", "query", "planner", "expect"});
+  const Map map =
+      root.map({"taut", "name", "units", "robot", "load", "tolerances", "space", "query", "planner", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }
@@ -659,10 +715,17 @@ Case read_case(const Field& root) {
   result.problem.name = read_name(map.at("name"));
   result.problem.robot = read_robot(map.at("robot"), units);
   result.problem.load = read_load(map.at("load"), units);
-  const Space space = read_space(map.at("space"), units);
-  result.problem.space = space.text;
+  if (const auto field = map.find("tolerances")) {
+    result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
+  }
+  result.problem.space = coordinate_space();
   result.length_unit = units[Dimension::kLength];
-  result.problem.query = read_query(map.at("query"), space);
+  const auto query = map.find("query");
+  if (query || map.find("space")) {
+    const Space space = read_space(map.at("space"), units);
+    result.problem.space = space.text;
+    if (query) result.problem.query = read_query(*query, space);
+  }
   if (const auto planner = map.find("planner")) result.planner = read_planner(*planner);
   if (const auto expect = map.find("expect")) {
     result.expect = read_choice<Expectation>(
@@ -687,6 +750,33 @@ void require_utf8(const std::string& text, const Places& places) {
   }
 }
 
+/// Listens to nothing.
+class Deaf : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnScalar(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {}
+  void OnMapEnd() override {}
+};
+
+/// The only document. Not by YAML::LoadAll, which makes documents without end where a stray `}` or `]` begins one.
+YAML::Node only_document(const std::string& text, const std::string& name) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Deaf deaf;
+  if (!parser.HandleNextDocument(deaf)) throw InputError(name + ": got no YAML document, expected one");
+  if (parser.HandleNextDocument(deaf)) throw InputError(name + ": got several YAML documents, expected one");
+  return YAML::Load(text);
+}
+
 /// The comment lines that the file begins with, without their marks.
 std::string leading_comment(const std::string& text) {
   std::istringstream lines(text);
@@ -707,11 +797,7 @@ Case parse_case(const std::string& text, const std::string& name, const CaseChec
   }
   require_utf8(text, places);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() != 1) {
-      throw InputError(fmt::format("{}: got {} YAML documents, expected one", name, documents.size()));
-    }
-    Case result = read_case(Field(places, documents.front(), ""));
+    Case result = read_case(Field(places, only_document(text, name), ""));
     validate(result.problem);
     if (check) check(result);
     result.description = leading_comment(text);

@@ -30,6 +30,7 @@ struct PlannerOptions {
   Smoothing smoothing = Smoothing::kShorten;  ///< what is done to the path found, before it is proved as a whole
 };
 
+/// Without `space` in the file: coordinate_space(). Without `query`: none, such a case is for audits.
 struct Case {
   Problem problem;
   PlannerOptions planner;

@@ -94,6 +94,23 @@ const json& expect_list(const json& value, const std::string& where) {
   return value;
 }
 
+TolerancesText read_tolerances(const json& value) {
+  expect_keys(value, "tolerances",
+              {"base_anchor_m", "platform_anchor_m", "load_point_m", "wrench", "position_m", "orientation_rad",
+               "cable_length_m"});
+  TolerancesText result;
+  read(value["base_anchor_m"], "tolerances.base_anchor_m", result.base_anchor_m);
+  read(value["platform_anchor_m"], "tolerances.platform_anchor_m", result.platform_anchor_m);
+  read(value["load_point_m"], "tolerances.load_point_m", result.load_point_m);
+  read(value["wrench"], "tolerances.wrench", result.wrench);
+  read(value["position_m"], "tolerances.position_m", result.position_m);
+  read(value["orientation_rad"], "tolerances.orientation_rad", result.orientation_rad);
+  if (const json& length = value["cable_length_m"]; !length.is_null()) {
+    read(length, "tolerances.cable_length_m", result.cable_length_m.emplace());
+  }
+  return result;
+}
+
 SpaceText read_space(const json& value) {
   expect_keys(value, "space", {"parameters", "constants", "flip", "pose", "constraints"});
   SpaceText space;
@@ -141,6 +158,15 @@ json parameter_to_json(const Parameter& parameter) {
   return {{"name", parameter.name},
           {"kind", "range"},
           {"range", json::array({parameter.range_lower, parameter.range_upper})}};
+}
+
+json tolerances_to_json(const TolerancesText& tolerances) {
+  json cable_length = nullptr;
+  if (tolerances.cable_length_m) cable_length = *tolerances.cable_length_m;
+  return {{"base_anchor_m", tolerances.base_anchor_m}, {"platform_anchor_m", tolerances.platform_anchor_m},
+          {"load_point_m", tolerances.load_point_m},   {"wrench", tolerances.wrench},
+          {"position_m", tolerances.position_m},       {"orientation_rad", tolerances.orientation_rad},
+          {"cable_length_m", std::move(cable_length)}};
 }
 
 // --- Validating --------------------------------------------------------------------------------------------------
@@ -249,6 +275,31 @@ std::array<double, 2> range_approx(const Parameter& parameter) {
           constant_value_approx(here + "[1]", parameter.range_upper)};
 }
 
+void validate_tolerance(const std::string& name, const DecimalText& text) {
+  const std::string where = "tolerances." + name;
+  if (decimal_at(where, text).sign() < 0) throw FieldError(where, text, "expected a tolerance >= 0");
+}
+
+void validate_tolerances(const TolerancesText& tolerances) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    validate_tolerance(fmt::format("base_anchors[{}]", i), tolerances.base_anchor_m[i]);
+    validate_tolerance(fmt::format("platform_anchors[{}]", i), tolerances.platform_anchor_m[i]);
+    if (tolerances.cable_length_m) {
+      validate_tolerance(fmt::format("cable_length[{}]", i), (*tolerances.cable_length_m)[i]);
+    }
+  }
+  validate_tolerance("load_point", tolerances.load_point_m);
+  for (std::size_t i = 0; i < tolerances.wrench.size(); ++i) {
+    decimal_at(fmt::format("tolerances.wrench[{}]", i), tolerances.wrench[i]);
+  }
+  validate_tolerance("position", tolerances.position_m);
+  const double angle = constant_value_approx("tolerances.orientation", tolerances.orientation_rad);
+  if (!(angle >= 0 && angle < 1)) {
+    throw FieldError("tolerances.orientation", "'" + tolerances.orientation_rad + "'",
+                     "expected an angle from 0 to below 1 rad");
+  }
+}
+
 void validate_flip(const SpaceText& space, const ExpressionTape& pose) {
   const auto [phi, theta] = *space.flip;
   const bool is_phi_theta =
@@ -350,7 +401,7 @@ void validate_pose_at(const SpaceText& space, std::size_t waypoint, const std::v
 
 void validate_query(const Problem& problem) {
   const std::vector<Parameter>& parameters = problem.space.parameters;
-  if (problem.query.size() < 2) {
+  if (problem.query.size() == 1) {
     throw FieldError("query.waypoints", fmt::format("{} waypoints", problem.query.size()), "expected at least two");
   }
   for (std::size_t k = 0; k < problem.query.size(); ++k) {
@@ -380,6 +431,18 @@ void validate_query(const Problem& problem) {
 
 }  // namespace
 
+SpaceText coordinate_space() {
+  SpaceText space;
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+    const std::string name = kPoseNames[i];
+    const bool is_turn = name == "phi" || name == "sigma";
+    space.parameters.push_back({name, is_turn ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+    space.pose[i] = name;
+  }
+  space.flip = {3, 4};
+  return space;
+}
+
 FieldError::FieldError(std::string field, std::string seen, std::string expected)
     : InputError(fmt::format("{}: {}{}", field, seen.empty() ? "" : "got " + seen + ", ", expected)),
       field_(std::move(field)),
@@ -401,6 +464,7 @@ json to_json(const Problem& problem) {
             {"length_m", limits_to_json(problem.robot.length_m)}}},
           {"load",
            {{"point_m", problem.load.point_m}, {"wrench", problem.load.wrench}, {"ellipsoid", problem.load.ellipsoid}}},
+          {"tolerances", problem.tolerances ? tolerances_to_json(*problem.tolerances) : json()},
           {"space",
            {{"parameters", std::move(parameters)},
             {"constants", problem.space.constants},
@@ -411,7 +475,7 @@ json to_json(const Problem& problem) {
 }
 
 Problem problem_from_json(const json& value) {
-  expect_keys(value, "problem", {"name", "robot", "load", "space", "query"});
+  expect_keys(value, "problem", {"name", "robot", "load", "tolerances", "space", "query"});
   Problem problem;
   read(value["name"], "name", problem.name);
   const json& robot = value["robot"];
@@ -425,6 +489,9 @@ Problem problem_from_json(const json& value) {
   read(load["point_m"], "load.point_m", problem.load.point_m);
   read(load["wrench"], "load.wrench", problem.load.wrench);
   read(load["ellipsoid"], "load.ellipsoid", problem.load.ellipsoid);
+  if (const json& tolerances = value["tolerances"]; !tolerances.is_null()) {
+    problem.tolerances = read_tolerances(tolerances);
+  }
   problem.space = read_space(value["space"]);
   expect_keys(value["query"], "query", {"waypoints"});
   for (const json& waypoint : expect_list(value["query"]["waypoints"], "query.waypoints")) {
@@ -441,6 +508,7 @@ Problem problem_from_json(const json& value) {
 void validate(const Problem& problem) {
   validate_robot(problem.robot);
   validate_load(problem.load);
+  if (problem.tolerances) validate_tolerances(*problem.tolerances);
   validate_space(problem.space);
   validate_query(problem);
 }

@@ -44,6 +44,20 @@ struct LoadText {
   std::array<std::array<DecimalText, 6>, 6> ellipsoid;  ///< E, symmetric positive definite [1/N^2, 1/(N m)^2]
 };
 
+/// How far the machine may be from what the robot, the load and the path say. Distances and angles >= 0, in any direction.
+/// docs/theory.md, "Tolerances", has the theorem.
+struct TolerancesText {
+  std::array<DecimalText, kCables> base_anchor_m{"0", "0", "0", "0", "0", "0"};      ///< |a_i' − a_i| <= [m]
+  std::array<DecimalText, kCables> platform_anchor_m{"0", "0", "0", "0", "0", "0"};  ///< |b_i' − b_i| <= [m]
+  DecimalText load_point_m = "0";                                                    ///< |p_m' − p_m| <= [m]
+  std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};  ///< w0' = w0 + τ wrench, |τ| <= 1 [N, N m]
+  DecimalText position_m = "0";                                     ///< tracking: |p' − p| <= [m]
+  ExpressionText orientation_rad = "0";  ///< tracking: the angle between R' and R, a constant below 1 [rad]
+  /// Where given, the machine is held by its cables' lengths, each within this of what is commanded [m]. A path that is not
+  /// given in lengths commands those that the robot, exactly as typed, has along it.
+  std::optional<std::array<DecimalText, kCables>> cable_length_m;
+};
+
 enum class ParameterKind { kReal, kPeriodic, kRange };
 
 struct Parameter {
@@ -75,10 +89,14 @@ struct Problem {
   std::string name;
   RobotText robot;
   LoadText load;
+  std::optional<TolerancesText> tolerances;
   SpaceText space;
-  /// Waypoints of the query: one constant expression a parameter (SI).
+  /// Waypoints of the query: one constant expression a parameter (SI); none where a path is audited that something else made.
   std::vector<std::vector<ExpressionText>> query;
 };
+
+/// The space of all poses: px, py, pz [m], phi, theta, sigma [rad], without bounds.
+[[nodiscard]] SpaceText coordinate_space();
 
 /// A field of a problem breaks its promise: "robot.length[2]: got [0.5, 0.1], expected 0 <= lower < upper".
 class FieldError : public InputError {
@@ -94,7 +112,7 @@ class FieldError : public InputError {
 
 /// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, E symmetric and
 /// positive definite (exactly), expressions that parse, poses that plainly agree after a turn of a periodic
-/// parameter, a `flip` that is one, and at least two waypoints with one finite value a parameter, within its range
+/// parameter, a `flip` that is one, tolerances >= 0, and no or at least two waypoints with one finite value a parameter, within its range
 /// up to rounding. @throws FieldError
 void validate(const Problem& problem);
 

@@ -1,9 +1,9 @@
 // Paths: exact waypoints and the law that joins them.
 //
-// Waypoint k is the parameter vector λ_k with λ_kj = x_kj + π half_turns_kj: binary64 numbers and integers, so that a pose
-// reached the other way round a periodic angle is still exactly the pose that was asked for.
-//
-// A segment is a curve ℓ(s), s in [0, 1], through parameter space, polynomial in s with the waypoints as control points:
+// Two laws run through the parameters of the problem's space. Waypoint k is the parameter vector λ_k with
+// λ_kj = x_kj + π half_turns_kj: binary64 numbers and integers, so that a pose reached the other way round a periodic angle is
+// still exactly the pose that was asked for. A segment is a curve ℓ(s), s in [0, 1], polynomial in s with the waypoints as
+// control points:
 //   straight           ℓ(s) = (1−s) λ_0 + s λ_1
 //   cubic B-spline     ℓ(s) = ((1−s)^3 λ_0 + (3s^3−6s^2+4) λ_1 + (−3s^3+3s^2+3s+1) λ_2 + s^3 λ_3) / 6
 // Successive segments share all but one control point; a spline of them has a continuous second derivative and passes
@@ -12,10 +12,22 @@
 // Without constraints the motion is γ(s) = pose(ℓ(s)). With k constraints C(λ) = 0 (SpaceText::constraints) ℓ is not on
 // them: the motion is γ(s) = pose(ℓ(s) + N(s) y(s)), where N(s) mixes the waypoints' normals as ℓ mixes the waypoints, and
 // y(s) is the only zero of C(ℓ(s) + N(s) y) with |y_i| <= `tube` for all i. That there is exactly one is for the proof to show.
+//
+// Two laws know nothing of the space: their waypoints are poses (p, q) with R = R(q), the rotation of the quaternion q, which may
+// have any length but 0: R(q) = matrix polynomial of q over |q|^2 (quaternion.h).
+//   geodesic           p(s) = (1−s) p_0 + s p_1,  R(s) = R_0 exp(s log(R_0^T R_1)): at constant rate about one axis, by an
+//                      angle below π
+//   cable lengths      the commanded lengths L(s) = (1−s) L_0 + s L_1 [m]; the pose is implied by |d_i| = L_i(s). It is sought
+//                      around the reference p(s) = (1−s) p_0 + s p_1, R(s) = R((1−s) q_0 ± s q_1), the sign that of q_0·q_1
+//
+// Wherever the machine is held by its cables' lengths (that law, or TolerancesText::cable_length_m), the pose is
+//   p = p_ref + r_p z_p,  R = R(1, r_u z_u) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) = `pose_tube`,
+// with the only z that has the cables' lengths; again, that there is exactly one is for the proof to show.
 #pragma once
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kinematics/scalar.h"
@@ -23,28 +35,47 @@
 namespace taut {
 
 struct Waypoint {
-  std::vector<double> x;        ///< one a parameter [m, rad], finite
+  /// One a parameter [m, rad], finite. Geodesic: px, py, pz [m], qx, qy, qz, qw. Cable lengths: these, then L_1…L_6 [m].
+  std::vector<double> x;
   std::vector<int> half_turns;  ///< one a parameter; non-zero only where it is periodic
   /// N by rows, one row a parameter and one column a constraint; empty in a space without constraints.
   std::vector<double> normals = {};
   bool operator==(const Waypoint&) const = default;
 };
 
-enum class Interpolation { kStraight, kCubicBSpline };
+enum class Interpolation { kStraight, kCubicBSpline, kGeodesic, kCableLengths };
 
 /// The number of control points of one segment.
 [[nodiscard]] constexpr std::size_t control_points(Interpolation law) {
-  return law == Interpolation::kStraight ? 2 : 4;
+  return law == Interpolation::kCubicBSpline ? 4 : 2;
 }
+/// Whether waypoints are poses, not parameters of the problem's space.
+[[nodiscard]] constexpr bool has_poses(Interpolation law) {
+  return law == Interpolation::kGeodesic || law == Interpolation::kCableLengths;
+}
+/// Size of Waypoint::x under a law with poses.
+[[nodiscard]] constexpr std::size_t pose_numbers(Interpolation law) { return law == Interpolation::kGeodesic ? 7 : 13; }
+
+/// r_p [m] and r_u [1].
+struct PoseTube {
+  double position = 0;
+  double turn = 0;
+  bool operator==(const PoseTube&) const = default;
+};
 
 /// One segment of a path; refers to waypoints that outlive it.
 struct Segment {
   Interpolation law = Interpolation::kStraight;
   std::array<const Waypoint*, 4> control{};
-  double tube = 0;  ///< bound of |y_i|; only in a space with constraints
+  double tube = 0;          ///< bound of |y_i|; only in a space with constraints
+  PoseTube pose_tube = {};  ///< only where the machine is held by lengths
 
   [[nodiscard]] static Segment straight(const Waypoint& a, const Waypoint& b, double tube = 0) {
     return {Interpolation::kStraight, {&a, &b}, tube};
+  }
+  /// A law with poses, between two of them.
+  [[nodiscard]] static Segment between(Interpolation law, const Waypoint& a, const Waypoint& b, PoseTube tube = {}) {
+    return {law, {&a, &b}, 0, tube};
   }
   [[nodiscard]] std::span<const Waypoint* const> controls() const { return {control.data(), control_points(law)}; }
 };
@@ -53,6 +84,9 @@ struct Path {
   std::vector<Waypoint> waypoints;
   Interpolation interpolation = Interpolation::kStraight;
   std::vector<double> tubes = {};  ///< one a segment, in a space with constraints; else empty
+  std::vector<std::string> times =
+      {};  ///< decimals, one a waypoint [s]; empty where the path has none. No part of any claim
+  std::vector<PoseTube> pose_tubes = {};  ///< one a segment, where the machine is held by lengths; else empty
 
   [[nodiscard]] std::size_t segments() const {
     const std::size_t controls = control_points(interpolation);
@@ -60,9 +94,13 @@ struct Path {
   }
   /// Segment k; of a path of a single waypoint, segment 0 is that pose.
   [[nodiscard]] Segment segment(std::size_t k) const {
-    const double tube = k < tubes.size() ? tubes[k] : 0;
-    if (segments() == 0) return Segment::straight(waypoints.front(), waypoints.front(), tube);
-    Segment segment{interpolation, {}, tube};
+    Segment segment{interpolation, {}, k < tubes.size() ? tubes[k] : 0};
+    if (k < pose_tubes.size()) segment.pose_tube = pose_tubes[k];
+    if (segments() == 0) {
+      if (!has_poses(interpolation)) segment.law = Interpolation::kStraight;
+      segment.control[0] = segment.control[1] = &waypoints.front();
+      return segment;
+    }
     for (std::size_t i = 0; i < control_points(interpolation); ++i) segment.control[i] = &waypoints[k + i];
     return segment;
   }
@@ -86,9 +124,11 @@ template <class S>
   return {{q1 + (d12 - d01) / six, half * (d01 + d12), half * (d12 - d01), (d23 - d12 - (d12 - d01)) / six}, true};
 }
 
-/// ℓ_j.
+/// ℓ_j; under a law with poses, number j of the waypoints mixed linearly.
 template <class S>
 [[nodiscard]] Polynomial<S> coordinate_polynomial(const Segment& segment, std::size_t j) {
+  const auto& q = segment.control;
+  if (has_poses(segment.law)) return {{S(q[0]->x[j]), S(q[1]->x[j]) - S(q[0]->x[j]), S(0.0), S(0.0)}, false};
   const auto turns = [](int n) { return S(static_cast<double>(n)) * ScalarTraits<S>::pi(); };
   const auto value = [&](const Waypoint& w) {
     const S x(w.x[j]);
@@ -98,7 +138,6 @@ template <class S>
     const S x = S(b.x[j]) - S(a.x[j]);
     return a.half_turns[j] == b.half_turns[j] ? x : x + turns(b.half_turns[j] - a.half_turns[j]);
   };
-  const auto& q = segment.control;
   if (segment.law == Interpolation::kStraight) return {{value(*q[0]), difference(*q[0], *q[1]), S(0.0), S(0.0)}, false};
   return bspline_polynomial(value(*q[1]), difference(*q[0], *q[1]), difference(*q[1], *q[2]), difference(*q[2], *q[3]));
 }

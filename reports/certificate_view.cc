@@ -40,28 +40,18 @@ double dyadic_approximation(const std::string& text) {
   return value;
 }
 
-std::vector<double> approximations(const json& list) {
-  std::vector<double> values;
-  for (const json& text : list) values.push_back(approximation(text.get<std::string>()));
-  return values;
-}
-
 Path read_path(const json& path, const SpaceText& space) {
   const std::size_t parameters = space.parameters.size();
   const std::size_t normals = parameters * space.constraints.size();
-  Path result;
-  if (path.at("interpolation") == "cubic-b-spline") result.interpolation = Interpolation::kCubicBSpline;
-  result.tubes = approximations(path.at("tubes"));
-  for (const json& entry : path.at("waypoints")) {
-    Waypoint waypoint{approximations(entry.at("x")), entry.at("half_turns").get<std::vector<int>>()};
-    if (entry.contains("normals")) waypoint.normals = approximations(entry["normals"]);
-    if (waypoint.x.size() != parameters || waypoint.half_turns.size() != parameters ||
-        waypoint.normals.size() != normals) {
+  Path result = path_from_json(path);
+  if (has_poses(result.interpolation)) return result;
+  for (std::size_t k = 0; k < result.waypoints.size(); ++k) {
+    const Waypoint& waypoint = result.waypoints[k];
+    if (waypoint.x.size() != parameters || waypoint.normals.size() != normals) {
       throw InputError(
           fmt::format("certificate: path.waypoints[{}]: expected {} values of x and of half_turns, and {} of normals",
-                      result.waypoints.size(), parameters, normals));
+                      k, parameters, normals));
     }
-    result.waypoints.push_back(std::move(waypoint));
   }
   return result;
 }
@@ -146,7 +136,7 @@ void read_illustration(const json& illustration, CertificateView& view) {
 CertificateView read(const json& certificate) {
   CertificateView view;
   if (certificate.at("format") != "taut-certificate" || certificate.at("version") != kCertificateVersion) {
-    throw InputError("certificate: expected format \"taut-certificate\", version 2");
+    throw InputError("certificate: expected format \"taut-certificate\", version 3");
   }
   const json& generator = certificate.at("generator");
   view.generator = generator.value("name", "") + " " + generator.value("version", "");

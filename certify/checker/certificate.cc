@@ -196,7 +196,7 @@ void read_space(const Json& json, Problem& problem) {
 }
 
 Problem read_problem(const Json& json) {
-  object(json, "problem", {"name", "robot", "load", "space", "query"});
+  object(json, "problem", {"name", "robot", "load", "tolerances", "space", "query"});
   text(json["name"], "problem.name");
   Problem problem;
 
@@ -217,11 +217,12 @@ Problem read_problem(const Json& json) {
     }
   }
 
+  if (!json["tolerances"].is_null()) fail("problem.tolerances", "null");
   read_space(json["space"], problem);
 
   object(json["query"], "problem.query", {"waypoints"});
   const Json& waypoints = array(json["query"]["waypoints"], "problem.query.waypoints");
-  if (waypoints.size() < 2) fail("problem.query.waypoints", "at least two waypoints");
+  if (waypoints.size() == 1) fail("problem.query.waypoints", "none, or at least two waypoints");
   for (std::size_t k = 0; k < waypoints.size(); ++k) {
     const std::string here = at("problem.query.waypoints", k);
     array(waypoints[k], here, problem.parameters.size());
@@ -260,7 +261,9 @@ Waypoint read_waypoint(const Json& json, const std::string& where, const Problem
 }
 
 Path read_path(const Json& json, const Problem& problem, Verdict verdict) {
-  object(json, "path", {"interpolation", "waypoints", "tubes"});
+  object(json, "path", {"interpolation", "waypoints", "tubes", "pose_tubes", "times"});
+  if (!json["times"].is_null()) fail("path.times", "null");
+  array(json["pose_tubes"], "path.pose_tubes", 0);
   Path path;
   if (json["interpolation"] == "cubic-b-spline") {
     path.interpolation = Interpolation::kCubicBSpline;
@@ -439,9 +442,9 @@ std::string digest(const nlohmann::json& value) {
 Certificate read_certificate(const nlohmann::json& json) {
   object(json, "certificate",
          {"format", "version", "generator", "verdict", "claim", "problem", "problem_sha256", "path", "path_sha256",
-          "segments", "margins", "witness", "undecided", "illustration", "footer"});
+          "segments", "margins", "witness", "stretches", "source", "undecided", "illustration", "footer"});
   if (json["format"] != "taut-certificate") fail("format", "'taut-certificate'");
-  integer(json["version"], "version", 2, 2);
+  integer(json["version"], "version", 3, 3);
   if (!json["generator"].is_object()) fail("generator", "an object");
 
   // Is this the whole file, as it was written?
@@ -490,6 +493,9 @@ Certificate read_certificate(const nlohmann::json& json) {
   } else if (!json["undecided"].is_null()) {
     fail("undecided", "null");
   }
+
+  if (!json["stretches"].is_null()) fail("stretches", "null");
+  if (!json["source"].is_null()) fail("source", "null");
 
   const auto count = [&](const char* key, std::size_t n) {
     integer(footer[key], std::string("footer.") + key, static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));

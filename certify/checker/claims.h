@@ -5,17 +5,23 @@
 namespace taut::checker {
 
 inline constexpr const char* kProvedClaim =
-    "For every s along the path and every wrench w in K at gamma(s): the force Jacobian J is non-singular, the unique "
-    "f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < d_hi,i, for all six cables i = 1..6. Here "
-    "gamma is the path given by its exact waypoints and interpolation law, and robot, load and limits are the exact "
-    "decimals of the problem. Where the space has constraints, gamma(s) is the pose that fulfils them in the tube "
-    "around "
-    "that law's curve; that there is exactly one for every s is part of the claim.";
+    "For every s along the path, every machine, load and pose within the stated tolerances, and every wrench w in K: "
+    "the "
+    "force Jacobian J is non-singular, the unique f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < "
+    "d_hi,i, for all six cables i = 1..6. The path is given by its exact waypoints and interpolation law; robot, load, "
+    "limits and tolerances are the exact numbers of the problem. Where the pose is only implied, by constraints or by "
+    "the "
+    "lengths of the cables, it is the one in its tube; that there is exactly one, for every s and every machine within "
+    "the "
+    "tolerances, is part of the claim.";
 
 inline constexpr const char* kRefutedClaim =
     "The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension outside its "
     "open limits, or a cable length is outside its open limits, or the force Jacobian J is singular at some pose "
-    "between the two witness poses.";
+    "between the two witness poses. Robot and load are there as the problem states them, or differ by the deviation "
+    "that "
+    "the witness states, which is within the tolerances. Where stretches are listed, the claim of a proved path holds "
+    "outside of them, and each stretch that has witnesses is violated at both of them.";
 
 inline constexpr const char* kUndecidedClaim =
     "Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.";

@@ -12,15 +12,21 @@ from math import cos, sin, pi, sqrt
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 CLAIMS = {
-    'proved': 'For every s along the path and every wrench w in K at gamma(s): the force Jacobian J is non-singular, '
-              'the unique f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < d_hi,i, for all six '
-              'cables i = 1..6. Here gamma is the path given by its exact waypoints and interpolation law, and robot, '
-              'load and limits are the exact decimals of the problem. Where the space has constraints, gamma(s) is the pose '
-              'that fulfils them in the tube around that law\'s curve; that there is exactly one for every s is part of '
-              'the claim.',
-    'refuted': 'The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension '
-               'outside its open limits, or a cable length is outside its open limits, or the force Jacobian J is '
-               'singular at some pose between the two witness poses.',
+    'proved': 'For every s along the path, every machine, load and pose within the stated tolerances, '
+              'and every wrench w in K: the force Jacobian J is non-singular, the unique f with J f = '
+              'w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < d_hi,i, for all six cables i = '
+              '1..6. The path is given by its exact waypoints and interpolation law; robot, load, '
+              'limits and tolerances are the exact numbers of the problem. Where the pose is only '
+              'implied, by constraints or by the lengths of the cables, it is the one in its tube; '
+              'that there is exactly one, for every s and every machine within the tolerances, is part '
+              'of the claim.',
+    'refuted': 'The path is not wrench-feasible: at the witness pose of the path some wrench w in K '
+              'needs a tension outside its open limits, or a cable length is outside its open limits, '
+              'or the force Jacobian J is singular at some pose between the two witness poses. Robot '
+              'and load are there as the problem states them, or differ by the deviation that the '
+              'witness states, which is within the tolerances. Where stretches are listed, the claim '
+              'of a proved path holds outside of them, and each stretch that has witnesses is violated '
+              'at both of them.',
     'undecided': 'Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.',
 }
 
@@ -84,7 +90,7 @@ SPHERE = {'parameters': [{'name': 'alpha1', 'kind': 'periodic'},
 
 
 def problem(name, robot, space, query):
-    return copy.deepcopy({'name': name, 'robot': robot[0], 'load': robot[1], 'space': space,
+    return copy.deepcopy({'name': name, 'robot': robot[0], 'load': robot[1], 'tolerances': None, 'space': space,
                           'query': {'waypoints': query}})
 
 
@@ -179,7 +185,7 @@ def waypoint(x, half_turns=None, normals=None):
 
 def path(waypoints, spline=False, tubes=()):
     return {'interpolation': 'cubic-b-spline' if spline else 'straight-in-parameters', 'waypoints': waypoints,
-            'tubes': [hex64(t) for t in tubes]}
+            'tubes': [hex64(t) for t in tubes], 'pose_tubes': [], 'times': None}
 
 
 def straight(*waypoints, tubes=()):
@@ -229,9 +235,9 @@ def dyadic(k, m):
 
 
 def certificate(pr, pa, verdict, **more):
-    c = {'format': 'taut-certificate', 'version': 2, 'generator': {'name': 'make_certificates.py', 'version': '1'},
+    c = {'format': 'taut-certificate', 'version': 3, 'generator': {'name': 'make_certificates.py', 'version': '1'},
          'verdict': verdict, 'claim': CLAIMS[verdict], 'problem': pr, 'path': pa, 'segments': [], 'margins': {},
-         'witness': None, 'undecided': None, 'illustration': None}
+         'witness': None, 'stretches': None, 'source': None, 'undecided': None, 'illustration': None}
     c.update(more)
     return seal(c)
 

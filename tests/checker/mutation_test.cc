@@ -135,6 +135,7 @@ TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
        {"A larger E is a smaller K.", std::regex("/problem/load/ellipsoid/(.)/\\1: (gets a leading 2|becomes 1e400)")},
        {"Start and goal are one: the query may say so once, twice or three times.",
         std::regex("/problem/query/waypoints: (gets one more|loses its last)")},
+       {"An audit of the same path.", std::regex("/problem/query/waypoints: becomes \\[\\]")},
        {"A constant that nothing uses.", std::regex("/problem/space/constants: gets a key")},
        {"The path does not use the flip.", std::regex("/problem/space/flip: becomes null")},
        {"Another robot, of which the claim holds as well (by the equations of make_certificates.py).",

@@ -329,7 +329,47 @@ TEST(CaseFile, MissesEachRequiredSection) {
   missing(&Sections::limits, "tension");
   missing(&Sections::load, "load");
   missing(&Sections::space, "space");
-  missing(&Sections::query, "query");
+}
+
+TEST(CaseFile, NeedsNeitherSpaceNorQueryForAnAudit) {
+  Sections sections;
+  sections.query = "";
+  EXPECT_TRUE(parse_case(sections.text(), "test.yaml").problem.query.empty());
+  sections.space = "";
+  const Problem problem = parse_case(sections.text(), "test.yaml").problem;
+  EXPECT_EQ(problem.space.parameters.size(), 6U);
+  EXPECT_THAT(problem.space.pose, ElementsAre("px", "py", "pz", "phi", "theta", "sigma"));
+}
+
+TEST(CaseFile, ReadsTolerancesExactly) {
+  Sections sections;
+  sections.tail =
+      "tolerances: {base_anchors: 0.5, platform_anchors: [0.1, 0.2, 0.3 cm, 0, 0, 0], load_point: 2, "
+      "wrench: [0, 0, 0.05, 0, 0, 0], position: 1, orientation: 0.2 deg, cable_length: 1}\n" +
+      sections.tail;
+  const TolerancesText t = parse_case(sections.text(), "test.yaml").problem.tolerances.value();
+  EXPECT_THAT(t.base_anchor_m, testing::Each("0.0005"));
+  EXPECT_THAT(t.platform_anchor_m, ElementsAre("0.0001", "0.0002", "0.003", "0", "0", "0"));
+  EXPECT_EQ(t.load_point_m, "0.002");
+  EXPECT_THAT(t.wrench, ElementsAre("0", "0", "0.05", "0", "0", "0"));
+  EXPECT_EQ(t.position_m, "0.001");
+  EXPECT_EQ(t.orientation_rad, "(0.2)*pi/180");
+  EXPECT_THAT(t.cable_length_m.value(), testing::Each("0.001"));
+}
+
+TEST(CaseFile, RefusesTolerancesThatAreNone) {
+  for (const auto& [typed, message] : std::vector<std::pair<std::string, std::string>>{
+           {"{position: -1}", "tolerances.position: got '-1', expected a tolerance >= 0"},
+           {"{base_anchors: [0, 0, 0, 0, 0, -1]}", "expected a tolerance >= 0"},
+           {"{orientation: 60 deg}", "expected an angle from 0 to below 1 rad"},
+           {"{mass: 1}", "a tolerance of the mass only where 'load' has 'mass' and 'gravity'"},
+           {"{anchors: 1}", "anchors"},
+           {"{position: 1, position: 2}", "position"},
+           {"{cable_length: nan}", "cable_length"}}) {
+    Sections sections;
+    sections.tail = "tolerances: " + typed + "\n" + sections.tail;
+    expect_rejected(sections, message);
+  }
 }
 
 /// One section replaced, and what is said about it.
@@ -416,7 +456,7 @@ TEST(CaseFile, RejectsEveryMistake) {
       {&Sections::space, "space: {surface: {parameters: {phi: round}, pose: {}}}\n",
        "got 'round', expected 'periodic', 'real' or"},
       {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}]}\n", "expected at least two"},
-      {&Sections::query, "query: {waypoints: []}\n", "expected at least two"},
+      {&Sections::query, "query: {waypoints: []}\n", "expected a list of at least two"},
       {&Sections::query, "query: {waypoints: 7}\n", "query.waypoints: got '7', expected a list"},
       {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}, {phi: 1}]}\n", "query.waypoints[1]: got no 'theta'"},
       {&Sections::query, "query: {waypoints: [{phi: 1, theta: 1}, {phi: 1, teta: 1}]}\n", "did you mean 'theta'?"},
@@ -433,7 +473,7 @@ TEST(CaseFile, RejectsEveryMistake) {
       {&Sections::tail, "planner: {max_seconds: 0}\n", "planner.max_seconds: got '0', expected a number above zero"},
       {&Sections::tail, "planner: {max_charts: 99999999999999}\n", "expected a whole number from 1"},
       {&Sections::tail, "expect: yes\n", "expect: got 'yes', expected one of proved, refuted, undecided"},
-      {&Sections::tail, "---\ntaut: 1\n", "got 2 YAML documents"},
+      {&Sections::tail, "---\ntaut: 1\n", "got several YAML documents"},
       {&Sections::tail, "expect: [proved\n", "got text that is not YAML"},
       {&Sections::tail, "expect: *nobody\n", "got text that is not YAML"},
   };
@@ -455,6 +495,8 @@ TEST(CaseFile, RejectsFilesThatAreNoCases) {
 TEST(CaseFile, IsNotBroughtDownByHostileYaml) {
   expect_rejected(std::string(500000, '['), "expected");
   expect_rejected(std::string(500000, '{'), "expected");
+  for (const char* stray : {"}", "]", "a: 1\n---\n}", "taut: 1\n}\n", "taut: 1\n...\n]", ","})
+    expect_rejected(stray, "expected");
   std::string nested = "taut: ";
   nested.append(5000, '[').append(5000, ']').append("\n");
   expect_rejected(nested, "expected");

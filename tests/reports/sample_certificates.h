@@ -29,13 +29,14 @@ inline nlohmann::json certificate() {
       "tension_N": [["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"], ["0.05","0.5"]],
       "length_m": [["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"], ["0.1","0.55"]]},
     "load": {"point_m": ["0.03","0.014","-0.021"], "wrench": ["0","0","1","0","0","0"], "ellipsoid": []},
+    "tolerances": null,
     "space": {"parameters": [{"name": "phi", "kind": "periodic"}, {"name": "theta", "kind": "real"}],
               "constants": {"sigma0": "34"}, "flip": [0, 1],
               "pose": {"px": "0", "py": "0", "pz": "0.35", "phi": "phi", "theta": "theta",
                        "sigma": "sigma0*pi/180"}, "constraints": []},
     "query": {"waypoints": [["-2.3","1.6"], ["-2.3","1.3"]]}})");
   json result = {{"format", "taut-certificate"},
-                 {"version", 2},
+                 {"version", 3},
                  {"generator", {{"name", "taut"}, {"version", "0.1.0"}}},
                  {"verdict", ""},
                  {"claim", "The claim of this certificate, word by word: f_lo,i < f_i < f_hi,i."},
@@ -44,11 +45,13 @@ inline nlohmann::json certificate() {
                  {"path", json::parse(R"({"interpolation": "straight-in-parameters", "waypoints": [
                  {"x": ["-0x1.2666666666666p+1", "0x1.999999999999ap+0"], "half_turns": [0, 0]},
                  {"x": ["-0x1.263f9b9445fddp+1", "0x1.916f44c547a8cp+0"], "half_turns": [0, 0]},
-                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}], "tubes": []})")},
+                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}], "tubes": [], "pose_tubes": [], "times": null})")},
                  {"path_sha256", kPathDigest},
                  {"segments", json::array()},
                  {"margins", json::object()},
                  {"witness", nullptr},
+                 {"stretches", nullptr},
+                 {"source", nullptr},
                  {"undecided", nullptr},
                  {"illustration", json::parse(R"({"kind": "atlas", "parameters": ["phi", "theta"], "charts": [
                  {"c": ["-2.3", "1.6"], "p": [["-2.3117","1.584"], ["-2.2914","1.5844"], ["-2.286","1.6051"]]}],
@@ -112,7 +115,6 @@ inline nlohmann::json hostile() {
   for (const char* key : {"claim", "problem_sha256", "path_sha256"}) result[key] = kAttack;
   result["generator"] = {{"name", kAttack}, {"version", kAttack}};
   result["problem"]["name"] = kAttack;
-  result["path"]["interpolation"] = kAttack;
   result["footer"]["sha256"] = kAttack;
   result["illustration"]["stats"] = {{kAttack, kAttack}, {"list", {kAttack}}};
   return result;
