@@ -152,41 +152,45 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     for (std::size_t j = 0; j < 6; ++j) w[i][j] += second[i][j];
   }
 
-  // Columns: κ = C w0 first, then C L. A column x of C B has value P x at m and slope −(A1 ± W) x.
-  std::array<std::array<I, 6>, 7> columns;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const int row = static_cast<int>(i);
+  // Columns x of C B: κ = C w0 first, then C L. P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is enclosed by A1
+  // times numbers x̂ near x, and |A1| times bounds of x − x̂.
+  constexpr std::size_t kColumns = 7;
+  std::array<std::array<I, kColumns>, 6> x;
+  std::array<std::array<I, kColumns>, 6> drift;  // A1 x̂
+  std::array<std::array<Upper, kColumns>, 6> x_magnitude;
+  std::array<std::array<Upper, kColumns>, 6> x_error;
+  for (auto& row : drift) row.fill(I(0.0));
+  for (std::size_t k = 0; k < 6; ++k) {
+    const int row = static_cast<int>(k);
     I kappa(0.0);
-    for (int k = 0; k < 6; ++k) kappa = kappa + c(row, k) * model.wrench(k);
-    columns[0][i] = kappa;
+    for (int l = 0; l < 6; ++l) kappa = kappa + c(row, l) * model.wrench(l);
+    x[k][0] = kappa;
     for (int j = 0; j < 6; ++j) {
       I entry = c(row, j) * model.ellipsoid_root(j, j);
       if (!model.ellipsoid_is_diagonal) {
-        for (int k = 0; k < j; ++k) entry = entry + c(row, k) * model.ellipsoid_root(k, j);
+        for (int l = 0; l < j; ++l) entry = entry + c(row, l) * model.ellipsoid_root(l, j);
       }
-      columns[static_cast<std::size_t>(j) + 1][i] = entry;
+      x[k][static_cast<std::size_t>(j) + 1] = entry;
+    }
+    for (std::size_t j = 0; j < kColumns; ++j) {
+      const Point near = Scalars<I>::point(x[k][j]);
+      x_magnitude[k][j] = Upper(magnitude(x[k][j]));
+      x_error[k][j] = Upper(magnitude(x[k][j] - I(near)));
+      for (std::size_t i = 0; i < 6; ++i) drift[i][j] = drift[i][j] + near * a1[i][k];
     }
   }
+  const auto mid_error = upper_product(q0, x_magnitude);
+  const auto slope_error = upper_product(w, x_magnitude);
+  const auto drift_error = upper_product(a1_magnitude, x_error);
   std::array<Centered<I>, 6> squares;
   squares.fill(Centered<I>(0.0));
-  for (std::size_t column = 0; column < 7; ++column) {
-    const std::array<I, 6>& x = columns[column];
-    std::array<Upper, 6> x_magnitude;
-    for (std::size_t k = 0; k < 6; ++k) x_magnitude[k] = Upper(magnitude(x[k]));
-    for (std::size_t i = 0; i < 6; ++i) {
-      I slope(0.0);
-      Upper mid_error(0.0);
-      Upper slope_error(0.0);
-      for (std::size_t k = 0; k < 6; ++k) {
-        slope = slope + a1[i][k] * x[k];
-        mid_error += q0[i][k] * x_magnitude[k];
-        slope_error += w[i][k] * x_magnitude[k];
-      }
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < kColumns; ++j) {
       Centered<I> value;
-      value.at_mid = x[i] + Scalars<I>::symmetric(mid_error);
-      value.slope = Scalars<I>::symmetric(slope_error) - slope;
-      value.range = value.at_mid + value.slope * offset;
-      if (column == 0) {
+      value.at_mid = x[i][j] + Scalars<I>::symmetric(mid_error[i][j]);
+      value.slope = Scalars<I>::symmetric(slope_error[i][j] + drift_error[i][j]) - drift[i][j];
+      value.range = value.at_mid + Scalars<I>::symmetric(Upper(radius) * Upper(magnitude(value.slope)));
+      if (j == 0) {
         result.density[i] = value;
       } else {
         squares[i] = squares[i] + sqr(value);

@@ -76,10 +76,13 @@ inline Interval operator*(Interval a, Interval b) {
   return Interval(_mm_max_pd(_mm_max_pd(p1, p2), _mm_max_pd(p3, p4)));
 }
 
-/// Product with an exact number: one multiplication.
+/// Product with an exact number: one multiplication, and no branch on its sign.
 inline Interval operator*(double x, Interval a) {
-  const __m128d magnitude = _mm_set1_pd(x < 0 ? -x : x);
-  return Interval(_mm_mul_pd(magnitude, x < 0 ? a.swapped() : a.v_));
+  const __m128d factor = _mm_set1_pd(x);
+  const __m128d negative = _mm_cmplt_pd(factor, _mm_setzero_pd());
+  const __m128d magnitude = _mm_andnot_pd(_mm_set1_pd(-0.0), factor);
+  const __m128d ends = _mm_or_pd(_mm_and_pd(negative, a.swapped()), _mm_andnot_pd(negative, a.v_));
+  return Interval(_mm_mul_pd(magnitude, ends));
 }
 inline Interval operator*(Interval a, double x) { return x * a; }
 
@@ -89,9 +92,11 @@ inline Interval reciprocal(Interval a) {
 }
 
 inline Interval sqr(Interval a) {
-  const double magnitude = std::max(-a.lower(), a.upper());
-  const double mignitude = std::max({0.0, a.lower(), -a.upper()});
-  return Interval(_mm_mul_pd(_mm_set_pd(magnitude, -mignitude), _mm_set_pd(magnitude, mignitude)));
+  const __m128d negated = _mm_xor_pd(a.v_, _mm_set1_pd(-0.0));  // (lower, −upper)
+  const __m128d magnitude = _mm_max_pd(a.v_, a.swapped());
+  const __m128d mignitude = _mm_max_pd(_mm_max_pd(negated, _mm_shuffle_pd(negated, negated, 1)), _mm_setzero_pd());
+  const __m128d sizes = _mm_move_sd(magnitude, mignitude);
+  return Interval(_mm_mul_pd(_mm_xor_pd(sizes, _mm_set_pd(0.0, -0.0)), sizes));
 }
 
 /// The lower end is the predecessor of the root rounded up, which lies below the root.

@@ -67,13 +67,14 @@ using Square = std::array<std::array<T, N>, N>;
 template <class I>
 using UpperOf = typename Scalars<I>::Upper;
 
-template <class Upper, std::size_t N>
-Square<Upper, N> upper_product(const Square<Upper, N>& a, const Square<Upper, N>& b) {
-  Square<Upper, N> c;
+template <class Upper, std::size_t N, std::size_t M>
+std::array<std::array<Upper, M>, N> upper_product(const Square<Upper, N>& a,
+                                                  const std::array<std::array<Upper, M>, N>& b) {
+  std::array<std::array<Upper, M>, N> c;
   for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) c[i][j] = a[i][0] * b[0][j];
+    for (std::size_t j = 0; j < M; ++j) c[i][j] = a[i][0] * b[0][j];
     for (std::size_t k = 1; k < N; ++k) {
-      for (std::size_t j = 0; j < N; ++j) c[i][j] += a[i][k] * b[k][j];
+      for (std::size_t j = 0; j < M; ++j) c[i][j] += a[i][k] * b[k][j];
     }
   }
   return c;
