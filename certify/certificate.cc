@@ -1,7 +1,6 @@
 #include "certify/certificate.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "certify/checker/claims.h"
+#include "certify/sha256.h"
 #include "kinematics/input_error.h"
 
 namespace taut {
@@ -16,15 +16,9 @@ namespace taut {
 using nlohmann::json;
 
 std::string sha256(const json& value) {
-  const std::string canonical = value.dump(-1, ' ', true);
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(canonical.data(), canonical.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("OpenSSL could not compute SHA-256");
-  }
-  std::string hex;
-  for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
+  Sha256 digest;
+  digest.update(value.dump(-1, ' ', true));
+  return digest.hex();
 }
 
 std::string hex_float(double x) {
@@ -32,8 +26,6 @@ std::string hex_float(double x) {
   std::snprintf(text.data(), text.size(), "%a", x);
   return text.data();
 }
-
-namespace {
 
 json to_json(const Margins& m) {
   return {{"tension_N", m.tension_N}, {"length_m", m.length_m}, {"wrench_scale", m.wrench_scale}};
@@ -53,7 +45,7 @@ json to_json(const PathWitness& w) {
           {"limit", w.limit}};
 }
 
-const char* name(Interpolation law) {
+const char* interpolation_name(Interpolation law) {
   switch (law) {
     case Interpolation::kStraight: return "straight-in-parameters";
     case Interpolation::kCubicBSpline: return "cubic-b-spline";
@@ -62,6 +54,28 @@ const char* name(Interpolation law) {
   }
   return "straight-in-cable-lengths";
 }
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kProved: return "proved";
+    case Verdict::kRefuted: return "refuted";
+    case Verdict::kUndecided: break;
+  }
+  return "undecided";
+}
+
+const char* claim_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kProved: return checker::kProvedClaim;
+    case Verdict::kRefuted: return checker::kRefutedClaim;
+    case Verdict::kUndecided: break;
+  }
+  return checker::kUndecidedClaim;
+}
+
+json generator_json() { return {{"name", "taut"}, {"version", TAUT_VERSION}}; }
+
+namespace {
 
 json hex_floats(std::span<const double> values) {
   json list = json::array();
@@ -88,7 +102,7 @@ json path_json(const Path& path) {
   for (const PoseTube& tube : path.pose_tubes) {
     pose_tubes.push_back({{"position", hex_float(tube.position)}, {"turn", hex_float(tube.turn)}});
   }
-  return {{"interpolation", name(path.interpolation)},
+  return {{"interpolation", interpolation_name(path.interpolation)},
           {"waypoints", std::move(waypoints)},
           {"tubes", hex_floats(path.tubes)},
           {"pose_tubes", std::move(pose_tubes)},
@@ -127,13 +141,9 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
   json certificate = {
       {"format", "taut-certificate"},
       {"version", kCertificateVersion},
-      {"generator", {{"name", "taut"}, {"version", TAUT_VERSION}}},
-      {"verdict", proved    ? "proved"
-                  : refuted ? "refuted"
-                            : "undecided"},
-      {"claim", proved    ? checker::kProvedClaim
-                : refuted ? checker::kRefutedClaim
-                          : checker::kUndecidedClaim},
+      {"generator", generator_json()},
+      {"verdict", name(proof.verdict)},
+      {"claim", claim_of(proof.verdict)},
       {"problem", to_json(problem)},
       {"path", path_json(path)},
       {"segments", proved ? segments_json(path, proof) : json::array()},
@@ -195,7 +205,7 @@ Waypoint waypoint_from_json(Interpolation law, const json& entry) {
 Interpolation interpolation_from_json(const json& law) {
   for (const Interpolation known : {Interpolation::kStraight, Interpolation::kCubicBSpline, Interpolation::kGeodesic,
                                     Interpolation::kCableLengths}) {
-    if (law == name(known)) return known;
+    if (law == interpolation_name(known)) return known;
   }
   throw InputError("path.interpolation: got " + law.dump());
 }

@@ -21,6 +21,15 @@ inline constexpr int kCertificateVersion = 3;
 [[nodiscard]] nlohmann::json make_certificate(const Problem& problem, const Path& path, const PathProof& proof,
                                               nlohmann::json illustration);
 
+// Its parts.
+[[nodiscard]] const char* name(Verdict verdict);      ///< "proved", …
+[[nodiscard]] const char* claim_of(Verdict verdict);  ///< the theorem, in words
+[[nodiscard]] const char* interpolation_name(Interpolation law);
+[[nodiscard]] nlohmann::json generator_json();
+[[nodiscard]] nlohmann::json to_json(const Margins& margins);
+[[nodiscard]] nlohmann::json to_json(const PathPoint& place);
+[[nodiscard]] nlohmann::json to_json(const PathWitness& witness);
+
 /// A certificate's `path`. @throws InputError for anything malformed.
 [[nodiscard]] Path path_from_json(const nlohmann::json& path);
 

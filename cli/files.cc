@@ -19,57 +19,59 @@ namespace {
   throw InputError(fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)));
 }
 
-/// A file under a temporary name beside `path`; removed unless it was renamed into place.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const FileContent& file) : path_(file.path), temporary_(file.path) {
-    temporary_ += fmt::format(".{}.part", ::getpid());
-    const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (descriptor < 0) fail(path_, "write", errno);
-    const int error = write_all(descriptor, file.content);
-    ::close(descriptor);
-    if (error != 0) {
-      ::unlink(temporary_.c_str());
-      fail(path_, "write", error);
-    }
-  }
-  ~TemporaryFile() {
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  }
-  TemporaryFile(TemporaryFile&& other) noexcept
-      : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(TemporaryFile&&) = delete;
-
-  void rename_into_place() {
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "rename into place", errno);
-    temporary_.clear();
-  }
-
- private:
-  /// @returns errno, 0 if all was written and flushed.
-  static int write_all(int descriptor, const std::string& content) {
-    std::size_t written = 0;
-    while (written < content.size()) {
-      const ssize_t n = ::write(descriptor, content.data() + written, content.size() - written);
-      if (n < 0 && errno != EINTR) return errno;
-      if (n > 0) written += static_cast<std::size_t>(n);
-    }
-    return ::fsync(descriptor) == 0 ? 0 : errno;
-  }
-
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
-};
-
 }  // namespace
 
+NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
+  temporary_ += fmt::format(".{}.part", ::getpid());
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(path_, "write", errno);
+}
+
+NewFile::~NewFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+NewFile::NewFile(NewFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      buffer_(std::move(other.buffer_)) {}
+
+void NewFile::write(std::string_view text) {
+  constexpr std::size_t kBuffer = std::size_t{1} << 18U;
+  buffer_ += text;
+  if (buffer_.size() >= kBuffer) write_out();
+}
+
+void NewFile::write_out() {
+  for (std::size_t written = 0; written < buffer_.size();) {
+    const ssize_t n = ::write(descriptor_, buffer_.data() + written, buffer_.size() - written);
+    if (n < 0 && errno != EINTR) fail(path_, "write", errno);
+    if (n > 0) written += static_cast<std::size_t>(n);
+  }
+  buffer_.clear();
+}
+
+void NewFile::finish() {
+  write_out();
+  if (::fsync(descriptor_) != 0) fail(path_, "write", errno);
+}
+
+void NewFile::rename_into_place() {
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "rename into place", errno);
+  temporary_.clear();
+}
+
 void write_whole(const std::vector<FileContent>& files) {
-  std::vector<TemporaryFile> written;
+  std::vector<NewFile> written;
   written.reserve(files.size());
-  for (const FileContent& file : files) written.emplace_back(file);
-  for (TemporaryFile& file : written) file.rename_into_place();
+  for (const FileContent& file : files) {
+    NewFile& next = written.emplace_back(file.path);
+    next.write(file.content);
+    next.finish();
+  }
+  for (NewFile& file : written) file.rename_into_place();
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace taut {
@@ -10,6 +11,32 @@ namespace taut {
 struct FileContent {
   std::filesystem::path path;
   std::string content;
+};
+
+/// A file that is written piece by piece under a temporary name beside its own; it vanishes unless it is renamed into place.
+/// Everything throws InputError naming the path and the system's reason.
+class NewFile {
+ public:
+  explicit NewFile(std::filesystem::path path);
+  ~NewFile();
+  NewFile(NewFile&& other) noexcept;
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  NewFile& operator=(NewFile&&) = delete;
+
+  void write(std::string_view text);
+  /// To disk, all of it.
+  void finish();
+  /// Replaces any file of that name. @pre finish() was called last.
+  void rename_into_place();
+
+ private:
+  void write_out();
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+  std::string buffer_;
 };
 
 /// Writes all of them beside their paths, flushes them to disk, and only then renames: none is replaced unless all could be

@@ -336,9 +336,11 @@ class PathFile::Implementation {
 
   void read_own_header(const std::vector<Title>& titles, const std::vector<std::string>& names) {
     header_.format = names.front() == "waypoint" ? PathFormat::kTautWaypoints : PathFormat::kTautControlPoints;
-    header_.form = PathForm::kParameters;
-    for (const std::string& parameter : parameter_names_) {
-      for (const std::string& name : {"x." + parameter, "half_turns." + parameter}) {
+    const bool is_of_poses = contains(names, "x.px") && !is_parameter("px");  // an audited path in the free coordinates
+    header_.form = is_of_poses ? PathForm::kAngles : PathForm::kParameters;
+    const std::vector<std::string> coordinates = is_of_poses ? names_of(kPoseNames) : parameter_names_;
+    for (const std::string& coordinate : coordinates) {
+      for (const std::string& name : {"x." + coordinate, "half_turns." + coordinate}) {
         if (!contains(names, name)) {
           fail("", fmt::format("got no column '{}', expected the parameters of the case: {}", name,
                                join(parameter_names_)));
@@ -347,9 +349,9 @@ class PathFile::Implementation {
     }
     const auto index_behind = [&](const std::string& name, const std::string& prefix) -> std::optional<std::size_t> {
       if (!name.starts_with(prefix)) return std::nullopt;
-      const auto found = std::find(parameter_names_.begin(), parameter_names_.end(), name.substr(prefix.size()));
-      if (found == parameter_names_.end()) return std::nullopt;
-      return static_cast<std::size_t>(found - parameter_names_.begin());
+      const auto found = std::find(coordinates.begin(), coordinates.end(), name.substr(prefix.size()));
+      if (found == coordinates.end()) return std::nullopt;
+      return static_cast<std::size_t>(found - coordinates.begin());
     };
     const Unit one = si_unit(Dimension::kLength);
     for (std::size_t i = 0; i < titles.size(); ++i) {
@@ -358,14 +360,14 @@ class PathFile::Implementation {
       if (is_time(name)) {
         add(Column::Role::kTime, 0, titles[i], unit_of(titles[i], Quantity::kTime));
       } else if (const auto x = index_behind(name, "x.")) {
-        add(Column::Role::kCoordinate, *x, {parameter_names_[*x], titles[i].unit}, unit_of(titles[i], Quantity::kPure));
+        add(Column::Role::kCoordinate, *x, {coordinates[*x], titles[i].unit}, unit_of(titles[i], Quantity::kPure));
       } else if (const auto turns = index_behind(name, "half_turns.")) {
         add(Column::Role::kHalfTurns, *turns, titles[i], unit_of(titles[i], Quantity::kPure));
       } else if (i == 0 || is_pose) {
         add(i == 0 ? Column::Role::kIndex : Column::Role::kIgnored, 0, titles[i], one);
       } else {
         fail("", fmt::format("got the unknown column '{}', expected x.NAME and half_turns.NAME with NAME one of {}",
-                             shown(name), join(parameter_names_)));
+                             shown(name), join(coordinates)));
       }
     }
   }
@@ -576,7 +578,9 @@ class PathFile::Implementation {
   }
 
   [[nodiscard]] int read_half_turns(const Column& column, std::string_view cell) const {
-    const bool turns = space_.parameters[column.index].kind == ParameterKind::kPeriodic;
+    const bool turns = header_.form == PathForm::kAngles
+                           ? column.name == "half_turns.phi" || column.name == "half_turns.sigma"
+                           : space_.parameters[column.index].kind == ParameterKind::kPeriodic;
     return read_whole(column, cell, turns ? kMaxHalfTurns : 0,
                       turns ? fmt::format("a whole number of at most {} either way", kMaxHalfTurns)
                             : "0, as the parameter is not periodic");

@@ -129,6 +129,17 @@ TEST(PathFile, ReadsTautsOwnPaths) {
             PathFormat::kTautControlPoints);
 }
 
+TEST(PathFile, ReadsTautsOwnPathsOfPoses) {
+  const std::string header =
+      "waypoint,x.px,x.py,x.pz,x.phi,x.theta,x.sigma,half_turns.px,half_turns.py,half_turns.pz,half_turns.phi,"
+      "half_turns.theta,half_turns.sigma,t[s]\n";
+  const Read path = read(header + "0,0,0,0.35,1,2,3,0,0,0,-1,0,2,0.5\n");
+  EXPECT_EQ(path.header.form, PathForm::kAngles);
+  EXPECT_THAT(path.rows[0].half_turns, ElementsAre(0, 0, 0, -1, 0, 2));
+  EXPECT_EQ(path.rows[0].time_s->text(), "0.5");
+  expect_rejected(header + "0,0,0,0.35,1,2,3,0,0,0,-1,1,2,0.5\n", "half_turns.theta: got '1', expected 0");
+}
+
 TEST(PathFile, TheCasesOwnNamesGoFirst) {
   SpaceText space = sphere();
   space.parameters[0].name = "t";

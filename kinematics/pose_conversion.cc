@@ -1,0 +1,120 @@
+#include "kinematics/pose_conversion.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// The one of x + 2π k that is nearest to `target`, as k whole turns.
+int turns_towards(double x, double target) { return static_cast<int>(std::lround((target - x) / (2 * kPi))); }
+
+/// Within (−π, π].
+double principal(double angle) {
+  const double reduced = std::remainder(angle, 2 * kPi);
+  return reduced <= -kPi ? kPi : reduced;
+}
+
+using Lengths = Eigen::Matrix<double, kCables, 1>;
+
+Lengths lengths_at(const Model<double>& model, const RigidPose& pose) {
+  const std::array<double, kCables> lengths = cable_lengths(model, pose);
+  return Lengths(lengths.data());
+}
+
+/// Newton's method; nothing unless it converges to the last digits.
+std::optional<RigidPose> newton(const Model<double>& model, const Lengths& target, RigidPose pose) {
+  constexpr int kMaxIterations = 12;
+  constexpr double kConverged = 1e-13;  // of the lengths; what rounding leaves is less
+  constexpr double kMaxTurn = 0.5;      // rad in one step: beyond it is another solution
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const Matrix3<double> r_WP = pose.q.toRotationMatrix();
+    Matrix6<double> jacobian;
+    Lengths residual;
+    for (int i = 0; i < kCables; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const Vector3<double> arm = r_WP * model.p_PB[n];
+      const Vector3<double> d = pose.p + arm - model.p_WA[n];
+      const double length = d.norm();
+      const Vector3<double> direction = d / length;
+      jacobian.row(i) << direction.transpose(), arm.cross(direction).transpose();
+      residual(i) = target(i) - length;
+    }
+    const double error = residual.cwiseAbs().maxCoeff();
+    if (!std::isfinite(error)) return std::nullopt;
+    if (error <= kConverged * target.maxCoeff()) return pose;
+    const Vector6<double> step = Eigen::PartialPivLU<Matrix6<double>>(jacobian).solve(residual);
+    const Vector3<double> turn = step.tail<3>();
+    const double angle = turn.norm();
+    if (!std::isfinite(step.norm()) || angle > kMaxTurn) return std::nullopt;
+    pose.p += step.head<3>();
+    if (angle > 0) pose.q = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) * pose.q).normalized();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+RigidPose rigid_pose(const Pose<double>& pose) {
+  const SinCos<double> tilt = sincos(pose.theta / 2);
+  const SinCos<double> torsion = sincos(pose.sigma / 2);
+  const SinCos<double> direction = sincos(pose.phi - pose.sigma / 2);
+  return {pose.p_WP,
+          {tilt.cos * torsion.cos, -(tilt.sin * direction.sin), tilt.sin * direction.cos, tilt.cos * torsion.sin}};
+}
+
+double TiltAndTorsion::value(std::size_t i) const { return x[i] + kPi * half_turns[i]; }
+
+TiltAndTorsion tilt_and_torsion(const Eigen::Quaterniond& q, const std::optional<TiltAndTorsion>& previous) {
+  const double tilted = std::hypot(q.x(), q.y());
+  const double upright = std::hypot(q.w(), q.z());
+  const double theta = 2 * std::atan2(tilted, upright);
+  const double old_phi = previous ? previous->value(0) : 0;
+  const double old_sigma = previous ? previous->value(2) : 0;
+  const double sigma = upright > 0 ? 2 * std::atan2(q.z(), q.w()) : old_sigma;
+  const double phi = tilted > 0 ? std::atan2(-q.x(), q.y()) + sigma / 2 : old_phi;
+  TiltAndTorsion result;
+  result.x = {principal(phi), theta, principal(sigma)};
+  if (!previous) return result;
+  result.half_turns[2] = 2 * turns_towards(result.x[2], old_sigma);
+  TiltAndTorsion flipped = result;
+  flipped.x[1] = -theta;
+  result.half_turns[0] = 2 * turns_towards(result.x[0], old_phi);
+  flipped.half_turns[0] = 1 + 2 * turns_towards(result.x[0] + kPi, old_phi);
+  const auto distance = [&](const TiltAndTorsion& t) {
+    return std::abs(t.value(0) - old_phi) + std::abs(t.value(1) - previous->value(1));
+  };
+  return distance(flipped) < distance(result) ? flipped : result;
+}
+
+std::array<double, kCables> cable_lengths(const Model<double>& model, const RigidPose& pose) {
+  const Matrix3<double> r_WP = pose.q.toRotationMatrix();
+  std::array<double, kCables> lengths{};
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vector3<double> d = pose.p + r_WP * model.p_PB[i] - model.p_WA[i];
+    lengths[i] = d.norm();
+  }
+  return lengths;
+}
+
+std::optional<RigidPose> pose_of_lengths(const Model<double>& model, const std::array<double, kCables>& lengths,
+                                         const RigidPose& start) {
+  constexpr int kMostSteps = 256;
+  const Lengths target(lengths.data());
+  const Lengths from = lengths_at(model, start);
+  for (int steps = 1; steps <= kMostSteps; steps *= 4) {
+    std::optional<RigidPose> pose = start;
+    for (int k = 1; k <= steps && pose; ++k) {
+      const Lengths at = k == steps ? target : Lengths(from + (target - from) * (static_cast<double>(k) / steps));
+      pose = newton(model, at, *pose);
+    }
+    if (pose) return pose;
+  }
+  return std::nullopt;
+}
+
+}  // namespace taut

@@ -1,0 +1,45 @@
+// Poses from one form to another, in floating point: angles, quaternions, cable lengths.
+//
+// For waypoints that are given in one form and joined in another. What comes out is rounded to binary64, and it is those waypoints
+// that a proof is about.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+
+#include "kinematics/model.h"
+
+namespace taut {
+
+/// p [m] and R = R(q); |q| = 1 up to rounding.
+struct RigidPose {
+  Vector3<double> p;
+  Eigen::Quaterniond q;
+};
+
+/// R(q) = Rz(phi) Ry(theta) Rz(sigma − phi).
+[[nodiscard]] RigidPose rigid_pose(const Pose<double>& pose);
+
+/// Angles as x + π half_turns: phi, theta, sigma.
+struct TiltAndTorsion {
+  std::array<double, 3> x{};
+  std::array<int, 3> half_turns{};
+  [[nodiscard]] double value(std::size_t i) const;
+};
+
+/// Those of R(q) that are next to `previous`: by whole turns of phi and sigma, and of (phi, theta) and (phi + π, −theta) the nearer
+/// one. Without `previous`: theta in [0, π]. phi is kept where theta = 0, sigma where theta = π.
+[[nodiscard]] TiltAndTorsion tilt_and_torsion(const Eigen::Quaterniond& q,
+                                              const std::optional<TiltAndTorsion>& previous);
+
+/// |p + R b_i − a_i| [m]
+[[nodiscard]] std::array<double, kCables> cable_lengths(const Model<double>& model, const RigidPose& pose);
+
+/// The pose with those lengths that is reached from `start` as its lengths change to them at constant rates; nothing where Newton's
+/// method finds none on the way.
+[[nodiscard]] std::optional<RigidPose> pose_of_lengths(const Model<double>& model,
+                                                       const std::array<double, kCables>& lengths,
+                                                       const RigidPose& start);
+
+}  // namespace taut

@@ -1,0 +1,116 @@
+#include "kinematics/waypoint_maker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+}  // namespace
+
+Interpolation usual_law(const PathHeader& header) {
+  if (header.format == PathFormat::kTautControlPoints) return Interpolation::kCubicBSpline;
+  switch (header.form) {
+    case PathForm::kQuaternion: return Interpolation::kGeodesic;
+    case PathForm::kCableLengths: return Interpolation::kCableLengths;
+    default: return Interpolation::kStraight;
+  }
+}
+
+WaypointMaker::WaypointMaker(const Problem& problem, const PathHeader& header, Interpolation law,
+                             const std::string& file)
+    : problem_(problem), header_(header), law_(law), sampler_(problem) {
+  const bool is_spline = header.format == PathFormat::kTautControlPoints;
+  if (is_spline != (law == Interpolation::kCubicBSpline)) {
+    throw InputError(fmt::format("{}: got {}", file,
+                                 is_spline ? "a spline's control points, expected no other law for them"
+                                           : "waypoints, expected a spline's control points"));
+  }
+  const bool has_lengths = header.form == PathForm::kCableLengths;
+  if (has_lengths && law != Interpolation::kCableLengths) {
+    throw InputError(fmt::format("{}: got cable lengths, expected the law cable-lengths for them", file));
+  }
+  if (has_lengths && !header.start) {
+    if (problem.query.empty()) {
+      throw InputError(
+          fmt::format("{}: got cable lengths and no pose, expected the pose to start from in the columns of the "
+                      "first row, or a query in the case",
+                      file));
+    }
+    std::vector<double> parameters;
+    for (const ExpressionText& value : problem.query.front()) parameters.push_back(evaluate_constant<double>(value));
+    query_start_ = rigid_pose(sampler_.pose(parameters));
+  }
+  const bool needs_angles = law == Interpolation::kStraight && header.form == PathForm::kQuaternion;
+  is_converted_ = needs_angles || (law == Interpolation::kGeodesic && header.form != PathForm::kQuaternion) ||
+                  (law == Interpolation::kCableLengths && !has_lengths);
+  problem_.query.clear();
+  if (header.form != PathForm::kParameters || has_poses(law)) problem_.space = coordinate_space();
+}
+
+RigidPose WaypointMaker::pose_of(PathForm form, const std::vector<double>& x,
+                                 const std::vector<int>& half_turns) const {
+  if (form == PathForm::kQuaternion) {
+    return {Vector3<double>(x[0], x[1], x[2]), Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized()};
+  }
+  std::vector<double> values = x;
+  for (std::size_t j = 0; j < half_turns.size(); ++j) values[j] += kPi * half_turns[j];
+  if (form == PathForm::kParameters) return rigid_pose(sampler_.pose(values));
+  return rigid_pose({Vector3<double>(values[0], values[1], values[2]), values[3], values[4], values[5]});
+}
+
+void WaypointMaker::find_reference(const PathRow& row, const std::vector<double>& start) {
+  std::array<double, kCables> lengths{};
+  std::copy_n(row.x.begin(), kCables, lengths.begin());
+  if (!pose_) {
+    pose_ = header_.start ? pose_of(*header_.start, start, {}) : *query_start_;
+    const std::array<double, kCables> at_start = cable_lengths(sampler_.model(), *pose_);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      start_error_m_ = std::max(start_error_m_, std::abs(at_start[i] - lengths[i]));
+    }
+  }
+  if (lost_line_) return;
+  if (const auto found = pose_of_lengths(sampler_.model(), lengths, *pose_)) {
+    pose_ = found;
+  } else {
+    lost_line_ = row.line;
+  }
+}
+
+const Waypoint& WaypointMaker::next(const PathRow& row, const std::vector<double>& start) {
+  if (!is_converted_ && header_.form != PathForm::kCableLengths) {  // the law's own coordinates
+    waypoint_.x = row.x;
+    waypoint_.half_turns = has_poses(law_) ? std::vector<int>() : row.half_turns;
+    if (!has_poses(law_) && sampler_.constraints() && header_.form == PathForm::kParameters) {
+      waypoint_.normals = sampler_.constraints()->normals(waypoint_);
+    }
+    return waypoint_;
+  }
+  const std::optional<RigidPose> previous = pose_;
+  if (header_.form == PathForm::kCableLengths) {
+    find_reference(row, start);
+  } else {
+    pose_ = pose_of(header_.form, row.x, row.half_turns);
+  }
+  RigidPose& pose = *pose_;
+  if (previous && pose.q.dot(previous->q) < 0) pose.q.coeffs() = -pose.q.coeffs();  // references turn the shorter way
+  if (law_ == Interpolation::kStraight) {
+    angles_ = tilt_and_torsion(pose.q, angles_);
+    waypoint_.x = {pose.p(0), pose.p(1), pose.p(2), angles_->x[0], angles_->x[1], angles_->x[2]};
+    waypoint_.half_turns = {0, 0, 0, angles_->half_turns[0], angles_->half_turns[1], angles_->half_turns[2]};
+    return waypoint_;
+  }
+  waypoint_.x = {pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
+  if (law_ == Interpolation::kCableLengths) {
+    const std::array<double, kCables> lengths = cable_lengths(sampler_.model(), pose);
+    const bool given = header_.form == PathForm::kCableLengths;
+    for (std::size_t i = 0; i < kCables; ++i) waypoint_.x.push_back(given ? row.x[i] : lengths[i]);
+  }
+  return waypoint_;
+}
+
+}  // namespace taut

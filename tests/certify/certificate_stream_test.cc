@@ -1,0 +1,143 @@
+#include "certify/certificate_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "kinematics/input_error.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using nlohmann::json;
+
+json streamed(const Problem& problem, const Path& path, const PathProof& proof, const json& illustration) {
+  CertificateStream stream(std::filesystem::temp_directory_path(), problem, path.interpolation);
+  for (const Waypoint& waypoint : path.waypoints) stream.add_waypoint(waypoint_text(path.interpolation, waypoint));
+  for (const std::string& time : path.times) stream.add_time(time);
+  for (const double tube : path.tubes) stream.add_tube(tube);
+  for (const PoseTube& tube : path.pose_tubes) stream.add_pose_tube(tube);
+  CertificateStream::Ending ending;
+  ending.verdict = proof.verdict;
+  ending.illustration = illustration;
+  for (std::size_t k = 0; k < proof.segments.size(); ++k) {
+    const Margins* margins = proof.verdict == Verdict::kProved ? &proof.segment_margins[k] : nullptr;
+    const std::vector<DyadicBox> boxes = margins != nullptr ? proof.segments[k].boxes : std::vector<DyadicBox>();
+    stream.add_segment(segment_text(k, k + control_points(path.interpolation) - 1, boxes, margins), boxes.size());
+  }
+  if (proof.verdict == Verdict::kProved) ending.margins = proof.margins;
+  if (proof.witness) ending.witness = to_json(*proof.witness);
+  if (proof.verdict == Verdict::kUndecided) {
+    ending.undecided = {{"reason", proof.reason}, {"segment", nullptr}, {"box", nullptr}};
+  }
+  std::string text;
+  stream.finish(ending, [&](std::string_view piece) { text += piece; });
+  return json::parse(text);
+}
+
+/// A short way from the start of Robot 1's query in steps.
+Path path_of(const Problem& problem, Interpolation law) {
+  Path path;
+  path.interpolation = law;
+  path.waypoints = {query_waypoints(problem).front()};
+  for (int k = 1; k < 5; ++k) {
+    path.waypoints.push_back(path.waypoints.back());
+    path.waypoints.back().x[0] += 0.01;
+    path.waypoints.back().half_turns[0] = k == 4 ? 0 : 2;
+  }
+  for (int k = 0; k < 4; ++k) path.waypoints[static_cast<std::size_t>(k)].half_turns[0] = 0;
+  return path;
+}
+
+TEST(CertificateStream, IsTheCertificateMadeInMemory) {
+  const Problem problem = testing::robot1_slice();
+  const Prover prover(problem);
+  for (const Interpolation law : {Interpolation::kStraight, Interpolation::kCubicBSpline}) {
+    Path path = path_of(problem, law);
+    path.times = {"0", "0.5", "1", "1.5", "1e3"};
+    const PathProof proof = prove_path(prover, path);
+    ASSERT_EQ(proof.verdict, Verdict::kProved);
+    const json illustration = {{"a \"quoted\" Gerät", {1, 2}}, {"b", nullptr}};
+    EXPECT_EQ(streamed(problem, path, proof, illustration), make_certificate(problem, path, proof, illustration));
+  }
+}
+
+TEST(CertificateStream, OfAProofThatFailedIsTheSameButForStretches) {
+  const Problem problem = testing::robot1_slice();
+  const Prover prover(problem);
+  Path path;
+  path.waypoints = query_waypoints(problem);  // straight from start to goal is infeasible
+  const PathProof proof = prove_path(prover, path);
+  ASSERT_EQ(proof.verdict, Verdict::kRefuted);
+  json expected = make_certificate(problem, path, proof, nullptr);
+  json seen = streamed(problem, path, proof, nullptr);
+  EXPECT_EQ(seen["stretches"], json::array());
+  EXPECT_EQ(seen["segments"], json::parse(R"([{"boxes": [], "from": 0, "margins": null, "to": 1}])"));
+  for (const char* key : {"stretches", "segments", "footer"}) {
+    expected.erase(key);
+    seen.erase(key);
+  }
+  EXPECT_EQ(seen, expected);
+}
+
+TEST(CertificateStream, WritesWaypointsOfAllKinds) {
+  const Waypoint plain{{0.1, -2}, {0, -3}};
+  EXPECT_EQ(waypoint_text(Interpolation::kStraight, plain),
+            R"({"half_turns":[0,-3],"x":["0x1.999999999999ap-4","-0x1p+1"]})");
+  const Waypoint implied{{0.1, -2}, {0, 0}, {1, 0.5}};
+  EXPECT_EQ(waypoint_text(Interpolation::kCubicBSpline, implied),
+            R"({"half_turns":[0,0],"normals":["0x1p+0","0x1p-1"],"x":["0x1.999999999999ap-4","-0x1p+1"]})");
+  Waypoint pose{{1, 2, 4, 0, 0, 0, 1}, {}};
+  EXPECT_EQ(waypoint_text(Interpolation::kGeodesic, pose),
+            R"({"position":["0x1p+0","0x1p+1","0x1p+2"],"quaternion":["0x0p+0","0x0p+0","0x0p+0","0x1p+0"]})");
+  pose.x.insert(pose.x.end(), {8, 8, 8, 8, 8, 16});
+  EXPECT_EQ(waypoint_text(Interpolation::kCableLengths, pose).substr(0, 73),
+            R"({"lengths":["0x1p+3","0x1p+3","0x1p+3","0x1p+3","0x1p+3","0x1p+4"],"posit)");
+}
+
+TEST(CertificateStream, ReadsBackWithPosesAndTubes) {
+  const Problem problem = testing::robot1_slice();
+  for (const Interpolation law : {Interpolation::kGeodesic, Interpolation::kCableLengths}) {
+    Path path;
+    path.interpolation = law;
+    for (int k = 0; k < 3; ++k) {
+      path.waypoints.push_back({{0.1 * k, 2, 4, 0, 0.1, 0, 1}, {}});
+      if (law == Interpolation::kCableLengths) path.waypoints.back().x.insert(path.waypoints.back().x.end(), 6, 0.3);
+    }
+    path.pose_tubes = {{0.1, 0.2}, {0x1p-40, 1}};
+    path.tubes = {0.5, 0.25};
+    const Path back = path_from_json(streamed(problem, path, {}, nullptr)["path"]);
+    EXPECT_EQ(back.waypoints, path.waypoints);
+    EXPECT_EQ(back.pose_tubes, path.pose_tubes);
+    EXPECT_EQ(back.tubes, path.tubes);
+    EXPECT_EQ(back.interpolation, law);
+  }
+}
+
+TEST(CertificateStream, SignsWhatAWholeCertificateIsSignedFor) {
+  const Problem problem = testing::robot1_slice();
+  CertificateStream stream(std::filesystem::temp_directory_path(), problem, Interpolation::kStraight);
+  std::string text;
+  std::string digest;
+  CertificateStream::Ending ending;
+  ending.undecided = {{"reason", "none"}, {"segment", nullptr}, {"box", nullptr}};
+  stream.finish(
+      ending, [&](std::string_view piece) { text += piece; },
+      [&](const std::string& of) {
+        digest = of;
+        return json{{"value", "x"}};
+      });
+  json certificate = json::parse(text);
+  EXPECT_EQ(certificate["signature"], json({{"value", "x"}}));
+  certificate.erase("signature");
+  EXPECT_EQ(sha256(certificate), digest);
+}
+
+TEST(CertificateStream, SaysWhereItCannotSpool) {
+  EXPECT_THROW(CertificateStream("/nowhere/at/all", testing::robot1_slice(), Interpolation::kStraight), InputError);
+}
+
+}  // namespace
+}  // namespace taut
