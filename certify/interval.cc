@@ -211,7 +211,11 @@ Interval pow_int(Interval x, int n) {
     const Interval half = pow_int(x, n / 2);
     return sqr(half);
   }
-  return n == 1 ? x : x * pow_int(x, n - 1);
+  if (n == 1) return x;
+  if (x.lower() < 0 && x.upper() > 0) {  // it increases
+    return hull(pow_int(Interval(x.lower()), n), pow_int(Interval(x.upper()), n));
+  }
+  return x * pow_int(x, n - 1);
 }
 
 Interval ScalarTraits<Interval>::from_decimal(const std::string& text) {

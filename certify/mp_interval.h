@@ -247,7 +247,11 @@ template <class T, class P>
   if (n < 0) return interval<T, P>(T(1)) / pow_int(x, -n);
   if (n == 0) return interval<T, P>(T(1));
   if (n % 2 == 0) return sqr(pow_int(x, n / 2));
-  return n == 1 ? x : x * pow_int(x, n - 1);
+  if (n == 1) return x;
+  if (x.lower() < T(0) && x.upper() > T(0)) {  // it increases
+    return hull(pow_int(interval<T, P>(x.lower()), n), pow_int(interval<T, P>(x.upper()), n));
+  }
+  return x * pow_int(x, n - 1);
 }
 
 template <class T, class P>

@@ -145,6 +145,13 @@ class Interval {
     result.require_bounded();
     return result;
   }
+  /// The one-point Intervals at the ends of a.
+  friend Interval lowest(const Interval& a) {
+    return make([&](mpfi_ptr r) { mpfi_set_fr(r, a.lower()); });
+  }
+  friend Interval highest(const Interval& a) {
+    return make([&](mpfi_ptr r) { mpfi_set_fr(r, a.upper()); });
+  }
   /// The one-point Interval in the middle of a (to rounding).
   friend Interval middle(const Interval& a) {
     return make([&](mpfi_ptr r) {
@@ -207,8 +214,9 @@ inline Interval power(const Interval& x, int n) {
   if (n < 0) return Interval(1) / power(x, -n);
   if (n == 0) return Interval(1);
   if (n == 1) return x;
-  const Interval root = power(x, n / 2);
-  return n % 2 == 0 ? sqr(root) : x * sqr(root);
+  if (n % 2 == 0) return sqr(power(x, n / 2));
+  if (certainly_nonnegative(x) || certainly_nonpositive(x)) return x * power(x, n - 1);
+  return hull(power(lowest(x), n), power(highest(x), n));  // it increases
 }
 
 /// The angle of (x, y) in (-pi, pi]; throws Undefined where (x, y) may be the origin or cross the cut y = 0, x < 0.

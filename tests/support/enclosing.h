@@ -13,7 +13,10 @@ namespace taut::testing {
 struct Fast {
   using I = Interval;
   static constexpr mpfr_prec_t kBits = 53;
-  static constexpr int kSamples = 100'000;
+  static constexpr bool kHasCut = false;  ///< atan2 is a fault on all of its cut
+  static I make(const Operand& x) { return {x.lower, x.upper}; }
+  static I from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
+  static I pi() { return ScalarTraits<I>::pi(); }
   /// @returns whether `function` raised no fault.
   template <class F>
   static bool run(F&& function) {
@@ -25,7 +28,10 @@ template <class Scalar, mpfr_prec_t Bits>
 struct Multiprecision {
   using I = Scalar;
   static constexpr mpfr_prec_t kBits = Bits;
-  static constexpr int kSamples = 10'000;
+  static constexpr bool kHasCut = false;
+  static I make(const Operand& x) { return {x.lower, x.upper}; }
+  static I from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
+  static I pi() { return ScalarTraits<I>::pi(); }
   template <class F>
   static bool run(F&& function) {
     const PrecisionScope precision(Bits);
@@ -36,6 +42,7 @@ struct Multiprecision {
 };
 using Mp53 = Multiprecision<MpInterval, 53>;
 using Mp128 = Multiprecision<MpInterval, 128>;
+using Mp512 = Multiprecision<MpInterval, 512>;
 /// The slow twin of Interval.
 using Twin = Multiprecision<BoostInterval<double>, 53>;
 

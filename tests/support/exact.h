@@ -25,6 +25,7 @@ BigFloat nearest(F function, const BigFloat& x) {
 }
 }  // namespace exact_detail
 inline BigFloat sqr(const BigFloat& x) { return x * x; }
+inline BigFloat reciprocal(const BigFloat& x) { return BigFloat(1.0) / x; }
 inline BigFloat sqrt(const BigFloat& x) { return exact_detail::nearest(mpfr_sqrt, x); }
 inline BigFloat sin(const BigFloat& x) { return exact_detail::nearest(mpfr_sin, x); }
 inline BigFloat cos(const BigFloat& x) { return exact_detail::nearest(mpfr_cos, x); }
