@@ -91,6 +91,45 @@ std::array<Limits, kCables> limits(const Json& json, const std::string& where) {
 /// An expression that mentions no name but pi.
 Expression constant(const Json& json, const std::string& where) { return Expression(text(json, where), {}, {}, where); }
 
+mpq_class tolerance(const Json& json, const std::string& where) {
+  mpq_class result = decimal(json, where);
+  if (result < 0) fail(where, "a tolerance >= 0");
+  return result;
+}
+
+std::array<mpq_class, kCables> tolerance_of_cables(const Json& json, const std::string& where) {
+  array(json, where, kCables);
+  std::array<mpq_class, kCables> result;
+  for (std::size_t i = 0; i < kCables; ++i) result[i] = tolerance(json[i], at(where, i));
+  return result;
+}
+
+Tolerances read_tolerances(const Json& json) {
+  const std::string where = "problem.tolerances";
+  object(json, where,
+         {"base_anchor_m", "platform_anchor_m", "load_point_m", "wrench", "position_m", "orientation_rad",
+          "cable_length_m"});
+  Tolerances result;
+  result.base_anchors = tolerance_of_cables(json["base_anchor_m"], where + ".base_anchor_m");
+  result.platform_anchors = tolerance_of_cables(json["platform_anchor_m"], where + ".platform_anchor_m");
+  result.load_point = tolerance(json["load_point_m"], where + ".load_point_m");
+  result.wrench = decimals<6>(json["wrench"], where + ".wrench");
+  result.position = tolerance(json["position_m"], where + ".position_m");
+  const std::string angle = where + ".orientation_rad";
+  result.orientation = constant(json["orientation_rad"], angle);
+  try {
+    const Interval value = result.orientation.evaluate({}).range;
+    if (certainly_negative(value) || !certainly_positive(Interval(1) - value))
+      fail(angle, "an angle from 0 to below 1");
+  } catch (const Undefined& why) {
+    fail(angle, std::string("an angle from 0 to below 1, not a ") + why.what());
+  }
+  if (!json["cable_length_m"].is_null()) {
+    result.cable_length = tolerance_of_cables(json["cable_length_m"], where + ".cable_length_m");
+  }
+  return result;
+}
+
 void read_space(const Json& json, Problem& problem) {
   const std::string where = "problem.space";
   object(json, where, {"parameters", "constants", "flip", "pose", "constraints"});
@@ -217,7 +256,7 @@ Problem read_problem(const Json& json) {
     }
   }
 
-  if (!json["tolerances"].is_null()) fail("problem.tolerances", "null");
+  if (!json["tolerances"].is_null()) problem.tolerances = read_tolerances(json["tolerances"]);
   read_space(json["space"], problem);
 
   object(json["query"], "problem.query", {"waypoints"});
@@ -260,31 +299,106 @@ Waypoint read_waypoint(const Json& json, const std::string& where, const Problem
   return waypoint;
 }
 
+Waypoint read_pose(const Json& json, const std::string& where, Interpolation law) {
+  Waypoint waypoint;
+  const auto append = [&](const char* key, std::size_t size) {
+    for (const double x : binary64s(json[key], where + "." + key, size)) waypoint.x.push_back(x);
+  };
+  const bool has_lengths = law == Interpolation::kCableLengths;
+  if (has_lengths) {
+    object(json, where, {"position", "quaternion", "lengths"});
+  } else {
+    object(json, where, {"position", "quaternion"});
+  }
+  append("position", 3);
+  append("quaternion", 4);
+  if (std::all_of(waypoint.x.begin() + 3, waypoint.x.end(), [](double x) { return x == 0; })) {
+    fail(where + ".quaternion", "a quaternion that is not 0");
+  }
+  if (has_lengths) append("lengths", kCables);
+  if (std::any_of(waypoint.x.begin() + 7, waypoint.x.end(), [](double x) { return x <= 0; })) {
+    fail(where + ".lengths", "positive lengths");
+  }
+  waypoint.half_turns.assign(waypoint.x.size(), 0);
+  return waypoint;
+}
+
+Interpolation read_interpolation(const Json& json) {
+  static const std::map<std::string, Interpolation> kLaws = {
+      {"straight-in-parameters", Interpolation::kStraight},
+      {"cubic-b-spline", Interpolation::kCubicBSpline},
+      {"geodesic", Interpolation::kGeodesic},
+      {"straight-in-cable-lengths", Interpolation::kCableLengths}};
+  const auto law = kLaws.find(text(json, "path.interpolation"));
+  if (law == kLaws.end()) fail("path.interpolation", "a law of the format");
+  return law->second;
+}
+
+PoseTube read_pose_tube(const Json& json, const std::string& where) {
+  object(json, where, {"position", "turn"});
+  return {parse_binary64(text(json["position"], where), where), parse_binary64(text(json["turn"], where), where)};
+}
+
+/// Decimals that rise, one a waypoint.
+void read_times(const Json& json, std::size_t size) {
+  if (json.is_null()) return;
+  array(json, "path.times", size);
+  mpq_class last;
+  for (std::size_t k = 0; k < size; ++k) {
+    const mpq_class time = decimal(json[k], at("path.times", k));
+    if (k > 0 && time <= last) fail(at("path.times", k), "a time after the last one");
+    last = time;
+  }
+}
+
 Path read_path(const Json& json, const Problem& problem, Verdict verdict) {
   object(json, "path", {"interpolation", "waypoints", "tubes", "pose_tubes", "times"});
-  if (!json["times"].is_null()) fail("path.times", "null");
-  array(json["pose_tubes"], "path.pose_tubes", 0);
   Path path;
-  if (json["interpolation"] == "cubic-b-spline") {
-    path.interpolation = Interpolation::kCubicBSpline;
-  } else if (json["interpolation"] != "straight-in-parameters") {
-    fail("path.interpolation", "'straight-in-parameters' or 'cubic-b-spline'");
-  }
+  path.interpolation = read_interpolation(json["interpolation"]);
   const Json& waypoints = array(json["waypoints"], "path.waypoints");
   for (std::size_t k = 0; k < waypoints.size(); ++k) {
-    path.waypoints.push_back(read_waypoint(waypoints[k], at("path.waypoints", k), problem));
+    const std::string here = at("path.waypoints", k);
+    path.waypoints.push_back(has_poses(path.interpolation) ? read_pose(waypoints[k], here, path.interpolation)
+                                                           : read_waypoint(waypoints[k], here, problem));
   }
   if (path.interpolation == Interpolation::kCubicBSpline && path.segments() == 0) {
     fail("path.waypoints", "at least four of a spline");
   }
-  const std::size_t tubes =
-      problem.constraints.empty() ? 0 : std::max(path.segments(), std::min<std::size_t>(path.waypoints.size(), 1));
-  path.tubes = binary64s(json["tubes"], "path.tubes", tubes);
-  for (std::size_t k = 0; k < tubes; ++k) {
-    const bool is_wide = verdict == Verdict::kUndecided ? path.tubes[k] >= 0 : path.tubes[k] > 0;
-    if (!is_wide) fail(at("path.tubes", k), "a positive width");
+  read_times(json["times"], path.waypoints.size());
+
+  const std::size_t segments = std::max(path.segments(), std::min<std::size_t>(path.waypoints.size(), 1));
+  const auto is_wide = [&](double width) { return verdict == Verdict::kUndecided ? width >= 0 : width > 0; };
+  path.tubes = binary64s(json["tubes"], "path.tubes", problem.constraints.empty() ? 0 : segments);
+  for (std::size_t k = 0; k < path.tubes.size(); ++k) {
+    if (!is_wide(path.tubes[k])) fail(at("path.tubes", k), "a positive width");
+  }
+  const bool is_held =
+      path.interpolation == Interpolation::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
+  const Json& pose_tubes = array(json["pose_tubes"], "path.pose_tubes", is_held ? segments : 0);
+  for (std::size_t k = 0; k < pose_tubes.size(); ++k) {
+    const std::string here = at("path.pose_tubes", k);
+    const PoseTube tube = read_pose_tube(pose_tubes[k], here);
+    if (!is_wide(tube.position) || !is_wide(tube.turn)) fail(here, "positive widths");
+    path.pose_tubes.push_back(tube);
+    if (k == 0) continue;
+    const PoseTube& last = path.pose_tubes[k - 1];
+    if ((tube.position < last.position && tube.turn > last.turn) ||
+        (tube.position > last.position && tube.turn < last.turn)) {
+      fail(here, "a tube that contains the one before, or is contained in it");
+    }
   }
   return path;
+}
+
+/// Where an audited path came from: informative.
+void read_source(const Json& json) {
+  if (json.is_null()) return;
+  object(json, "source", {"file", "sha256"});
+  text(json["file"], "source.file");
+  const std::string& sha256 = text(json["sha256"], "source.sha256");
+  if (sha256.size() != 64 || sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    fail("source.sha256", "64 lower-case hex digits");
+  }
 }
 
 Margins read_margins(const Json& json, const std::string& where) {
@@ -340,7 +454,7 @@ std::array<std::string, 3> read_top_margins(const Json& json, const Json& segmen
 Place read_place(const Json& json, const std::string& where, const Path& path) {
   if (path.waypoints.empty()) fail(where, "a path");
   const auto segments = static_cast<std::int64_t>(path.segments());
-  if (path.interpolation == Interpolation::kStraight && json.is_object() && json.contains("waypoint")) {
+  if (path.interpolation != Interpolation::kCubicBSpline && json.is_object() && json.contains("waypoint")) {
     object(json, where, {"waypoint"});
     const std::int64_t k = integer(json["waypoint"], where + ".waypoint", 0, segments);
     if (k == 0 || k < segments) return {static_cast<std::size_t>(k), 0};
@@ -424,6 +538,16 @@ nlohmann::json parse_json(const std::string& text) {
   }
 }
 
+const Json& coordinate_space() {
+  static const Json kSpace = Json::parse(R"({
+    "parameters": [{"name": "px", "kind": "real"}, {"name": "py", "kind": "real"}, {"name": "pz", "kind": "real"},
+                   {"name": "phi", "kind": "periodic"}, {"name": "theta", "kind": "real"},
+                   {"name": "sigma", "kind": "periodic"}],
+    "constants": {}, "flip": [3, 4], "constraints": [],
+    "pose": {"px": "px", "py": "py", "pz": "pz", "phi": "phi", "theta": "theta", "sigma": "sigma"}})");
+  return kSpace;
+}
+
 std::string digest(const nlohmann::json& value) {
   const std::string canonical = value.dump(-1, ' ', true);
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
@@ -495,7 +619,12 @@ Certificate read_certificate(const nlohmann::json& json) {
   }
 
   if (!json["stretches"].is_null()) fail("stretches", "null");
-  if (!json["source"].is_null()) fail("source", "null");
+  read_source(json["source"]);
+  if (!json["source"].is_null() && !certificate.problem.query.empty()) fail("source", "null where nothing was audited");
+  if (has_poses(path.interpolation)) {
+    if (!certificate.problem.query.empty()) fail("problem.query.waypoints", "none where the path has a law of poses");
+    if (json["problem"]["space"] != coordinate_space()) fail("problem.space", "the one of the free coordinates");
+  }
 
   const auto count = [&](const char* key, std::size_t n) {
     integer(footer[key], std::string("footer.") + key, static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));

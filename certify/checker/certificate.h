@@ -32,6 +32,17 @@ struct Parameter {
   Expression upper;
 };
 
+/// How far a machine may be from what a problem says of it: "tolerances" in the format. All but `wrench` are >= 0.
+struct Tolerances {
+  std::array<mpq_class, kCables> base_anchors;                 ///< |a_i' - a_i| <= [m]
+  std::array<mpq_class, kCables> platform_anchors;             ///< |b_i' - b_i| <= [m]
+  mpq_class load_point;                                        ///< |p_m' - p_m| <= [m]
+  std::array<mpq_class, 6> wrench;                             ///< w0' = w0 + t wrench, |t| <= 1 [N, N m]
+  mpq_class position;                                          ///< tracking: |p' - p| <= [m]
+  Expression orientation;                                      ///< tracking: a constant below 1 [rad]
+  std::optional<std::array<mpq_class, kCables>> cable_length;  ///< where the machine is held by lengths [m]
+};
+
 struct Problem {
   std::array<std::array<mpq_class, 3>, kCables> base_anchors;      ///< a_i in W [m]
   std::array<std::array<mpq_class, 3>, kCables> platform_anchors;  ///< b_i in P [m]
@@ -40,31 +51,45 @@ struct Problem {
   std::array<mpq_class, 3> load_point;                             ///< p_m in P [m]
   std::array<mpq_class, 6> wrench;                                 ///< w0 about P_m: force [N], moment [N m]
   std::array<std::array<mpq_class, 6>, 6> ellipsoid;               ///< E, symmetric
+  std::optional<Tolerances> tolerances;
   std::vector<Parameter> parameters;
   std::optional<std::array<int, 2>> flip;
   std::array<Expression, 6> pose;              ///< px py pz [m], phi theta sigma [rad]
   std::vector<Expression> constraints;         ///< C: 0 along the path; fewer than the parameters
-  std::vector<std::vector<Expression>> query;  ///< constants, one a parameter
+  std::vector<std::vector<Expression>> query;  ///< constants, one a parameter; none in an audit
 };
 
 /// Parameters that a space with constraints may have.
 inline constexpr std::size_t kMaxConstrainedParameters = 6;
 
 struct Waypoint {
+  /// One a parameter [m, rad]; of a law of poses px, py, pz [m], qx, qy, qz, qw, and L_1 to L_6 [m] where these are straight.
   std::vector<double> x;
   std::vector<int> half_turns;
   std::vector<double> normals;  ///< N by rows: one row a parameter, one column a constraint
   bool operator==(const Waypoint&) const = default;
 };
 
-enum class Interpolation { kStraight, kCubicBSpline };
+enum class Interpolation { kStraight, kCubicBSpline, kGeodesic, kCableLengths };
+
+/// Whether waypoints are poses, not parameters of the problem's space.
+inline bool has_poses(Interpolation law) {
+  return law == Interpolation::kGeodesic || law == Interpolation::kCableLengths;
+}
+
+/// The numbers r_p [m] and r_u that bound where the pose of a machine held by lengths is sought.
+struct PoseTube {
+  double position = 0;
+  double turn = 0;
+};
 
 struct Path {
   Interpolation interpolation = Interpolation::kStraight;
   std::vector<Waypoint> waypoints;
-  std::vector<double> tubes;  ///< one a segment where the space has constraints, else none
+  std::vector<double> tubes;           ///< one a segment where the space has constraints, else none
+  std::vector<PoseTube> pose_tubes{};  ///< one a segment where the machine is held by lengths, else none
 
-  [[nodiscard]] std::size_t control_points() const { return interpolation == Interpolation::kStraight ? 2 : 4; }
+  [[nodiscard]] std::size_t control_points() const { return interpolation == Interpolation::kCubicBSpline ? 4 : 2; }
   [[nodiscard]] std::size_t segments() const {
     return waypoints.size() < control_points() ? 0 : waypoints.size() - control_points() + 1;
   }
@@ -125,6 +150,9 @@ struct Certificate {
 
 /// SHA-256 of the canonical form of `value`, 64 lower-case hex digits.
 [[nodiscard]] std::string digest(const nlohmann::json& value);
+
+/// Of the free coordinates px py pz phi theta sigma, as `problem.space` has it where the path has a law of poses.
+[[nodiscard]] const nlohmann::json& coordinate_space();
 
 /// Reads and checks form: keys, types, counts, digests, claim text, boxes that tile [0, 1], limits in order, E
 /// symmetric, periodic parameters along which pose and constraints close, normals and tubes of the right sizes, the

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certify/checker/certificate.h"
+#include "certify/checker/held.h"
 #include "certify/checker/motion.h"
 #include "certify/checker/pose_proof.h"
 #include "certify/checker/signature.h"
@@ -122,7 +123,7 @@ class Checker {
   /// @throws Rejected where the claim is certainly false at the middle of the box.
   std::optional<std::string> doubt_piece(const Model& model, std::size_t k, const Box& box,
                                          const std::string& where) const {
-    const Geometry geometry = model.geometry(pose(model, k, box));
+    const Geometry geometry = this->geometry(model, k, box);
     const Tensions tensions = model.tensions(geometry);  // J is non-singular on the box
     const Margins& claimed = certificate_.segments[k].margins;
     const Form tension_margin{Interval(claimed.tension)};
@@ -153,23 +154,44 @@ class Checker {
     return doubt;
   }
 
-  /// On a box of segment k. Between waypoints inside their ranges parameters stay inside, by convexity; those of a motion
-  /// that is only implied need not.
-  Vector6<Form> pose(const Model& model, std::size_t k, const Box& box) const {
+  /// Where the path leads on a box of segment k: of a law in cable lengths, only about where. Between waypoints inside their
+  /// ranges parameters stay inside, by convexity; those of a motion that is only implied need not.
+  Frame reference(std::size_t k, const Box& box) const {
     const Problem& problem = certificate_.problem;
+    if (has_poses(certificate_.path.interpolation)) return pose_between_poses(certificate_.path, k, box);
     const std::vector<Form> at = parameters(problem, certificate_.path, k, box);
     if (!problem.constraints.empty()) require_in_range(at, "segment " + std::to_string(k));
-    return model.pose(at);
+    return frame(coordinates(problem, at));
   }
 
-  Vector6<Form> pose_at(const Model& model, const Place& place) const {
-    return pose(model, place.segment, {place.s, place.s});
+  /// The geometry of the machine as it is stated, on a box of segment k, at the pose that is commanded.
+  Geometry geometry(const Model& model, std::size_t k, const Box& box) const {
+    const Path& path = certificate_.path;
+    const Frame there = reference(k, box);
+    if (path.pose_tubes.empty()) return model.geometry(there);
+    try {
+      if (path.interpolation != Interpolation::kCableLengths) {  // the controller commands the lengths that are there
+        const Geometry result = model.geometry(there);
+        (void)held_by_lengths(model, there, result.length, path.pose_tubes[k], nullptr);
+        return result;
+      }
+      const Vector6<Form> lengths = commanded_lengths(path, k, box);
+      Geometry result = model.geometry(held_by_lengths(model, there, lengths, path.pose_tubes[k], nullptr).pose);
+      result.length = lengths;
+      return result;
+    } catch (const Undefined& why) {
+      throw Undefined(std::string("the pose held by the lengths: ") + why.what());
+    }
+  }
+
+  Geometry geometry_at(const Model& model, const Place& place) const {
+    return geometry(model, place.segment, {place.s, place.s});
   }
 
   void confirm_violation(const Model& model) const {
     const Witness& witness = *certificate_.witness;
     const auto i = static_cast<std::size_t>(witness.cable);
-    const Geometry geometry = model.geometry(pose_at(model, witness.at));
+    const Geometry geometry = geometry_at(model, witness.at);
     Interval value = geometry.length[i].range;
     Interval excess;  // beyond the limit; a violation where >= 0, as limits are open
     switch (witness.kind) {
@@ -199,7 +221,7 @@ class Checker {
   /// jump (1/x, tan, atan2). A Form of the geometry exists only where they don't.
   void confirm_sign_change(const Model& model) const {
     const Witness& witness = *certificate_.witness;
-    const auto det = [&](const Place& place) { return determinant(mid(model.geometry(pose_at(model, place)).D)); };
+    const auto det = [&](const Place& place) { return determinant(mid(geometry_at(model, place).D)); };
     const Interval product = det(witness.at) * det(witness.to);
     if (certainly_positive(product)) throw Rejected("witness: det D has the same sign at both places");
     if (!certainly_negative(product)) throw Undefined("witness: the signs of det D");
@@ -214,7 +236,7 @@ class Checker {
 
   void require_continuous(const Model& model, std::size_t k, const Box& box, int depth) const {
     try {
-      (void)model.geometry(pose(model, k, box));
+      (void)geometry(model, k, box);
     } catch (const Undefined&) {
       if (depth == kMaxDepth) throw;
       const mpq_class middle = (box.begin + box.end) / 2;
@@ -224,6 +246,7 @@ class Checker {
   }
 
   void require_waypoints_in_range() {
+    if (has_poses(certificate_.path.interpolation)) return;  // those of the free coordinates have none
     for (std::size_t k = 0; k < certificate_.path.waypoints.size(); ++k) {
       const std::vector<double>& x = certificate_.path.waypoints[k].x;
       escalate([&](const Model&) {
@@ -285,8 +308,9 @@ class Checker {
         typed.emplace_back(Interval{mpq_class(path.waypoints[k].x[j])} +
                            Interval(path.waypoints[k].half_turns[j]) * Interval::pi());
       }
-      const Vector6<Form> asked = model.pose(typed);
-      const Vector6<Form> reached = model.pose(parameters(certificate_.problem, path, segment, place));
+      const Vector6<Form> asked = coordinates(certificate_.problem, typed);
+      const Vector6<Form> reached =
+          coordinates(certificate_.problem, parameters(certificate_.problem, path, segment, place));
       for (std::size_t i = 0; i < 6; ++i) {
         const Interval size = i < 3 ? model.platform_size() : Interval(1);
         const Interval room = Interval(mpq_class(1, 50)) * size - abs(reached[i].range - asked[i].range);
@@ -356,6 +380,16 @@ class Checker {
   std::array<std::unique_ptr<Model>, kPrecisions.size()> models_;
 };
 
+/// The certificate's problem is the case's. In an audit the path is what was asked about: so the case's query does not
+/// matter, nor its space where the path goes through the free coordinates.
+void require_problem(nlohmann::json problem, const nlohmann::json& of_case) {
+  if (problem["query"]["waypoints"].empty()) {
+    problem["query"] = of_case["query"];
+    if (problem["space"] == coordinate_space()) problem["space"] = of_case["space"];
+  }
+  if (problem != of_case) throw Rejected("the certificate is about another problem");
+}
+
 std::string plural(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : what == "box" ? "es" : "s");
 }
@@ -377,8 +411,9 @@ std::string printable(const std::string& text) {
 
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
   const std::string bits = "; " + std::to_string(result.bits) + " bits";
-  if (certificate.verdict == Verdict::kRefuted) return "refuted again: the witness is confirmed" + bits;
-  return "proved again: " + plural(result.segments, "segment") + ", " + plural(result.boxes, "box") + " (" +
+  const std::string audit = certificate.problem.query.empty() ? "an audit, " : "";
+  if (certificate.verdict == Verdict::kRefuted) return audit + "refuted again: the witness is confirmed" + bits;
+  return audit + "proved again: " + plural(result.segments, "segment") + ", " + plural(result.boxes, "box") + " (" +
          std::to_string(result.pieces) + " after splitting), tension margin >= " + certificate.margins[0] +
          " N, length margin >= " + certificate.margins[1] + " m, wrench scale >= " + certificate.margins[2] + bits;
 }
@@ -399,7 +434,8 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
     if (!trusted.empty() && !result.is_trusted) {
       throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
     }
-    if (problem != nullptr && json["problem"] != *problem) throw Rejected("the certificate is about another problem");
+    if (problem != nullptr) require_problem(json["problem"], *problem);
+    if (certificate.problem.tolerances) throw Rejected("tolerances can't be checked yet");
     Checker checker(certificate, result);
     switch (certificate.verdict) {
       case Verdict::kUndecided:

@@ -1,6 +1,6 @@
 #include "certify/checker/motion.h"
 
-#include "certify/checker/linear.h"
+#include "certify/checker/krawczyk.h"
 
 namespace taut::checker {
 namespace {
@@ -68,15 +68,7 @@ Curve curve(std::span<const Waypoint> controls, const Box& box, std::size_t cons
   return result;
 }
 
-// ---- The motion that is only implied ---------------------------------------------------------------------------------
-//
-// There are k <= 5 unknowns y_i. Vectors and matrices of six are used; what is beyond k is that of g_i = y_i.
-
-/// What is known of y(u) for every u.
-struct Zero {
-  Vector6<Interval> y;
-  Vector6<Interval> slope;  ///< y'
-};
+// ---- The motion on constraints ---------------------------------------------------------------------------------------
 
 /// The partial derivative by parameter j over a box of values: with mid equal to range, Forms differentiate.
 Interval derivative(const Expression& f, const std::vector<Interval>& values, std::size_t j) {
@@ -85,116 +77,41 @@ Interval derivative(const Expression& f, const std::vector<Interval>& values, st
   return f.evaluate(forms).slope;
 }
 
-Matrix6<Interval> identity() {
-  Matrix6<Interval> result;
-  for (std::size_t i = 0; i < 6; ++i) result[i][i] = Interval(1);
-  return result;
-}
-
-class ImpliedMotion {
+/// g(y, u) = C(l(u) + N(u) y); its derivatives by the chain rule, from those of C on a box of parameters.
+class OnConstraints : public Equations {
  public:
-  ImpliedMotion(const std::vector<Expression>& constraints, const Curve& curve)
+  OnConstraints(const std::vector<Expression>& constraints, const Curve& curve)
       : constraints_(constraints), curve_(curve) {}
 
-  /// From an approximation of y at the middle of the box. @throws Undefined unless there is exactly one zero with
-  /// |y_i| <= tube, for every u.
-  [[nodiscard]] Zero zero(double tube, const Vector6<Interval>& near) const {
-    const std::size_t k = constraints_.size();
-    const Interval t{mpq_class(tube)};
-    Vector6<Interval> whole;
-    for (std::size_t i = 0; i < k; ++i) whole[i] = t * Interval::plus_minus_one();
-    (void)krawczyk(whole);  // so there is at most one
+  [[nodiscard]] std::size_t unknowns() const override { return constraints_.size(); }
 
-    const Vector6<Interval> guess = krawczyk(near).y;
-    Interval farthest;
-    for (std::size_t i = 0; i < k; ++i) farthest = max(farthest, abs(guess[i] - near[i]));
-    Vector6<Interval> Z = near;
-    for (std::size_t i = 0; i < k; ++i) {
-      Z[i] += Interval(2) * farthest * Interval::plus_minus_one();
-      if (!certainly_positive(t - abs(Z[i]))) throw Undefined("it may leave its tube");
-    }
-    Zero result = krawczyk(Z);
-    for (std::size_t i = 0; i < k; ++i) {
-      if (!is_within(result.y[i], Z[i])) throw Undefined("it may not exist");
-    }
-    constexpr int kNarrowings = 2;  // each takes away most of what the last one left of the curvature's part
-    for (int step = 0; step < kNarrowings; ++step) {
-      for (std::size_t i = 0; i < k; ++i) Z[i] = intersection(Z[i], result.y[i]);
-      result = krawczyk(Z);
-    }
-    for (std::size_t i = 0; i < k; ++i) result.y[i] = intersection(Z[i], result.y[i]);
-    return result;
-  }
-
-  /// About where y is, of a box that is a single s: Newton's method, which is what K of a single y is.
-  [[nodiscard]] Vector6<Interval> approximate_zero() const {
-    constexpr int kMostSteps = 20;
-    Vector6<Interval> y;
-    Interval last;
-    for (int step = 0; step < kMostSteps; ++step) {
-      const Vector6<Interval> next = krawczyk(y).y;
-      Interval moved;
-      for (std::size_t i = 0; i < 6; ++i) {
-        moved = max(moved, abs(next[i] - y[i]));
-        y[i] = middle(next[i]);
-      }
-      if (step > 0 && !certainly_positive(last - Interval(2) * moved)) break;  // what is left is rounding
-      last = moved;
-    }
-    return y;
-  }
-
- private:
-  /// K for the box Y, and y' as far as y is in Y. @throws Undefined unless rho < 1.
-  [[nodiscard]] Zero krawczyk(const Vector6<Interval>& Y) const {
+  [[nodiscard]] Derivatives derivatives(const Vector6<Interval>& Y) const override {
     const std::size_t k = constraints_.size();
     const std::vector<Interval> values = parameters(Y, &Form::range);
-    Matrix6<Interval> G = identity();
-    Vector6<Interval> h;
+    Derivatives result;
     for (std::size_t e = 0; e < k; ++e) {
-      G[e][e] = Interval(0);
       for (std::size_t j = 0; j < values.size(); ++j) {
         const Interval partial = derivative(constraints_[e], values, j);
         Interval drift = curve_.line[j].slope;
         for (std::size_t i = 0; i < k; ++i) {
-          G[e][i] += partial * curve_.normals[j][i].range;
+          result.by_y[e][i] += partial * curve_.normals[j][i].range;
           drift += curve_.normals[j][i].slope * Y[i];
         }
-        h[e] += partial * drift;
+        result.by_u[e] += partial * drift;
       }
-    }
-    const Matrix6<Interval> A = middle(inverse(middle(G)));
-    const Matrix6<Interval> AG = multiply(A, G);
-    Matrix6<Interval> M = identity();
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t j = 0; j < 6; ++j) M[i][j] -= AG[i][j];
-    }
-    const Interval gap = Interval(1) - norm(M);
-    if (!certainly_positive(gap)) throw Undefined("it may not be the only one in its tube");
-
-    Vector6<Interval> c;
-    Vector6<Interval> offset;
-    for (std::size_t i = 0; i < k; ++i) {
-      c[i] = middle(Y[i]);
-      offset[i] = Y[i] - c[i];
-    }
-    const Vector6<Interval> Ag = multiply(A, constraints_at(parameters(c, &Form::mid)));
-    const Vector6<Interval> Ah = multiply(A, h);
-    const Vector6<Interval> M_offset = multiply(M, offset);
-    Interval largest;
-    for (const Interval& x : Ah) largest = max(largest, abs(x));
-    Vector6<Interval> rough;
-    rough.fill(largest / gap * Interval::plus_minus_one());
-    const Vector6<Interval> M_rough = multiply(M, rough);
-
-    Zero result;
-    for (std::size_t i = 0; i < k; ++i) {
-      result.y[i] = c[i] - Ag[i] - Ah[i] * Interval::plus_minus_one() + M_offset[i];
-      result.slope[i] = M_rough[i] - Ah[i];
     }
     return result;
   }
 
+  [[nodiscard]] Vector6<Interval> at_middle(const Vector6<Interval>& y) const override {
+    const std::vector<Interval> values = parameters(y, &Form::mid);
+    const std::vector<Form> forms(values.begin(), values.end());
+    Vector6<Interval> result;
+    for (std::size_t e = 0; e < constraints_.size(); ++e) result[e] = constraints_[e].evaluate(forms).range;
+    return result;
+  }
+
+ private:
   /// l + N y.
   [[nodiscard]] std::vector<Interval> parameters(const Vector6<Interval>& y, Interval Form::*where) const {
     std::vector<Interval> result;
@@ -202,13 +119,6 @@ class ImpliedMotion {
       result.push_back(curve_.line[j].*where);
       for (std::size_t i = 0; i < constraints_.size(); ++i) result[j] += curve_.normals[j][i].*where * y[i];
     }
-    return result;
-  }
-
-  [[nodiscard]] Vector6<Interval> constraints_at(const std::vector<Interval>& values) const {
-    const std::vector<Form> forms(values.begin(), values.end());
-    Vector6<Interval> result;
-    for (std::size_t e = 0; e < constraints_.size(); ++e) result[e] = constraints_[e].evaluate(forms).range;
     return result;
   }
 
@@ -222,16 +132,113 @@ Vector6<Form> implied(const Problem& problem, std::span<const Waypoint> controls
   const std::size_t k = problem.constraints.size();
   const mpq_class m = (box.begin + box.end) / 2;
   const Curve at_mid = curve(controls, {m, m}, k);
-  const ImpliedMotion motion_at_mid(problem.constraints, at_mid);
-  const Vector6<Interval> near = motion_at_mid.approximate_zero();
-  const Zero mid = motion_at_mid.zero(tube, near);
-  const Zero range = ImpliedMotion(problem.constraints, over_box).zero(tube, near);
+  const OnConstraints motion_at_mid(problem.constraints, at_mid);
+  const OnConstraints motion(problem.constraints, over_box);
+  const Interval t{mpq_class(tube)};
+  const Vector6<Interval> near = approximate_zero(motion_at_mid);
+  const Zero mid = only_zero(motion_at_mid, t, near);
+  const Zero range = only_zero(motion, t, near);
   Vector6<Form> result;
   for (std::size_t i = 0; i < k; ++i) result[i] = Form::enclose(mid.y[i], range.slope[i], range.y[i]);
   return result;
 }
 
+// ---- Poses -----------------------------------------------------------------------------------------------------------
+
+using Quaternion = std::array<mpq_class, 4>;  ///< x, y, z, w
+
+Quaternion quaternion(const Waypoint& waypoint) {
+  Quaternion q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = mpq_class(waypoint.x[3 + i]);
+  return q;
+}
+
+std::array<Form, 4> constant(const Quaternion& q) {
+  return {Form(Interval(q[0])), Form(Interval(q[1])), Form(Interval(q[2])), Form(Interval(q[3]))};
+}
+
+/// The rotation from q0 at constant rate to q1; s a Form of the place in between.
+Matrix3<Form> geodesic(const Quaternion& q0, const Quaternion& q1, const Form& s) {
+  const mpq_class c = q0[0] * q1[0] + q0[1] * q1[1] + q0[2] * q1[2] + q0[3] * q1[3];
+  if (c == 0) throw Undefined("a geodesic of half a turn: about which axis?");
+  const Vector3<mpq_class> u = {-q0[0], -q0[1], -q0[2]};
+  const Vector3<mpq_class> u1 = {q1[0], q1[1], q1[2]};
+  const Vector3<mpq_class> u_u1 = cross(u, u1);
+  Vector3<mpq_class> v;  // of conj(q0) q1, turned so that c is positive
+  for (std::size_t i = 0; i < 3; ++i) v[i] = (q0[3] * u1[i] + q1[3] * u[i] + u_u1[i]) * (c < 0 ? -1 : 1);
+  const Matrix3<Form> R0 = rotation(constant(q0));
+  const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (squared == 0) return R0;
+
+  const Interval size = sqrt(Interval(squared));
+  const Form angle = s * Form(Interval(2) * atan(size / Interval(mpq_class(abs(c)))));
+  Vector3<Form> n;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = Form(Interval(v[i]) / size);
+  const Matrix3<Form> N = {{{Form(), -n[2], n[1]}, {n[2], Form(), -n[0]}, {-n[1], n[0], Form()}}};
+  const Matrix3<Form> NN = multiply(N, N);
+  const Form sine = sin(angle);
+  const Form rest = Form(Interval(1)) - cos(angle);
+  Matrix3<Form> turn;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) turn[i][j] = Form(Interval(i == j ? 1 : 0)) + sine * N[i][j] + rest * NN[i][j];
+  }
+  return multiply(R0, turn);
+}
+
 }  // namespace
+
+Matrix3<Form> rotation(const std::array<Form, 4>& q) {
+  const auto& [x, y, z, w] = q;
+  const Form xx = sqr(x), yy = sqr(y), zz = sqr(z), ww = sqr(w);
+  const Form xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+  const Form two{Interval(2)};
+  Matrix3<Form> R = {{{ww + xx - yy - zz, two * (xy - wz), two * (xz + wy)},
+                      {two * (xy + wz), ww - xx + yy - zz, two * (yz - wx)},
+                      {two * (xz - wy), two * (yz + wx), ww - xx - yy + zz}}};
+  const Form squared = xx + yy + zz + ww;
+  for (Vector3<Form>& row : R) {
+    for (Form& entry : row) entry = entry / squared;
+  }
+  return R;
+}
+
+Frame frame(const Vector6<Form>& pose) {
+  const Form &phi = pose[3], &theta = pose[4], psi = pose[5] - phi;
+  const Form ca = cos(phi), sa = sin(phi), cb = cos(theta), sb = sin(theta), cg = cos(psi), sg = sin(psi);
+  return {{pose[0], pose[1], pose[2]},
+          {{{ca * cb * cg - sa * sg, -(ca * cb * sg) - sa * cg, ca * sb},
+            {sa * cb * cg + ca * sg, ca * cg - sa * cb * sg, sa * sb},
+            {-(sb * cg), sb * sg, cb}}}};
+}
+
+Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters) {
+  Vector6<Form> result;
+  for (std::size_t c = 0; c < 6; ++c) result[c] = problem.pose[c].evaluate(parameters);
+  return result;
+}
+
+Frame pose_between_poses(const Path& path, std::size_t k, const Box& box) {
+  const std::span<const Waypoint> controls = path.controls(k);
+  const std::vector<Form> line = curve(controls, box, 0).line;
+  const Vector3<Form> p = {line[0], line[1], line[2]};
+  const Quaternion q0 = quaternion(controls.front());
+  const Quaternion q1 = quaternion(controls.back());
+  if (path.interpolation == Interpolation::kGeodesic) {
+    return {p, geodesic(q0, q1, form(over({0, 1}, box), {}))};
+  }
+  // The shorter way of the two: then the sum is never 0.
+  const bool turned = q0[0] * q1[0] + q0[1] * q1[1] + q0[2] * q1[2] + q0[3] * q1[3] < 0;
+  std::array<Form, 4> q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = form(over({q0[i], (turned ? mpq_class(-q1[i]) : q1[i]) - q0[i]}, box), {});
+  return {p, rotation(q)};
+}
+
+Vector6<Form> commanded_lengths(const Path& path, std::size_t k, const Box& box) {
+  const std::vector<Form> line = curve(path.controls(k), box, 0).line;
+  Vector6<Form> result;
+  for (std::size_t i = 0; i < 6; ++i) result[i] = line[7 + i];
+  return result;
+}
 
 std::vector<Form> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
   const std::span<const Waypoint> controls = path.controls(k);

@@ -1,32 +1,20 @@
-// Where the platform is on its path: the parameters, over a box of a segment.
+// Where the path leads: parameters and poses, over a box of a segment.
 //
 // A box is a part [s0, s1] of one segment, written s = m + r u with u in [-1, 1].
 //
-//   curve     l(s), and the normals N(s), mix the control points by the path's law: polynomials in s, expanded about m
-//             exactly, so that each is a Form in u of nearly no width.
-//   explicit  Without constraints the parameters are l.
-//   implied   With k constraints C(lambda) = 0 they are l + N y, where y(u) is the zero of g(y, u) = C(l(u) + N(u) y) in
-//             the tube |y_i| <= t. That there is exactly one is shown as follows.
-//
-// Let Y be a box, c its middle, and let G and h enclose the partial derivatives of g by y and by u, on all of Y and for
-// all u (by the chain rule, from those of C on a box of parameters). Between (c, 0) and (y, u) the mean value theorem says
-//     g(y, u) = g(c, 0) + h' u + G' (y - c)   for some h' in h and G' in G.                                          (1)
-// Take any matrix A, M = I - A G, ||M|| <= rho < 1 (row sums), and
-//     K = c - A g(c, 0) - A h [-1, 1] + M (Y - c).
-// For each u, y -> y - A g(y, u) maps Y into K by (1), and shrinks distances (largest component) by rho. Since
-// A G' = I - M' is non-singular, so is A, and the fixed points of this map are the zeros of g. So Y has
-//     at most one zero,   and exactly one where K is within Y.                                                       (2)
-// The first half is shown of the whole tube, the second of a small box in it. Whatever Y and A are,
-//     a zero in Y is in K too,                                                                                       (3)
-// by which Y is narrowed about y(u). By (1) between two zeros, y is continuous in u, hence differentiable by the
-// implicit function theorem, with G' y' = -h', that is y' = -A h' + M' y':
-//     |y'_i| <= max_k |(A h)_k| / (1 - rho),   and y' in -A h + M y'.                                                (4)
+//   curve        l(s), and the normals N(s), mix the control points by the path's law: polynomials in s, expanded about m
+//                exactly, so that each is a Form in u of nearly no width.
+//   parameters   Without constraints they are l. With k constraints C(lambda) = 0 they are l + N y, where y(u) is the zero
+//                of g(y, u) = C(l(u) + N(u) y) in the tube |y_i| <= t. krawczyk.h shows that there is exactly one.
+//   poses        by the case's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi), or between two
+//                poses by a law of the format.
 #pragma once
 
 #include <vector>
 
 #include "certify/checker/certificate.h"
 #include "certify/checker/form.h"
+#include "certify/checker/linear.h"
 
 namespace taut::checker {
 
@@ -34,5 +22,26 @@ namespace taut::checker {
 /// @throws Undefined where the motion is only implied, and was not shown to be the only one in its tube for every s of
 /// the box.
 [[nodiscard]] std::vector<Form> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box);
+
+/// px py pz [m], phi theta sigma [rad], by the case's expressions.
+[[nodiscard]] Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters);
+
+/// A pose: position of the platform's origin in W [m], and its rotation.
+struct Frame {
+  Vector3<Form> p;
+  Matrix3<Form> R;
+};
+
+[[nodiscard]] Frame frame(const Vector6<Form>& coordinates);
+
+/// Of the quaternion q = (x, y, z, w), of any length but 0.
+[[nodiscard]] Matrix3<Form> rotation(const std::array<Form, 4>& q);
+
+/// On a box of segment k of a path with a law of poses: the pose itself of a geodesic, the reference of lengths that are
+/// straight. @throws Undefined for a geodesic of half a turn.
+[[nodiscard]] Frame pose_between_poses(const Path& path, std::size_t k, const Box& box);
+
+/// L_i [m] on a box of segment k, of the law by which they are straight.
+[[nodiscard]] Vector6<Form> commanded_lengths(const Path& path, std::size_t k, const Box& box);
 
 }  // namespace taut::checker

@@ -3,25 +3,12 @@
 namespace taut::checker {
 namespace {
 
-template <class T>
-Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Vector3<Form> rotate(const Matrix3<Form>& R, const Vector3<Interval>& x) {
   Vector3<Form> result;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) result[i] += R[i][j] * Form(x[j]);
   }
   return result;
-}
-
-/// Rz(phi) Ry(theta) Rz(psi), multiplied out.
-Matrix3<Form> rotation(const Form& phi, const Form& theta, const Form& psi) {
-  const Form ca = cos(phi), sa = sin(phi), cb = cos(theta), sb = sin(theta), cg = cos(psi), sg = sin(psi);
-  return {{{ca * cb * cg - sa * sg, -(ca * cb * sg) - sa * cg, ca * sb},
-           {sa * cb * cg + ca * sg, ca * cg - sa * cb * sg, sa * sb},
-           {-(sb * cg), sb * sg, cb}}};
 }
 
 /// D^-1 on the box, as argued in the header.
@@ -95,7 +82,7 @@ Matrix6<Interval> mid(const Matrix6<Form>& D) {
   return result;
 }
 
-Model::Model(const Problem& problem, int bits) : problem_(problem), bits_(bits) {
+Model::Model(const Problem& problem, int bits) : bits_(bits) {
   const WorkingPrecision precision(bits);
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -112,26 +99,19 @@ Model::Model(const Problem& problem, int bits) : problem_(problem), bits_(bits) 
 
 Interval Model::platform_size() const {
   Interval sum;
-  for (const Vector3<Interval>& b : platform_) sum += sqrt(sqr(b[0]) + sqr(b[1]) + sqr(b[2]));
+  for (const Vector3<Interval>& b : platform_) sum += sqrt(squared_norm(b));
   return sum / Interval(6);
 }
 
-Vector6<Form> Model::pose(const std::vector<Form>& parameters) const {
-  Vector6<Form> result;
-  for (std::size_t c = 0; c < 6; ++c) result[c] = problem_.pose[c].evaluate(parameters);
-  return result;
-}
-
-Geometry Model::geometry(const Vector6<Form>& pose) const {
-  const Matrix3<Form> R = rotation(pose[3], pose[4], pose[5] - pose[3]);
+Geometry Model::geometry(const Frame& pose) const {
   Geometry result;
   for (std::size_t i = 0; i < 6; ++i) {
-    Vector3<Form> d = rotate(R, platform_[i]);
-    for (std::size_t c = 0; c < 3; ++c) d[c] += pose[c] - Form(base_[i][c]);
-    const Form squared = sqr(d[0]) + sqr(d[1]) + sqr(d[2]);
+    Vector3<Form> d = rotate(pose.R, platform_[i]);
+    for (std::size_t c = 0; c < 3; ++c) d[c] += pose.p[c] - Form(base_[i][c]);
+    const Form squared = squared_norm(d);
     if (!certainly_positive(squared.range)) throw Undefined("a cable may have no length");
     result.length[i] = sqrt(squared);
-    const Vector3<Form> moment = cross(rotate(R, arm_[i]), d);
+    const Vector3<Form> moment = cross(rotate(pose.R, arm_[i]), d);
     for (std::size_t c = 0; c < 3; ++c) {
       result.D[c][i] = d[c];
       result.D[3 + c][i] = moment[c];

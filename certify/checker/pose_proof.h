@@ -3,8 +3,7 @@
 // A box is a part [s0, s1] of one segment, written s = m + r u with u in [-1, 1]; every quantity below is a Form
 // in u (form.h). What is proved holds for every u.
 //
-//   pose       p and the angles by the case's expressions of the parameters (motion.h);
-//              R = Rz(phi) Ry(theta) Rz(sigma - phi)
+//   pose       p and R, from motion.h or, where the machine is held by its cables' lengths, from held.h
 //   geometry   d_i = p + R b_i - a_i,   lengths |d_i|,   arms r_i = R (b_i - p_m) from the load point P_m
 //   statics    cable i pulls along u_i = d_i / |d_i| with force f_i. With the force density x_i = f_i / |d_i|,
 //              J f = w reads D x = w; column i of D is (d_i ; r_i x d_i), and J = D diag(1 / |d_i|). So, lengths
@@ -28,6 +27,7 @@
 #include "certify/checker/certificate.h"
 #include "certify/checker/form.h"
 #include "certify/checker/linear.h"
+#include "certify/checker/motion.h"
 
 namespace taut::checker {
 
@@ -53,16 +53,17 @@ class Model {
   [[nodiscard]] Interval tension_limit(std::size_t cable, bool upper) const { return tension_[cable][upper ? 1 : 0]; }
   [[nodiscard]] Interval length_limit(std::size_t cable, bool upper) const { return length_[cable][upper ? 1 : 0]; }
 
+  [[nodiscard]] const std::array<Vector3<Interval>, 6>& base_anchors() const { return base_; }
+  [[nodiscard]] const std::array<Vector3<Interval>, 6>& platform_anchors() const { return platform_; }
+
   /// The mean of |b_i| [m].
   [[nodiscard]] Interval platform_size() const;
 
   // At the working precision, which should be bits(). Each throws Undefined where the box has to be split.
-  [[nodiscard]] Vector6<Form> pose(const std::vector<Form>& parameters) const;
-  [[nodiscard]] Geometry geometry(const Vector6<Form>& pose) const;
+  [[nodiscard]] Geometry geometry(const Frame& pose) const;
   [[nodiscard]] Tensions tensions(const Geometry& geometry) const;
 
  private:
-  const Problem& problem_;
   int bits_;
   std::array<Vector3<Interval>, 6> base_;      ///< a_i
   std::array<Vector3<Interval>, 6> platform_;  ///< b_i

@@ -124,20 +124,28 @@ def pose_of(space, values):
     return evaluate(space, [space['pose'][k] for k in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')], values)
 
 
-def geometry(pr, values):
-    """Columns of J, and lengths."""
+def frame(pr, values):
+    """p and R at parameters; a pose (p, R) stays what it is."""
+    if isinstance(values, tuple):
+        return values
     px, py, pz, a, b, s = pose_of(pr['space'], values)
     g = s - a
-    R = [[cos(a) * cos(b) * cos(g) - sin(a) * sin(g), -cos(a) * cos(b) * sin(g) - sin(a) * cos(g), cos(a) * sin(b)],
-         [sin(a) * cos(b) * cos(g) + cos(a) * sin(g), -sin(a) * cos(b) * sin(g) + cos(a) * cos(g), sin(a) * sin(b)],
-         [-sin(b) * cos(g), sin(b) * sin(g), cos(b)]]
+    return [px, py, pz], [
+        [cos(a) * cos(b) * cos(g) - sin(a) * sin(g), -cos(a) * cos(b) * sin(g) - sin(a) * cos(g), cos(a) * sin(b)],
+        [sin(a) * cos(b) * cos(g) + cos(a) * sin(g), -sin(a) * cos(b) * sin(g) + cos(a) * cos(g), sin(a) * sin(b)],
+        [-sin(b) * cos(g), sin(b) * sin(g), cos(b)]]
+
+
+def geometry(pr, values):
+    """Columns of J, and lengths."""
+    p, R = frame(pr, values)
     turn = lambda v: [sum(R[i][j] * v[j] for j in range(3)) for i in range(3)]
     number = lambda v: [float(x) for x in v]
     pm = number(pr['load']['point_m'])
     columns, lengths = [], []
     for ai, bi in zip(pr['robot']['base_anchors_m'], pr['robot']['platform_anchors_m']):
         ai, bi = number(ai), number(bi)
-        d = [x + y - z for x, y, z in zip((px, py, pz), turn(bi), ai)]
+        d = [x + y - z for x, y, z in zip(p, turn(bi), ai)]
         n = sqrt(sum(x * x for x in d))
         u = [x / n for x in d]
         r = turn([x - y for x, y in zip(bi, pm)])
@@ -197,6 +205,19 @@ def spline(*corners, tubes=()):
     return path([corners[0]] * 2 + list(corners) + [corners[-1]] * 2, True, tubes)
 
 
+def pose(p, q, lengths=None):
+    """A waypoint of the laws of poses."""
+    w = {'position': [hex64(v) for v in p], 'quaternion': [hex64(v) for v in q]}
+    if lengths is not None:
+        w['lengths'] = [hex64(v) for v in lengths]
+    return w
+
+
+def poses(law, *waypoints, pose_tubes=(), times=None):
+    return {'interpolation': law, 'waypoints': list(waypoints), 'tubes': [],
+            'pose_tubes': [{'position': hex64(p), 'turn': hex64(u)} for p, u in pose_tubes], 'times': times}
+
+
 def control_points(pa):
     return 4 if pa['interpolation'] == 'cubic-b-spline' else 2
 
@@ -210,8 +231,68 @@ def mix(pa, k, s, values):
     return [sum(w * p[j] for w, p in zip(weights, points)) for j in range(len(points[0]))]
 
 
+def times(A, B):
+    return [[sum(x * B[k][j] for k, x in enumerate(row)) for j in range(len(B[0]))] for row in A]
+
+
+def rotation(q):
+    x, y, z, w = q
+    n = x * x + y * y + z * z + w * w
+    return [[e / n for e in row] for row in (
+        (w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z))]
+
+
+def quaternion(phi, theta, sigma):
+    """Of Rz(phi) Ry(theta) Rz(sigma - phi)."""
+    g = sigma - phi
+    return [-sin(theta / 2) * sin((phi - g) / 2), sin(theta / 2) * cos((phi - g) / 2), cos(theta / 2) * sin((phi + g) / 2),
+            cos(theta / 2) * cos((phi + g) / 2)]
+
+
+def between_poses(pr, pa, k, s):
+    """Where segment k is at s, under a law of poses: slerp as quaternions mix, or Newton's method on the lengths."""
+    numbers = lambda key: [[float.fromhex(x) for x in w[key]] for w in (pa['waypoints'] + pa['waypoints'][-1:])[k:k + 2]]
+    mixed = lambda a, b: [(1 - s) * x + s * y for x, y in zip(a, b)]
+    p = mixed(*numbers('position'))
+    a, b = ([x / sqrt(sum(y * y for y in q)) for x in q] for q in numbers('quaternion'))
+    c = sum(x * y for x, y in zip(a, b))
+    if c < 0:
+        b, c = [-x for x in b], -c
+    if pa['interpolation'] == 'geodesic':
+        half = math.acos(min(1, c))
+        if half < 1e-9:
+            return p, rotation(a)
+        return p, rotation([(sin((1 - s) * half) * x + sin(s * half) * y) / sin(half) for x, y in zip(a, b)])
+    a, b = numbers('quaternion')
+    if sum(x * y for x, y in zip(a, b)) < 0:
+        b = [-x for x in b]
+    return with_lengths(pr, (p, rotation(mixed(a, b))), mixed(*numbers('lengths')), pa['pose_tubes'][k])
+
+
+def with_lengths(pr, reference, lengths, tube):
+    """The pose near a reference at which the cables have these lengths."""
+    p, R = reference
+    move = lambda z: ([x + y for x, y in zip(p, z)], times(rotation([*z[3:], 1]), R))
+    off = lambda z: [a - b for a, b in zip(geometry(pr, move(z))[1], lengths)]
+    z, h = [0.0] * 6, 1e-7
+    for _ in range(20):
+        columns = []
+        for i in range(6):
+            up, down = (off([x + e * (n == i) for n, x in enumerate(z)]) for e in (h, -h))
+            columns.append([(x - y) / (2 * h) for x, y in zip(up, down)])
+        step, _ = solve([[columns[j][i] for j in range(6)] for i in range(6)], [[x] for x in off(z)])
+        z = [x - y[0] for x, y in zip(z, step)]
+    assert max(map(abs, off(z))) < 1e-12, pr['name']
+    assert max(map(abs, z[:3])) < float.fromhex(tube['position']) and max(map(abs, z[3:])) < float.fromhex(tube['turn'])
+    return move(z)
+
+
 def parameters(pr, pa, k, s):
-    """Where segment k is at s; with constraints, by Newton's method on differences."""
+    """Where segment k is at s, a pose under the laws of poses; with constraints, by Newton's method on differences."""
+    if 'position' in pa['waypoints'][0]:
+        return between_poses(pr, pa, k, s)
     line = mix(pa, k, s, lambda w: [float.fromhex(x) + pi * h for x, h in zip(w['x'], w['half_turns'])])
     count = len(pr['space']['constraints'])
     if count == 0:
@@ -314,6 +395,7 @@ def main():
     explicit_motions()
     splines()
     implied_motions()
+    motions_between_poses()
 
 
 def explicit_motions():
@@ -651,7 +733,7 @@ def splines():
             lambda c: c['witness'].update(at={'waypoint': 3}), spline_tension)
     malform('spline_witness_beyond', 'There are as many segments as three fewer than waypoints.', 'witness.at.segment: expected',
             lambda c: c['witness'].update(at={'segment': len(c['path']['waypoints']) - 3, 's': '0'}), spline_tension)
-    malform('interpolation_unknown', 'There are two laws.', "expected 'straight-in-parameters' or 'cubic-b-spline'",
+    malform('interpolation_unknown', 'There are four laws.', 'a law of the format',
             lambda c: c['path'].update(interpolation='quintic'), bend_c)
 
 
@@ -895,6 +977,174 @@ def implied_motions():
     def seventh(c):
         c['problem']['space']['parameters'].append({'name': 'seventh', 'kind': 'real'})
     malform('constrained_seven_parameters', 'There are at most six.', 'at most 6', seventh, ball_c)
+
+
+FREE = {'parameters': [{'name': n, 'kind': 'periodic' if n in ('phi', 'sigma') else 'real'}
+                       for n in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')], 'constants': {}, 'flip': [3, 4],
+        'pose': {n: n for n in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')}, 'constraints': []}
+
+
+def audited(name, robot=ROBOT1, space=FREE):
+    return problem(name, robot, space, [])
+
+
+def motions_between_poses():
+    sigma = 34 * pi / 180
+    tilted = lambda phi, theta, p=(0, 0, 0.35), sigma=sigma: (list(p), quaternion(phi, theta, sigma))
+    start, middle, end = tilted(-2.3, 1.6), tilted(-2.28, 1.58), tilted(-2.25, 1.57, (0.002, -0.001, 0.351))
+    scaled = lambda at, factor: (at[0], [factor * x for x in at[1]])
+    free = audited('robot1-poses')
+
+    # Geodesics.
+    turn = poses('geodesic', pose(*start), pose(*middle), pose(*end), times=['0', '0.5', '1.25'])
+    turn_c = proved(free, turn, 4, samples=60)
+    write('accepted', 'geodesic', turn_c, 'An audit of three poses, each reached at constant rate, with their times.')
+    write('accepted', 'geodesic_other_signs', proved(free, poses('geodesic', pose(*scaled(start, -3)), pose(*scaled(middle, 1e-3)),
+          pose(*scaled(end, -1))), 4, samples=60), 'Quaternions of any length and sign: the same poses, the shorter way.')
+    write('accepted', 'geodesic_without_a_turn', proved(free, poses('geodesic', pose(*start), pose([0, 0, 0.351], start[1])), 2,
+          samples=20), 'A straight way on which nothing turns: there is no axis.')
+    write('accepted', 'geodesic_still', proved(free, poses('geodesic', pose(*start), pose(*start)), 1, samples=1),
+          'Nothing moves.')
+    tiny = pose(start[0], [math.nextafter(start[1][0], 1)] + start[1][1:])
+    write('accepted', 'geodesic_of_one_ulp', proved(free, poses('geodesic', pose(*start), tiny), 1, samples=4),
+          'The axis of a turn of 1e-16 rad is known exactly.')
+    sourced = proved(free, turn, 4, samples=60)
+    sourced['source'] = {'file': 'crane.csv', 'sha256': '0123456789abcdef' * 4}
+    write('accepted', 'geodesic_with_its_source', seal(sourced), 'Which file the path came from is told, and proves nothing.')
+    far = poses('geodesic', pose(*start), pose(*tilted(1.7, 1.7)))
+    n, i, value = min(((n, i, f0[i] - v[i]) for n in range(65) for _, f0, v, _ in [statics(free, parameters(free, far, 0, n / 64))]
+                       for i in range(6)), key=lambda t: t[2])
+    far_c = certificate(free, far, 'refuted', witness={'at': {'segment': 0, 's': dyadic(n, 64)}, 'kind': 'tension_min',
+                        'cable': i + 1, 'value': enclosing(value), 'limit': '0.05'})
+    write('accepted', 'refuted_geodesic', far_c, 'On the shortest way from q_s to q_g a cable would have to push.')
+    for phi in range(-3, 4):
+        over = poses('geodesic', pose(*start), pose(*tilted(phi, -1.5)))
+        signs = [statics(free, parameters(free, over, 0, n / 64))[3] for n in range(65)]
+        n = next((n for n in range(64) if signs[n] * signs[n + 1] < 0), None)
+        if n is not None:
+            break
+    write('accepted', 'refuted_geodesic_singular', certificate(free, over, 'refuted', witness={'kind': 'singular',
+          'at': {'segment': 0, 's': dyadic(n, 64)}, 'to': {'segment': 0, 's': dyadic(n + 1, 64)}}), 'det J changes sign on it.')
+
+    reject('geodesic_margin_too_high', turn_c, 'The tension margin is claimed 1 % too high.', 'tension margin',
+           raise_margin('tension_N', 1.01))
+    reject('geodesic_length_margin_too_high', turn_c, 'The length margin is claimed 1 % too high.', 'length margin',
+           raise_margin('length_m', 1.01))
+    reject('geodesic_the_long_way', turn_c, 'A waypoint on the other side of the world.', 'segment 0',
+           lambda c: c['path']['waypoints'].__setitem__(1, pose(*tilted(0.9, 1.6))))
+    half = ['0x1p+0', '0x0p+0', '0x0p+0', '0x0p+0'], ['0x0p+0', '0x1p+0', '0x0p+0', '0x0p+0']
+    def half_turn(c):
+        for k in (0, 1):
+            c['path']['waypoints'][k]['quaternion'] = half[k]
+    reject('geodesic_of_half_a_turn', turn_c, 'Half a turn has no axis.', 'half a turn', half_turn)
+    reject('geodesic_witness_violates_nothing', far_c, 'At the witness the tension is within its limits.', 'violates',
+           lambda c: c['witness'].update(at={'waypoint': 0}))
+    reject('geodesic_conjugated', turn_c, 'The inverse rotations: x, y, z with the other sign.', 'segment 0',
+           lambda c: [w.update(quaternion=[hex64(-float.fromhex(x)) for x in w['quaternion'][:3]] + w['quaternion'][3:])
+                      for w in c['path']['waypoints']])
+
+    # Straight in cable lengths.
+    lengths_of = lambda at: geometry(free, (at[0], rotation(at[1])))[1]
+    held = lambda *places, tubes=((2**-9, 2**-8),), **more: poses('straight-in-cable-lengths', *[pose(*at, lengths_of(at)) for at in places],
+                                                            pose_tubes=list(tubes) * (len(places) - 1), **more)
+    winches = held(start, middle, end)
+    winches_c = proved(free, winches, 4, samples=60)
+    write('accepted', 'lengths', winches_c, 'All six winches turn at constant speed from pose to pose.')
+    write('accepted', 'lengths_other_signs', proved(free, held(start, scaled(middle, -1), scaled(end, -1)), 4, samples=60),
+          'The sign of a quaternion does not matter.')
+    off = ([start[0][0] + 0.0003, start[0][1], start[0][2] - 0.0002], quaternion(-2.299, 1.601, sigma))
+    write('accepted', 'lengths_beside_the_reference', proved(free, poses('straight-in-cable-lengths', pose(*off, lengths_of(start)),
+          pose(*off, lengths_of(tilted(-2.299, 1.599))), pose_tubes=[(2**-9, 2**-8)]), 4, samples=60),
+          'The reference only tells where to look: here it stays, a third of a millimetre beside the pose.')
+    write('accepted', 'lengths_narrow_then_wide', proved(free, held(start, middle, end, tubes=[(2**-9, 2**-9)]), 4, samples=60),
+          'Tubes of one size.')
+    nested = held(start, middle, end)
+    nested['pose_tubes'] = [{'position': '0x1p-11', 'turn': '0x1p-10'}, {'position': '0x1p-9', 'turn': '0x1p-8'}]
+    write('accepted', 'lengths_nested', proved(free, nested, 4, samples=60), 'A wider tube follows a narrower one.')
+    write('accepted', 'lengths_still', proved(free, held(start, start, tubes=[(2**-20, 2**-20)]), 1, samples=1),
+          'Nothing moves.')
+    sagging = poses('straight-in-cable-lengths', pose([0, 0, 0.35], quaternion(0, 0.1, 0.6), lengths_of(
+                    ([0, 0, 0.351], quaternion(0, 0.1, 0.6)))), pose_tubes=[(2**-9, 2**-9)])
+    _, f0, v, _ = statics(free, ([0, 0, 0.351], rotation(quaternion(0, 0.1, 0.6))))
+    i = max(range(6), key=lambda n: f0[n] + v[n])
+    tight = copy.deepcopy(free)
+    tight['robot']['tension_N'] = [['0.05', '%.3f' % (f0[i] + v[i] - 0.01)]] * 6
+    held_still = certificate(tight, sagging, 'refuted', witness={
+        'at': {'waypoint': 0}, 'kind': 'tension_max', 'cable': i + 1, 'value': enclosing(f0[i] + v[i]),
+        'limit': tight['robot']['tension_N'][0][1]})
+    write('accepted', 'refuted_lengths', held_still, 'A single pose, 1 mm below the reference, at which a cable pulls too hard.')
+
+    unique, inside = 'it may not be the only one in its tube', 'it may leave its tube'
+    def tubes(position, turn):
+        return lambda c: [t.update(position=hex64(position), turn=hex64(turn)) for t in c['path']['pose_tubes']]
+    reject('lengths_margin_too_high', winches_c, 'The tension margin is claimed 1 % too high.', 'tension margin',
+           raise_margin('tension_N', 1.01))
+    reject('lengths_length_margin_too_high', winches_c, 'The length margin is claimed 1 % too high.', 'length margin',
+           raise_margin('length_m', 1.01))
+    reject('lengths_tube_too_narrow', winches_c, 'Between the poses the platform leaves its tube.', inside, tubes(2**-30, 2**-30))
+    reject('lengths_tube_too_wide', winches_c, 'The tube reaches beyond singular poses.', unique, tubes(0.5, 1.0))
+    reject('lengths_tube_without_position', winches_c, 'Wide in turns, but not in positions.',
+           'the pose held by the lengths', tubes(2**-40, 2**-8))
+    def beside(c):
+        for w in c['path']['waypoints']:
+            w['position'][2] = hex64(float.fromhex(w['position'][2]) + 0.02)
+    reject('lengths_none_in_the_tube', winches_c, 'With these lengths the platform is 20 mm above the tube.', 'the pose held by the lengths',
+           beside)
+    def unreachable(c):
+        c['path']['waypoints'][1]['lengths'][0] = hex64(0.9)
+    reject('lengths_that_no_pose_has', winches_c, 'One cable far too long for the others.', 'the pose held by the lengths', unreachable)
+    # The other assembly: the mirror image of the platform through the plane of the base has the same lengths.
+    mirrored = lambda at: ([at[0][0], at[0][1], -at[0][2]], [-at[1][0], -at[1][1], at[1][2], at[1][3]])
+    flat = lambda z: ([0.001, 0.002, z], quaternion(0.3, 0.2, 0.5))
+    up, down = flat(0.35), mirrored(flat(0.35))
+    assert max(abs(a - b) for a, b in zip(lengths_of(up), lengths_of(down))) < 1e-12
+    switch = poses('straight-in-cable-lengths', pose(*up, lengths_of(up)), pose(*up, lengths_of(up)), pose(*down, lengths_of(up)),
+                   pose_tubes=[(2**-8, 2**-8)] * 2)
+    reject('lengths_another_assembly', asserted(free, switch), 'The reference leads to the mirror image, which has the same lengths; the platform does not.',
+           'the pose held by the lengths')
+    both = copy.deepcopy(switch)
+    both['waypoints'][2] = pose(*up, lengths_of(up))
+    both['pose_tubes'][1] = {'position': '0x1.8p-1', 'turn': '0x1.8p-1'}
+    reject('lengths_two_assemblies_in_the_tube', asserted(free, both), 'The tube holds the mirror image, too.', unique)
+    reject('lengths_taken_for_a_reference', changed(held_still, lambda c: c['witness'].update(value=['0.1', '0.2'])),
+           'The quantity is that of the pose with these lengths.', 'value')
+    reject('lengths_witness_without_a_pose', held_still, 'In so thin a tube there is no pose to refute.', inside, tubes(2**-40, 2**-40))
+
+    # Against the format.
+    def on(edit):
+        return lambda c: edit(c['path'])
+    malform('quaternion_zero', 'No orientation.', 'a quaternion that is not 0',
+            on(lambda p: p['waypoints'][1].update(quaternion=['0x0p+0', '-0x0p+0', '0x0p+0', '0x0p+0'])), turn_c)
+    malform('quaternion_of_three', 'A quaternion has four numbers.', 'quaternion: expected an array of 4',
+            on(lambda p: p['waypoints'][1]['quaternion'].pop()), turn_c)
+    malform('pose_with_parameters', 'A waypoint is a pose or parameters.', "the key 'position'",
+            on(lambda p: p['waypoints'].__setitem__(0, waypoint([0, 0, 0.35, 0, 0, 0]))), turn_c)
+    malform('pose_for_parameters', 'A waypoint is a pose or parameters.', "the key 'x'",
+            on(lambda p: p.update(interpolation='straight-in-parameters')), turn_c)
+    malform('geodesic_with_lengths', 'No lengths belong to a geodesic.', "no key 'lengths'", on(lambda p: p.update(interpolation='geodesic', pose_tubes=[])),
+            winches_c)
+    malform('geodesic_with_pose_tubes', 'Nothing is held by lengths.', 'pose_tubes: expected an array of 0',
+            on(lambda p: p.update(pose_tubes=[{'position': '0x1p-8', 'turn': '0x1p-8'}] * 2)), turn_c)
+    malform('lengths_missing', 'The law is about lengths.', "the key 'lengths'", on(lambda p: p['waypoints'][0].pop('lengths')), winches_c)
+    malform('length_zero', 'Lengths are positive.', 'positive lengths', on(lambda p: p['waypoints'][0]['lengths'].__setitem__(5, '0x0p+0')),
+            winches_c)
+    malform('length_commanded_negative', 'Lengths are positive.', 'positive lengths',
+            on(lambda p: p['waypoints'][0]['lengths'].__setitem__(0, '-0x1p-2')), winches_c)
+    malform('pose_tube_zero', 'A tube has a width.', 'positive widths', on(lambda p: p['pose_tubes'][0].update(turn='0x0p+0')), winches_c)
+    malform('pose_tube_missing', 'One tube a segment.', 'pose_tubes: expected an array of 2', on(lambda p: p['pose_tubes'].pop()), winches_c)
+    malform('pose_tubes_not_nested', 'At a joint one tube contains the other.', 'contains the one before',
+            on(lambda p: p['pose_tubes'].__setitem__(1, {'position': '0x1p-10', 'turn': '0x1p-7'})), winches_c)
+    malform('times_fall', 'Times rise.', 'a time after the last one', on(lambda p: p.update(times=['0', '2', '1'])), turn_c)
+    malform('times_equal', 'Times rise.', 'a time after the last one', on(lambda p: p.update(times=['0', '0.0', '1'])), turn_c)
+    malform('times_too_few', 'One time a waypoint.', 'times: expected an array of 3', on(lambda p: p.update(times=['0', '1'])), turn_c)
+    malform('poses_of_a_query', 'Parameters were asked for: no pose answers that.', 'none where the path has a law of poses',
+            lambda c: c['problem']['query'].update(waypoints=[['0'] * 6] * 2), turn_c)
+    malform('poses_of_another_space', 'A law of poses knows of no parameters.', 'the one of the free coordinates',
+            lambda c: c['problem'].update(space=copy.deepcopy(SLICE)), turn_c)
+    malform('source_of_a_plan', 'A plan has no source.', 'source: expected null', lambda c: c.update(
+            source={'file': 'x', 'sha256': '0' * 64}, problem=dict(c['problem'], space=SLICE, query={'waypoints': [['0', '0']] * 2}),
+            path=straight(waypoint([0, 0]), waypoint([0, 0]), waypoint([0, 0]))), turn_c)
+    malform('source_of_capitals', 'Hex digits are lower-case.', 'source.sha256', lambda c: c['source'].update(sha256='A' * 64), sourced)
 
 
 if __name__ == '__main__':

@@ -42,9 +42,8 @@ const Box kStart = {0, 0};
 Waypoint waypoint(const std::vector<double>& x) { return {x, std::vector<int>(x.size(), 0), {}}; }
 
 /// Of a box of the straight segment.
-Vector6<Form> pose(const Model& model, const Problem& problem, const Waypoint& from, const Waypoint& to,
-                   const Box& box) {
-  return model.pose(parameters(problem, {Interpolation::kStraight, {from, to}, {}}, 0, box));
+Frame pose(const Problem& problem, const Waypoint& from, const Waypoint& to, const Box& box) {
+  return frame(coordinates(problem, parameters(problem, {Interpolation::kStraight, {from, to}, {}}, 0, box)));
 }
 
 void expect_tight(const Interval& enclosure, const std::string& decimal) {
@@ -68,7 +67,7 @@ TEST(PoseProof, HoldsTheOracleTightly) {
     const nlohmann::json oracle = nlohmann::json::parse(line);
     const Model& model = models.at(oracle["robot"]);
     const Waypoint at = waypoint(oracle["pose"]);
-    const Geometry geometry = model.geometry(pose(model, problems.at(oracle["robot"]), at, at, kStart));
+    const Geometry geometry = model.geometry(pose(problems.at(oracle["robot"]), at, at, kStart));
     const Tensions tensions = model.tensions(geometry);
     Interval det = determinant(mid(geometry.D));
     Interval scale;
@@ -105,12 +104,12 @@ TEST(PoseProof, HoldsEveryPoseOfABox) {
     const Waypoint a = waypoint(from), b = waypoint(to);
     const Box box = {mpq_class(trial % 3, 4), mpq_class(trial % 3 + 1, 4)};
     try {
-      const Geometry whole = model.geometry(pose(model, problem, a, b, box));
+      const Geometry whole = model.geometry(pose(problem, a, b, box));
       const Tensions tensions = model.tensions(whole);
       ++invertible;
       for (int sample = 0; sample < 8; ++sample) {
         const mpq_class s = box.begin + (box.end - box.begin) * random_rational(random, 0, 1);
-        const Geometry at = model.geometry(pose(model, problem, a, b, {s, s}));
+        const Geometry at = model.geometry(pose(problem, a, b, {s, s}));
         const Tensions at_tensions = model.tensions(at);
         for (std::size_t i = 0; i < kCables; ++i) {
           EXPECT_TRUE(meet(whole.length[i].range, at.length[i].range));
@@ -128,7 +127,7 @@ TEST(PoseProof, ASingularMatrixHasNoInverseAndNoDeterminant) {
   const Problem problem = free_robot("robot1_near_start");
   const Model model(problem, 128);
   const Waypoint flat = waypoint({0, 0, 0, 0, 0, 0});  // all cables in one plane
-  const Geometry geometry = model.geometry(pose(model, problem, flat, flat, kStart));
+  const Geometry geometry = model.geometry(pose(problem, flat, flat, kStart));
   EXPECT_THROW((void)model.tensions(geometry), Undefined);
   EXPECT_THROW((void)determinant(mid(geometry.D)), Undefined);
 }
@@ -140,12 +139,10 @@ TEST(PoseProof, ABoxAcrossASingularPoseIsNeverInverted) {
   for (int k = 1; k < 30; ++k) {
     const Waypoint above = waypoint({0.01, 0.02, -std::ldexp(0.3, -k), 0.3, 0.01, 0.2});
     const Waypoint below = waypoint({0.01, 0.02, std::ldexp(0.2, -k), 0.3, 0.01, 0.2});
-    const auto det = [&](const Waypoint& w) {
-      return determinant(mid(model.geometry(pose(model, problem, w, w, kStart)).D));
-    };
+    const auto det = [&](const Waypoint& w) { return determinant(mid(model.geometry(pose(problem, w, w, kStart)).D)); };
     if (!certainly_negative(det(above) * det(below))) continue;
     ++sign_changes;
-    EXPECT_THROW((void)model.tensions(model.geometry(pose(model, problem, above, below, {0, 1}))), Undefined) << k;
+    EXPECT_THROW((void)model.tensions(model.geometry(pose(problem, above, below, {0, 1}))), Undefined) << k;
   }
   EXPECT_GT(sign_changes, 5);
 }
@@ -155,7 +152,7 @@ TEST(PoseProof, ACableWithoutLengthIsUndefined) {
   problem.platform_anchors[2] = problem.base_anchors[2];
   const Model model(problem, 128);
   const Waypoint origin = waypoint({0, 0, 0, 0, 0, 0});
-  EXPECT_THROW((void)model.geometry(pose(model, problem, origin, origin, kStart)), Undefined);
+  EXPECT_THROW((void)model.geometry(pose(problem, origin, origin, kStart)), Undefined);
 }
 
 TEST(PoseProof, AnEllipsoidThatIsNotPositiveDefiniteIsRefused) {
@@ -178,7 +175,7 @@ TEST(PoseProof, ATiltedEllipsoidIsTheSameAsTiltedForces) {
   const Model tilted(sheared, 128);
   const Model straight(plain, 128);
   const Waypoint at = waypoint({0.01, 0.02, 0.35, 0.3, 0.5, 0.6});
-  const Geometry geometry = straight.geometry(pose(straight, plain, at, at, kStart));
+  const Geometry geometry = straight.geometry(pose(plain, at, at, kStart));
   // S = I + 1/2 e0 e1'. Rows of J^-1 are what the wrench's unit vectors pull: with e1 -> e1 + e0 / 2.
   const auto spread_along = [&](const Vector6<mpq_class>& w) {
     Problem loaded = plain;

@@ -1,0 +1,177 @@
+#include "certify/checker/held.h"
+
+#include "certify/checker/krawczyk.h"
+
+namespace taut::checker {
+namespace {
+
+Vector3<Interval> widened(Vector3<Interval> x, const Interval& by) {
+  for (Interval& component : x) component += by * Interval::plus_minus_one();
+  return x;
+}
+
+template <class Get>
+Vector3<Interval> parts(const Vector3<Form>& x, const Get& get) {
+  return {get(x[0]), get(x[1]), get(x[2])};
+}
+
+template <class Get>
+Matrix3<Interval> parts(const Matrix3<Form>& x, const Get& get) {
+  return {parts(x[0], get), parts(x[1], get), parts(x[2], get)};
+}
+
+constexpr auto kMid = [](const Form& x) { return x.mid; };
+constexpr auto kSlope = [](const Form& x) { return x.slope; };
+constexpr auto kRange = [](const Form& x) { return x.range; };
+
+/// R(v, 1).
+Matrix3<Form> turn_by(const Vector3<Form>& v) { return rotation({v[0], v[1], v[2], Form(Interval(1))}); }
+/// Likewise: I + 2 / (1 + |v|^2) ([v] + [v]^2), [v]^2 = v v' - |v|^2 I.
+Matrix3<Interval> turn_by(const Vector3<Interval>& v) {
+  const Interval scale = Interval(2) / (Interval(1) + squared_norm(v));
+  Matrix3<Interval> R = {{{-sqr(v[1]) - sqr(v[2]), v[0] * v[1] - v[2], v[0] * v[2] + v[1]},
+                          {v[0] * v[1] + v[2], -sqr(v[0]) - sqr(v[2]), v[1] * v[2] - v[0]},
+                          {v[0] * v[2] - v[1], v[1] * v[2] + v[0], -sqr(v[0]) - sqr(v[1])}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) R[i][j] = Interval(i == j ? 1 : 0) + scale * R[i][j];
+  }
+  return R;
+}
+
+/// g of the header.
+class HeldByLengths : public Equations {
+ public:
+  HeldByLengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube,
+                const Slack* slack)
+      : model_(model),
+        reference_(reference),
+        L_(L),
+        position_(mpq_class(tube.position)),
+        turn_(mpq_class(tube.turn)),
+        slack_(slack) {}
+
+  [[nodiscard]] std::size_t unknowns() const override { return 6; }
+
+  [[nodiscard]] Derivatives derivatives(const Vector6<Interval>& z) const override {
+    const Vector3<Interval> p = parts(reference_.p, kRange) + position(z);
+    const Vector3<Interval> v = turn(z);
+    const Matrix3<Interval> R_v = turn_by(v);
+    const Matrix3<Interval> R = multiply(R_v, parts(reference_.R, kRange));
+    const Matrix3<Interval> R_drift = multiply(R_v, parts(reference_.R, kSlope));
+    const Vector3<Interval> p_drift = parts(reference_.p, kSlope);
+    const Interval turning = turn_ * Interval(2) / (Interval(1) + squared_norm(v));
+    Derivatives result;
+    for (std::size_t i = 0; i < 6; ++i) {
+      Vector3<Interval> b = model_.platform_anchors()[i];
+      Vector3<Interval> Rb = multiply(R, b);
+      Vector3<Interval> from_a = p - model_.base_anchors()[i];
+      Interval length = L_[i].range;
+      if (slack_ != nullptr) {
+        b = widened(b, slack_->platform[i]);
+        Rb = widened(Rb, slack_->platform[i]);
+        from_a = widened(from_a, slack_->anchors[i] - slack_->platform[i]);
+        length += slack_->length[i] * Interval::plus_minus_one();
+      }
+      const Vector3<Interval> d = from_a + Rb;
+      const Vector3<Interval> x = cross(Rb, from_a);  // = cross(Rb, d)
+      const Vector3<Interval> x_turned = x + cross(x, v);
+      for (std::size_t c = 0; c < 3; ++c) {
+        result.by_y[i][c] = position_ * d[c];
+        result.by_y[i][3 + c] = turning * x_turned[c];
+      }
+      result.by_u[i] = dot(d, p_drift + multiply(R_drift, b)) - length * L_[i].slope;
+    }
+    return result;
+  }
+
+  [[nodiscard]] Vector6<Interval> at_middle(const Vector6<Interval>& z) const override {
+    const Vector3<Interval> p = parts(reference_.p, kMid) + position(z);
+    const Matrix3<Interval> R = multiply(turn_by(turn(z)), parts(reference_.R, kMid));
+    Vector6<Interval> result;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Vector3<Interval> d = p + multiply(R, model_.platform_anchors()[i]) - model_.base_anchors()[i];
+      const Interval squared = squared_norm(d);
+      result[i] = (squared - sqr(L_[i].mid)) / Interval(2);
+      if (slack_ != nullptr) result[i] += deviation(*slack_, i, sqrt(squared), L_[i].mid) * Interval::plus_minus_one();
+    }
+    return result;
+  }
+
+  /// By how much g_i of two machines in the same pose may differ, |d_i| being that of one of them.
+  [[nodiscard]] static Interval deviation(const Slack& slack, std::size_t i, const Interval& d, const Interval& L) {
+    const Interval two(2);
+    return d * slack.anchors[i] + sqr(slack.anchors[i]) / two + L * slack.length[i] + sqr(slack.length[i]) / two;
+  }
+
+  [[nodiscard]] Frame pose(const Vector6<Form>& z) const {
+    const Form position(position_);
+    const Form turn(turn_);
+    return {reference_.p + position * Vector3<Form>{z[0], z[1], z[2]},
+            multiply(turn_by(turn * Vector3<Form>{z[3], z[4], z[5]}), reference_.R)};
+  }
+
+  [[nodiscard]] Vector3<Interval> position(const Vector6<Interval>& z) const {
+    return position_ * Vector3<Interval>{z[0], z[1], z[2]};
+  }
+  [[nodiscard]] Vector3<Interval> turn(const Vector6<Interval>& z) const {
+    return turn_ * Vector3<Interval>{z[3], z[4], z[5]};
+  }
+
+ private:
+  const Model& model_;
+  const Frame& reference_;
+  const Vector6<Form>& L_;
+  Interval position_;
+  Interval turn_;
+  const Slack* slack_;
+};
+
+Vector6<Form> at_middle(const Vector6<Form>& x) {
+  Vector6<Form> result;
+  for (std::size_t i = 0; i < 6; ++i) result[i] = Form(x[i].mid);
+  return result;
+}
+
+Frame at_middle(const Frame& x) {
+  Frame result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.p[i] = Form(x.p[i].mid);
+    for (std::size_t j = 0; j < 3; ++j) result.R[i][j] = Form(x.R[i][j].mid);
+  }
+  return result;
+}
+
+}  // namespace
+
+Commanded held_by_lengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube,
+                          const Slack* slack) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Interval least = slack == nullptr ? L[i].range : L[i].range - slack->length[i];
+    if (!certainly_positive(least)) throw Undefined("a cable may have no length");
+  }
+  const Interval whole(1);
+  const Frame reference_mid = at_middle(reference);
+  const Vector6<Form> L_mid = at_middle(L);
+  const HeldByLengths stated_mid(model, reference_mid, L_mid, tube, nullptr);
+  const HeldByLengths stated(model, reference, L, tube, nullptr);
+  const Vector6<Interval> near = approximate_zero(stated_mid);
+  const Zero mid = only_zero(stated_mid, whole, near);
+  const Zero range = only_zero(stated, whole, near);
+  Vector6<Form> z;
+  for (std::size_t i = 0; i < 6; ++i) z[i] = Form::enclose(mid.y[i], range.slope[i], range.y[i]);
+  Commanded result{stated.pose(z), Interval(), Interval()};
+  if (slack == nullptr) return result;
+
+  const Zero family = only_zero(HeldByLengths(model, reference, L, tube, slack), whole, near);
+  Vector6<Interval> e;
+  for (std::size_t i = 0; i < 6; ++i) {
+    // Of a deviating machine at its own zero |d_i'| is L_i + e_i.
+    e[i] = HeldByLengths::deviation(*slack, i, L[i].range + slack->length[i], L[i].range) * Interval::plus_minus_one();
+  }
+  const Vector6<Interval> dz = difference(family, e);
+  result.moved = sqrt(squared_norm(stated.position(dz)));
+  result.turned = Interval(2) * sqrt(squared_norm(stated.turn(dz)));
+  return result;
+}
+
+}  // namespace taut::checker
