@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/decimal.h"
 #include "kinematics/input_error.h"
 
 namespace taut {
 namespace {
 
 constexpr int kMarginDigits = 6;
-constexpr int kWitnessDigits = 17;
+constexpr int kWitnessDigits = 17;       // or as many as it takes to show the violation,
+constexpr int kMostWitnessDigits = 600;  // if not more than this
 
 /// `digits` significant digits, rounded in the given direction.
 DecimalText decimal(const BigFloat& x, int digits, mpfr_rnd_t direction) {
@@ -51,8 +53,13 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Dya
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
   const MpInterval value = prover.quantity_at_mid(segment, box, margin);
-  witness.value_lower = decimal(value.lower(), kWitnessDigits, MPFR_RNDD);
-  witness.value_upper = decimal(value.upper(), kWitnessDigits, MPFR_RNDU);
+  const Decimal limit = Decimal::parse(witness.limit);
+  const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
+  for (int digits = kWitnessDigits; digits <= kMostWitnessDigits; digits *= 2) {
+    witness.value_lower = decimal(value.lower(), digits, MPFR_RNDD);
+    witness.value_upper = decimal(value.upper(), digits, MPFR_RNDU);
+    if (is_lower ? Decimal::parse(witness.value_upper) <= limit : Decimal::parse(witness.value_lower) >= limit) break;
+  }
   return witness;
 }
 

@@ -9,11 +9,24 @@
 
 namespace taut {
 
+namespace {
+
+constexpr mpfr_prec_t kFirstRung = 128;
+
+std::vector<mpfr_prec_t> ladder(mpfr_prec_t max_bits) {
+  std::vector<mpfr_prec_t> bits = {kFirstRung};
+  while (bits.back() < max_bits) bits.push_back(std::min(2 * bits.back(), max_bits));
+  return bits;
+}
+
+}  // namespace
+
 Prover::Prover(const Problem& problem, ProofOptions options)
     : problem_(problem),
-      options_(std::move(options)),
+      options_(options),
       fast_(make_proof_model(problem)),
-      fine_(options_.ladder_bits.size()) {
+      bits_(ladder(options.max_bits)),
+      fine_(bits_.size()) {
   if (!problem.space.constraints.empty()) constraints_.emplace(problem);
 }
 
@@ -41,7 +54,7 @@ double Prover::suitable_tube(const Segment& segment) const {
 const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
   Rung& rung = fine_[k];
   std::call_once(rung.made, [&] {
-    const PrecisionScope precision(options_.ladder_bits[k]);
+    const PrecisionScope precision(bits_[k]);
     rung.model.emplace(make_mp_proof_model(problem_));
   });
   return *rung.model;
@@ -69,6 +82,8 @@ bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
 
 namespace {
 
+constexpr const char* kMayNotFollow = "a waypoint lies outside the closed range of a parameter, or may";
+
 const char* undecided_reason(BoxVerdict::Kind kind) {
   switch (kind) {
     case BoxVerdict::Kind::kFault: return "the pose or an equation is not defined on all of the box";
@@ -81,7 +96,7 @@ const char* undecided_reason(BoxVerdict::Kind kind) {
 
 BoxVerdict Prover::judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance) const {
   if (rung == 0) return judge_box(fast_, segment, box, clearance);
-  const PrecisionScope precision(options_.ladder_bits[rung - 1]);
+  const PrecisionScope precision(bits_[rung - 1]);
   return judge_box(fine(rung - 1), segment, box, clearance);
 }
 
@@ -94,133 +109,327 @@ BoxVerdict Prover::judge(const Segment& segment, const DyadicBox& box) const {
   return verdict;
 }
 
-SegmentProof Prover::prove(const Segment& segment, double clearance) const {
-  using Kind = BoxVerdict::Kind;
-  struct Task {
-    DyadicBox box;
-    std::size_t rung;
+/// What is left to do on a segment, and what was done.
+struct Prover::Walk {
+  const Segment& segment;
+  double clearance = 0;
+  std::vector<Task> stack = {Task{}};
+  int judged = 0;
+  int multiprecision = 0;
+  Task next() {
+    const Task task = std::move(stack.back());
+    stack.pop_back();
+    return task;
+  }
+  /// The halves, the left one first.
+  void split(const Task& task, std::size_t rung) {
+    stack.push_back({task.box.right(), rung, task.is_hopeless});
+    stack.push_back({task.box.left(), rung, task.is_hopeless});
+  }
+};
+
+/// What to do with a box.
+struct Prover::Step {
+  enum class Kind {
+    kProved,
+    kRefuted,  ///< by `witness`
+    kSplit,    ///< as it is
+    kClimb,    ///< the same box on the next rung
+    kGiveUp,   ///< for this box, for `reason`
+    kStop,     ///< for all the rest, for `reason`
   };
+  Kind kind;
+  BoxVerdict verdict = {};
+  std::optional<SegmentWitness> witness = {};
+  std::string reason = {};
+};
+
+namespace {
+
+/// Depth from which the rounding of s itself is as large as the box.
+int deepest(std::size_t rung, const std::vector<mpfr_prec_t>& bits) {
+  constexpr int kBinary64Depth = 48;
+  return rung == 0 ? kBinary64Depth : static_cast<int>(std::min<mpfr_prec_t>(bits[rung - 1], DyadicBox::kMaxDepth));
+}
+
+std::string describe(MarginId margin) {
+  return std::string("margin ") + name(margin.kind) + " of cable " + std::to_string(margin.cable + 1);
+}
+
+/// Of an enclosure at the working precision. Void if a fault is raised.
+std::optional<Centered<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
+                                                const DyadicBox& box, MarginId id) {
+  const BoxEnclosure<MpInterval> enclosure = enclose_box(model, segment, box);
+  if (enclosure.motion == MotionEnclosure<MpInterval>::Status::kUnproved) return std::nullopt;
+  MarginList<MpInterval> margins;
+  length_margins(model.model, enclosure, margins);
+  tension_margins(model.model, enclosure, margins);
+  const auto* const found = std::find_if(margins.begin(), margins.end(), [&](const auto& x) { return x.id == id; });
+  if (found == margins.end()) return std::nullopt;
+  return found->value;
+}
+
+BigFloat middle(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.lower(), x.upper()); }
+
+}  // namespace
+
+/// What bisection would find out about a margin that is next to 0, sooner: where in the box is it least? A claim is made by
+/// judge_at() alone; the search for the point may go wrong, and then the box climbs one rung as it would anyway.
+Prover::Step Prover::settle(Walk& walk, const Task& task, MarginId margin) const {
+  constexpr int kMostSteps = 24;  // on one rung; secants gain digits like 1, 1, 2, 3, 5
+  const Segment& segment = walk.segment;
+  const Step climb{Step::Kind::kClimb};
+  std::optional<BigFloat> s;
+  std::optional<BigFloat> earlier;
+  BigFloat slope_earlier;
+  for (std::size_t rung = task.rung + 1; rung <= fine_.size(); ++rung) {
+    const PrecisionScope precision(bits_[rung - 1]);
+    const int depth = deepest(rung, bits_);
+    const BigFloat lower = enclose<MpInterval>(task.box.lower()).lower();
+    const BigFloat upper = enclose<MpInterval>(task.box.upper()).upper();
+    const BigFloat resolution = BigFloat::apply_rounded(
+        MPFR_RNDN, [depth](mpfr_ptr x, mpfr_rnd_t mode) { mpfr_set_ui_2exp(x, 1, -depth, mode); });
+    if (!s) s = middle(enclose<MpInterval>(task.box.mid()));
+    bool is_positive = false;
+    for (int step = 0; step < kMostSteps; ++step) {
+      // The box of that depth around s, within the task's.
+      DyadicBox point{Dyadic::nearest(*s, depth).k, depth};
+      const int finer = depth - task.box.depth;
+      if (finer < 1) return climb;
+      point.k =
+          std::clamp<boost::multiprecision::cpp_int>(point.k, task.box.k << finer, ((task.box.k + 1) << finer) - 1);
+      ++walk.judged;
+      ++walk.multiprecision;
+      const BoxVerdict verdict = judge_at(rung, segment, point, walk.clearance);
+      if (verdict.kind == BoxVerdict::Kind::kRefuted) {
+        return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, point}};
+      }
+      Faults<MpInterval>::clear();
+      const auto value = margin_over(fine(rung - 1), segment, point, margin);
+      if (!value || Faults<MpInterval>::raised()) return climb;
+      const BigFloat slope = middle(value->slope);
+      // Positive beyond what s may be off the least point.
+      is_positive = value->at_mid.lower() > abs(slope) * resolution;
+      const BigFloat at = *s;
+      if (!earlier) {
+        const BigFloat quarter = (upper - lower) / BigFloat(4.0);
+        s = slope > BigFloat(0.0) ? at - quarter : at + quarter;
+      } else {
+        const BigFloat bend = slope - slope_earlier;
+        const BigFloat moved = at - *earlier;
+        if (!(abs(bend) > BigFloat(0.0)) || !(abs(moved) > BigFloat(0.0))) break;
+        s = at - slope * moved / bend;
+      }
+      if (!(*s > lower)) s = lower;
+      if (!(*s < upper)) s = upper;
+      earlier = at;
+      slope_earlier = slope;
+      if (!(abs(*s - at) > resolution)) break;
+    }
+    if (is_positive) return climb;
+  }
+  return {Step::Kind::kGiveUp,
+          {},
+          {},
+          describe(margin) + " is zero, or too close to it for " + std::to_string(bits_.back()) + " bits to tell"};
+}
+
+bool Prover::is_singular_between_ends(const Segment& segment, const DyadicBox& box) const {
+  for (std::size_t k = 0; k < fine_.size(); ++k) {
+    const PrecisionScope precision(bits_[k]);
+    const int lower = determinant_sign(fine(k), segment, box.lower());
+    const int upper = determinant_sign(fine(k), segment, box.upper());
+    if (lower != 0 && upper != 0) return lower != upper;
+  }
+  return false;
+}
+
+Prover::Step Prover::examine(Walk& walk, const Task& task) const {
+  using Kind = BoxVerdict::Kind;
+  constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
+  const auto& [box, rung, is_hopeless] = task;
+  if (walk.judged >= options_.max_boxes || walk.multiprecision >= options_.max_multiprecision_boxes) {
+    return {Step::Kind::kStop, {}, {}, "the budget of boxes is spent"};
+  }
+  if (interrupt != nullptr && interrupt->load(std::memory_order_relaxed)) {
+    return {Step::Kind::kStop, {}, {}, "interrupted"};
+  }
+  ++walk.judged;
+  if (rung > 0) ++walk.multiprecision;
+  const BoxVerdict verdict = judge_at(rung, walk.segment, box, walk.clearance);
+  const auto give_up = [&](std::string reason) { return Step{Step::Kind::kGiveUp, verdict, {}, std::move(reason)}; };
+  const Step split{Step::Kind::kSplit, verdict};
+  const Step climb{Step::Kind::kClimb, verdict};
+  const bool higher_rung = rung < fine_.size() && !is_hopeless;
+  switch (verdict.kind) {
+    case Kind::kProved: return {Step::Kind::kProved, verdict};
+    case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box}};
+    case Kind::kTooClose: return give_up("closer to a limit than the clearance asked for");
+    case Kind::kSplit:
+      if (box.depth < deepest(rung, bits_)) return split;
+      if (higher_rung) return settle(walk, task, verdict.worst);
+      return give_up("bisection depth reached at " + describe(verdict.worst));
+    case Kind::kPrecision:
+      if (higher_rung) return settle(walk, task, verdict.worst);
+      return give_up("precision reached at " + describe(verdict.worst) + ": it vanishes or nearly so");
+    case Kind::kOutOfRange: return give_up("a parameter leaves its closed range, or may");
+    case Kind::kNoMotion:
+      // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
+      if (box.depth < options_.motion_depth) return split;
+      return higher_rung && rung < kSingularRung ? climb : give_up(undecided_reason(verdict.kind));
+    case Kind::kNearSingular:
+    case Kind::kFault: break;
+  }
+  if (box.depth < options_.singular_depth) return split;
+  if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth && rung == 0 &&
+      is_singular_between_ends(walk.segment, box)) {
+    return {Step::Kind::kRefuted, verdict, SegmentWitness{true, {}, box}};
+  }
+  if (higher_rung && rung < kSingularRung) return climb;
+  if (box.depth < 2 * options_.singular_depth && !is_hopeless) return split;
+  return give_up(undecided_reason(verdict.kind));
+}
+
+SegmentProof Prover::prove(const Segment& segment, double clearance) const {
   SegmentProof proof;
   proof.tension_N = proof.length_m = proof.wrench_scale = std::numeric_limits<double>::infinity();
-  const auto give_up = [&](const DyadicBox& box, std::string reason) {
-    proof.verdict = Verdict::kUndecided;
-    proof.open_box = box;
-    proof.reason = std::move(reason);
-  };
-
   if (!may_follow(segment)) {
-    give_up({}, "a waypoint lies outside the closed range of a parameter, or may");
+    proof.reason = kMayNotFollow;
     return proof;
   }
-  std::vector<Task> stack = {{{0, 0}, 0}};
-  while (!stack.empty()) {
-    const DyadicBox box = stack.back().box;
-    const std::size_t rung = stack.back().rung;
-    stack.pop_back();
-    if (rung > 0) ++proof.boxes_multiprecision;
-    if (++proof.boxes_judged > options_.max_boxes || proof.boxes_multiprecision > options_.max_multiprecision_boxes) {
-      give_up(box, "the budget of boxes is spent");
-      return proof;
-    }
-    if (interrupt != nullptr && interrupt->load(std::memory_order_relaxed)) {
-      give_up(box, "interrupted");
-      return proof;
-    }
-    const BoxVerdict verdict = judge_at(rung, segment, box, clearance);
-
-    const bool higher_rung = rung < fine_.size();
-    const bool may_split = box.depth < options_.max_depth;
-    const auto split = [&] {
-      stack.push_back({box.right(), rung});
-      stack.push_back({box.left(), rung});
-    };
-    const auto climb = [&] { stack.push_back({box, rung + 1}); };
-    switch (verdict.kind) {
-      case Kind::kProved:
-        proof.boxes.push_back(box);
-        proof.tension_N = std::min(proof.tension_N, verdict.tension_N);
-        proof.length_m = std::min(proof.length_m, verdict.length_m);
-        proof.wrench_scale = std::min(proof.wrench_scale, verdict.wrench_scale);
+  Walk walk{segment, clearance};
+  while (!walk.stack.empty()) {
+    const Task task = walk.next();
+    Step step = examine(walk, task);
+    proof.boxes_judged = walk.judged;
+    proof.boxes_multiprecision = walk.multiprecision;
+    switch (step.kind) {
+      case Step::Kind::kProved:
+        proof.boxes.push_back(task.box);
+        proof.tension_N = std::min(proof.tension_N, step.verdict.tension_N);
+        proof.length_m = std::min(proof.length_m, step.verdict.length_m);
+        proof.wrench_scale = std::min(proof.wrench_scale, step.verdict.wrench_scale);
         break;
-      case Kind::kRefuted:
+      case Step::Kind::kRefuted:
         proof.verdict = Verdict::kRefuted;
-        proof.witness = SegmentWitness{false, verdict.worst, box};
+        proof.witness = std::move(step.witness);
         return proof;
-      case Kind::kTooClose: give_up(box, "closer to a limit than the clearance asked for"); return proof;
-      case Kind::kSplit:
-        if (!may_split) {
-          give_up(box, std::string("bisection depth reached at margin ") + name(verdict.worst.kind) + " of cable " +
-                           std::to_string(verdict.worst.cable + 1));
-          return proof;
-        }
-        split();
-        break;
-      case Kind::kPrecision:
-        if (higher_rung) {
-          climb();
-        } else if (may_split) {
-          split();
-        } else {
-          give_up(box, std::string("precision reached at margin ") + name(verdict.worst.kind) + " of cable " +
-                           std::to_string(verdict.worst.cable + 1) + ": it vanishes or nearly so");
-          return proof;
-        }
-        break;
-      case Kind::kOutOfRange: give_up(box, "a parameter leaves its closed range, or may"); return proof;
-      case Kind::kNoMotion:
-        // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
-        if (box.depth < options_.motion_depth) {
-          split();
-        } else if (higher_rung) {
-          climb();
-        } else {
-          give_up(box, undecided_reason(verdict.kind));
-          return proof;
-        }
-        break;
-      case Kind::kNearSingular:
-      case Kind::kFault:
-        if (box.depth < options_.singular_depth) {
-          split();
-        } else if (higher_rung) {
-          climb();
-        } else if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth) {
-          const PrecisionScope precision(options_.ladder_bits.back());
-          const int sign_lower = determinant_sign(fine(fine_.size() - 1), segment, box.lower());
-          const int sign_upper = determinant_sign(fine(fine_.size() - 1), segment, box.upper());
-          if (sign_lower * sign_upper < 0) {
-            proof.verdict = Verdict::kRefuted;
-            proof.witness = SegmentWitness{true, {}, box};
-            return proof;
-          }
-          split();
-        } else if (may_split && box.depth < 2 * options_.singular_depth) {
-          split();
-        } else {
-          give_up(box, undecided_reason(verdict.kind));
-          return proof;
-        }
-        break;
+      case Step::Kind::kSplit: walk.split(task, task.rung); break;
+      case Step::Kind::kClimb: walk.stack.push_back({task.box, task.rung + 1}); break;
+      case Step::Kind::kGiveUp:
+      case Step::Kind::kStop:
+        proof.open_box = task.box;
+        proof.reason = std::move(step.reason);
+        return proof;
     }
   }
   proof.verdict = Verdict::kProved;
   return proof;
 }
 
-MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
-  const PrecisionScope precision(options_.ladder_bits.back());
-  Faults<MpInterval>::clear();
-  const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(fine_.size() - 1), segment, box);
-  if (Faults<MpInterval>::raised()) throw std::logic_error("a refuted midpoint has no enclosure");
-  const auto n = static_cast<std::size_t>(margin.cable);
-  const MpInterval& length = enclosure.length[n].at_mid;
-  switch (margin.kind) {
-    case MarginKind::kTensionMin: return length * (enclosure.density[n].at_mid - enclosure.variation[n].at_mid);
-    case MarginKind::kTensionMax: return length * (enclosure.density[n].at_mid + enclosure.variation[n].at_mid);
-    case MarginKind::kLengthMin:
-    case MarginKind::kLengthMax: break;
+SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& options) const {
+  using Kind = SurveyedBox::Kind;
+  SegmentSurvey survey;
+  survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
+  if (!may_follow(segment)) {
+    survey.boxes.push_back({{}, Kind::kOpen, {}, kMayNotFollow});
+    return survey;
   }
-  return length;
+  Walk walk{segment};
+  const auto follows_violation = [&] {
+    return !survey.boxes.empty() && survey.boxes.back().kind != Kind::kProved &&
+           survey.boxes.back().kind != Kind::kOpen;
+  };
+  while (!walk.stack.empty()) {
+    Task task = walk.next();
+    Step step = examine(walk, task);
+    const bool is_fine = task.box.depth >= options.resolution_depth;
+    const auto report = [&](Kind kind) {
+      survey.boxes.push_back({task.box, kind, std::move(step.witness), std::move(step.reason)});
+    };
+    // Within what is violated anyway, the singular pose that tensions grow towards is not worth much.
+    if (is_fine && step.verdict.kind == BoxVerdict::Kind::kNearSingular && step.kind != Step::Kind::kRefuted &&
+        follows_violation()) {
+      if (is_singular_between_ends(segment, task.box)) {
+        step.witness = SegmentWitness{true, {}, task.box};
+        report(Kind::kSingular);
+      } else {
+        step.reason = undecided_reason(step.verdict.kind);
+        report(Kind::kOpen);
+      }
+      continue;
+    }
+    switch (step.kind) {
+      case Step::Kind::kProved:
+        survey.tension_N = std::min(survey.tension_N, step.verdict.tension_N);
+        survey.length_m = std::min(survey.length_m, step.verdict.length_m);
+        survey.wrench_scale = std::min(survey.wrench_scale, step.verdict.wrench_scale);
+        report(Kind::kProved);
+        break;
+      case Step::Kind::kRefuted:
+        if (step.witness->singular) {
+          report(Kind::kSingular);
+        } else if (step.verdict.throughout && step.witness->box == task.box) {
+          report(Kind::kViolated);
+        } else if (is_fine) {
+          report(Kind::kViolatedInside);
+        } else {
+          walk.split(task, 0);
+        }
+        break;
+      case Step::Kind::kSplit: walk.split(task, task.rung); break;
+      case Step::Kind::kClimb: walk.stack.push_back({task.box, task.rung + 1, task.is_hopeless}); break;
+      case Step::Kind::kGiveUp:
+        // There may be violations next to what can't be decided, but no ladder will help.
+        task.is_hopeless = true;
+        if (is_fine) {
+          report(Kind::kOpen);
+        } else {
+          walk.split(task, 0);
+        }
+        break;
+      case Step::Kind::kStop: report(Kind::kOpen); break;
+    }
+  }
+  survey.boxes_judged = walk.judged;
+  survey.boxes_multiprecision = walk.multiprecision;
+  return survey;
+}
+
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
+  const auto n = static_cast<std::size_t>(margin.cable);
+  const bool is_tension = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kTensionMax;
+  std::optional<MpInterval> quantity;
+  for (std::size_t k = 0; k < fine_.size(); ++k) {
+    const PrecisionScope precision(bits_[k]);
+    const Model<MpInterval>& model = fine(k).model;
+    Faults<MpInterval>::clear();
+    const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(k), segment, box);
+    if (Faults<MpInterval>::raised() || (is_tension && !enclosure.regular)) continue;
+    const MpInterval& length = enclosure.length[n].at_mid;
+    MpInterval room;
+    switch (margin.kind) {
+      case MarginKind::kTensionMin:
+        quantity = length * (enclosure.density[n].at_mid - enclosure.variation[n].at_mid);
+        room = *quantity - model.tension_lower[n];
+        break;
+      case MarginKind::kTensionMax:
+        quantity = length * (enclosure.density[n].at_mid + enclosure.variation[n].at_mid);
+        room = model.tension_upper[n] - *quantity;
+        break;
+      case MarginKind::kLengthMin:
+        quantity = length;
+        room = length - model.length_lower[n];
+        break;
+      case MarginKind::kLengthMax:
+        quantity = length;
+        room = model.length_upper[n] - length;
+        break;
+    }
+    if (certainly_nonpositive(room)) break;
+  }
+  if (!quantity) throw std::logic_error("a refuted midpoint has no enclosure");
+  return *quantity;
 }
 
 }  // namespace taut

@@ -1,7 +1,8 @@
-// Proves or refutes one segment: boxes from box_proof.h, bisection, and a ladder of precisions.
+// Proves or refutes one segment, or says of each of its parts which: boxes from box_proof.h, bisection, a ladder of precisions.
 //
 // Each box is first judged in binary64 intervals; where the midpoint itself can't be told apart from its limit, in MPFR
-// intervals of growing precision. Verdicts are three: undecided is not unsafe.
+// intervals of 128, 256, 512, … bits. Before it climbs, a box looks for the point where the margin is least, by secants: that
+// point may refute, or show that no rung can tell. Verdicts are three: undecided is not unsafe.
 #pragma once
 
 #include <array>
@@ -19,11 +20,10 @@ namespace taut {
 enum class Verdict { kProved, kRefuted, kUndecided };
 
 struct ProofOptions {
-  /// Precisions of the ladder's MPFR rungs [bits].
-  std::vector<mpfr_prec_t> ladder_bits = {128, 256, 512};
-  int max_depth = 48;                    ///< at most DyadicBox::kMaxDepth − 1
+  /// The last rung of the ladder [bits], at least 128: only what is exactly zero, or takes more, stays undecided.
+  mpfr_prec_t max_bits = 4096;
   int max_boxes = 200'000;               ///< boxes judged in one segment
-  int max_multiprecision_boxes = 5'000;  ///< of them in MPFR, each of which takes about a millisecond
+  int max_multiprecision_boxes = 10'000;  ///< of them in MPFR, each of which takes about a millisecond
   /// Depth from which a box for which no motion on the constraints was proved climbs the ladder, and is not split.
   int motion_depth = 12;
   /// Depth from which a box that can't be inverted climbs the ladder and is examined for a change of sign of det J.
@@ -51,6 +51,36 @@ struct SegmentProof {
   int boxes_multiprecision = 0;
 };
 
+/// A part of a segment, and what is known about it.
+struct SurveyedBox {
+  enum class Kind {
+    kProved,
+    kViolated,        ///< at every point of it, by one margin
+    kViolatedInside,  ///< at the witness
+    kSingular,        ///< somewhere between its ends
+    kOpen,
+  };
+  DyadicBox box;
+  Kind kind = Kind::kOpen;
+  std::optional<SegmentWitness>
+      witness;         ///< within `box`; unless kProved or kOpen. kViolated: any of its midpoints will do
+  std::string reason;  ///< only if kOpen
+};
+
+struct SurveyOptions {
+  /// Ends of what is violated are located to boxes of this depth; what is thinner shows in the midpoint of a deeper one.
+  int resolution_depth = 12;
+};
+
+struct SegmentSurvey {
+  std::vector<SurveyedBox> boxes;  ///< cover [0, 1] in order
+  double tension_N = 0;            ///< proved lower bounds over the boxes that are proved; infinite where none is
+  double length_m = 0;
+  double wrench_scale = 0;
+  int boxes_judged = 0;
+  int boxes_multiprecision = 0;
+};
+
 /// A problem ready to be proved about, at every rung of the ladder. Immutable; share it between threads.
 class Prover {
  public:
@@ -70,10 +100,15 @@ class Prover {
     return prove(segment(a, b), clearance);
   }
 
+  /// The claim of prove() box by box, where it does not stop at what it can't prove: for paths of which all violations are asked
+  /// for. A segment that is proved costs what prove() takes.
+  [[nodiscard]] SegmentSurvey survey(const Segment& segment, const SurveyOptions& options = {}) const;
+
   /// One box, at the cheapest rung that decides it.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;
 
-  /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the highest precision.
+  /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the least precision at which the
+  /// margin is seen not to be positive, else at the highest that works.
   [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
 
   /// Whether all control points are such as the law asks for, and certainly in their ranges where it runs through parameters.
@@ -88,13 +123,24 @@ class Prover {
   std::atomic<bool>* interrupt = nullptr;
 
  private:
+  struct Task {
+    DyadicBox box;
+    std::size_t rung = 0;      ///< 0: binary64
+    bool is_hopeless = false;  ///< not worth the ladder
+  };
+  struct Walk;
+  struct Step;
   [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box,
                                     double clearance) const;
+  [[nodiscard]] Step examine(Walk& walk, const Task& task) const;
+  [[nodiscard]] Step settle(Walk& walk, const Task& task, MarginId margin) const;
+  [[nodiscard]] bool is_singular_between_ends(const Segment& segment, const DyadicBox& box) const;
 
   Problem problem_;
   ProofOptions options_;
   std::optional<ConstraintFunctions> constraints_;
   ProofModel<Interval> fast_;
+  std::vector<mpfr_prec_t> bits_;  ///< of the rungs
   /// One a rung of the ladder, made when first needed: most problems never climb it.
   struct Rung {
     std::once_flag made;

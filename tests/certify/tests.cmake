@@ -1,6 +1,7 @@
 taut_add_test(certify segment_proof LABELS unit LIBS taut::certify)
 taut_add_test(certify certificate LABELS unit LIBS taut::certify)
 taut_add_test(certify certificate_stream LABELS unit LIBS taut::certify)
+taut_add_test(certify grazing LABELS unit LIBS taut::certify)
 foreach(header rounding interval mp_interval dyadic centered motion box_proof oracle)
   taut_add_test(certify ${header} LABELS unit laws LIBS taut::certify)
 endforeach()

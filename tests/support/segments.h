@@ -69,12 +69,12 @@ inline Space curved_space() {
 }
 
 /// λ(s) = (1−s) λ_a + s λ_b.
-inline std::vector<BigFloat> parameters_at(const Waypoint& a, const Waypoint& b, double s) {
+inline std::vector<BigFloat> parameters_at(const Waypoint& a, const Waypoint& b, const BigFloat& s) {
   std::vector<BigFloat> result;
   for (std::size_t j = 0; j < a.x.size(); ++j) {
     const BigFloat from = BigFloat(a.x[j]) + oracle::pi() * BigFloat(a.half_turns[j]);
     const BigFloat to = BigFloat(b.x[j]) + oracle::pi() * BigFloat(b.half_turns[j]);
-    result.push_back((BigFloat(1.0) - BigFloat(s)) * from + BigFloat(s) * to);
+    result.push_back((BigFloat(1.0) - s) * from + s * to);
   }
   return result;
 }
