@@ -106,16 +106,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     result.boxes_judged += segment.boxes_judged;
     if (segment.verdict == Verdict::kRefuted && result.verdict != Verdict::kRefuted) {
       result.verdict = Verdict::kRefuted;
-      const SegmentWitness& witness = *segment.witness;
-      const PathPoint at{true, static_cast<int>(k), witness.singular ? witness.box.lower() : witness.box.mid()};
-      if (witness.singular) {
-        result.witness = PathWitness{};
-        result.witness->singular = true;
-        result.witness->at = at;
-        result.witness->to = {true, static_cast<int>(k), witness.box.upper()};
-      } else {
-        result.witness = make_witness(prover, path.segment(k), witness.box, witness.margin, at);
-      }
+      result.witness = path_witness(prover, path.segment(k), static_cast<int>(k), *segment.witness);
     } else if (segment.verdict == Verdict::kUndecided && result.verdict == Verdict::kProved) {
       result.verdict = Verdict::kUndecided;
       result.reason = segment.reason;
@@ -134,6 +125,17 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   }
   result.margins = {decimal_below(tension->tension_N), decimal_below(length->length_m),
                     decimal_below(scale->wrench_scale)};
+  return result;
+}
+
+PathWitness path_witness(const Prover& prover, const Segment& segment, int index, const SegmentWitness& witness) {
+  if (!witness.singular) {
+    return make_witness(prover, segment, witness.box, witness.margin, PathPoint{true, index, witness.box.mid()});
+  }
+  PathWitness result;
+  result.singular = true;
+  result.at = {true, index, witness.box.lower()};
+  result.to = {true, index, witness.box.upper()};
   return result;
 }
 

@@ -49,6 +49,10 @@ using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {});
 
+/// What refutes segment `index` of a path, as a statement about the path.
+[[nodiscard]] PathWitness path_witness(const Prover& prover, const Segment& segment, int index,
+                                       const SegmentWitness& witness);
+
 /// Proof attempt at one pose: nothing if the waypoint is wrench-feasible (proved), else the witness; `undecided` is set to a
 /// reason if neither could be proved.
 [[nodiscard]] std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
