@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/held_motion.h"
 #include "certify/neumann.h"
 #include "kinematics/input_error.h"
 #include "kinematics/statics.h"
@@ -37,16 +38,18 @@ Interval outward(const MpInterval& x) {
 }  // namespace
 
 ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
-  return {make_model<MpInterval>(problem), make_motion_model<MpInterval>(problem)};
+  return {make_model<MpInterval>(problem), make_motion_model<MpInterval>(problem),
+          make_tolerance_model<MpInterval>(problem)};
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
-  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem)};
+  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt};
   Model<Interval>& model = result.model;
   const bool is_diagonal = has_diagonal_ellipsoid(problem.load);
   const bool is_bounded = run_upward([&] {
     model = make_model_without_ellipsoid<Interval>(problem);
     if (is_diagonal) set_ellipsoid(problem.load, model);
+    result.tolerance = make_tolerance_model<Interval>(problem);
   });
   if (!is_bounded) throw InputError("robot, load: got a number beyond the range of binary64");
   if (is_diagonal) return result;
@@ -78,6 +81,34 @@ void add_multiple(std::array<I, 6>& row, const Point& factor, const std::array<I
 
 // ---- The box ---------------------------------------------------------------------------------------------------------
 
+namespace {
+
+template <class I>
+bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
+  return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->held_by_lengths);
+}
+
+/// The commanded pose, and how far deviations displace it.
+template <class I>
+HeldMotion<I> commanded_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
+                               const I& offset) {
+  const MotionEnclosure<I> reference = enclose_motion(problem.motion, segment, s.range, s.mid, offset);
+  using Status = typename MotionEnclosure<I>::Status;
+  if (!is_held_by_lengths(problem, segment) || reference.status == Status::kUnproved) return {reference, {}};
+  const bool at_reference = segment.law != Interpolation::kCableLengths;
+  std::array<Centered<I>, kCables> lengths;
+  if (at_reference) {
+    const CableGeometry<Centered<I>> geometry = cable_geometry(problem.model, reference.p_WP, reference.r_WP);
+    for (std::size_t i = 0; i < kCables; ++i) lengths[i] = length(geometry.p_AB_W[i]);
+  } else {
+    lengths = commanded_lengths(segment, s.range, s.mid);
+  }
+  const ToleranceModel<I>* tolerance = problem.tolerance ? &*problem.tolerance : nullptr;
+  return hold_by_lengths(problem.model, reference, lengths, at_reference, segment.pose_tube, tolerance, offset);
+}
+
+}  // namespace
+
 template <class I>
 BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
   using Point = typename Scalars<I>::Point;
@@ -90,7 +121,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   result.offset = I(-radius, radius);
   const I& offset = result.offset;
 
-  const MotionEnclosure<I> motion = enclose_motion(problem.motion, segment, s.range, s.mid, offset);
+  const HeldMotion<I> commanded = commanded_motion(problem, segment, s, offset);
+  const MotionEnclosure<I>& motion = commanded.motion;
   result.motion = motion.status;
   if (motion.status == MotionEnclosure<I>::Status::kUnproved) return result;
   const CableGeometry<Centered<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
@@ -204,6 +236,11 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     result.variation[i].tighten(offset);
   }
   result.regular = true;
+  if (problem.tolerance) {
+    const bool held = is_held_by_lengths(problem, segment);
+    result.disturbance = disturbance<I>({model, motion, geometry, result.length, c, n, commanded.displacement, held},
+                                        *problem.tolerance);
+  }
   return result;
 }
 
@@ -216,8 +253,9 @@ template <class I>
 void length_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins) {
   for (int i = 0; i < kCables; ++i) {
     const auto n = static_cast<std::size_t>(i);
-    margins.add({MarginKind::kLengthMin, i}, box.length[n] - model.length_lower[n]);
-    margins.add({MarginKind::kLengthMax, i}, -box.length[n] + model.length_upper[n]);
+    const UpperOf<I> change = box.disturbance ? box.disturbance->length[n] : UpperOf<I>(0.0);
+    margins.add({MarginKind::kLengthMin, i}, box.length[n] - model.length_lower[n], change);
+    margins.add({MarginKind::kLengthMax, i}, -box.length[n] + model.length_upper[n], change);
   }
 }
 
@@ -230,8 +268,14 @@ void tension_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginLi
     Centered<I> high = -(box.length[n] * (box.density[n] + box.variation[n])) + model.tension_upper[n];
     low.tighten(box.offset);
     high.tighten(box.offset);
-    margins.add({MarginKind::kTensionMin, i}, low);
-    margins.add({MarginKind::kTensionMax, i}, high);
+    if (box.disturbance) {
+      const auto& [change_low, change_high] = box.disturbance->tension[n];
+      margins.add({MarginKind::kTensionMin, i}, low, change_low);
+      margins.add({MarginKind::kTensionMax, i}, high, change_high);
+    } else {
+      margins.add({MarginKind::kTensionMin, i}, low);
+      margins.add({MarginKind::kTensionMax, i}, high);
+    }
   }
 }
 
@@ -268,13 +312,17 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   bool too_close = false;
   double lowest = std::numeric_limits<double>::infinity();
   MarginId refuted_id;
-  for (const auto& [id, value] : margins) {
-    const double bound = lower_bound(value.range);
+  bool within_tolerance = !problem.tolerance || enclosure.disturbance;
+  for (const auto& [id, value, disturbed] : margins) {
+    const double bound = lower_bound(disturbed);
     const double required =
         clearance > 0 ? clearance * half_range(problem.model, id) : 0.0;  // >= 0: limits are ordered
     if (!(bound > 0 && bound > required)) all_positive = false;
     if (clearance > 0 && upper_bound(value.at_mid) <= required) too_close = true;
     if (!certainly_positive(value.at_mid)) midpoint_positive = false;
+    if (problem.tolerance && lower_bound(value.at_mid) + (bound - lower_bound(value.range)) <= 0) {
+      within_tolerance = false;  // a smaller box would hardly do
+    }
     if (certainly_nonpositive(value.at_mid)) {
       const bool throughout = certainly_nonpositive(value.range);
       if (!refuted || (throughout && !verdict.throughout)) {
@@ -292,8 +340,9 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
       if (bound > 0) {
         // (f0 − f_lo)/v = 1 + (f0 − v − f_lo)/v, and likewise above.
         const auto n = static_cast<std::size_t>(id.cable);
-        const I variation = enclosure.length[n].range * enclosure.variation[n].range;
-        const I scale = I(1.0) + value.range / variation;
+        I variation = enclosure.length[n].range * enclosure.variation[n].range;
+        if (enclosure.disturbance) variation = hull(variation, Scalars<I>::symmetric(enclosure.disturbance->variation[n]));
+        const I scale = I(1.0) + I(bound) / I(upper_bound(variation));
         verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
       }
     } else {
@@ -307,10 +356,12 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     verdict.kind = Kind::kTooClose;
   } else if (!enclosure.regular) {
     verdict.kind = Kind::kNearSingular;
-  } else if (all_positive) {
+  } else if (all_positive && (!problem.tolerance || enclosure.disturbance)) {
     verdict.kind = enclosure.motion == Status::kKnown ? Kind::kProved : Kind::kSplit;
+  } else if (!midpoint_positive) {
+    verdict.kind = Kind::kPrecision;
   } else {
-    verdict.kind = midpoint_positive ? Kind::kSplit : Kind::kPrecision;
+    verdict.kind = within_tolerance ? Kind::kSplit : Kind::kTolerance;
   }
   return verdict;
 }

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "certify/centered.h"
 #include "certify/dyadic.h"
@@ -21,6 +22,7 @@
 #include "certify/margin.h"
 #include "certify/motion.h"
 #include "certify/mp_interval.h"
+#include "certify/tolerance.h"
 #include "kinematics/geometry.h"
 #include "kinematics/segment.h"
 
@@ -31,6 +33,7 @@ template <class I>
 struct ProofModel {
   Model<I> model;
   MotionModel<I> motion;
+  std::optional<ToleranceModel<I>> tolerance;
 };
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.
@@ -47,6 +50,9 @@ struct BoxEnclosure {
   std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
   std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]; only where regular
   I offset;                                    ///< contains t − m for all t in T
+  /// What deviations may change, where the problem has tolerances and the box is regular. Then `regular` says that J is
+  /// non-singular for every deviation; length, density and variation remain those of the undisturbed machine.
+  std::optional<Disturbance<I>> disturbance;
 };
 
 /// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
@@ -59,12 +65,16 @@ struct MarginList {
   static constexpr std::size_t kCapacity = 64;
   struct Entry {
     MarginId id;
-    Centered<I> value;  ///< [N] or [m]
+    Centered<I> value;  ///< [N] or [m], of the undisturbed machine
+    I disturbed;        ///< over all of T, for every deviation
   };
   std::array<Entry, kCapacity> entries;
   std::size_t size = 0;
 
-  void add(MarginId id, const Centered<I>& value) { entries[size++] = {id, value}; }
+  void add(MarginId id, const Centered<I>& value) { entries[size++] = {id, value, value.range}; }
+  void add(MarginId id, const Centered<I>& value, const UpperOf<I>& change) {
+    entries[size++] = {id, value, value.range + Scalars<I>::symmetric(change)};
+  }
   [[nodiscard]] const Entry* begin() const { return entries.data(); }
   [[nodiscard]] const Entry* end() const { return entries.data() + size; }
 };
@@ -86,6 +96,7 @@ struct BoxVerdict {
     kTooClose,      ///< the midpoint is within the clearance of a limit, though not beyond it
     kRefuted,       ///< `worst` is proved not positive at the midpoint
     kSplit,         ///< the midpoint is fine; the box is too wide
+    kTolerance,     ///< the midpoint is fine undisturbed, and no bound of what deviations change is small enough there
     kPrecision,     ///< at the midpoint itself this scalar can't tell
     kNearSingular,  ///< ρ < 1 could not be had: T is too wide, or D comes close to singular
     kNoMotion,      ///< the motion is only implied, and was not proved to exist on all of T

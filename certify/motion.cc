@@ -1,14 +1,15 @@
 #include "certify/motion.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
-#include "certify/neumann.h"
+#include "certify/implied_zero.h"
 #include "kinematics/geometry.h"
 #include "kinematics/input_error.h"
+#include "kinematics/quaternion.h"
 
 namespace taut {
 namespace {
@@ -54,13 +55,15 @@ Parameters<I> line_over_box(const Segment& segment, const I& range, const I& mid
   return parameters;
 }
 
-/// Finds y(t), K = number of constraints. Symbols as in the header.
+/// g(y, t) = C(ℓ(t) + N(t) y).
 template <std::size_t K, class I>
-class ImpliedMotion {
+class ConstraintSystem {
  public:
-  ImpliedMotion(const typename MotionModel<I>::Constraints& constraints, const Segment& segment,
-                const Parameters<I>& line, const I& range, const I& mid, const I& offset)
-      : constraints_(constraints), line_(line), offset_(offset), tube_(segment.tube) {
+  using Vector = std::array<I, K>;
+
+  ConstraintSystem(const typename MotionModel<I>::Constraints& constraints, const Segment& segment,
+                   const Parameters<I>& line, const I& range, const I& mid)
+      : constraints_(constraints), line_(line) {
     for (std::size_t j = 0; j < line.size(); ++j) {
       for (std::size_t i = 0; i < K; ++i) {
         normal_[j][i] = over_box(normal_polynomial<I>(segment, j * K + i), range, mid);
@@ -68,46 +71,48 @@ class ImpliedMotion {
     }
   }
 
-  /// λ = ℓ + N y over T; nothing if (a) or (b) fails.
-  [[nodiscard]] bool parameters(Parameters<I>& result) {
-    if (!(tube_ > 0) || !std::isfinite(tube_) || !start_newton()) return false;
-    Vector whole;
-    whole.fill(I(-tube_, tube_));
-    Vector inside;
-    if (!stay_inside(krawczyk(whole), inside)) return false;
-    const Step second = krawczyk(inside);
-    Square<Upper, K> q;
-    if (!neumann_bound<I>(magnitudes(second.rest), q)) return false;
+  [[nodiscard]] Vector values(const Vector& y) const {
+    const auto lambda = at(y, &Centered<I>::at_mid);
+    Vector result;
+    constraints_.values.evaluate(std::span<const I>(lambda.data(), line_.size()), result);
+    return result;
+  }
 
-    std::array<Centered<I>, K> y;
-    for (std::size_t i = 0; i < K; ++i) {
-      Upper error(0.0);
-      for (std::size_t k = 0; k < K; ++k) error += q[i][k] * Upper(magnitude(second.drift[k]));
-      y[i].range = intersect(second.image[i], inside[i]);
-      y[i].slope = Scalars<I>::symmetric(error) - second.drift[i];
-      y[i].at_mid = y[i].range;
+  [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, Place place) const {
+    const auto where = place == Place::kAtMid ? &Centered<I>::at_mid : &Centered<I>::range;
+    const auto lambda = at(y, where);
+    std::array<J, kMaxConstrainedParameters> jets;
+    for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));
+    std::array<J, K> c;
+    constraints_.jets.evaluate(std::span<const J>(jets.data(), line_.size()), c);
+    EquationDerivatives<K, I> result;
+    for (auto& row : result.by_y) row.fill(I(0.0));
+    result.by_t.fill(I(0.0));
+    for (std::size_t j = 0; j < line_.size(); ++j) {
+      I slope = line_[j].slope;
+      for (std::size_t i = 0; i < K; ++i) slope = slope + normal_[j][i].slope * y[i];
+      for (std::size_t e = 0; e < K; ++e) {
+        result.by_t[e] = result.by_t[e] + c[e].partial[j] * slope;
+        for (std::size_t i = 0; i < K; ++i) {
+          result.by_y[e][i] = result.by_y[e][i] + c[e].partial[j] * (normal_[j][i].*where);
+        }
+      }
     }
-    enclose_at_mid(y);
-    result = line_;
+    return result;
+  }
+
+  /// λ = ℓ + N y.
+  [[nodiscard]] Parameters<I> parameters(const std::array<Centered<I>, K>& y, const I& offset) const {
+    Parameters<I> result = line_;
     for (std::size_t j = 0; j < result.size(); ++j) {
       for (std::size_t i = 0; i < K; ++i) result[j] = result[j] + normal_[j][i] * y[i];
-      result[j].tighten(offset_);
+      result[j].tighten(offset);
     }
-    return true;
+    return result;
   }
 
  private:
-  using Point = typename Scalars<I>::Point;
-  using Upper = UpperOf<I>;
-  using Vector = std::array<I, K>;
-  using Gradient = std::array<std::array<I, kMaxConstrainedParameters>, K>;
   using J = Jet<I, kMaxConstrainedParameters>;
-
-  struct Step {
-    Vector image;       ///< (c)
-    Square<I, K> rest;  ///< I − A g_y
-    Vector drift;       ///< A g_t
-  };
 
   /// ℓ + N y, at m or over T.
   [[nodiscard]] std::array<I, kMaxConstrainedParameters> at(const Vector& y, I Centered<I>::*where) const {
@@ -119,181 +124,9 @@ class ImpliedMotion {
     return lambda;
   }
 
-  [[nodiscard]] Vector values(const Vector& y) const {
-    const auto lambda = at(y, &Centered<I>::at_mid);
-    Vector result;
-    constraints_.values.evaluate(std::span<const I>(lambda.data(), line_.size()), result);
-    return result;
-  }
-
-  [[nodiscard]] Gradient gradient(const Vector& y, I Centered<I>::*where) const {
-    const auto lambda = at(y, where);
-    std::array<J, kMaxConstrainedParameters> jets;
-    for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));
-    std::array<J, K> c;
-    constraints_.jets.evaluate(std::span<const J>(jets.data(), line_.size()), c);
-    Gradient result;
-    for (std::size_t i = 0; i < K; ++i) result[i] = c[i].partial;
-    return result;
-  }
-
-  /// A g_y from the gradient of C.
-  [[nodiscard]] Square<I, K> preconditioned(const Gradient& gradient, I Centered<I>::*where) const {
-    Square<I, K> result;
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) {
-        I sum(0.0);
-        for (std::size_t j = 0; j < line_.size(); ++j) sum = sum + gradient[i][j] * (normal_[j][k].*where);
-        result[i][k] = sum;
-      }
-    }
-    return times_a(result);
-  }
-
-  [[nodiscard]] Square<I, K> times_a(const Square<I, K>& x) const {
-    Square<I, K> result;
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) {
-        result[i][k] = a_[i][0] * x[0][k];
-        for (std::size_t l = 1; l < K; ++l) result[i][k] = result[i][k] + a_[i][l] * x[l][k];
-      }
-    }
-    return result;
-  }
-
-  [[nodiscard]] Vector times_a(const Vector& x) const {
-    Vector result;
-    for (std::size_t i = 0; i < K; ++i) {
-      result[i] = a_[i][0] * x[0];
-      for (std::size_t l = 1; l < K; ++l) result[i] = result[i] + a_[i][l] * x[l];
-    }
-    return result;
-  }
-
-  static Square<I, K> one_minus(Square<I, K> x) {
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) x[i][k] = I(i == k ? 1.0 : 0.0) - x[i][k];
-    }
-    return x;
-  }
-
-  static Square<Upper, K> magnitudes(const Square<I, K>& x) {
-    Square<Upper, K> result;
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) result[i][k] = Upper(magnitude(x[i][k]));
-    }
-    return result;
-  }
-
-  /// Chooses A and ŷ: any choice is sound, a good one is near g_y^-1 and y(m).
-  [[nodiscard]] bool start_newton() {
-    centre_.fill(I(0.0));
-    for (auto& row : a_) row.fill(I(0.0));
-    for (std::size_t i = 0; i < K; ++i) a_[i][i] = I(1.0);
-    const Square<I, K> g_y = preconditioned(gradient(centre_, &Centered<I>::at_mid), &Centered<I>::at_mid);
-    Eigen::Matrix<double, static_cast<int>(K), static_cast<int>(K)> mid;
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) {
-        mid(static_cast<int>(i), static_cast<int>(k)) = 0.5 * (lower_bound(g_y[i][k]) + upper_bound(g_y[i][k]));
-      }
-    }
-    const auto inverse = mid.inverse().eval();
-    if (!inverse.allFinite()) return false;
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) a_[i][k] = I(inverse(static_cast<int>(i), static_cast<int>(k)));
-    }
-    // Simplified Newton: each step gains the digits that the curvature over the tube leaves, or those of a binary64.
-    constexpr int kMostSteps = 60;
-    double last = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < kMostSteps; ++step) {
-      const Vector correction = times_a(values(centre_));
-      double size = 0;
-      for (std::size_t i = 0; i < K; ++i) {
-        const Point y = Scalars<I>::point(centre_[i] - correction[i]);
-        centre_[i] = I(y);
-        const double moved = Scalars<I>::to_double(Upper(magnitude(correction[i])));
-        size = std::max(size, moved);
-        if (!(Scalars<I>::to_double(Upper(magnitude(centre_[i]))) < tube_)) return false;
-      }
-      if (!(size < 0.5 * last)) break;  // what is left is the width of the enclosures
-      last = size;
-    }
-    residual_ = times_a(values(centre_));
-    return true;
-  }
-
-  /// The box ŷ ± w of (b), where it is inside the tube and ρ < 1.
-  [[nodiscard]] bool stay_inside(const Step& over_tube, Vector& box) const {
-    Upper rho(0.0);
-    Upper largest(0.0);
-    for (std::size_t i = 0; i < K; ++i) {
-      Upper row_sum(0.0);
-      for (const I& x : over_tube.rest[i]) row_sum += Upper(magnitude(x));
-      if (!(row_sum < Upper(1.0))) return false;  // also where a NaN slipped in, which max() would drop
-      rho = std::max(rho, row_sum);
-      largest = std::max(largest, Upper(magnitude(residual_[i])) + Upper(magnitude(over_tube.drift[i] * offset_)));
-    }
-    const Upper gap = Scalars<I>::one_minus_lower(rho);
-    if (!(Upper(0.0) < gap)) return false;
-    const I w = Scalars<I>::symmetric(largest / gap);
-    for (std::size_t i = 0; i < K; ++i) {
-      box[i] = centre_[i] + w;
-      if (!(lower_bound(box[i]) > -tube_ && upper_bound(box[i]) < tube_)) return false;
-    }
-    return true;
-  }
-
-  /// (c) for a box Z that contains ŷ.
-  [[nodiscard]] Step krawczyk(const Vector& box) const {
-    const Gradient over = gradient(box, &Centered<I>::range);
-    Step step;
-    step.rest = one_minus(preconditioned(over, &Centered<I>::range));
-    Vector g_t;
-    g_t.fill(I(0.0));
-    for (std::size_t j = 0; j < line_.size(); ++j) {
-      I slope = line_[j].slope;
-      for (std::size_t i = 0; i < K; ++i) slope = slope + normal_[j][i].slope * box[i];
-      for (std::size_t i = 0; i < K; ++i) g_t[i] = g_t[i] + over[i][j] * slope;
-    }
-    step.drift = times_a(g_t);
-    for (std::size_t i = 0; i < K; ++i) {
-      I image = centre_[i] - residual_[i] - step.drift[i] * offset_;
-      for (std::size_t k = 0; k < K; ++k) image = image + step.rest[i][k] * (box[k] - centre_[k]);
-      step.image[i] = image;
-    }
-    return step;
-  }
-
-  /// Narrows y(m) by a Krawczyk test at m alone in a box ŷ ± δ within the tube: the zero in it is the one in the tube.
-  void enclose_at_mid(std::array<Centered<I>, K>& y) const {
-    constexpr double kRoom = 4.0;
-    double largest = 0;
-    for (const I& r : residual_) largest = std::max(largest, Scalars<I>::to_double(Upper(magnitude(r))));
-    const double delta = kRoom * largest + std::numeric_limits<double>::min();
-    Vector box;
-    for (std::size_t i = 0; i < K; ++i) {
-      box[i] = centre_[i] + I(-delta, delta);
-      if (!(lower_bound(box[i]) > -tube_ && upper_bound(box[i]) < tube_)) return;
-    }
-    const Square<I, K> rest = one_minus(preconditioned(gradient(box, &Centered<I>::at_mid), &Centered<I>::at_mid));
-    Vector image;
-    for (std::size_t i = 0; i < K; ++i) {
-      I step = I(0.0) - residual_[i];
-      for (std::size_t k = 0; k < K; ++k) step = step + rest[i][k] * I(-delta, delta);
-      if (!(lower_bound(step) > -delta && upper_bound(step) < delta)) return;
-      image[i] = centre_[i] + step;
-    }
-    for (std::size_t i = 0; i < K; ++i) y[i].at_mid = intersect(image[i], y[i].range);
-  }
-
   const typename MotionModel<I>::Constraints& constraints_;
   const Parameters<I>& line_;
   std::array<std::array<Centered<I>, K>, kMaxConstrainedParameters> normal_;
-  const I& offset_;
-  double tube_;
-  Square<I, K> a_;   ///< A, thin
-  Vector centre_;    ///< ŷ, thin
-  Vector residual_;  ///< A g(ŷ, m)
 };
 
 /// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of anything
@@ -310,7 +143,11 @@ bool implied_parameters(const MotionModel<I>& model, const Segment& segment, con
                         const I& offset, Parameters<I>& parameters) {
   if (model.constraints->count == K) {
     const Parameters<I> line = parameters;
-    return ImpliedMotion<K, I>(*model.constraints, segment, line, range, mid, offset).parameters(parameters);
+    const ConstraintSystem<K, I> system(*model.constraints, segment, line, range, mid);
+    std::array<Centered<I>, K> y;
+    if (!ImpliedZero<K, I, ConstraintSystem<K, I>>(system, offset, segment.tube).enclose(y)) return false;
+    parameters = system.parameters(y, offset);
+    return true;
   }
   if constexpr (K + 1 < kMaxConstrainedParameters) {
     return implied_parameters<I, K + 1>(model, segment, range, mid, offset, parameters);
@@ -345,12 +182,115 @@ MotionModel<I> make_motion_model(const Problem& problem) {
   return model;
 }
 
+namespace {
+
+template <class I>
+void tighten(MotionEnclosure<I>& motion, const I& offset) {
+  for (int i = 0; i < 3; ++i) {
+    motion.p_WP(i).tighten(offset);
+    for (int j = 0; j < 3; ++j) motion.r_WP(i, j).tighten(offset);
+  }
+}
+
+/// Quaternion of a waypoint, exact.
+template <class I>
+Quaternion<I> orientation(const Waypoint& waypoint) {
+  return {I(waypoint.x[3]), I(waypoint.x[4]), I(waypoint.x[5]), I(waypoint.x[6])};
+}
+
+/// The angle α of (g) in theory.md, from tan(α/2) = norm / c.
+template <class I>
+I double_atan2(const I& norm, const I& c) {
+  const I tangent = norm / c;
+  I half;
+  if constexpr (std::is_same_v<I, Interval>) {
+    constexpr double kSmall = 0.25;
+    constexpr int kTerms = 13;  // the next is below 0.25^27 / 27 < 2^-58
+    if (tangent.upper() <= kSmall) {
+      // Alternating, with terms that fall: the rest lies between 0 and the first that is left out.
+      const I square = sqr(tangent);
+      I sum = I(0.0, 1.0) / I(2.0 * kTerms + 1);
+      for (int k = kTerms - 1; k >= 0; --k) sum = I(1.0) / I(2.0 * k + 1) - square * sum;
+      half = tangent * sum;
+      return half + half;
+    }
+  }
+  half = atan2(norm, c);
+  return half + half;
+}
+
+template <class I>
+bool follow_geodesic(const Segment& segment, const I& range, const I& mid, MotionEnclosure<I>& motion) {
+  const Quaternion<I> first = orientation<I>(*segment.control[0]);
+  Quaternion<I> turn = conjugate(first) * orientation<I>(*segment.control[1]);
+  if (certainly_positive(-turn.w)) turn = {-turn.x, -turn.y, -turn.z, -turn.w};
+  if (!certainly_positive(turn.w)) return false;  // half a turn, or nearly so: not one geodesic
+  const std::array<I, 3> v = {turn.x, turn.y, turn.z};
+  const I square = sqr(v[0]) + sqr(v[1]) + sqr(v[2]);
+  const I norm = sqrt(square);
+  std::array<I, 3> n;
+  n.fill(I(-1.0, 1.0));
+  if (certainly_positive(norm)) {
+    const I inverse = reciprocal(norm);
+    for (std::size_t k = 0; k < 3; ++k) n[k] = intersect(n[k], v[k] * inverse);
+  }
+  const I angle = double_atan2(norm, turn.w);
+  const SinCos<Centered<I>> sc = sincos(Centered<I>(angle * mid, angle, angle * range));
+  const Centered<I> versine = -sc.cos + I(1.0);
+  const Matrix3<I> r_start = rotation(first);
+  Matrix3<Centered<I>> about;  // I + sin [n] + (1 − cos) [n]^2, and [n]^2 = n n^T − 1
+  for (int i = 0; i < 3; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    const auto b = static_cast<std::size_t>((i + 1) % 3);
+    const auto c = static_cast<std::size_t>((i + 2) % 3);
+    about(i, i) = versine * (-(sqr(n[b]) + sqr(n[c]))) + I(1.0);
+    const Centered<I> product = versine * (n[a] * n[b]);
+    about(i, static_cast<int>(b)) = product - sc.sin * n[c];
+    about(static_cast<int>(b), i) = product + sc.sin * n[c];
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      motion.r_WP(i, j) = about(0, j) * r_start(i, 0) + about(1, j) * r_start(i, 1) + about(2, j) * r_start(i, 2);
+    }
+  }
+  return true;
+}
+
+/// The two laws that know nothing of the space; of cable lengths, the reference.
+template <class I>
+void between_poses(const Segment& segment, const I& range, const I& mid, const I& offset, MotionEnclosure<I>& motion) {
+  const auto number = [&](std::size_t j) { return over_box(coordinate_polynomial<I>(segment, j), range, mid); };
+  for (int i = 0; i < 3; ++i) motion.p_WP(i) = number(static_cast<std::size_t>(i));
+  if (segment.law == Interpolation::kGeodesic) {
+    if (!follow_geodesic(segment, range, mid, motion)) return;
+  } else {
+    motion.r_WP = rotation(Quaternion<Centered<I>>{number(3), number(4), number(5), number(6)});
+  }
+  motion.status = MotionEnclosure<I>::Status::kKnown;
+  tighten(motion, offset);
+}
+
+}  // namespace
+
+template <class I>
+std::array<Centered<I>, kCables> commanded_lengths(const Segment& segment, const I& range, const I& mid) {
+  constexpr std::size_t kFirstLength = 7;
+  std::array<Centered<I>, kCables> lengths;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    lengths[i] = over_box(coordinate_polynomial<I>(segment, kFirstLength + i), range, mid);
+  }
+  return lengths;
+}
+
 template <class I>
 MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range, const I& mid,
                                   const I& offset) {
   using Status = typename MotionEnclosure<I>::Status;
   MotionEnclosure<I> result;
-  if (has_poses(segment.law)) return result;
+  if (has_poses(segment.law)) {
+    between_poses(segment, range, mid, offset, result);
+    return result;
+  }
   Parameters<I> parameters = line_over_box(segment, range, mid, offset);
   result.status = Status::kKnown;
   if (model.constraints) {
@@ -365,13 +305,13 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
       evaluate_pose(model.pose, std::span<const Centered<I>>(parameters.data(), parameters.size()));
   result.p_WP = pose.p_WP;
   result.r_WP = rotation(pose.phi, pose.theta, pose.sigma);
-  for (int i = 0; i < 3; ++i) {
-    result.p_WP(i).tighten(offset);
-    for (int j = 0; j < 3; ++j) result.r_WP(i, j).tighten(offset);
-  }
+  tighten(result, offset);
   return result;
 }
 
+template std::array<Centered<Interval>, kCables> commanded_lengths(const Segment&, const Interval&, const Interval&);
+template std::array<Centered<MpInterval>, kCables> commanded_lengths(const Segment&, const MpInterval&,
+                                                                     const MpInterval&);
 template MotionModel<Interval> make_motion_model(const Problem&);
 template MotionModel<MpInterval> make_motion_model(const Problem&);
 template MotionEnclosure<Interval> enclose_motion(const MotionModel<Interval>&, const Segment&, const Interval&,

@@ -1,15 +1,10 @@
 // Where the platform is during a box of a segment: enclosures of the motion γ, whatever law joins the waypoints.
 //
 // Without constraints γ(t) = pose(ℓ(t)) (kinematics/segment.h), a function of the waypoints. With constraints C(λ) = 0 the
-// motion is only implied: γ(t) = pose(ℓ(t) + N(t) y(t)) with y(t) the zero of g(y, t) = C(ℓ(t) + N(t) y) in the tube
-// Y = [−r, r]^k. For a box T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If
-// ρ < 1 there is at most one zero in Y for every t in T; and exactly one, y(t), where Y contains the box                 (a)
-//   ŷ ± w,   w = max_i (|A g(ŷ, m)|_i + |A g_t(Y, T)|_i |T|/2) / (1 − ρ),                                                (b)
-// which then holds y(t). With any box Z around ŷ that holds it, in Y, the parametric Krawczyk operator narrows it to
-//   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                              (c)
-// y is differentiable, y' = −g_y^-1 g_t, enclosed with the bound of neumann.h; at m alone a box of the size of the residual
-// encloses y(m) tightly. So the parameters are centred forms over T as in the explicit case.
-// Proof: docs/theory.md, "A motion that is only implied".
+// motion is only implied: γ(t) = pose(ℓ(t) + N(t) y(t)) with y(t) the only zero of g(y, t) = C(ℓ(t) + N(t) y) in the tube
+// Y = [−r, r]^k, by the Krawczyk operator of implied_zero.h. Laws between poses have p and R directly; of cable lengths this is the
+// reference around which held_motion.h finds the motion. In every case p and R are centred forms over T.
+// Proofs: docs/theory.md, "A motion that is only implied", "Motions between poses".
 #pragma once
 
 #include <array>
@@ -51,7 +46,7 @@ struct MotionEnclosure {
     kKnown,       ///< exactly one motion, enclosed below
     kOutOfRange,  ///< some parameter is not certainly in its range, at m itself
     kRangeWide,   ///< not certainly on all of T
-    kUnproved,    ///< (a) or (b) failed: T is too wide, the tube is too narrow or too wide, or there is no such motion
+    kUnproved,    ///< T is too wide, the tube is too narrow or too wide, or there is no such motion, or not one only
   };
   Status status = Status::kUnproved;
   Vector3<Centered<I>> p_WP;  ///< [m]
@@ -64,6 +59,10 @@ struct MotionEnclosure {
 template <class I>
 [[nodiscard]] MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range,
                                                 const I& mid, const I& offset);
+
+/// L_i over a box, under the law of cable lengths [m].
+template <class I>
+[[nodiscard]] std::array<Centered<I>, kCables> commanded_lengths(const Segment& segment, const I& range, const I& mid);
 
 extern template MotionModel<Interval> make_motion_model(const Problem&);
 extern template MotionModel<MpInterval> make_motion_model(const Problem&);

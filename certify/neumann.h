@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "certify/interval.h"
@@ -25,6 +26,7 @@ struct Scalars<Interval> {
   static Point point(const Interval& x) { return midpoint_approx(x); }
   static Interval symmetric(Upper radius) { return {-radius, radius}; }
   static Upper one_minus_lower(Upper x) { return -(x - 1.0); }  // rounded down
+  static Upper root(Upper x) { return std::sqrt(x); }
   static double to_double(Upper x) { return x; }
 };
 
@@ -57,6 +59,7 @@ struct Scalars<MpInterval> {
   static Upper one_minus_lower(const Upper& x) {
     return Upper(BigFloat::apply_rounded(MPFR_RNDD, mpfr_sub, BigFloat(1.0), x.value()));
   }
+  static Upper root(const Upper& x) { return Upper(BigFloat::apply_rounded(MPFR_RNDU, mpfr_sqrt, x.value())); }
   static double to_double(const Upper& x) { return x.value().to_double(MPFR_RNDU); }
 };
 

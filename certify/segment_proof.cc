@@ -31,9 +31,54 @@ Prover::Prover(const Problem& problem, ProofOptions options)
 }
 
 Segment Prover::segment(const Waypoint& a, const Waypoint& b) const {
-  Segment result = Segment::straight(a, b);
-  if (constraints_) result.tube = suitable_tube(result);
-  return result;
+  return prepared(Segment::straight(a, b));
+}
+
+Segment Prover::prepared(Segment segment) const {
+  if (constraints_ && !has_poses(segment.law)) segment.tube = suitable_tube(segment);
+  if (is_held_by_lengths(segment.law)) segment.pose_tube = suitable_pose_tube(segment);
+  return segment;
+}
+
+bool Prover::is_held_by_lengths(Interpolation law) const {
+  return law == Interpolation::kCableLengths || (problem_.tolerances && problem_.tolerances->cable_length_m);
+}
+
+PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
+  constexpr int kSamples = 4;    // intervals of s
+  constexpr double kRoom = 4.0;  // as in suitable_tube
+  constexpr double kLeast = 0x1p-30;
+  std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
+  const Model<double>& model = sampler_->model();
+  const double unit = std::exp2(std::ceil(std::log2(model.characteristic_length)));
+  std::array<double, kCables> errors{};
+  if (problem_.tolerances) {
+    const TolerancesText& text = *problem_.tolerances;
+    const auto number = [](const DecimalText& x) { return ScalarTraits<double>::from_decimal(x); };
+    for (std::size_t i = 0; i < kCables; ++i) {
+      errors[i] = number(text.base_anchor_m[i]) + number(text.platform_anchor_m[i]) +
+                  (text.cable_length_m ? number((*text.cable_length_m)[i]) : 0.0);
+    }
+  }
+  double largest = 0;  // of positions over `unit`, and of half angles
+  for (int k = 0; k <= kSamples; ++k) {
+    const double s = static_cast<double>(k) / kSamples;
+    const RigidPose pose = sampler_->rigid_pose(segment, s);
+    const std::optional<std::array<double, 6>> moved = displacement(model, pose, errors);
+    std::array<double, 6> away = moved.value_or(std::array<double, 6>{});
+    if (segment.law == Interpolation::kCableLengths) {
+      const RigidPose reference = pose_between(segment, s);
+      const Vector3<double> offset = pose.p_WP - reference.p_WP;
+      const double angle = rotation_angle(pose.r_WP, reference.r_WP);
+      for (std::size_t j = 0; j < 3; ++j) {
+        away[j] += std::abs(offset(static_cast<int>(j)));
+        away[j + 3] += angle;
+      }
+    }
+    for (std::size_t j = 0; j < 3; ++j) largest = std::max({largest, away[j] / unit, 0.5 * away[j + 3]});
+  }
+  const double size = std::exp2(std::ceil(std::log2(std::max(kRoom * largest, kLeast))));
+  return std::isfinite(size) ? PoseTube{unit * size, size} : PoseTube{unit * kLeast, kLeast};
 }
 
 double Prover::suitable_tube(const Segment& segment) const {
@@ -269,6 +314,9 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       if (box.depth < deepest(rung, bits_)) return split;
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up("bisection depth reached at " + describe(verdict.worst));
+    case Kind::kTolerance:
+      if (box.depth < options_.tolerance_depth) return split;
+      return give_up("the tolerances are too large for a proof at " + describe(verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up("precision reached at " + describe(verdict.worst) + ": it vanishes or nearly so");

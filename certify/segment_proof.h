@@ -14,6 +14,7 @@
 
 #include "certify/box_proof.h"
 #include "kinematics/constraint_functions.h"
+#include "kinematics/pose_sampler.h"
 
 namespace taut {
 
@@ -28,6 +29,8 @@ struct ProofOptions {
   int motion_depth = 12;
   /// Depth from which a box that can't be inverted climbs the ladder and is examined for a change of sign of det J.
   int singular_depth = 16;
+  /// Depth from which a box is given up whose margin deviations may exceed: a smaller box would hardly narrow what they may do.
+  int tolerance_depth = 6;
 };
 
 /// What refutes a segment, itself proved: a margin that is not positive at the midpoint of `box`, or det D of opposite
@@ -92,6 +95,14 @@ class Prover {
   [[nodiscard]] Segment segment(const Waypoint& a, const Waypoint& b) const;
   [[nodiscard]] double suitable_tube(const Segment& segment) const;
 
+  /// Whether the machine is held by its cables' lengths along a path of this law.
+  [[nodiscard]] bool is_held_by_lengths(Interpolation law) const;
+  /// For a machine held by lengths: room around the pose that floating point finds and what deviations may displace it. The ratio
+  /// of its two sizes is the problem's, so that of any two tubes one contains the other. As small where nothing is found.
+  [[nodiscard]] PoseTube suitable_pose_tube(const Segment& segment) const;
+  /// `segment` with the tubes that it needs.
+  [[nodiscard]] Segment prepared(Segment segment) const;
+
   /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay in their closed
   /// ranges, and for every wrench in K at γ(s), J is non-singular and all tensions and lengths are strictly inside their limits. With a clearance (judge_box) the proof also fails, as
   /// undecided, where the segment comes closer to a limit than that. Thread-safe; restores the caller's rounding mode.
@@ -140,6 +151,8 @@ class Prover {
   ProofOptions options_;
   std::optional<ConstraintFunctions> constraints_;
   ProofModel<Interval> fast_;
+  mutable std::once_flag sampler_made_;
+  mutable std::optional<PoseSampler> sampler_;  ///< made when first needed, for pose tubes
   std::vector<mpfr_prec_t> bits_;  ///< of the rungs
   /// One a rung of the ladder, made when first needed: most problems never climb it.
   struct Rung {

@@ -16,6 +16,21 @@ std::vector<double> PoseSampler::parameters(const Segment& segment, double s) co
   return curve_parameters(segment, s);
 }
 
+RigidPose PoseSampler::rigid_pose(const Segment& segment, double s) const {
+  if (!has_poses(segment.law)) {
+    const Pose<double> at = pose(parameters(segment, s));
+    return {at.p_WP, rotation(at.phi, at.theta, at.sigma)};
+  }
+  const RigidPose reference = pose_between(segment, s);
+  if (segment.law != Interpolation::kCableLengths) return reference;
+  constexpr std::size_t kFirstLength = 7;
+  std::array<double, kCables> wanted;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    wanted[i] = (1 - s) * segment.control[0]->x[kFirstLength + i] + s * segment.control[1]->x[kFirstLength + i];
+  }
+  return pose_of_lengths(model_, reference, wanted).value_or(reference);
+}
+
 double PoseSampler::clearance(const Statics<double>& statics) const {
   if (!statics.regular) return -1.0;
   double least = 1.0;

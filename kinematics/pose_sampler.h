@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinematics/constraint_functions.h"
+#include "kinematics/rigid_pose.h"
 #include "kinematics/segment.h"
 #include "kinematics/statics.h"
 
@@ -31,6 +32,11 @@ class PoseSampler {
   /// The pose that a path reaches at a waypoint.
   [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const {
     return pose(parameters(Segment::straight(waypoint, waypoint), 0));
+  }
+  /// Of the motion under any law: where lengths are straight, the pose that has them (the reference, if none is found).
+  [[nodiscard]] RigidPose rigid_pose(const Segment& segment, double s) const;
+  [[nodiscard]] Statics<double> statics(const RigidPose& pose) const {
+    return taut::statics(model_, pose.p_WP, pose.r_WP);
   }
   [[nodiscard]] Statics<double> statics(const Pose<double>& pose) const { return taut::statics(model_, pose); }
 

@@ -25,7 +25,11 @@ template <class S>
 bool invert(const Matrix6<S>& matrix, Matrix6<S>& inverse, S& determinant);
 
 template <class S>
-[[nodiscard]] Statics<S> statics(const Model<S>& model, const Pose<S>& pose);
+[[nodiscard]] Statics<S> statics(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP);
+template <class S>
+[[nodiscard]] Statics<S> statics(const Model<S>& model, const Pose<S>& pose) {
+  return statics(model, pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma));
+}
 
 /// Wrench scale: the factor by which the semi-axes of K may grow, min over i of (f0_i − f_lo)/v_ii and (f_hi − f0_i)/v_ii.
 [[nodiscard]] double wrench_scale_approx(const Model<double>& model, const Statics<double>& statics);

@@ -51,9 +51,9 @@ bool invert(const Matrix6<S>& matrix, Matrix6<S>& inverse, S& determinant) {
 }
 
 template <class S>
-Statics<S> statics(const Model<S>& model, const Pose<S>& pose) {
+Statics<S> statics(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP) {
   Statics<S> result;
-  const CableGeometry<S> geometry = cable_geometry(model, pose);
+  const CableGeometry<S> geometry = cable_geometry(model, p_WP, r_WP);
   for (std::size_t i = 0; i < kCables; ++i) result.length[i] = length(geometry.p_AB_W[i]);
   Matrix6<S> y;
   result.regular = invert(geometry.force_density, y, result.determinant);

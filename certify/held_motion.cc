@@ -1,0 +1,203 @@
+#include "certify/held_motion.h"
+
+#include <cmath>
+
+#include "certify/implied_zero.h"
+#include "kinematics/quaternion.h"
+
+namespace taut {
+namespace {
+
+constexpr std::size_t kUnknowns = 6;
+
+template <class S>
+Vector3<S> cross(const Vector3<S>& a, const Vector3<S>& b) {
+  return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
+}
+
+/// g of the header, for the undisturbed machine, or for all deviations within a tolerance.
+template <class I>
+class LengthSystem {
+ public:
+  using Vector = std::array<I, kUnknowns>;
+
+  LengthSystem(const Model<I>& model, const MotionEnclosure<I>& reference,
+               const std::array<Centered<I>, kCables>& lengths, const PoseTube& tube,
+               const ToleranceModel<I>* tolerance)
+      : model_(model), reference_(reference), lengths_(lengths), tube_(tube), tolerance_(tolerance) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const I base_room = tolerance == nullptr ? I(0.0) : Scalars<I>::symmetric(tolerance->base_anchor[i]);
+      const I platform_room = tolerance == nullptr ? I(0.0) : Scalars<I>::symmetric(tolerance->platform_anchor[i]);
+      for (int k = 0; k < 3; ++k) {
+        base_[i](k) = model.p_WA[i](k) + base_room;
+        platform_[i](k) = model.p_PB[i](k) + platform_room;
+      }
+    }
+  }
+
+  /// Of a deviation, | |d_i'| − |d_i| | <= δ_a + δ_b, tighter than its anchors' boxes.
+  [[nodiscard]] Vector values(const Vector& z) const {
+    const Vector3<I> p = position(z, &Centered<I>::at_mid);
+    const Matrix3<I> r = orientation(z, &Centered<I>::at_mid);
+    Vector result;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      I square(0.0);
+      for (int k = 0; k < 3; ++k) {
+        const I reach = r(k, 0) * model_.p_PB[i](0) + r(k, 1) * model_.p_PB[i](1) + r(k, 2) * model_.p_PB[i](2);
+        square = square + sqr(I(p(k) + reach - model_.p_WA[i](k)));
+      }
+      I wanted = lengths_[i].at_mid;
+      if (tolerance_ != nullptr) {
+        const I room = Scalars<I>::symmetric(tolerance_->base_anchor[i] + tolerance_->platform_anchor[i]);
+        square = square + room * (I(2.0) * sqrt(square) + room);
+        wanted = wanted + Scalars<I>::symmetric(tolerance_->cable_length[i]);
+      }
+      result[i] = I(0.5) * (square - sqr(wanted));
+    }
+    return result;
+  }
+
+  [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, Place place) const {
+    const auto where = place == Place::kAtMid ? &Centered<I>::at_mid : &Centered<I>::range;
+    const Vector3<I> p = position(z, where);
+    const Matrix3<I> local = local_turn(z);
+    const Matrix3<I> r = times(local, reference_.r_WP, where);
+    const Vector3<I> u = turn(z);
+    const I scale = I(2.0 * tube_.turn) / (I(1.0) + sqr(u(0)) + sqr(u(1)) + sqr(u(2)));
+    EquationDerivatives<kUnknowns, I> result;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Vector3<I> reach = apply(r, platform_[i]);
+      const Vector3<I> d = {p(0) + reach(0) - base_[i](0), p(1) + reach(1) - base_[i](1), p(2) + reach(2) - base_[i](2)};
+      const Vector3<I> moment = cross(reach, d);
+      const Vector3<I> turned = moment + cross(moment, u);
+      for (int k = 0; k < 3; ++k) {
+        result.by_y[i][static_cast<std::size_t>(k)] = I(tube_.position) * d(k);
+        result.by_y[i][static_cast<std::size_t>(k + 3)] = scale * turned(k);
+      }
+      if (place == Place::kAtMid) continue;
+      const Matrix3<I> r_slope = times(local, reference_.r_WP, &Centered<I>::slope);
+      const Vector3<I> reach_slope = apply(r_slope, platform_[i]);
+      I slope(0.0);
+      for (int k = 0; k < 3; ++k) slope = slope + d(k) * (reference_.p_WP(k).slope + reach_slope(k));
+      I length = lengths_[i].range;
+      if (tolerance_ != nullptr) length = length + Scalars<I>::symmetric(tolerance_->cable_length[i]);
+      result.by_t[i] = slope - lengths_[i].slope * length;
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] Vector3<I> turn(const Vector& z) const {
+    const I size(tube_.turn);
+    return {size * z[3], size * z[4], size * z[5]};
+  }
+  [[nodiscard]] Vector3<I> position(const Vector& z, I Centered<I>::*where) const {
+    const I size(tube_.position);
+    Vector3<I> p;
+    for (int k = 0; k < 3; ++k) p(k) = reference_.p_WP(k).*where + size * z[static_cast<std::size_t>(k)];
+    return p;
+  }
+  /// R(u, 1).
+  [[nodiscard]] Matrix3<I> local_turn(const Vector& z) const {
+    const Vector3<I> u = turn(z);
+    return rotation(Quaternion<I>{u(0), u(1), u(2), I(1.0)});
+  }
+  static Matrix3<I> times(const Matrix3<I>& a, const Matrix3<Centered<I>>& b, I Centered<I>::*where) {
+    Matrix3<I> result;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        result(i, j) = a(i, 0) * (b(0, j).*where) + a(i, 1) * (b(1, j).*where) + a(i, 2) * (b(2, j).*where);
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] Matrix3<I> orientation(const Vector& z, I Centered<I>::*where) const {
+    return times(local_turn(z), reference_.r_WP, where);
+  }
+  static Vector3<I> apply(const Matrix3<I>& r, const Vector3<I>& x) {
+    Vector3<I> result;
+    for (int i = 0; i < 3; ++i) result(i) = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
+    return result;
+  }
+
+  const Model<I>& model_;
+  const MotionEnclosure<I>& reference_;
+  const std::array<Centered<I>, kCables>& lengths_;
+  const PoseTube& tube_;
+  const ToleranceModel<I>* tolerance_;
+  std::array<Vector3<I>, kCables> base_, platform_;  ///< of every deviation
+};
+
+template <class I>
+using Zero = std::array<Centered<I>, kUnknowns>;
+
+template <class I>
+bool solve(const LengthSystem<I>& system, const I& offset, Zero<I>& z) {
+  return ImpliedZero<kUnknowns, I, LengthSystem<I>>(system, offset, 1.0).enclose(z);
+}
+
+/// |x' − x| of three unknowns over the box, x' and x known to some ranges.
+template <class I>
+UpperOf<I> distance(const Zero<I>& a, const Zero<I>& b, std::size_t first) {
+  UpperOf<I> sum(0.0);
+  for (std::size_t k = first; k < first + 3; ++k) {
+    const UpperOf<I> difference(magnitude(I(a[k].range - b[k].range)));
+    sum += difference * difference;
+  }
+  return Scalars<I>::root(sum);
+}
+
+}  // namespace
+
+template <class I>
+HeldMotion<I> hold_by_lengths(const Model<I>& model, const MotionEnclosure<I>& reference,
+                              const std::array<Centered<I>, kCables>& lengths, bool at_reference, const PoseTube& tube,
+                              const ToleranceModel<I>* tolerance, const I& offset) {
+  HeldMotion<I> result;
+  const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!is_size(tube.position) || !is_size(tube.turn)) return result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    I shortest = lengths[i].range;
+    if (tolerance != nullptr) shortest = shortest + Scalars<I>::symmetric(tolerance->cable_length[i]);
+    if (!certainly_positive(shortest)) return result;
+  }
+
+  Zero<I> z;
+  z.fill(Centered<I>(0.0));
+  if (!at_reference && !solve(LengthSystem<I>(model, reference, lengths, tube, nullptr), offset, z)) return result;
+  if (tolerance != nullptr) {
+    Zero<I> disturbed;
+    if (!solve(LengthSystem<I>(model, reference, lengths, tube, tolerance), offset, disturbed)) return result;
+    result.displacement.position = UpperOf<I>(tube.position) * distance(disturbed, z, 0);
+    result.displacement.angle = UpperOf<I>(2.0) * UpperOf<I>(tube.turn) * distance(disturbed, z, 3);
+  }
+
+  result.motion = reference;
+  if (at_reference) return result;
+  using C = Centered<I>;
+  const I turn(tube.turn);
+  for (int k = 0; k < 3; ++k) {
+    C& p = result.motion.p_WP(k);
+    p = p + z[static_cast<std::size_t>(k)] * I(tube.position);
+    p.tighten(offset);
+  }
+  const Matrix3<C> local = rotation(Quaternion<C>{z[3] * turn, z[4] * turn, z[5] * turn, C(1.0)});
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      C& r = result.motion.r_WP(i, j);
+      r = local(i, 0) * reference.r_WP(0, j) + local(i, 1) * reference.r_WP(1, j) + local(i, 2) * reference.r_WP(2, j);
+      r.tighten(offset);
+    }
+  }
+  return result;
+}
+
+template HeldMotion<Interval> hold_by_lengths(const Model<Interval>&, const MotionEnclosure<Interval>&,
+                                              const std::array<Centered<Interval>, kCables>&, bool, const PoseTube&,
+                                              const ToleranceModel<Interval>*, const Interval&);
+template HeldMotion<MpInterval> hold_by_lengths(const Model<MpInterval>&, const MotionEnclosure<MpInterval>&,
+                                                const std::array<Centered<MpInterval>, kCables>&, bool,
+                                                const PoseTube&, const ToleranceModel<MpInterval>*,
+                                                const MpInterval&);
+
+}  // namespace taut

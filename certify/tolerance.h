@@ -1,0 +1,78 @@
+// What deviations within the tolerances can do to a box: how far poses move, and how far lengths and tensions change.
+//
+// A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking error. Let X
+// be all t of a box T with all deviations. With Y = D^-1 = P C on X, the rates of tensions along any family τ ↦ τ deviation
+// are bounded, Euclidean norms, every symbol enclosed on X:
+//   |F_r'| <= Σ_i (δ_a,i |A_ri + c_ri d_i| + δ_b,i (|B_ri − c_ri d_i| + ε |c_ri d_i|) + δ_L,i |d_i| |c_ri|)
+//             + δ_m |M_r| + ℓ_r |y_r·ŵ| + δ_p |P_r| + ε |W_r|.                                                         (t)
+// So what is undisturbed, widened by (t), holds for every deviation.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "certify/centered.h"
+#include "certify/motion.h"
+#include "certify/neumann.h"
+#include "kinematics/geometry.h"
+#include "kinematics/model.h"
+
+namespace taut {
+
+/// The δ and ε of theory.md, rounded upward.
+template <class I>
+struct ToleranceModel {
+  using Upper = UpperOf<I>;
+  std::array<Upper, kCables> base_anchor, platform_anchor, cable_length;  ///< [m]
+  Upper load_point, position;                                             ///< [m]
+  Upper orientation;                                                      ///< ε [rad]
+  Vector6<I> wrench;                                                      ///< ŵ [N, N m]
+  bool held_by_lengths = false;  ///< whatever the law; under that of cable lengths all machines are
+};
+
+/// Nothing where the problem states no tolerances. At working_precision(); for Interval under run_upward().
+template <class I>
+[[nodiscard]] std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem);
+
+/// How far the commanded pose may move by a deviation, at any t of the box.
+template <class I>
+struct Displacement {
+  UpperOf<I> position{0.0};  ///< π_c [m]
+  UpperOf<I> angle{0.0};     ///< θ_c [rad]
+};
+
+/// Bounds on X of how the quantities of a box change from undisturbed ones.
+template <class I>
+struct Disturbance {
+  using Upper = UpperOf<I>;
+  std::array<Upper, kCables> length;                  ///< of d_i [m]
+  std::array<std::array<Upper, 2>, kCables> tension;  ///< of f0_i − v_ii and f0_i + v_ii [N]
+  std::array<Upper, kCables> variation;               ///< v_ii itself on X [N]
+};
+
+/// What (t) needs to know of a box, undisturbed.
+template <class I>
+struct UndisturbedBox {
+  const Model<I>& model;
+  const MotionEnclosure<I>& motion;
+  const CableGeometry<Centered<I>>& geometry;
+  const std::array<Centered<I>, kCables>& length;
+  const Matrix6<typename Scalars<I>::Point>& c;  ///< C
+  const Square<UpperOf<I>>& n;                   ///< N >= |I − C D| on T
+  Displacement<I> displacement;
+  bool held_by_lengths;
+};
+
+/// Nothing unless D is proved to be non-singular on X. For Interval: only under run_upward().
+template <class I>
+[[nodiscard]] std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box,
+                                                        const ToleranceModel<I>& tolerance);
+
+extern template std::optional<ToleranceModel<Interval>> make_tolerance_model(const Problem&);
+extern template std::optional<ToleranceModel<MpInterval>> make_tolerance_model(const Problem&);
+extern template std::optional<Disturbance<Interval>> disturbance(const UndisturbedBox<Interval>&,
+                                                                 const ToleranceModel<Interval>&);
+extern template std::optional<Disturbance<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
+                                                                   const ToleranceModel<MpInterval>&);
+
+}  // namespace taut
