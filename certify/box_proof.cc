@@ -341,7 +341,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
         // (f0 − f_lo)/v = 1 + (f0 − v − f_lo)/v, and likewise above.
         const auto n = static_cast<std::size_t>(id.cable);
         I variation = enclosure.length[n].range * enclosure.variation[n].range;
-        if (enclosure.disturbance) variation = hull(variation, Scalars<I>::symmetric(enclosure.disturbance->variation[n]));
+        if (enclosure.disturbance) variation = variation + Scalars<I>::symmetric(enclosure.disturbance->variation(n));
         const I scale = I(1.0) + I(bound) / I(upper_bound(variation));
         verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
       }

@@ -67,7 +67,8 @@ class LengthSystem {
     EquationDerivatives<kUnknowns, I> result;
     for (std::size_t i = 0; i < kCables; ++i) {
       const Vector3<I> reach = apply(r, platform_[i]);
-      const Vector3<I> d = {p(0) + reach(0) - base_[i](0), p(1) + reach(1) - base_[i](1), p(2) + reach(2) - base_[i](2)};
+      const Vector3<I> d = {p(0) + reach(0) - base_[i](0), p(1) + reach(1) - base_[i](1),
+                            p(2) + reach(2) - base_[i](2)};
       const Vector3<I> moment = cross(reach, d);
       const Vector3<I> turned = moment + cross(moment, u);
       for (int k = 0; k < 3; ++k) {
@@ -196,8 +197,7 @@ template HeldMotion<Interval> hold_by_lengths(const Model<Interval>&, const Moti
                                               const std::array<Centered<Interval>, kCables>&, bool, const PoseTube&,
                                               const ToleranceModel<Interval>*, const Interval&);
 template HeldMotion<MpInterval> hold_by_lengths(const Model<MpInterval>&, const MotionEnclosure<MpInterval>&,
-                                                const std::array<Centered<MpInterval>, kCables>&, bool,
-                                                const PoseTube&, const ToleranceModel<MpInterval>*,
-                                                const MpInterval&);
+                                                const std::array<Centered<MpInterval>, kCables>&, bool, const PoseTube&,
+                                                const ToleranceModel<MpInterval>*, const MpInterval&);
 
 }  // namespace taut

@@ -35,8 +35,7 @@ template <class I>
 
 extern template HeldMotion<Interval> hold_by_lengths(const Model<Interval>&, const MotionEnclosure<Interval>&,
                                                      const std::array<Centered<Interval>, kCables>&, bool,
-                                                     const PoseTube&, const ToleranceModel<Interval>*,
-                                                     const Interval&);
+                                                     const PoseTube&, const ToleranceModel<Interval>*, const Interval&);
 extern template HeldMotion<MpInterval> hold_by_lengths(const Model<MpInterval>&, const MotionEnclosure<MpInterval>&,
                                                        const std::array<Centered<MpInterval>, kCables>&, bool,
                                                        const PoseTube&, const ToleranceModel<MpInterval>*,

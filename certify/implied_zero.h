@@ -28,8 +28,8 @@ enum class Place { kAtMid, kOverBox };
 
 template <std::size_t K, class I>
 struct EquationDerivatives {
-  Square<I, K> by_y;       ///< g_y: one row an equation
-  std::array<I, K> by_t;   ///< slopes of g in t from m, at one y; only over the box
+  Square<I, K> by_y;      ///< g_y: one row an equation
+  std::array<I, K> by_t;  ///< slopes of g in t from m, at one y; only over the box
 };
 
 /// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m), and

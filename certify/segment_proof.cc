@@ -30,9 +30,7 @@ Prover::Prover(const Problem& problem, ProofOptions options)
   if (!problem.space.constraints.empty()) constraints_.emplace(problem);
 }
 
-Segment Prover::segment(const Waypoint& a, const Waypoint& b) const {
-  return prepared(Segment::straight(a, b));
-}
+Segment Prover::segment(const Waypoint& a, const Waypoint& b) const { return prepared(Segment::straight(a, b)); }
 
 Segment Prover::prepared(Segment segment) const {
   if (constraints_ && !has_poses(segment.law)) segment.tube = suitable_tube(segment);
@@ -45,8 +43,9 @@ bool Prover::is_held_by_lengths(Interpolation law) const {
 }
 
 PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
-  constexpr int kSamples = 4;    // intervals of s
-  constexpr double kRoom = 4.0;  // as in suitable_tube
+  constexpr int kSamples = 4;             // intervals of s
+  constexpr double kRoom = 4.0;           // around a motion, as in suitable_tube
+  constexpr double kRoomOfErrors = 1.75;  // (b) of implied_zero.h with ρ < 0.4; a wider tube only has a larger ρ
   constexpr double kLeast = 0x1p-30;
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const Model<double>& model = sampler_->model();
@@ -65,19 +64,20 @@ PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
     const double s = static_cast<double>(k) / kSamples;
     const RigidPose pose = sampler_->rigid_pose(segment, s);
     const std::optional<std::array<double, 6>> moved = displacement(model, pose, errors);
-    std::array<double, 6> away = moved.value_or(std::array<double, 6>{});
+    std::array<double, 6> away{};
+    for (std::size_t j = 0; moved && j < 6; ++j) away[j] = kRoomOfErrors * (*moved)[j];
     if (segment.law == Interpolation::kCableLengths) {
       const RigidPose reference = pose_between(segment, s);
-      const Vector3<double> offset = pose.p_WP - reference.p_WP;
-      const double angle = rotation_angle(pose.r_WP, reference.r_WP);
+      const Vector3<double> offset = pose.p - reference.p;
+      const double angle = pose.q.angularDistance(reference.q);
       for (std::size_t j = 0; j < 3; ++j) {
-        away[j] += std::abs(offset(static_cast<int>(j)));
-        away[j + 3] += angle;
+        away[j] += kRoom * std::abs(offset(static_cast<int>(j)));
+        away[j + 3] += kRoom * angle;
       }
     }
     for (std::size_t j = 0; j < 3; ++j) largest = std::max({largest, away[j] / unit, 0.5 * away[j + 3]});
   }
-  const double size = std::exp2(std::ceil(std::log2(std::max(kRoom * largest, kLeast))));
+  const double size = std::max(largest, kLeast);
   return std::isfinite(size) ? PoseTube{unit * size, size} : PoseTube{unit * kLeast, kLeast};
 }
 
@@ -132,7 +132,8 @@ constexpr const char* kMayNotFollow = "a waypoint lies outside the closed range 
 const char* undecided_reason(BoxVerdict::Kind kind) {
   switch (kind) {
     case BoxVerdict::Kind::kFault: return "the pose or an equation is not defined on all of the box";
-    case BoxVerdict::Kind::kNoMotion: return "no single motion on the constraints was proved to exist there";
+    case BoxVerdict::Kind::kNoMotion:
+      return "no single motion on the constraints, or with the cables' lengths, was proved to exist there";
     default: return "the force Jacobian is singular or nearly so";
   }
 }

@@ -49,10 +49,10 @@ Vector3<Centered<I>> rotated(const Matrix3<Centered<I>>& r, const Vector3<I>& x)
 /// Everything on X that (t) is made of.
 template <class I>
 struct OnAll {
-  std::array<Vector3<I>, kCables> d;      ///< d_i
-  std::array<Vector3<I>, kCables> reach;  ///< R b_i
-  std::array<Vector3<I>, kCables> arm;    ///< R (b_i − p_m)
-  std::array<I, kCables> length;          ///< |d_i|
+  std::array<Vector3<I>, kCables> d;              ///< d_i
+  std::array<Vector3<I>, kCables> reach;          ///< R b_i
+  std::array<Vector3<I>, kCables> arm;            ///< R (b_i − p_m)
+  std::array<I, kCables> length;                  ///< |d_i|
   std::array<Vector3<I>, kCables> force, moment;  ///< the rows of D^-1: y_r^f, y_r^m
   std::array<I, kCables> density;                 ///< λ_r
   std::array<std::array<I, 6>, kCables> root;     ///< the rows of D^-1 L
@@ -90,7 +90,8 @@ void set_loads(const Model<I>& model, const Vector6<I>& wrench, OnAll<I>& x) {
       const int column = static_cast<int>(j);
       I entry = y[j] * model.ellipsoid_root(column, column);
       if (!model.ellipsoid_is_diagonal) {
-        for (int k = 0; k < column; ++k) entry = entry + y[static_cast<std::size_t>(k)] * model.ellipsoid_root(k, column);
+        for (int k = 0; k < column; ++k)
+          entry = entry + y[static_cast<std::size_t>(k)] * model.ellipsoid_root(k, column);
       }
       x.root[r][j] = entry;
     }
@@ -186,7 +187,7 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
     const Upper arm = norm_above(model.p_MB[i]);
     const Upper reach_change = angle * reach + tolerance.platform_anchor[i];
     const Upper arm_change = angle * arm + tolerance.platform_anchor[i] + tolerance.load_point;  // ζ_i
-    const Upper change = position + reach_change + tolerance.base_anchor[i];                       // η_i
+    const Upper change = position + reach_change + tolerance.base_anchor[i];                     // η_i
     const Upper length = above(box.length[i].range);
     force_change[i] = change;
     moment_change[i] = arm_change * length + arm * change + arm_change * change;
@@ -228,7 +229,6 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
     if (!certainly_positive(square)) return std::nullopt;
     const I spread = sqrt(square);  // V_r
     const I inverse = reciprocal(spread);
-    result.variation[r] = above(I(x.length[r] * spread));
     std::array<I, kCables> low;   // κ_ri of λ − V
     std::array<I, kCables> high;  // of λ + V
     for (std::size_t i = 0; i < kCables; ++i) {

@@ -47,7 +47,8 @@ struct Disturbance {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> length;                  ///< of d_i [m]
   std::array<std::array<Upper, 2>, kCables> tension;  ///< of f0_i − v_ii and f0_i + v_ii [N]
-  std::array<Upper, kCables> variation;               ///< v_ii itself on X [N]
+  /// Of v_ii, half the difference of those two [N].
+  [[nodiscard]] Upper variation(std::size_t i) const { return Upper(0.5) * (tension[i][0] + tension[i][1]); }
 };
 
 /// What (t) needs to know of a box, undisturbed.

@@ -26,28 +26,31 @@ Lengths lengths_at(const Model<double>& model, const RigidPose& pose) {
   return Lengths(lengths.data());
 }
 
+/// ∂|d_i| by (p, rotation vector in W): rows (u_i ; R b_i × u_i).
+Matrix6<double> jacobian_of_lengths(const Model<double>& model, const RigidPose& pose) {
+  const Matrix3<double> r_WP = pose.q.toRotationMatrix();
+  Matrix6<double> jacobian;
+  for (int i = 0; i < kCables; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const Vector3<double> arm = r_WP * model.p_PB[n];
+    const Vector3<double> d = pose.p + arm - model.p_WA[n];
+    const Vector3<double> direction = d / d.norm();
+    jacobian.row(i) << direction.transpose(), arm.cross(direction).transpose();
+  }
+  return jacobian;
+}
+
 /// Newton's method; nothing unless it converges to the last digits.
 std::optional<RigidPose> newton(const Model<double>& model, const Lengths& target, RigidPose pose) {
   constexpr int kMaxIterations = 12;
   constexpr double kConverged = 1e-13;  // of the lengths; what rounding leaves is less
   constexpr double kMaxTurn = 0.5;      // rad in one step: beyond it is another solution
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Matrix3<double> r_WP = pose.q.toRotationMatrix();
-    Matrix6<double> jacobian;
-    Lengths residual;
-    for (int i = 0; i < kCables; ++i) {
-      const auto n = static_cast<std::size_t>(i);
-      const Vector3<double> arm = r_WP * model.p_PB[n];
-      const Vector3<double> d = pose.p + arm - model.p_WA[n];
-      const double length = d.norm();
-      const Vector3<double> direction = d / length;
-      jacobian.row(i) << direction.transpose(), arm.cross(direction).transpose();
-      residual(i) = target(i) - length;
-    }
+    const Lengths residual = target - lengths_at(model, pose);
     const double error = residual.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return std::nullopt;
     if (error <= kConverged * target.maxCoeff()) return pose;
-    const Vector6<double> step = Eigen::PartialPivLU<Matrix6<double>>(jacobian).solve(residual);
+    const Vector6<double> step = Eigen::PartialPivLU<Matrix6<double>>(jacobian_of_lengths(model, pose)).solve(residual);
     const Vector3<double> turn = step.tail<3>();
     const double angle = turn.norm();
     if (!std::isfinite(step.norm()) || angle > kMaxTurn) return std::nullopt;
@@ -115,6 +118,34 @@ std::optional<RigidPose> pose_of_lengths(const Model<double>& model, const std::
     if (pose) return pose;
   }
   return std::nullopt;
+}
+
+RigidPose pose_between(const Segment& segment, double s) {
+  const auto orientation = [](const Waypoint& waypoint) {
+    return Eigen::Quaterniond(waypoint.x[6], waypoint.x[3], waypoint.x[4], waypoint.x[5]);
+  };
+  const Waypoint& a = *segment.control[0];
+  const Waypoint& b = *segment.control[1];
+  RigidPose result;
+  for (std::size_t k = 0; k < 3; ++k) result.p(static_cast<int>(k)) = (1 - s) * a.x[k] + s * b.x[k];
+  const Eigen::Quaterniond first = orientation(a);
+  const Eigen::Quaterniond last = orientation(b);
+  if (segment.law == Interpolation::kGeodesic) {
+    result.q = first.normalized().slerp(s, last.normalized());
+  } else {
+    result.q = Eigen::Quaterniond((1 - s) * first.coeffs() + s * last.coeffs()).normalized();
+  }
+  return result;
+}
+
+std::optional<std::array<double, 6>> displacement(const Model<double>& model, const RigidPose& pose,
+                                                  const std::array<double, kCables>& errors) {
+  const Matrix6<double> inverse = jacobian_of_lengths(model, pose).inverse();
+  if (!inverse.allFinite()) return std::nullopt;
+  const Lengths moved = inverse.cwiseAbs() * Lengths(errors.data());
+  std::array<double, 6> result{};
+  std::copy(moved.begin(), moved.end(), result.begin());
+  return result;
 }
 
 }  // namespace taut

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "kinematics/model.h"
+#include "kinematics/segment.h"
 
 namespace taut {
 
@@ -41,5 +42,13 @@ struct TiltAndTorsion {
 [[nodiscard]] std::optional<RigidPose> pose_of_lengths(const Model<double>& model,
                                                        const std::array<double, kCables>& lengths,
                                                        const RigidPose& start);
+
+/// At s, under a law between poses; of cable lengths, the reference.
+[[nodiscard]] RigidPose pose_between(const Segment& segment, double s);
+
+/// How far (p [m], rotation vector [rad]) moves, coordinate by coordinate at most, where lengths may be wrong by `errors` [m];
+/// first order. Nothing where the pose is singular.
+[[nodiscard]] std::optional<std::array<double, 6>> displacement(const Model<double>& model, const RigidPose& pose,
+                                                                const std::array<double, kCables>& errors);
 
 }  // namespace taut

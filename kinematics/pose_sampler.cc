@@ -18,8 +18,7 @@ std::vector<double> PoseSampler::parameters(const Segment& segment, double s) co
 
 RigidPose PoseSampler::rigid_pose(const Segment& segment, double s) const {
   if (!has_poses(segment.law)) {
-    const Pose<double> at = pose(parameters(segment, s));
-    return {at.p_WP, rotation(at.phi, at.theta, at.sigma)};
+    return taut::rigid_pose(pose(parameters(segment, s)));
   }
   const RigidPose reference = pose_between(segment, s);
   if (segment.law != Interpolation::kCableLengths) return reference;
@@ -28,7 +27,7 @@ RigidPose PoseSampler::rigid_pose(const Segment& segment, double s) const {
   for (std::size_t i = 0; i < kCables; ++i) {
     wanted[i] = (1 - s) * segment.control[0]->x[kFirstLength + i] + s * segment.control[1]->x[kFirstLength + i];
   }
-  return pose_of_lengths(model_, reference, wanted).value_or(reference);
+  return pose_of_lengths(model_, wanted, reference).value_or(reference);
 }
 
 double PoseSampler::clearance(const Statics<double>& statics) const {

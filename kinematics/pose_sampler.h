@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinematics/constraint_functions.h"
-#include "kinematics/rigid_pose.h"
+#include "kinematics/pose_conversion.h"
 #include "kinematics/segment.h"
 #include "kinematics/statics.h"
 
@@ -36,7 +36,7 @@ class PoseSampler {
   /// Of the motion under any law: where lengths are straight, the pose that has them (the reference, if none is found).
   [[nodiscard]] RigidPose rigid_pose(const Segment& segment, double s) const;
   [[nodiscard]] Statics<double> statics(const RigidPose& pose) const {
-    return taut::statics(model_, pose.p_WP, pose.r_WP);
+    return taut::statics(model_, pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
   }
   [[nodiscard]] Statics<double> statics(const Pose<double>& pose) const { return taut::statics(model_, pose); }
 

@@ -1,0 +1,298 @@
+#include "certify/tolerance.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "certify/segment_proof.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using testing::robot1_slice;
+using testing::robot2_sphere;
+
+Waypoint at(std::vector<double> x) {
+  std::vector<int> none(x.size(), 0);
+  return {std::move(x), std::move(none)};
+}
+
+/// A deviation in binary64: the machine, and what tracking adds.
+struct Deviated {
+  Model<double> model;
+  Vector3<double> shift = Vector3<double>::Zero();
+  Vector3<double> turn = Vector3<double>::Zero();  ///< rotation vector
+  std::array<double, kCables> length_error{};
+};
+
+Vector3<double> random_in_ball(std::mt19937& random, double radius, bool at_the_rim) {
+  std::normal_distribution<double> normal;
+  Vector3<double> x(normal(random), normal(random), normal(random));
+  const double size = at_the_rim ? 1.0 : std::cbrt(std::uniform_real_distribution<double>(0, 1)(random));
+  return x.normalized() * (radius * size);
+}
+
+double number(const std::string& text) { return ScalarTraits<double>::from_decimal(text); }
+
+Deviated random_deviation(const Problem& problem, std::mt19937& random) {
+  const TolerancesText& t = *problem.tolerances;
+  Deviated result{make_model<double>(problem)};
+  const bool rim = random() % 4 != 0;
+  std::uniform_real_distribution<double> sign(-1, 1);
+  const auto pick = [&](double size) { return rim ? std::copysign(size, sign(random)) : size * sign(random); };
+  const Vector3<double> load_point = random_in_ball(random, number(t.load_point_m), rim);
+  result.model.p_PM += load_point;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result.model.p_WA[i] += random_in_ball(random, number(t.base_anchor_m[i]), rim);
+    result.model.p_PB[i] += random_in_ball(random, number(t.platform_anchor_m[i]), rim);
+    result.model.p_MB[i] = result.model.p_PB[i] - result.model.p_PM;
+    if (t.cable_length_m) result.length_error[i] = pick(number((*t.cable_length_m)[i]));
+  }
+  const double load = pick(1.0);
+  for (int k = 0; k < 6; ++k) result.model.wrench(k) += load * number(t.wrench[static_cast<std::size_t>(k)]);
+  result.shift = random_in_ball(random, number(t.position_m), rim);
+  result.turn = random_in_ball(random, evaluate_constant<double>(t.orientation_rad), rim);
+  return result;
+}
+
+/// The pose that a deviation leads to from the commanded one.
+RigidPose deviated_pose(const Problem& problem, const Deviated& deviated, const RigidPose& undisturbed) {
+  RigidPose pose = undisturbed;
+  if (problem.tolerances->cable_length_m) {
+    std::array<double, kCables> wanted = cable_lengths(make_model<double>(problem), undisturbed);
+    for (std::size_t i = 0; i < kCables; ++i) wanted[i] += deviated.length_error[i];
+    const auto held = pose_of_lengths(deviated.model, wanted, undisturbed);
+    EXPECT_TRUE(held.has_value());
+    pose = *held;
+  }
+  pose.p += deviated.shift;
+  if (deviated.turn.norm() > 0) {
+    pose.q = Eigen::AngleAxisd(deviated.turn.norm(), deviated.turn.normalized()) * pose.q;
+  }
+  return pose;
+}
+
+struct Least {
+  double tension = 1e300;
+  double length = 1e300;
+  double scale = 1e300;
+};
+
+void update(Least& least, const Model<double>& model, const RigidPose& pose) {
+  const Statics<double> s = statics(model, pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
+  for (std::size_t i = 0; i < kCables; ++i) {
+    least.tension = std::min({least.tension, s.tension[i] - s.variation[i] - model.tension_lower[i],
+                              model.tension_upper[i] - s.tension[i] - s.variation[i]});
+    least.length = std::min({least.length, s.length[i] - model.length_lower[i], model.length_upper[i] - s.length[i]});
+  }
+  least.scale = std::min(least.scale, wrench_scale_approx(model, s));
+}
+
+using Edit = std::function<void(TolerancesText&)>;
+
+/// One kind alone, or all together, of sizes that matter.
+const std::vector<std::pair<const char*, Edit>>& kinds() {
+  static const std::vector<std::pair<const char*, Edit>> kKinds = {
+      {"base anchors", [](TolerancesText& t) { t.base_anchor_m.fill("0.0004"); }},
+      {"platform anchors", [](TolerancesText& t) { t.platform_anchor_m.fill("0.0003"); }},
+      {"load point", [](TolerancesText& t) { t.load_point_m = "0.001"; }},
+      {"load", [](TolerancesText& t) { t.wrench = {"0.001", "0", "0.01", "0", "0.0002", "0"}; }},
+      {"position", [](TolerancesText& t) { t.position_m = "0.001"; }},
+      {"orientation", [](TolerancesText& t) { t.orientation_rad = "(0.3)*pi/180"; }},
+      {"lengths",
+       [](TolerancesText& t) { t.cable_length_m = {"0.0003", "0.0002", "0.0003", "0.0003", "0", "0.0003"}; }},
+      {"anchors of a machine held by lengths",
+       [](TolerancesText& t) {
+         t.cable_length_m = {"0", "0", "0", "0", "0", "0"};
+         t.base_anchor_m.fill("0.0001");
+         t.platform_anchor_m.fill("0.0001");
+       }},
+      {"all",
+       [](TolerancesText& t) {
+         t.base_anchor_m.fill("0.0001");
+         t.platform_anchor_m.fill("0.0001");
+         t.load_point_m = "0.0003";
+         t.wrench[2] = "0.005";
+         t.position_m = "0.0002";
+         t.orientation_rad = "0.001";
+         t.cable_length_m = {"0.0001", "0.0001", "0.0001", "0.0001", "0.0001", "0.0001"};
+       }},
+  };
+  return kKinds;
+}
+
+/// Margins claimed with tolerances hold for sampled deviations, and are not far below the least that sampling finds.
+TEST(Tolerance, MarginsHoldForEveryDeviationAndAreTight) {
+  for (const auto& [name, edit] : kinds()) {
+    Problem problem = robot1_slice();
+    const Waypoint a = at({0.5, 0.2});
+    const Waypoint b = at({0.56, 0.27});
+    const SegmentProof undisturbed = Prover(problem).prove(a, b);
+    ASSERT_EQ(undisturbed.verdict, Verdict::kProved);
+    edit(problem.tolerances.emplace());
+    const Prover prover(problem);
+    const Segment segment = prover.segment(a, b);
+    const SegmentProof proof = prover.prove(segment);
+    ASSERT_EQ(proof.verdict, Verdict::kProved) << name << ": " << proof.reason;
+    EXPECT_LT(proof.boxes.size(), 40U) << name;
+
+    const PoseSampler sampler(problem);
+    std::mt19937 random(7);
+    Least least;
+    Least without;
+    for (int k = 0; k < 20000; ++k) {
+      const double s = k % 3 == 0 ? k % 2 : std::uniform_real_distribution<double>(0, 1)(random);
+      const Deviated deviated = random_deviation(problem, random);
+      update(least, deviated.model, deviated_pose(problem, deviated, sampler.rigid_pose(segment, s)));
+      update(without, sampler.model(), sampler.rigid_pose(segment, s));
+    }
+    EXPECT_LE(proof.tension_N, least.tension + 1e-12) << name;
+    EXPECT_LE(proof.length_m, least.length + 1e-12) << name;
+    EXPECT_LE(proof.wrench_scale, least.scale + 1e-9) << name;
+    // Random deviations find a third to all of what the worst one does.
+    const double found = without.tension - least.tension;
+    const double allowed = undisturbed.tension_N - proof.tension_N;
+    EXPECT_LT(allowed, 3.5 * found + 1e-6)
+        << name << ": tension " << undisturbed.tension_N << " " << proof.tension_N << " sampled " << least.tension;
+  }
+}
+
+/// The gradient of a margin by finite differences, and along it the worst deviation to first order.
+TEST(Tolerance, ABoundIsReachedToFirstOrderByTheWorstDeviation) {
+  Problem problem = robot1_slice();
+  const Waypoint a = at({0.5, 0.2});
+  const double undisturbed = Prover(problem).prove(a, a).tension_N;
+  constexpr double kSize = 1e-5;
+  const Model<double> nominal = make_model<double>(problem);
+  const PoseSampler sampler(problem);
+  const RigidPose pose = sampler.rigid_pose(Segment::straight(a, a), 0);
+  const auto margin = [&](const Model<double>& model, const RigidPose& where) {
+    Least least;
+    update(least, model, where);
+    return least.tension;
+  };
+  const auto check = [&](const char* name, const Edit& edit, double worst) {
+    Problem disturbed = problem;
+    edit(disturbed.tolerances.emplace());
+    const double proved = Prover(disturbed).prove(a, a).tension_N;
+    EXPECT_LE(proved, undisturbed - worst * 0.999) << name;
+    EXPECT_NEAR(proved, undisturbed - worst, 0.08 * worst + 1e-10) << name;
+  };
+  const auto slope = [&](const std::function<void(Model<double>&, RigidPose&, double)>& move) {
+    const auto moved = [&](double step) {
+      Model<double> model = nominal;
+      RigidPose where = pose;
+      move(model, where, step);
+      for (std::size_t i = 0; i < kCables; ++i) model.p_MB[i] = model.p_PB[i] - model.p_PM;
+      return margin(model, where);
+    };
+    return (moved(1e-6) - moved(-1e-6)) / 2e-6;
+  };
+  Vector3<double> by_position, by_load_point, by_turn;
+  double by_base = 0;
+  double by_platform = 0;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    Vector3<double> base, platform;
+    for (int k = 0; k < 3; ++k) {
+      base(k) = slope([&](Model<double>& m, RigidPose&, double x) { m.p_WA[i](k) += x; });
+      platform(k) = slope([&](Model<double>& m, RigidPose&, double x) { m.p_PB[i](k) += x; });
+    }
+    by_base += base.norm();
+    by_platform += platform.norm();
+  }
+  for (int k = 0; k < 3; ++k) {
+    by_position(k) = slope([&](Model<double>&, RigidPose& p, double x) { p.p(k) += x; });
+    by_load_point(k) = slope([&](Model<double>& m, RigidPose&, double x) { m.p_PM(k) += x; });
+    by_turn(k) = slope(
+        [&](Model<double>&, RigidPose& p, double x) { p.q = Eigen::AngleAxisd(x, Vector3<double>::Unit(k)) * p.q; });
+  }
+  check(
+      "base", [](TolerancesText& t) { t.base_anchor_m.fill("1e-5"); }, kSize * by_base);
+  check(
+      "platform", [](TolerancesText& t) { t.platform_anchor_m.fill("1e-5"); }, kSize * by_platform);
+  check(
+      "position", [](TolerancesText& t) { t.position_m = "1e-5"; }, kSize * by_position.norm());
+  check(
+      "load point", [](TolerancesText& t) { t.load_point_m = "1e-5"; }, kSize * by_load_point.norm());
+  check(
+      "orientation", [](TolerancesText& t) { t.orientation_rad = "1e-5"; }, kSize * by_turn.norm());
+
+  // Held by lengths: what each length, and each anchor of such a machine, does to the pose and so to the margin.
+  const std::array<double, kCables> held = cable_lengths(nominal, pose);
+  const auto slope_held = [&](const std::function<void(Model<double>&, std::array<double, kCables>&, double)>& move) {
+    const auto moved = [&](double step) {
+      Model<double> model = nominal;
+      std::array<double, kCables> wanted = held;
+      move(model, wanted, step);
+      for (std::size_t i = 0; i < kCables; ++i) model.p_MB[i] = model.p_PB[i] - model.p_PM;
+      return margin(model, pose_of_lengths(model, wanted, pose).value());
+    };
+    return (moved(1e-6) - moved(-1e-6)) / 2e-6;
+  };
+  double by_length = 0;
+  double by_base_held = 0;
+  double by_platform_held = 0;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    by_length += std::abs(slope_held([&](Model<double>&, auto& wanted, double x) { wanted[i] += x; }));
+    Vector3<double> base, platform;
+    for (int k = 0; k < 3; ++k) {
+      base(k) = slope_held([&](Model<double>& m, auto&, double x) { m.p_WA[i](k) += x; });
+      platform(k) = slope_held([&](Model<double>& m, auto&, double x) { m.p_PB[i](k) += x; });
+    }
+    by_base_held += base.norm();
+    by_platform_held += platform.norm();
+  }
+  const auto lengths_of = [](const char* size) {
+    std::array<DecimalText, kCables> result;
+    result.fill(size);
+    return result;
+  };
+  check(
+      "lengths", [&](TolerancesText& t) { t.cable_length_m = lengths_of("1e-5"); }, kSize * by_length);
+  check(
+      "base, held",
+      [&](TolerancesText& t) {
+        t.cable_length_m = lengths_of("0");
+        t.base_anchor_m.fill("1e-5");
+      },
+      kSize * by_base_held);
+  check(
+      "platform, held",
+      [&](TolerancesText& t) {
+        t.cable_length_m = lengths_of("0");
+        t.platform_anchor_m.fill("1e-5");
+      },
+      kSize * by_platform_held);
+}
+
+TEST(Tolerance, TooLargeOnesAreUndecidedSoonAndSaySo) {
+  for (const auto& [name, edit] : std::vector<std::pair<const char*, Edit>>{
+           {"position", [](TolerancesText& t) { t.position_m = "0.5"; }},
+           {"base", [](TolerancesText& t) { t.base_anchor_m.fill("0.2"); }},
+           {"orientation", [](TolerancesText& t) { t.orientation_rad = "0.9"; }},
+           {"load", [](TolerancesText& t) { t.wrench[2] = "2"; }},
+           {"lengths", [](TolerancesText& t) { t.cable_length_m.emplace().fill("0.2"); }}}) {
+    Problem problem = robot1_slice();
+    edit(problem.tolerances.emplace());
+    const SegmentProof proof = Prover(problem).prove(at({0.5, 0.2}), at({0.56, 0.27}));
+    EXPECT_EQ(proof.verdict, Verdict::kUndecided) << name;
+    EXPECT_LT(proof.boxes_judged, 100) << name << ": " << proof.reason;
+  }
+}
+
+TEST(Tolerance, ZerosChangeNothing) {
+  Problem problem = robot1_slice();
+  const SegmentProof without = Prover(problem).prove(at({0.5, 0.2}), at({0.56, 0.27}));
+  problem.tolerances.emplace();
+  const SegmentProof with = Prover(problem).prove(at({0.5, 0.2}), at({0.56, 0.27}));
+  EXPECT_EQ(with.verdict, Verdict::kProved);
+  EXPECT_NEAR(with.tension_N, without.tension_N, 1e-12);
+  EXPECT_NEAR(with.wrench_scale, without.wrench_scale, 1e-9);
+}
+
+}  // namespace
+}  // namespace taut
