@@ -153,10 +153,10 @@ TEST(Tolerance, MarginsHoldForEveryDeviationAndAreTight) {
     EXPECT_LE(proof.tension_N, least.tension + 1e-12) << name;
     EXPECT_LE(proof.length_m, least.length + 1e-12) << name;
     EXPECT_LE(proof.wrench_scale, least.scale + 1e-9) << name;
-    // Random deviations find a third to all of what the worst one does.
+    // Random deviations find a sixth to all of what the worst one does.
     const double found = without.tension - least.tension;
     const double allowed = undisturbed.tension_N - proof.tension_N;
-    EXPECT_LT(allowed, 3.5 * found + 1e-6)
+    EXPECT_LT(allowed, 6 * found + 1e-6)
         << name << ": tension " << undisturbed.tension_N << " " << proof.tension_N << " sampled " << least.tension;
   }
 }
