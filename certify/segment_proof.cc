@@ -431,7 +431,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
       case Step::Kind::kGiveUp:
         // There may be violations next to what can't be decided, but no ladder will help.
         task.is_hopeless = true;
-        if (is_fine) {
+        if (is_fine || step.verdict.kind == BoxVerdict::Kind::kTolerance) {
           report(Kind::kOpen);
         } else {
           walk.split(task, 0);
