@@ -61,6 +61,12 @@ std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b) {
   return left.compare(right) <=> 0;
 }
 
+// Out of line: GCC 12 sees ends beyond the bounds of cpp_int's own storage where it inlines these.
+Dyadic DyadicBox::lower() const { return {k, depth}; }
+Dyadic DyadicBox::upper() const { return {k + 1, depth}; }
+Dyadic DyadicBox::mid() const { return {2 * k + 1, depth + 1}; }
+DyadicBox DyadicBox::left() const { return {2 * k, depth + 1}; }
+DyadicBox DyadicBox::right() const { return {2 * k + 1, depth + 1}; }
 double DyadicBox::radius() const { return power_of_two(-depth - 1); }
 
 template <>

@@ -35,12 +35,12 @@ struct DyadicBox {
   boost::multiprecision::cpp_int k = 0;
   int depth = 0;
 
-  [[nodiscard]] Dyadic lower() const { return {k, depth}; }
-  [[nodiscard]] Dyadic upper() const { return {k + 1, depth}; }
-  [[nodiscard]] Dyadic mid() const { return {2 * k + 1, depth + 1}; }
+  [[nodiscard]] Dyadic lower() const;
+  [[nodiscard]] Dyadic upper() const;
+  [[nodiscard]] Dyadic mid() const;
   [[nodiscard]] double radius() const;  ///< half the width; exact
-  [[nodiscard]] DyadicBox left() const { return {2 * k, depth + 1}; }
-  [[nodiscard]] DyadicBox right() const { return {2 * k + 1, depth + 1}; }
+  [[nodiscard]] DyadicBox left() const;
+  [[nodiscard]] DyadicBox right() const;
   bool operator==(const DyadicBox&) const = default;
 };
 
