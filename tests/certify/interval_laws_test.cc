@@ -38,7 +38,7 @@ Operand random_operand(Operands& operands) {
   const Operand x = operands.interval();
   if (!Op::kUnit || operands.coin(0.1)) return x;
   const auto fold = [](double end) { return std::abs(end) > 1 ? 1 / end : end; };
-  const auto [lower, upper] = std::minmax(fold(x.lower), fold(x.upper));
+  const auto [lower, upper] = std::minmax({fold(x.lower), fold(x.upper)});
   return {lower, upper};
 }
 
