@@ -1,0 +1,372 @@
+// The machine of the campaign: poses along every law and statics with every deviation, by a route of its own.
+//
+// J about the origin O with columns (u_i ; a_i × u_i), wrenches carried there from the load point, slerp of quaternions, Newton's
+// method on lengths: none of kinematics/, no force densities, no intervals. In double it searches, in 200-bit BigFloat it judges.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "kinematics/problem.h"
+#include "tests/oracle/oracle_at_origin.h"
+
+namespace taut::campaign {
+
+inline double root(double x) { return std::sqrt(x); }
+inline double sine(double x) { return std::sin(x); }
+inline double cosine(double x) { return std::cos(x); }
+inline double magnitude(double x) { return std::abs(x); }
+inline double to_double(double x) { return x; }
+inline double angle(double y, double x) { return std::atan2(y, x); }
+using oracle::cosine;
+using oracle::root;
+using oracle::sine;
+inline BigFloat magnitude(const BigFloat& x) { return abs(x); }
+inline double to_double(const BigFloat& x) { return x.to_double(); }
+inline BigFloat angle(const BigFloat& y, const BigFloat& x) {
+  return BigFloat::apply_rounded(MPFR_RNDN, mpfr_atan2, y, x);
+}
+
+template <class S>
+S number(const DecimalText& text) {
+  if constexpr (std::is_same_v<S, double>) {
+    return std::strtod(text.c_str(), nullptr);
+  } else {
+    return oracle::big(text);
+  }
+}
+
+template <class S>
+using Vec = std::array<S, 3>;
+template <class S>
+using Rows = std::array<Vec<S>, 3>;
+template <class S>
+using Six = std::array<S, 6>;
+template <class S>
+using SixBySix = std::array<Six<S>, 6>;
+
+template <class S>
+Vec<S> operator+(const Vec<S>& a, const Vec<S>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class S>
+Vec<S> operator-(const Vec<S>& a, const Vec<S>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class S>
+Vec<S> operator*(const S& k, const Vec<S>& a) {
+  return {k * a[0], k * a[1], k * a[2]};
+}
+template <class S>
+S dot(const Vec<S>& a, const Vec<S>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class S>
+Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <class S>
+Vec<S> operator*(const Rows<S>& r, const Vec<S>& x) {
+  return {dot(r[0], x), dot(r[1], x), dot(r[2], x)};
+}
+template <class S>
+Rows<S> operator*(const Rows<S>& a, const Rows<S>& b) {
+  Rows<S> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      result[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+    }
+  }
+  return result;
+}
+
+/// (x, y, z, w), of any length.
+template <class S>
+using Quaternion = std::array<S, 4>;
+
+template <class S>
+Rows<S> rotation(const Quaternion<S>& q) {
+  const auto& [x, y, z, w] = q;
+  const S two(2.0);
+  const S n = x * x + y * y + z * z + w * w;
+  const S one(1.0);
+  return {Vec<S>{one - two * (y * y + z * z) / n, two * (x * y - w * z) / n, two * (x * z + w * y) / n},
+          Vec<S>{two * (x * y + w * z) / n, one - two * (x * x + z * z) / n, two * (y * z - w * x) / n},
+          Vec<S>{two * (x * z - w * y) / n, two * (y * z + w * x) / n, one - two * (x * x + y * y) / n}};
+}
+
+/// By the angle |v| about v.
+template <class S>
+Rows<S> turn(const Vec<S>& v) {
+  const S size = root(dot(v, v));
+  if (!(size > S(0.0))) return rotation(Quaternion<S>{S(0.0), S(0.0), S(0.0), S(1.0)});
+  const S half = size / S(2.0);
+  const Vec<S> axis = (sine(half) / size) * v;
+  return rotation(Quaternion<S>{axis[0], axis[1], axis[2], cosine(half)});
+}
+
+/// R = Rz(phi) Ry(theta) Rz(sigma − phi).
+template <class S>
+Rows<S> orientation(const S& phi, const S& theta, const S& sigma) {
+  const S zero(0.0);
+  const S one(1.0);
+  const auto rz = [&](const S& t) {
+    return Rows<S>{Vec<S>{cosine(t), -sine(t), zero}, Vec<S>{sine(t), cosine(t), zero}, Vec<S>{zero, zero, one}};
+  };
+  const Rows<S> ry{Vec<S>{cosine(theta), zero, sine(theta)}, Vec<S>{zero, one, zero},
+                   Vec<S>{-sine(theta), zero, cosine(theta)}};
+  return rz(phi) * ry * rz(sigma - phi);
+}
+
+template <class S>
+struct RigidPose {
+  Vec<S> p;
+  Rows<S> r;
+};
+
+/// Straight positions; orientations by spherical linear interpolation of quaternions, the shorter way.
+template <class S>
+RigidPose<S> slerp(const std::vector<double>& from, const std::vector<double>& to, const S& s) {
+  const S one(1.0);
+  const auto position = [](const std::vector<double>& x) { return Vec<S>{S(x[0]), S(x[1]), S(x[2])}; };
+  const auto unit = [](const std::vector<double>& x) {
+    Quaternion<S> q{S(x[3]), S(x[4]), S(x[5]), S(x[6])};
+    const S n = root(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (S& c : q) c = c / n;
+    return q;
+  };
+  RigidPose<S> pose;
+  pose.p = (one - s) * position(from) + s * position(to);
+  const Quaternion<S> a = unit(from);
+  Quaternion<S> b = unit(to);
+  S inner(0.0);
+  for (std::size_t k = 0; k < 4; ++k) inner = inner + a[k] * b[k];
+  if (inner < S(0.0)) {
+    for (S& c : b) c = -c;
+  }
+  S sum(0.0), difference(0.0);  // |a + b|^2, |a − b|^2: the angle without cancellation
+  for (std::size_t k = 0; k < 4; ++k) {
+    sum = sum + (a[k] + b[k]) * (a[k] + b[k]);
+    difference = difference + (a[k] - b[k]) * (a[k] - b[k]);
+  }
+  const S psi = S(2.0) * angle(root(difference), root(sum));
+  if (!(psi > S(1e-28))) {
+    pose.r = rotation(a);
+    return pose;
+  }
+  Quaternion<S> q;
+  for (std::size_t k = 0; k < 4; ++k) q[k] = (sine((one - s) * psi) * a[k] + sine(s * psi) * b[k]) / sine(psi);
+  pose.r = rotation(q);
+  return pose;
+}
+
+/// The reference of the law of cable lengths.
+template <class S>
+RigidPose<S> mixed(const std::vector<double>& from, const std::vector<double>& to, const S& s) {
+  const S one(1.0);
+  std::array<S, 7> x;
+  for (std::size_t k = 0; k < 7; ++k) x[k] = (one - s) * S(from[k]) + s * S(to[k]);
+  return {{x[0], x[1], x[2]}, rotation(Quaternion<S>{x[3], x[4], x[5], x[6]})};
+}
+
+/// The problem's numbers.
+template <class S>
+struct Machine {
+  std::array<Vec<S>, kCables> a, b;
+  Vec<S> load_point;
+  Six<S> wrench;
+  SixBySix<S> inverse_ellipsoid;
+};
+
+/// Gauss–Jordan elimination of a x = b with partial pivoting, several right-hand sides at once (columns of b).
+/// @returns det a; 0 where it can't be solved.
+template <class S, std::size_t N>
+S solve(SixBySix<S> a, std::array<std::array<S, N>, 6>& b) {
+  S determinant(1.0);
+  for (std::size_t c = 0; c < 6; ++c) {
+    std::size_t pivot = c;
+    for (std::size_t i = c + 1; i < 6; ++i) {
+      if (magnitude(a[i][c]) > magnitude(a[pivot][c])) pivot = i;
+    }
+    if (!(magnitude(a[pivot][c]) > S(0.0))) return S(0.0);
+    if (pivot != c) {
+      std::swap(a[c], a[pivot]);
+      std::swap(b[c], b[pivot]);
+      determinant = -determinant;
+    }
+    determinant = determinant * a[c][c];
+    const S inverse = S(1.0) / a[c][c];
+    for (std::size_t j = c; j < 6; ++j) a[c][j] = a[c][j] * inverse;
+    for (S& x : b[c]) x = x * inverse;
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (i == c) continue;
+      const S factor = a[i][c];
+      for (std::size_t j = c; j < 6; ++j) a[i][j] = a[i][j] - factor * a[c][j];
+      for (std::size_t k = 0; k < N; ++k) b[i][k] = b[i][k] - factor * b[c][k];
+    }
+  }
+  return determinant;
+}
+
+template <class S>
+Machine<S> make_machine(const Problem& problem) {
+  Machine<S> machine;
+  const auto vector = [](const std::array<DecimalText, 3>& t) {
+    return Vec<S>{number<S>(t[0]), number<S>(t[1]), number<S>(t[2])};
+  };
+  for (std::size_t i = 0; i < kCables; ++i) {
+    machine.a[i] = vector(problem.robot.base_anchors_m[i]);
+    machine.b[i] = vector(problem.robot.platform_anchors_m[i]);
+  }
+  machine.load_point = vector(problem.load.point_m);
+  SixBySix<S> ellipsoid;
+  for (std::size_t i = 0; i < 6; ++i) {
+    machine.wrench[i] = number<S>(problem.load.wrench[i]);
+    for (std::size_t k = 0; k < 6; ++k) {
+      ellipsoid[i][k] = number<S>(problem.load.ellipsoid[i][k]);
+      machine.inverse_ellipsoid[i][k] = S(i == k ? 1.0 : 0.0);
+    }
+  }
+  solve(ellipsoid, machine.inverse_ellipsoid);
+  return machine;
+}
+
+/// One deviation within the tolerances: blocks in unit balls, to be scaled by them. 52 numbers, exact binary64.
+struct Deviation {
+  std::array<Vec<double>, kCables> a{}, b{};
+  Vec<double> load_point{}, position{}, turn{};
+  double wrench = 0;
+  Six<double> length{};
+};
+
+/// The sizes of the tolerances, and what stands for none.
+template <class S>
+struct Tolerances {
+  Six<S> a, b, length;
+  S load_point, position, turn;
+  Six<S> wrench;
+  bool held_by_lengths = false;
+};
+
+template <class S>
+Tolerances<S> make_tolerances(const Problem& problem) {
+  Tolerances<S> t;
+  const TolerancesText text = problem.tolerances.value_or(TolerancesText{});
+  for (std::size_t i = 0; i < kCables; ++i) {
+    t.a[i] = number<S>(text.base_anchor_m[i]);
+    t.b[i] = number<S>(text.platform_anchor_m[i]);
+    t.length[i] = text.cable_length_m ? number<S>((*text.cable_length_m)[i]) : S(0.0);
+    t.wrench[i] = number<S>(text.wrench[i]);
+  }
+  t.load_point = number<S>(text.load_point_m);
+  t.position = number<S>(text.position_m);
+  t.turn = number<S>(text.orientation_rad);
+  t.held_by_lengths = text.cable_length_m.has_value();
+  return t;
+}
+
+template <class S>
+Vec<S> scaled(const S& k, const Vec<double>& x) {
+  return {k * S(x[0]), k * S(x[1]), k * S(x[2])};
+}
+
+/// The machine as it really is.
+template <class S>
+Machine<S> deviate(Machine<S> machine, const Tolerances<S>& t, const Deviation& x) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    machine.a[i] = machine.a[i] + scaled(t.a[i], x.a[i]);
+    machine.b[i] = machine.b[i] + scaled(t.b[i], x.b[i]);
+    machine.wrench[i] = machine.wrench[i] + S(x.wrench) * t.wrench[i];
+  }
+  machine.load_point = machine.load_point + scaled(t.load_point, x.load_point);
+  return machine;
+}
+
+template <class S>
+Six<S> lengths(const Machine<S>& machine, const RigidPose<S>& pose) {
+  Six<S> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vec<S> d = pose.p + pose.r * machine.b[i] - machine.a[i];
+    result[i] = root(dot(d, d));
+  }
+  return result;
+}
+
+/// The pose with these lengths near `pose`, by Newton's method; nothing where it does not converge.
+template <class S>
+std::optional<RigidPose<S>> hold(const Machine<S>& machine, RigidPose<S> pose, const Six<S>& wanted, int steps) {
+  const double accuracy = std::is_same_v<S, double> ? 1e-13 : 1e-50;
+  for (int step = 0; step < steps; ++step) {
+    SixBySix<S> jacobian;
+    std::array<std::array<S, 1>, 6> move;
+    S largest(0.0);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Vec<S> arm = pose.r * machine.b[i];
+      const Vec<S> d = pose.p + arm - machine.a[i];
+      const S length = root(dot(d, d));
+      const Vec<S> u = (S(1.0) / length) * d;
+      const Vec<S> m = cross(arm, u);
+      jacobian[i] = {u[0], u[1], u[2], m[0], m[1], m[2]};
+      move[i][0] = wanted[i] - length;
+      const S error = magnitude(move[i][0]) / wanted[i];
+      if (error > largest) largest = error;
+    }
+    if (!(to_double(largest) < 1e3)) return std::nullopt;
+    if (to_double(largest) < accuracy) return pose;
+    if (!(magnitude(solve(jacobian, move)) > S(0.0))) return std::nullopt;
+    pose.p = pose.p + Vec<S>{move[0][0], move[1][0], move[2][0]};
+    const S half(0.5);
+    pose.r = rotation(Quaternion<S>{half * move[3][0], half * move[4][0], half * move[5][0], S(1.0)}) * pose.r;
+  }
+  return std::nullopt;
+}
+
+template <class S>
+struct StaticsAt {
+  Six<S> length, tension, variation;
+  S determinant;  ///< of J; not finite or 0 where it is singular
+};
+
+template <class S>
+StaticsAt<S> statics(const Machine<S>& machine, const RigidPose<S>& pose) {
+  StaticsAt<S> result;
+  SixBySix<S> jacobian, transform;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vec<S> d = pose.p + pose.r * machine.b[i] - machine.a[i];
+    result.length[i] = root(dot(d, d));
+    const Vec<S> u = (S(1.0) / result.length[i]) * d;
+    const Vec<S> m = cross(machine.a[i], u);
+    for (std::size_t k = 0; k < 3; ++k) {
+      jacobian[k][i] = u[k];
+      jacobian[3 + k][i] = m[k];
+    }
+  }
+  const Vec<S> at = pose.p + pose.r * machine.load_point;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) transform[i][k] = S(i == k ? 1.0 : 0.0);
+  }
+  transform[3][1] = -at[2];
+  transform[3][2] = at[1];
+  transform[4][0] = at[2];
+  transform[4][2] = -at[0];
+  transform[5][0] = -at[1];
+  transform[5][1] = at[0];
+  result.determinant = solve(jacobian, transform);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Six<S>& y = transform[i];
+    S tension(0.0), square(0.0);
+    for (std::size_t j = 0; j < 6; ++j) {
+      tension = tension + y[j] * machine.wrench[j];
+      S sum(0.0);
+      for (std::size_t k = 0; k < 6; ++k) sum = sum + machine.inverse_ellipsoid[j][k] * y[k];
+      square = square + y[j] * sum;
+    }
+    result.tension[i] = tension;
+    result.variation[i] = root(square);
+  }
+  return result;
+}
+
+}  // namespace taut::campaign

@@ -1,0 +1,458 @@
+#include "tests/soundness/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kinematics/motion_length.h"
+#include "tests/support/robots.h"
+
+namespace taut::campaign {
+namespace {
+
+DecimalText decimal(double x) { return fmt::format("{:.6e}", x); }
+
+/// The pose of a space in either scalar, from one generic function.
+template <class F>
+void set_pose(Trial& trial, F pose) {
+  trial.pose = [pose](const Vector& q) { return pose(q); };
+  trial.pose_approx = [pose](const std::vector<double>& q) { return pose(q); };
+}
+
+template <class S>
+S pi() {
+  if constexpr (std::is_same_v<S, double>) {
+    return 3.14159265358979323846;
+  } else {
+    return oracle::pi();
+  }
+}
+
+const auto slice_pose = []<class S>(const std::vector<S>& q) {
+  return Six<S>{S(0.0), S(0.0), number<S>("0.35"), q[0], q[1], S(34.0) * pi<S>() / S(180.0)};
+};
+
+const auto sphere_pose = []<class S>(const std::vector<S>& q) {
+  const S rs = number<S>("0.13");
+  const S ring = rs * cosine(q[1]);
+  return Six<S>{ring * cosine(q[0]), ring * sine(q[0]),       number<S>("0.306") - rs * sine(q[1]),
+                q[0] - pi<S>(),      pi<S>() / S(2.0) - q[1], S(0.0)};
+};
+
+const auto five_coordinates = []<class S>(const std::vector<S>& q) {
+  return Six<S>{q[0], q[1], q[2], q[3], q[4], S(0.0)};
+};
+
+const auto six_coordinates = []<class S>(const std::vector<S>& q) {
+  return Six<S>{q[0], q[1], q[2], q[3], q[4], q[5]};
+};
+
+// ---- Robots ----------------------------------------------------------------------------------------------------------
+
+/// Millimetres to kilometres, millinewtons to meganewtons; one in eight nearly flat, one in eight with a platform that is
+/// nearly the base on a smaller scale, which is singular wherever both are level.
+Problem random_robot(Random& random, double& size) {
+  Problem problem = testing::free_flying(testing::robot1_slice());
+  size = std::pow(10.0, uniform(random, -3, 3));
+  const double force = std::pow(10.0, uniform(random, -3, 6));
+  const std::uint64_t kind = random() % 8;
+  const double spread = kind == 0 ? std::pow(10.0, uniform(random, -6, -1)) : 0.3;
+  const bool similar = kind == 1;
+  const double difference = std::pow(10.0, uniform(random, -4, -1));
+  const double ratio = uniform(random, 0.3, 0.7);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const double base_angle = 2.094395 * std::floor(static_cast<double>(i) / 2) + uniform(random, -spread, spread);
+    const double platform_angle =
+        similar ? base_angle + uniform(random, -difference, difference)
+                : 1.047197 + 2.094395 * std::floor((static_cast<double>(i) + 1) / 2) + uniform(random, -spread, spread);
+    const double base_radius = size * uniform(random, 0.8, 1.2);
+    const double platform_radius = similar ? ratio * base_radius : size * uniform(random, 0.3, 0.7);
+    const auto anchor = [&](double radius, double angle) {
+      return std::array<DecimalText, 3>{decimal(radius * std::cos(angle)), decimal(radius * std::sin(angle)),
+                                        decimal(size * uniform(random, -spread, spread))};
+    };
+    problem.robot.base_anchors_m[i] = anchor(base_radius, base_angle);
+    problem.robot.platform_anchors_m[i] = anchor(platform_radius, platform_angle);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    problem.load.point_m[k] = decimal(size * uniform(random, -0.2, 0.2));
+    problem.load.wrench[k] = decimal(force * (k == 2 ? 1.0 : uniform(random, -0.1, 0.1)));
+    problem.load.wrench[3 + k] = decimal(force * size * uniform(random, -0.02, 0.02));
+  }
+  // E = G G^T + diagonal, in units of the load: semi-axes about a hundredth of it.
+  std::array<std::array<double, 6>, 6> g{};
+  for (auto& row : g) {
+    for (double& x : row) x = uniform(random, -0.3, 0.3);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = i == j ? 1.0 : 0.0;
+      for (std::size_t k = 0; k < 6; ++k) sum += g[i][k] * g[j][k];
+      const double unit = (i < 3 ? force : force * size) * (j < 3 ? force : force * size);
+      problem.load.ellipsoid[i][j] = problem.load.ellipsoid[j][i] = decimal(1e4 * sum / unit);
+    }
+  }
+  return problem;
+}
+
+// ---- Spaces ----------------------------------------------------------------------------------------------------------
+
+/// Robot 2 with its z axis through a fixed point, given by three constraints on five parameters (the paper's (16), implicitly).
+Problem implicit_sphere() {
+  Problem problem = testing::robot2_sphere();
+  problem.space = SpaceText{};
+  for (const char* name : {"px", "py", "pz", "phi", "theta"}) {
+    const bool periodic = std::string(name) == "phi";
+    problem.space.parameters.push_back({name, periodic ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+  }
+  problem.space.pose = {"px", "py", "pz", "phi", "theta", "0"};
+  problem.space.constraints = {"px + 0.13*sin(theta)*cos(phi)", "py + 0.13*sin(theta)*sin(phi)",
+                               "pz - 0.306 + 0.13*cos(theta)"};
+  return problem;
+}
+
+OracleConstraints implicit_sphere_oracle() {
+  const auto r = [] { return oracle::big("0.13"); };
+  return {[r](const Vector& q) {
+            const BigFloat ring = r() * oracle::sine(q[4]);
+            return Vector{q[0] + ring * oracle::cosine(q[3]), q[1] + ring * oracle::sine(q[3]),
+                          q[2] - oracle::big("0.306") + r() * oracle::cosine(q[4])};
+          },
+          [r](const Vector& q) {
+            const BigFloat zero(0.0);
+            const BigFloat one(1.0);
+            const BigFloat c = oracle::cosine(q[3]);
+            const BigFloat s = oracle::sine(q[3]);
+            const BigFloat ring = r() * oracle::sine(q[4]);
+            const BigFloat rise = r() * oracle::cosine(q[4]);
+            return std::vector<Vector>{{one, zero, zero, -ring * s, rise * c},
+                                       {zero, one, zero, ring * c, rise * s},
+                                       {zero, zero, one, zero, -ring}};
+          }};
+}
+
+/// p on a sphere about the origin through the first waypoint (up to six digits); orientation free.
+void put_on_sphere(Trial& trial) {
+  const std::vector<double>& x = trial.controls[0].x;
+  const DecimalText square = decimal(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  trial.problem.space.constraints = {"px^2 + py^2 + pz^2 - " + square};
+  trial.constraints = OracleConstraints{
+      [square](const Vector& q) { return Vector{q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - oracle::big(square)}; },
+      [](const Vector& q) {
+        const BigFloat two(2.0);
+        const BigFloat zero(0.0);
+        return std::vector<Vector>{{two * q[0], two * q[1], two * q[2], zero, zero, zero}};
+      }};
+}
+
+/// Next to the constraints, as a planner would put it, but not on them; with normals.
+void bring_near(const ConstraintFunctions& functions, Waypoint& waypoint, Random& random) {
+  waypoint.normals = functions.normals(waypoint);
+  const double distance = std::pow(10.0, uniform(random, -12, -2));
+  const std::vector<double> on = functions.parameters(Segment::straight(waypoint, waypoint), 0);
+  for (std::size_t j = 0; j < on.size(); ++j) waypoint.x[j] = on[j] + distance * (waypoint.x[j] - on[j]);
+  waypoint.normals = functions.normals(waypoint);
+}
+
+/// Control points 1, 2, 3 by random steps from point 0, in proportion to `scale`.
+void walk(Trial& trial, Random& random, const std::vector<double>& scale) {
+  const double step = one_in(random, 8) ? 0.15 * std::pow(10.0, uniform(random, -6, 0)) : 0.15;
+  trial.controls[0].half_turns.assign(trial.controls[0].x.size(), 0);
+  for (std::size_t k = 1; k < 4; ++k) {
+    trial.controls[k] = trial.controls[k - 1];
+    if (one_in(random, 16)) continue;  // control points may be equal
+    for (std::size_t j = 0; j < scale.size(); ++j) trial.controls[k].x[j] += step * scale[j] * uniform(random, -1, 1);
+  }
+}
+
+std::vector<double> random_coordinates(Random& random, double size) {
+  std::vector<double> q;
+  for (int k = 0; k < 2; ++k) q.push_back(size * uniform(random, -0.4, 0.4));
+  q.push_back(size * uniform(random, 0.7, 2.0));
+  q.push_back(uniform(random, -3.2, 3.2));
+  q.push_back(uniform(random, 0.0, 0.6));
+  q.push_back(uniform(random, -0.5, 0.5));
+  return q;
+}
+
+void choose_space(Trial& trial, Random& random, bool constrained) {
+  static const Problem slice = testing::robot1_slice();
+  static const Problem sphere = testing::robot2_sphere();
+  static const Problem on_sphere = implicit_sphere();
+  std::vector<double>& from = trial.controls[0].x;
+  const std::uint64_t kind = random() % 6;
+  if (constrained && kind < 3) {
+    trial.problem = on_sphere;
+    const double phi = uniform(random, -3.2, 3.2);
+    const double theta = uniform(random, 0.1, 2.0);
+    from = {-0.13 * std::sin(theta) * std::cos(phi), -0.13 * std::sin(theta) * std::sin(phi),
+            0.306 - 0.13 * std::cos(theta), phi, theta};
+    walk(trial, random, {0.01, 0.01, 0.01, 1, 1});
+    trial.constraints = implicit_sphere_oracle();
+    set_pose(trial, five_coordinates);
+  } else if (!constrained && kind == 0) {
+    trial.problem = slice;
+    from = {uniform(random, -3.2, 3.2), uniform(random, -0.2, 2.0)};
+    walk(trial, random, {1, 1});
+    set_pose(trial, slice_pose);
+  } else if (!constrained && kind == 1) {
+    trial.problem = sphere;
+    from = {uniform(random, -3.2, 3.2), uniform(random, -0.5, 1.1)};  // a spline's points stay below pi/2
+    walk(trial, random, {1, 1});
+    set_pose(trial, sphere_pose);
+  } else {
+    trial.problem = random_robot(random, trial.size);
+    from = random_coordinates(random, trial.size);
+    walk(trial, random, {trial.size, trial.size, trial.size, 1, 1, 1});
+    set_pose(trial, six_coordinates);
+    if (constrained) put_on_sphere(trial);
+    return;
+  }
+  trial.size = 0.3;
+}
+
+// ---- Laws between poses ----------------------------------------------------------------------------------------------
+
+Quaternion<double> product(const Quaternion<double>& a, const Quaternion<double>& b) {
+  const Vec<double> u{a[0], a[1], a[2]};
+  const Vec<double> v{b[0], b[1], b[2]};
+  const Vec<double> w = a[3] * v + b[3] * u + cross(u, v);
+  return {w[0], w[1], w[2], a[3] * b[3] - dot(u, v)};
+}
+
+/// Quaternions of any length and sign; steps from none to nearly half a turn, mostly a tenth of a radian.
+void choose_poses(Trial& trial, Random& random) {
+  trial.problem = random_robot(random, trial.size);
+  trial.problem.space = coordinate_space();
+  trial.problem.query.clear();
+  const auto direction = [&] {
+    Vec<double> v{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+    return (1 / (1e-3 + std::sqrt(dot(v, v)))) * v;
+  };
+  const auto about = [&](const Vec<double>& axis, double angle) {
+    const double s = std::sin(angle / 2);
+    return Quaternion<double>{s * axis[0], s * axis[1], s * axis[2], std::cos(angle / 2)};
+  };
+  const std::vector<double> q = random_coordinates(random, trial.size);
+  const Vec<double> vertical{0, 0, 1};
+  Quaternion<double> turned = product(about({-std::sin(q[3]), std::cos(q[3]), 0}, q[4]), about(vertical, q[5]));
+  std::vector<double> x = {q[0], q[1], q[2]};
+  const double step = one_in(random, 8) ? std::pow(10.0, uniform(random, -12, 0)) : 1;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double length = (one_in(random, 2) ? 1 : -1) * std::pow(10.0, one_in(random, 4) ? uniform(random, -3, 3) : 0);
+    trial.controls[k].x = {x[0], x[1], x[2]};
+    for (const double c : turned) trial.controls[k].x.push_back(length * c);
+    for (double& c : x) c += step * 0.1 * trial.size * uniform(random, -1, 1);
+    const double angle = one_in(random, 12) ? uniform(random, 0, 2.5) : one_in(random, 8) ? 0 : uniform(random, 0, 0.2);
+    turned = product(turned, about(direction(), step * angle));
+  }
+  set_pose(trial, six_coordinates);
+}
+
+/// Lengths near those of the poses, which then are but a reference.
+void choose_lengths(Trial& trial, Random& random) {
+  const Machine<double> machine = make_machine<double>(trial.problem);
+  const double error = one_in(random, 2) ? 0 : std::pow(10.0, uniform(random, -9, -2));
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<double>& x = trial.controls[k].x;
+    for (const double length : lengths(machine, mixed(x, x, 0.0))) {
+      x.push_back(length * (1 + error * uniform(random, -1, 1)));
+    }
+  }
+}
+
+// ---- Tolerances ------------------------------------------------------------------------------------------------------
+
+void choose_tolerances(Trial& trial, Random& random) {
+  if (trial.tolerances == ToleranceKind::kNone) return;
+  TolerancesText& t = trial.problem.tolerances.emplace();
+  const auto has = [&](ToleranceKind kind) {
+    return trial.tolerances == kind || (trial.tolerances == ToleranceKind::kTogether && !one_in(random, 4));
+  };
+  const double fraction = std::pow(10.0, uniform(random, -9, -3));
+  const auto distance = [&] {
+    return one_in(random, 8) ? DecimalText("0") : decimal(trial.size * fraction * uniform(random, 0.1, 1));
+  };
+  if (has(ToleranceKind::kAnchors)) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      t.base_anchor_m[i] = distance();
+      t.platform_anchor_m[i] = distance();
+    }
+  }
+  if (has(ToleranceKind::kLoad)) {
+    t.load_point_m = distance();
+    const double force = std::abs(number<double>(trial.problem.load.wrench[2]));
+    for (std::size_t k = 0; k < 6; ++k) {
+      t.wrench[k] = decimal(force * (k < 3 ? 1 : trial.size) * fraction * uniform(random, -1, 1));
+    }
+  }
+  if (has(ToleranceKind::kTracking)) {
+    t.position_m = distance();
+    t.orientation_rad = one_in(random, 8) ? "0" : decimal(fraction * uniform(random, 0.1, 1));
+  }
+  if (has(ToleranceKind::kCables)) {
+    t.cable_length_m.emplace();
+    for (DecimalText& length : *t.cable_length_m) length = distance();
+  }
+}
+
+// ---- Motion ----------------------------------------------------------------------------------------------------------
+
+/// The segment's mix at s of what `value` reads from the control points.
+template <class F>
+BigFloat mix(const Trial& trial, const BigFloat& t, F value) {
+  const BigFloat u = BigFloat(1.0) - t;
+  if (trial.interpolation == Interpolation::kStraight)
+    return u * value(trial.controls[0]) + t * value(trial.controls[1]);
+  const BigFloat three(3.0);
+  const BigFloat four(4.0);
+  const BigFloat six(6.0);
+  const BigFloat t2 = t * t;
+  const BigFloat t3 = t2 * t;
+  return (u * u * u * value(trial.controls[0]) + (three * t3 - six * t2 + four) * value(trial.controls[1]) +
+          (three * t2 - three * t3 + three * t + BigFloat(1.0)) * value(trial.controls[2]) +
+          t3 * value(trial.controls[3])) /
+         six;
+}
+
+/// Gauss elimination of a small system.
+Vector solve(std::vector<Vector> a, Vector b) {
+  const std::size_t n = b.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t pivot = c;
+    for (std::size_t i = c + 1; i < n; ++i) {
+      if (abs(a[i][c]) > abs(a[pivot][c])) pivot = i;
+    }
+    std::swap(a[c], a[pivot]);
+    std::swap(b[c], b[pivot]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == c) continue;
+      const BigFloat factor = a[i][c] / a[c][c];
+      for (std::size_t j = c; j < n; ++j) a[i][j] -= factor * a[c][j];
+      b[i] -= factor * b[c];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) b[i] /= a[i][i];
+  return b;
+}
+
+Vector parameters_at(const Trial& trial, const BigFloat& s) {
+  Vector q;
+  const std::size_t m = trial.controls[0].x.size();
+  for (std::size_t j = 0; j < m; ++j) q.push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.x[j]); }));
+  if (!trial.constraints) return q;
+  const std::size_t k = trial.problem.space.constraints.size();
+  std::vector<Vector> normals(m);
+  for (std::size_t j = 0; j < m; ++j) {
+    for (std::size_t i = 0; i < k; ++i) {
+      normals[j].push_back(mix(trial, s, [&](const Waypoint& w) { return BigFloat(w.normals[j * k + i]); }));
+    }
+  }
+  constexpr int kNewtonSteps = 9;  // doubling some 3 digits
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const std::vector<Vector> gradients = trial.constraints->gradients(q);
+    std::vector<Vector> g_y(k, Vector(k));
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t l = 0; l < k; ++l) {
+        for (std::size_t j = 0; j < m; ++j) g_y[i][l] += gradients[i][j] * normals[j][l];
+      }
+    }
+    const Vector y = solve(g_y, trial.constraints->values(q));
+    for (std::size_t j = 0; j < m; ++j) {
+      for (std::size_t i = 0; i < k; ++i) q[j] -= normals[j][i] * y[i];
+    }
+  }
+  return q;
+}
+
+}  // namespace
+
+Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances) {
+  Trial trial;
+  // Half of all trials have no tolerances, and a quarter one kind of them.
+  constexpr std::uint64_t kKinds = kToleranceKinds - 2;  // one at a time
+  const std::uint64_t drawn = random() % (4 * kKinds);
+  const ToleranceKind random_kind = drawn < 2 * kKinds   ? ToleranceKind::kNone
+                                    : drawn < 3 * kKinds ? static_cast<ToleranceKind>(1 + drawn % kKinds)
+                                                         : ToleranceKind::kTogether;
+  const Law random_law = static_cast<Law>(random() % kLaws);
+  trial.tolerances = tolerances.value_or(random_kind);
+  trial.law = law.value_or(random_law);
+  switch (trial.law) {
+    case Law::kStraight:
+    case Law::kSpline: choose_space(trial, random, false); break;
+    case Law::kImplied: choose_space(trial, random, true); break;
+    case Law::kGeodesic:
+    case Law::kCableLengths: choose_poses(trial, random); break;
+  }
+  if (trial.law == Law::kSpline || (trial.law == Law::kImplied && one_in(random, 3))) {
+    trial.interpolation = Interpolation::kCubicBSpline;
+  }
+  if (trial.law == Law::kGeodesic) trial.interpolation = Interpolation::kGeodesic;
+  if (trial.law == Law::kCableLengths) {
+    trial.interpolation = Interpolation::kCableLengths;
+    choose_lengths(trial, random);
+  }
+  if (trial.constraints) {
+    const ConstraintFunctions functions(trial.problem);
+    for (Waypoint& waypoint : trial.controls) bring_near(functions, waypoint, random);
+  }
+  choose_tolerances(trial, random);
+  return trial;
+}
+
+template <class S>
+Motion<S>::Motion(const Trial& trial)
+    : trial_(trial), machine_(make_machine<S>(trial.problem)), tolerances_(make_tolerances<S>(trial.problem)) {
+  if (trial.constraints && std::is_same_v<S, double>) constraints_.emplace(trial.problem);
+}
+
+template <class S>
+RigidPose<S> Motion<S>::reference(const S& s) const {
+  if (trial_.law == Law::kGeodesic) return slerp(trial_.controls[0].x, trial_.controls[1].x, s);
+  if (trial_.law == Law::kCableLengths) return mixed(trial_.controls[0].x, trial_.controls[1].x, s);
+  Six<S> pose;
+  if constexpr (std::is_same_v<S, double>) {
+    pose = trial_.pose_approx(constraints_ ? constraints_->parameters(trial_.curve(), s)
+                                           : curve_parameters(trial_.curve(), s));
+  } else {
+    pose = trial_.pose(parameters_at(trial_, s));
+  }
+  return {{pose[0], pose[1], pose[2]}, orientation(pose[3], pose[4], pose[5])};
+}
+
+template <class S>
+Six<S> Motion<S>::commanded_lengths(const S& s, const Deviation& deviation) const {
+  Six<S> result;
+  if (trial_.law == Law::kCableLengths) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      result[i] = (S(1.0) - s) * S(trial_.controls[0].x[7 + i]) + s * S(trial_.controls[1].x[7 + i]);
+    }
+  } else {
+    result = lengths(machine_, reference(s));
+  }
+  for (std::size_t i = 0; i < kCables; ++i) result[i] = result[i] + tolerances_.length[i] * S(deviation.length[i]);
+  return result;
+}
+
+template <class S>
+std::optional<RigidPose<S>> Motion<S>::commanded(const S& s, const Deviation& deviation) const {
+  constexpr int kNewtonSteps = 25;
+  const RigidPose<S> start = reference(s);
+  if (!trial_.is_held()) return start;
+  return hold(machine(deviation), start, commanded_lengths(s, deviation), kNewtonSteps);
+}
+
+template <class S>
+std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const Deviation& deviation) const {
+  std::optional<RigidPose<S>> pose = commanded(s, deviation);
+  if (!pose) return std::nullopt;
+  pose->p = pose->p + scaled(tolerances_.position, deviation.position);
+  pose->r = turn(scaled(tolerances_.turn, deviation.turn)) * pose->r;
+  return campaign::statics(machine(deviation), *pose);
+}
+
+template class Motion<double>;
+template class Motion<BigFloat>;
+
+}  // namespace taut::campaign
