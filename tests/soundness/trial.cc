@@ -237,9 +237,16 @@ void choose_poses(Trial& trial, Random& random) {
   const Vec<double> vertical{0, 0, 1};
   Quaternion<double> turned = product(about({-std::sin(q[3]), std::cos(q[3]), 0}, q[4]), about(vertical, q[5]));
   std::vector<double> x = {q[0], q[1], q[2]};
-  const double step = one_in(random, 8) ? std::pow(10.0, uniform(random, -12, 0)) : 1;
+  // Positions step by a tenth of the robot. Poses held by lengths are known to be single for steps of its hundredth only.
+  const double usual = trial.law == Law::kGeodesic ? 1 : std::pow(10.0, uniform(random, -3, 0));
+  const double step = one_in(random, 8) ? std::pow(10.0, uniform(random, -12, 0)) : usual;
+  const auto random_length = [&] {
+    return (one_in(random, 2) ? 1 : -1) * std::pow(10.0, one_in(random, 4) ? uniform(random, -3, 3) : 0);
+  };
+  double length = random_length();
   for (std::size_t k = 0; k < 2; ++k) {
-    const double length = (one_in(random, 2) ? 1 : -1) * std::pow(10.0, one_in(random, 4) ? uniform(random, -3, 3) : 0);
+    // Under the law of lengths another length or sign makes another reference, the wrong one.
+    if (trial.law == Law::kGeodesic || one_in(random, 16)) length = random_length();
     trial.controls[k].x = {x[0], x[1], x[2]};
     for (const double c : turned) trial.controls[k].x.push_back(length * c);
     for (double& c : x) c += step * 0.1 * trial.size * uniform(random, -1, 1);
@@ -252,7 +259,7 @@ void choose_poses(Trial& trial, Random& random) {
 /// Lengths near those of the poses, which then are but a reference.
 void choose_lengths(Trial& trial, Random& random) {
   const Machine<double> machine = make_machine<double>(trial.problem);
-  const double error = one_in(random, 2) ? 0 : std::pow(10.0, uniform(random, -9, -2));
+  const double error = one_in(random, 2) ? 0 : std::pow(10.0, uniform(random, -9, -3));
   for (std::size_t k = 0; k < 2; ++k) {
     std::vector<double>& x = trial.controls[k].x;
     for (const double length : lengths(machine, mixed(x, x, 0.0))) {
