@@ -75,11 +75,16 @@ bool project(const PoseSampler& sampler, Coordinates& q) {
   return reached.has_value();
 }
 
-/// Where the space has constraints, gives each segment, or the only waypoint, its tube.
+/// Gives each segment, or the only waypoint, the tubes that it needs.
 void set_tubes(Path& path, const Prover& prover) {
-  if (prover.problem().space.constraints.empty() || !path.tubes.empty()) return;
+  const bool needs_tubes = !prover.problem().space.constraints.empty() && path.tubes.empty();
+  const bool needs_pose_tubes = prover.is_held_by_lengths(path.interpolation) && path.pose_tubes.empty();
   const std::size_t count = std::max<std::size_t>(1, path.segments());
-  for (std::size_t k = 0; k < count; ++k) path.tubes.push_back(prover.suitable_tube(path.segment(k)));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Segment segment = path.segment(k);
+    if (needs_tubes) path.tubes.push_back(prover.suitable_tube(segment));
+    if (needs_pose_tubes) path.pose_tubes.push_back(prover.suitable_pose_tube(segment));
+  }
 }
 
 std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) {
