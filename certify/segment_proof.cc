@@ -46,7 +46,7 @@ PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
   constexpr int kSamples = 4;             // intervals of s
   constexpr double kRoom = 4.0;           // around a motion, as in suitable_tube
   constexpr double kRoomOfErrors = 1.75;  // (b) of implied_zero.h with ρ < 0.4; a wider tube only has a larger ρ
-  constexpr double kLeast = 0x1p-30;
+  constexpr double kLeast = 0x1p-8;       // in a narrower tube boxes would have to be small, for (b)
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const Model<double>& model = sampler_->model();
   const double unit = std::exp2(std::ceil(std::log2(model.characteristic_length)));

@@ -23,7 +23,7 @@ enum class Verdict { kProved, kRefuted, kUndecided };
 struct ProofOptions {
   /// The last rung of the ladder [bits], at least 128: only what is exactly zero, or takes more, stays undecided.
   mpfr_prec_t max_bits = 4096;
-  int max_boxes = 200'000;               ///< boxes judged in one segment
+  int max_boxes = 200'000;                ///< boxes judged in one segment
   int max_multiprecision_boxes = 10'000;  ///< of them in MPFR, each of which takes about a millisecond
   /// Depth from which a box for which no motion on the constraints was proved climbs the ladder, and is not split.
   int motion_depth = 12;
@@ -98,7 +98,7 @@ class Prover {
   /// Whether the machine is held by its cables' lengths along a path of this law.
   [[nodiscard]] bool is_held_by_lengths(Interpolation law) const;
   /// For a machine held by lengths: room around the pose that floating point finds and what deviations may displace it. The ratio
-  /// of its two sizes is the problem's, so that of any two tubes one contains the other. As small where nothing is found.
+  /// of its two sizes is the problem's, so that of any two tubes one contains the other.
   [[nodiscard]] PoseTube suitable_pose_tube(const Segment& segment) const;
   /// `segment` with the tubes that it needs.
   [[nodiscard]] Segment prepared(Segment segment) const;
@@ -153,7 +153,7 @@ class Prover {
   ProofModel<Interval> fast_;
   mutable std::once_flag sampler_made_;
   mutable std::optional<PoseSampler> sampler_;  ///< made when first needed, for pose tubes
-  std::vector<mpfr_prec_t> bits_;  ///< of the rungs
+  std::vector<mpfr_prec_t> bits_;               ///< of the rungs
   /// One a rung of the ladder, made when first needed: most problems never climb it.
   struct Rung {
     std::once_flag made;
