@@ -407,7 +407,8 @@ Margins read_margins(const Json& json, const std::string& where) {
           decimal(json["wrench_scale"], where + ".wrench_scale")};
 }
 
-Segment read_segment(const Json& json, std::size_t k, std::size_t control_points) {
+/// @param is_whole  whether the boxes tile the segment: where stretches are listed they need not.
+Segment read_segment(const Json& json, std::size_t k, std::size_t control_points, bool is_whole) {
   const std::string here = at("segments", k);
   object(json, here, {"from", "to", "boxes", "margins"});
   const auto from = static_cast<std::int64_t>(k);
@@ -421,12 +422,17 @@ Segment read_segment(const Json& json, std::size_t k, std::size_t control_points
     const std::string where = at(here + ".boxes", b);
     array(boxes[b], where, 2);
     const Box box = {dyadic(boxes[b][0], where), dyadic(boxes[b][1], where)};
-    if (box.begin != reached || box.begin >= box.end) fail(where, "a box that begins where the last one ended");
+    const bool follows = is_whole ? box.begin == reached : box.begin >= reached;
+    if (!follows || box.begin >= box.end) fail(where, "a box that begins where the last one ended");
     reached = box.end;
     segment.boxes.push_back(box);
   }
-  if (reached != 1) fail(here + ".boxes", "boxes up to 1");
-  segment.margins = read_margins(json["margins"], here + ".margins");
+  if (is_whole && reached != 1) fail(here + ".boxes", "boxes up to 1");
+  if (!is_whole && boxes.empty()) {
+    if (!json["margins"].is_null()) fail(here + ".margins", "null where there is no box");
+  } else {
+    segment.margins = read_margins(json["margins"], here + ".margins");
+  }
   return segment;
 }
 
@@ -465,36 +471,130 @@ Place read_place(const Json& json, const std::string& where, const Path& path) {
   return {static_cast<std::size_t>(k), dyadic(json["s"], where + ".s")};
 }
 
-Witness read_witness(const Json& json, const Problem& problem, const Path& path) {
-  if (!json.is_object() || !json.contains("kind")) fail("witness", "an object with the key 'kind'");
+/// PLACE of the format.
+Place read_plain_place(const Json& json, const std::string& where, const Path& path) {
+  object(json, where, {"segment", "s"});
+  const std::int64_t k =
+      integer(json["segment"], where + ".segment", 0, static_cast<std::int64_t>(path.segments()) - 1);
+  return {static_cast<std::size_t>(k), dyadic(json["s"], where + ".s")};
+}
+
+WitnessDeviation read_deviation(const Json& json, const std::string& where, bool is_held) {
+  object(json, where, {"base_anchors_m", "platform_anchors_m", "load_point_m", "wrench", "position_m", "turn"});
+  WitnessDeviation result;
+  result.base_anchors = decimal_rows<kCables, 3>(json["base_anchors_m"], where + ".base_anchors_m");
+  result.platform_anchors = decimal_rows<kCables, 3>(json["platform_anchors_m"], where + ".platform_anchors_m");
+  result.load_point = decimals<3>(json["load_point_m"], where + ".load_point_m");
+  result.wrench = decimal(json["wrench"], where + ".wrench");
+  result.position = decimals<3>(json["position_m"], where + ".position_m");
+  result.turn = decimals<3>(json["turn"], where + ".turn");
+  const auto is_zero = [](const std::array<mpq_class, 3>& x) { return x[0] == 0 && x[1] == 0 && x[2] == 0; };
+  if (is_held && (!std::all_of(result.base_anchors.begin(), result.base_anchors.end(), is_zero) ||
+                  !std::all_of(result.platform_anchors.begin(), result.platform_anchors.end(), is_zero))) {
+    fail(where, "anchors that do not deviate where the machine is held by lengths");
+  }
+  return result;
+}
+
+Witness read_witness(const Json& json, const std::string& here, const Problem& problem, const Path& path) {
+  if (!json.is_object() || !json.contains("kind")) fail(here, "an object with the key 'kind'");
   static const std::map<std::string, WitnessKind> kKinds = {{"tension_min", WitnessKind::kTensionMin},
                                                             {"tension_max", WitnessKind::kTensionMax},
                                                             {"length_min", WitnessKind::kLengthMin},
                                                             {"length_max", WitnessKind::kLengthMax},
                                                             {"singular", WitnessKind::kSingular}};
-  const auto kind = kKinds.find(text(json["kind"], "witness.kind"));
-  if (kind == kKinds.end()) fail("witness.kind", "a kind of the format");
+  const auto kind = kKinds.find(text(json["kind"], here + ".kind"));
+  if (kind == kKinds.end()) fail(here + ".kind", "a kind of the format");
   Witness witness;
   witness.kind = kind->second;
   if (witness.kind == WitnessKind::kSingular) {
-    object(json, "witness", {"kind", "at", "to"});
-    witness.at = read_place(json["at"], "witness.at", path);
-    witness.to = read_place(json["to"], "witness.to", path);
+    object(json, here, {"kind", "at", "to"});
+    witness.at = read_place(json["at"], here + ".at", path);
+    witness.to = read_place(json["to"], here + ".to", path);
     return witness;
   }
-  object(json, "witness", {"kind", "at", "cable", "value", "limit"});
-  witness.at = read_place(json["at"], "witness.at", path);
-  witness.cable = static_cast<int>(integer(json["cable"], "witness.cable", 1, kCables)) - 1;
-  const auto value = decimals<2>(json["value"], "witness.value");
+  if (json.contains("deviation")) {
+    object(json, here, {"kind", "at", "cable", "value", "limit", "deviation"});
+    if (!problem.tolerances) fail(here + ".deviation", "tolerances to be within");
+    witness.deviation = read_deviation(json["deviation"], here + ".deviation", !path.pose_tubes.empty());
+  } else {
+    object(json, here, {"kind", "at", "cable", "value", "limit"});
+  }
+  witness.at = read_place(json["at"], here + ".at", path);
+  witness.cable = static_cast<int>(integer(json["cable"], here + ".cable", 1, kCables)) - 1;
+  const auto value = decimals<2>(json["value"], here + ".value");
   witness.value_lower = value[0];
   witness.value_upper = value[1];
   const bool of_tension = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kTensionMax;
   const bool of_minimum = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kLengthMin;
   const Limits& limit = (of_tension ? problem.tension : problem.length)[static_cast<std::size_t>(witness.cable)];
-  if (decimal(json["limit"], "witness.limit") != (of_minimum ? limit.lower : limit.upper)) {
-    fail("witness.limit", "the cable's limit in the problem");
+  if (decimal(json["limit"], here + ".limit") != (of_minimum ? limit.lower : limit.upper)) {
+    fail(here + ".limit", "the cable's limit in the problem");
   }
   return witness;
+}
+
+/// Along the whole path, a segment being as long as 1.
+mpq_class abscissa(const Place& place) { return mpq_class(place.segment) + place.s; }
+
+Stretch read_stretch(const Json& json, const std::string& here, const Problem& problem, const Path& path) {
+  object(json, here, {"outer", "inner", "reason"});
+  array(json["outer"], here + ".outer", 2);
+  Stretch stretch;
+  stretch.begin = read_plain_place(json["outer"][0], here + ".outer[0]", path);
+  stretch.end = read_plain_place(json["outer"][1], here + ".outer[1]", path);
+  const mpq_class begin = abscissa(stretch.begin);
+  const mpq_class end = abscissa(stretch.end);
+  if (begin >= end) fail(here + ".outer", "two places in order");
+  if (json["inner"].is_null()) {
+    text(json["reason"], here + ".reason");
+    return stretch;
+  }
+  if (!json["reason"].is_null()) fail(here + ".reason", "null where a violation is proved");
+  array(json["inner"], here + ".inner", 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string where = at(here + ".inner", i);
+    const Witness& witness = stretch.inner.emplace_back(read_witness(json["inner"][i], where, problem, path));
+    for (const Place& place : {witness.at, witness.kind == WitnessKind::kSingular ? witness.to : witness.at}) {
+      if (abscissa(place) < begin || abscissa(place) > end) fail(where, "a place between the outer ends");
+    }
+  }
+  if (abscissa(stretch.inner[1].at) < abscissa(stretch.inner[0].at)) fail(here + ".inner", "two witnesses in order");
+  return stretch;
+}
+
+std::vector<Stretch> read_stretches(const Json& json, const Problem& problem, const Path& path) {
+  array(json, "stretches");
+  if (!problem.query.empty()) fail("stretches", "null where nothing was audited");
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const std::string here = at("stretches", i);
+    stretches.push_back(read_stretch(json[i], here, problem, path));
+    if (i > 0 && abscissa(stretches[i].begin) < abscissa(stretches[i - 1].end)) {
+      fail(here + ".outer", "a stretch after the last one");
+    }
+  }
+  return stretches;
+}
+
+/// The proved boxes and the outer intervals of the stretches cover the path, and do not overlap.
+void require_tiling(const Certificate& certificate) {
+  std::vector<std::pair<mpq_class, mpq_class>> parts;
+  for (std::size_t k = 0; k < certificate.segments.size(); ++k) {
+    for (const Box& box : certificate.segments[k].boxes) {
+      parts.emplace_back(abscissa({k, box.begin}), abscissa({k, box.end}));
+    }
+  }
+  for (const Stretch& stretch : certificate.stretches) {
+    parts.emplace_back(abscissa(stretch.begin), abscissa(stretch.end));
+  }
+  std::sort(parts.begin(), parts.end());
+  mpq_class reached = 0;
+  for (const auto& [begin, end] : parts) {
+    if (begin != reached) fail("stretches", "boxes and outer ends that tile the path");
+    reached = end;
+  }
+  if (reached != certificate.path.segments()) fail("stretches", "boxes and outer ends that tile the path");
 }
 
 std::string read_undecided(const Json& json, std::size_t segments) {
@@ -594,23 +694,42 @@ Certificate read_certificate(const nlohmann::json& json) {
   const Path& path = certificate.path;
 
   const Json& segments = array(json["segments"], "segments");
-  if (certificate.verdict == Verdict::kProved) {
-    if (path.segments() == 0) fail("path.waypoints", "at least two of a proved path");
-    array(segments, "segments", path.segments());
-    for (std::size_t k = 0; k < segments.size(); ++k) {
-      certificate.segments.push_back(read_segment(segments[k], k, path.control_points()));
-      certificate.boxes += certificate.segments.back().boxes.size();
-    }
+  const Json& stretches = json["stretches"];
+  const bool is_proved = certificate.verdict == Verdict::kProved;
+  const bool is_refuted = certificate.verdict == Verdict::kRefuted;
+  if (is_proved && path.segments() == 0) fail("path.waypoints", "at least two of a proved path");
+  array(segments, "segments", is_proved || (is_refuted && !stretches.is_null()) ? path.segments() : 0);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    certificate.segments.push_back(read_segment(segments[k], k, path.control_points(), is_proved));
+    certificate.boxes += certificate.segments.back().boxes.size();
+  }
+  if (is_proved) {
     certificate.margins = read_top_margins(json["margins"], segments);
   } else {
-    array(segments, "segments", 0);
     object(json["margins"], "margins", {});
   }
 
-  if (certificate.verdict == Verdict::kRefuted) {
-    certificate.witness = read_witness(json["witness"], certificate.problem, path);
+  if (is_refuted) {
+    certificate.witness = read_witness(json["witness"], "witness", certificate.problem, path);
   } else if (!json["witness"].is_null()) {
     fail("witness", "null");
+  }
+  if (is_proved) {
+    if (!stretches.is_null()) fail("stretches", "null");
+  } else if (!stretches.is_null()) {
+    certificate.stretches = read_stretches(stretches, certificate.problem, path);
+    const auto is_violated = [](const Stretch& stretch) { return !stretch.inner.empty(); };
+    if (!is_refuted && std::any_of(certificate.stretches.begin(), certificate.stretches.end(), is_violated)) {
+      fail("stretches", "open ones only, where nothing is refuted");
+    }
+    if (is_refuted) {
+      require_tiling(certificate);
+      const auto has_witness = [&](const Json& stretch) {
+        return !stretch["inner"].is_null() &&
+               std::count(stretch["inner"].begin(), stretch["inner"].end(), json["witness"]) > 0;
+      };
+      if (std::none_of(stretches.begin(), stretches.end(), has_witness)) fail("witness", "one of the stretches'");
+    }
   }
   if (certificate.verdict == Verdict::kUndecided) {
     certificate.undecided_reason = read_undecided(json["undecided"], path.segments());
@@ -618,7 +737,6 @@ Certificate read_certificate(const nlohmann::json& json) {
     fail("undecided", "null");
   }
 
-  if (!json["stretches"].is_null()) fail("stretches", "null");
   read_source(json["source"]);
   if (!json["source"].is_null() && !certificate.problem.query.empty()) fail("source", "null where nothing was audited");
   if (has_poses(path.interpolation)) {

@@ -123,6 +123,16 @@ struct Place {
   mpq_class s;
 };
 
+/// Of the machine at a witness from what the problem states: what is added to its numbers.
+struct WitnessDeviation {
+  std::array<std::array<mpq_class, 3>, kCables> base_anchors;
+  std::array<std::array<mpq_class, 3>, kCables> platform_anchors;
+  std::array<mpq_class, 3> load_point;
+  mpq_class wrench;  ///< how many times the tolerance of the wrench
+  std::array<mpq_class, 3> position;
+  std::array<mpq_class, 3> turn;  ///< u: the rotation of the quaternion (u, 1)
+};
+
 struct Witness {
   WitnessKind kind = WitnessKind::kSingular;
   Place at;
@@ -130,6 +140,14 @@ struct Witness {
   int cable = 0;  ///< 0 to 5
   mpq_class value_lower;
   mpq_class value_upper;
+  std::optional<WitnessDeviation> deviation;
+};
+
+/// A part of an audited path that is not proved.
+struct Stretch {
+  Place begin;
+  Place end;
+  std::vector<Witness> inner;  ///< none where it is open, else its first and last violation that are proved
 };
 
 struct Certificate {
@@ -139,6 +157,7 @@ struct Certificate {
   std::vector<Segment> segments;
   std::array<std::string, 3> margins;  ///< top level, as written: tension_N, length_m, wrench_scale
   std::optional<Witness> witness;
+  std::vector<Stretch> stretches;
   std::string undecided_reason;
   std::size_t boxes = 0;
 };
@@ -155,7 +174,7 @@ struct Certificate {
 [[nodiscard]] const nlohmann::json& coordinate_space();
 
 /// Reads and checks form: keys, types, counts, digests, claim text, boxes that tile [0, 1], limits in order, E
-/// symmetric, periodic parameters along which pose and constraints close, normals and tubes of the right sizes, the
+/// symmetric, boxes and stretches that tile the path, periodic parameters along which pose and constraints close, normals and tubes of the right sizes, the
 /// top-level margins those of the worst segments. Proves nothing about the robot.
 /// @throws Malformed naming the key.
 [[nodiscard]] Certificate read_certificate(const nlohmann::json& json);

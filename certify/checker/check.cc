@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certify/checker/certificate.h"
+#include "certify/checker/deviation.h"
 #include "certify/checker/held.h"
 #include "certify/checker/motion.h"
 #include "certify/checker/pose_proof.h"
@@ -15,11 +16,15 @@ namespace taut::checker {
 namespace {
 
 /// Tried in turn on each statement; the last failure counts.
-constexpr std::array<int, 3> kPrecisions = {128, 256, 512};
-/// Halvings of one box, and boxes that they may make. A prover proves a box at one go, so few are needed; at a true
-/// minimum that was claimed to 15 digits a second-order enclosure needs some 25 halvings.
-constexpr int kMaxDepth = 40;
+constexpr std::array<int, 6> kPrecisions = {128, 256, 512, 1024, 2048, 4096};
+/// Halvings of one box, and pieces that they may make. A prover proves a box at one go, so few are needed; at a true minimum
+/// that was claimed to 15 digits a second-order enclosure needs some 25 halvings.
+constexpr int kMostHalvings = 60;
 constexpr int kMaxPieces = 2000;
+/// Pieces that all boxes together may need on the average, beyond those that one may: so the work is bounded by a file's size.
+constexpr std::size_t kMeanPieces = 50;
+/// Parts into which deviations are divided (deviation.h): 2^h after h halvings of a box, up to this.
+constexpr int kMostSteps = 8;
 
 enum class Answer { kYes, kNo, kUnknown };
 
@@ -44,16 +49,7 @@ class Checker {
   void confirm_proved() {
     require_waypoints_in_range();
     require_query();
-    for (std::size_t k = 0; k < certificate_.segments.size(); ++k) {
-      const Margins& margins = certificate_.segments[k].margins;
-      if (margins.tension <= 0 || margins.length <= 0 || margins.wrench_scale < 1) {
-        throw Rejected("segment " + std::to_string(k) +
-                       ": claims a margin that is not positive, or a wrench scale below 1");
-      }
-      for (const Box& box : certificate_.segments[k].boxes) {
-        escalate([&](const Model& model) { prove_box(model, k, box); });
-      }
-    }
+    prove_segments();
   }
 
   void confirm_refuted() {
@@ -63,13 +59,13 @@ class Checker {
     } else {
       require_query();
     }
-    escalate([&](const Model& model) {
-      if (certificate_.witness->kind == WitnessKind::kSingular) {
-        confirm_sign_change(model);
-      } else {
-        confirm_violation(model);
+    confirm_witness(*certificate_.witness, "the witness");
+    for (std::size_t i = 0; i < certificate_.stretches.size(); ++i) {
+      for (const Witness& witness : certificate_.stretches[i].inner) {
+        confirm_witness(witness, "stretch " + std::to_string(i) + ": the witness");
       }
-    });
+    }
+    prove_segments();
   }
 
  private:
@@ -89,67 +85,108 @@ class Checker {
     }
   }
 
-  /// The segment's claim for each s of the box: for each of finitely many pieces that cover it.
-  void prove_box(const Model& model, std::size_t k, const Box& box) {
+  /// The boxes of all segments.
+  void prove_segments() {
+    for (std::size_t k = 0; k < certificate_.segments.size(); ++k) {
+      const Segment& segment = certificate_.segments[k];
+      const Margins& margins = segment.margins;
+      if (!segment.boxes.empty() && (margins.tension <= 0 || margins.length <= 0 || margins.wrench_scale < 1)) {
+        throw Rejected("segment " + std::to_string(k) +
+                       ": claims a margin that is not positive, or a wrench scale below 1");
+      }
+      for (const Box& box : segment.boxes) {
+        const std::string where = "segment " + std::to_string(k) + ", box ";
+        escalate([&](const Model& model) {
+          cover(box, where, [&](const Box& piece, int halvings) {
+            const int steps = halvings < 3 ? 1 << halvings : kMostSteps;
+            if (const auto doubt = doubt_piece(model, k, piece, steps, where + show(piece))) throw Undefined(*doubt);
+          });
+        });
+      }
+    }
+  }
+
+  /// Shows something for every s of the box: of each of finitely many pieces that cover it, by `prove`, which is given a
+  /// piece and the number of halvings that led to it, and throws Undefined where it fails. Where it fails of the middle of a
+  /// piece alone, which is as small as pieces get, halving would not help: then this throws Undefined, too.
+  template <class Prove>
+  void cover(const Box& box, const std::string& where, const Prove& prove) {
     struct Piece {
       Box box;
-      int depth;
+      int halvings;
     };
-    const auto controls = certificate_.path.controls(k);
-    const bool moves =
-        std::any_of(controls.begin(), controls.end(), [&](const Waypoint& w) { return w != controls[0]; });
-    std::vector<Piece> open = {{box, moves ? 0 : kMaxDepth}};  // where nothing moves a piece is like the whole
+    std::vector<Piece> open = {{box, 0}};
     int pieces = 0;
-    std::size_t proved = 0;
     while (!open.empty()) {
       const Piece piece = open.back();
       open.pop_back();
-      const std::string where = "segment " + std::to_string(k) + ", box " + show(piece.box);
-      if (++pieces > kMaxPieces) throw Undefined(where + ": after " + std::to_string(kMaxPieces) + " pieces");
       try {
-        if (const std::optional<std::string> doubt = doubt_piece(model, k, piece.box, where)) throw Undefined(*doubt);
-        ++proved;
+        prove(piece.box, piece.halvings);
+        ++pieces;
       } catch (const Undefined& doubt) {
-        if (piece.depth == kMaxDepth) throw Undefined(where + ": " + doubt.what());
         const mpq_class middle = (piece.box.begin + piece.box.end) / 2;
-        open.push_back({{middle, piece.box.end}, piece.depth + 1});
-        open.push_back({{piece.box.begin, middle}, piece.depth + 1});
+        try {
+          prove({middle, middle}, kMostHalvings);
+        } catch (const Undefined& reason) {
+          throw Undefined(where + show(piece.box) + ": " + reason.what());
+        }
+        if (piece.halvings == kMostHalvings || static_cast<int>(open.size()) + pieces >= kMaxPieces) {
+          throw Rejected("not confirmed: " + where + show(piece.box) + ": " + doubt.what());
+        }
+        open.push_back({{middle, piece.box.end}, piece.halvings + 1});
+        open.push_back({{piece.box.begin, middle}, piece.halvings + 1});
       }
     }
-    result_.pieces += proved;
+    result_.pieces += static_cast<std::size_t>(pieces);
+    if (result_.pieces > kMeanPieces * certificate_.boxes + kMaxPieces) {
+      throw Rejected("not confirmed: the boxes are too large to be proved in a reasonable time");
+    }
   }
 
   /// Nothing, where the segment's claim holds for every s of the box; else what could not be shown.
   /// @throws Rejected where the claim is certainly false at the middle of the box.
-  std::optional<std::string> doubt_piece(const Model& model, std::size_t k, const Box& box,
+  std::optional<std::string> doubt_piece(const Model& model, std::size_t k, const Box& box, int steps,
                                          const std::string& where) const {
-    const Geometry geometry = this->geometry(model, k, box);
-    const Tensions tensions = model.tensions(geometry);  // J is non-singular on the box
+    const Situation at = situation(model, k, box, model.deviation());
+    const Geometry& geometry = at.geometry;
+    const Inverse inverse = checker::inverse(geometry.D);  // J is non-singular on the box
+    const Tensions tensions = model.tensions(geometry, inverse.Y);
     const Margins& claimed = certificate_.segments[k].margins;
     const Form tension_margin{Interval(claimed.tension)};
     const Form length_margin{Interval(claimed.length)};
     const Form scale{Interval(claimed.wrench_scale)};
+    const bool is_one_place = box.begin == box.end;
+    Losses loss;
+    if (model.deviation() != nullptr) {
+      loss = losses(model, geometry, inverse, at.commanded, !certificate_.path.pose_tubes.empty(),
+                    Interval(claimed.wrench_scale), steps);
+    }
     std::optional<std::string> doubt;
-    const auto require = [&](const char* what, std::size_t i, const Form& left, const Form& right) {
+    const auto require = [&](const char* what, std::size_t i, const Form& left, const Form& right,
+                             const Interval& loss_of_it) {
       const Form excess = left - right;
       const std::string statement = "cable " + std::to_string(i + 1) + ": " + what;
       if (certainly_negative(excess.mid)) {
         throw Rejected(where + ", " + statement + " is false at its middle, by " + digits(-excess.mid));
       }
-      if (!certainly_nonnegative(excess.range) && !doubt) doubt = statement + " not confirmed";
+      if (is_one_place && certainly_negative(excess.range - upper_end(loss_of_it))) {
+        throw Rejected("not confirmed: " + where + ", " +
+                       statement);  // what deviations take is not a matter of rounding
+      }
+      if (!certainly_nonnegative(excess.range - loss_of_it) && !doubt) doubt = statement + " not confirmed";
     };
     for (std::size_t i = 0; i < kCables; ++i) {
       const Form above = tensions.centre[i] - Form(model.tension_limit(i, false));
       const Form below = Form(model.tension_limit(i, true)) - tensions.centre[i];
       const Form& v = tensions.spread[i];
-      require("lower tension margin as claimed", i, above - v, tension_margin);
-      require("upper tension margin as claimed", i, below - v, tension_margin);
-      require("wrench scale as claimed, at the lower tension limit,", i, above, scale * v);
-      require("wrench scale as claimed, at the upper tension limit,", i, below, scale * v);
+      require("lower tension margin as claimed", i, above - v, tension_margin, loss.tension[i][0]);
+      require("upper tension margin as claimed", i, below - v, tension_margin, loss.tension[i][1]);
+      require("wrench scale as claimed, at the lower tension limit,", i, above, scale * v, loss.scaled[i][0]);
+      require("wrench scale as claimed, at the upper tension limit,", i, below, scale * v, loss.scaled[i][1]);
       require("lower length margin as claimed", i, geometry.length[i] - Form(model.length_limit(i, false)),
-              length_margin);
+              length_margin, loss.length[i]);
       require("upper length margin as claimed", i, Form(model.length_limit(i, true)) - geometry.length[i],
-              length_margin);
+              length_margin, loss.length[i]);
     }
     return doubt;
   }
@@ -164,34 +201,93 @@ class Checker {
     return frame(coordinates(problem, at));
   }
 
-  /// The geometry of the machine as it is stated, on a box of segment k, at the pose that is commanded.
-  Geometry geometry(const Model& model, std::size_t k, const Box& box) const {
+  /// A machine as it is stated, at the pose that is commanded.
+  struct Situation {
+    Commanded commanded;
+    Geometry geometry;
+  };
+
+  /// On a box of segment k; and, where `deviation` is not null, that every machine within it has its own one pose.
+  Situation situation(const Model& model, std::size_t k, const Box& box, const Deviation* deviation = nullptr) const {
     const Path& path = certificate_.path;
     const Frame there = reference(k, box);
-    if (path.pose_tubes.empty()) return model.geometry(there);
+    if (path.pose_tubes.empty()) return {{there, Interval(), Interval()}, model.geometry(there)};
     try {
-      if (path.interpolation != Interpolation::kCableLengths) {  // the controller commands the lengths that are there
-        const Geometry result = model.geometry(there);
-        (void)held_by_lengths(model, there, result.length, path.pose_tubes[k], nullptr);
+      if (path.interpolation == Interpolation::kCableLengths) {
+        const Vector6<Form> L = commanded_lengths(path, k, box);
+        Situation result{held_by_lengths(model, there, L, path.pose_tubes[k], deviation), {}};
+        result.geometry = model.geometry(result.commanded.pose);
+        result.geometry.length = L;
         return result;
       }
-      const Vector6<Form> lengths = commanded_lengths(path, k, box);
-      Geometry result = model.geometry(held_by_lengths(model, there, lengths, path.pose_tubes[k], nullptr).pose);
-      result.length = lengths;
+      // The controller commands the lengths that the stated machine has on the path: there it is.
+      Situation result{{}, model.geometry(there)};
+      result.commanded = held_by_lengths(model, there, result.geometry.length, path.pose_tubes[k], deviation);
+      result.commanded.pose = there;
       return result;
     } catch (const Undefined& why) {
       throw Undefined(std::string("the pose held by the lengths: ") + why.what());
     }
   }
 
-  Geometry geometry_at(const Model& model, const Place& place) const {
-    return geometry(model, place.segment, {place.s, place.s});
+  Situation situation_at(const Model& model, const Place& place) const {
+    return situation(model, place.segment, {place.s, place.s});
   }
 
-  void confirm_violation(const Model& model) const {
-    const Witness& witness = *certificate_.witness;
+  void confirm_witness(const Witness& witness, const std::string& name) {
+    escalate([&](const Model& model) {
+      if (witness.kind == WitnessKind::kSingular) {
+        confirm_sign_change(model, witness, name);
+      } else {
+        confirm_violation(model, witness, name);
+      }
+    });
+  }
+
+  /// The geometry of the machine that a witness is about, by `deviant`, which gets that machine's numbers.
+  Geometry geometry_of(const Witness& witness, const Model& model, std::optional<Model>& deviant) const {
+    const Situation stated = situation_at(model, witness.at);
+    if (!witness.deviation) return stated.geometry;
+    const WitnessDeviation& by = *witness.deviation;
+    Problem problem = certificate_.problem;
+    const Tolerances& within = *problem.tolerances;
+    const auto require_within = [](const std::array<mpq_class, 3>& x, const mpq_class& tolerance, const char* what) {
+      if (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] > tolerance * tolerance) {
+        throw Rejected(std::string("false: the witness's deviation is within the tolerance of ") + what);
+      }
+    };
+    for (std::size_t i = 0; i < kCables; ++i) {
+      require_within(by.base_anchors[i], within.base_anchors[i], "a base anchor");
+      require_within(by.platform_anchors[i], within.platform_anchors[i], "a platform anchor");
+      for (std::size_t c = 0; c < 3; ++c) {
+        problem.base_anchors[i][c] += by.base_anchors[i][c];
+        problem.platform_anchors[i][c] += by.platform_anchors[i][c];
+      }
+      problem.wrench[i] += by.wrench * within.wrench[i];
+    }
+    require_within(by.load_point, within.load_point, "the load point");
+    require_within({by.wrench, 0, 0}, 1, "the wrench");
+    require_within(by.position, within.position, "the position");
+    Frame pose = stated.commanded.pose;
+    Vector3<Form> u;
+    for (std::size_t c = 0; c < 3; ++c) {
+      problem.load_point[c] += by.load_point[c];
+      pose.p[c] += Form(Interval(by.position[c]));
+      u[c] = Form(Interval(by.turn[c]));
+    }
+    const Interval angle = Interval(2) * atan(sqrt(squared_norm(u).range));
+    require(is_nonnegative(model.deviation()->angle - angle),
+            "the witness's deviation is within the tolerance of the angle");
+    pose.R = multiply(rotation({u[0], u[1], u[2], Form(Interval(1))}), pose.R);
+    deviant.emplace(problem, model.bits());
+    return deviant->geometry(pose);
+  }
+
+  void confirm_violation(const Model& stated, const Witness& witness, const std::string& name) const {
     const auto i = static_cast<std::size_t>(witness.cable);
-    const Geometry geometry = geometry_at(model, witness.at);
+    std::optional<Model> deviant;
+    const Geometry geometry = geometry_of(witness, stated, deviant);
+    const Model& model = deviant ? *deviant : stated;
     Interval value = geometry.length[i].range;
     Interval excess;  // beyond the limit; a violation where >= 0, as limits are open
     switch (witness.kind) {
@@ -211,37 +307,28 @@ class Checker {
       case WitnessKind::kLengthMax: excess = value - model.length_limit(i, true); break;
       case WitnessKind::kSingular: throw std::logic_error("a sign change is confirmed elsewhere");
     }
-    require(is_nonnegative(excess), "the witness violates its limit (the quantity is about " + digits(value) + ")");
-    require(is_nonnegative(value - Interval(witness.value_lower)), "the lower end of the witness's value");
-    require(is_nonnegative(Interval(witness.value_upper) - value), "the upper end of the witness's value");
+    require(is_nonnegative(excess), name + " violates its limit (the quantity is about " + digits(value) + ")");
+    require(is_nonnegative(value - Interval(witness.value_lower)), "the lower end of the value of " + name);
+    require(is_nonnegative(Interval(witness.value_upper) - value), "the upper end of the value of " + name);
   }
 
   /// det D has opposite signs at two places, and D is continuous in between with all lengths positive, so that
   /// det J = det D / (product of the lengths) vanishes somewhere. Continuity is not free: the case's expressions may
   /// jump (1/x, tan, atan2). A Form of the geometry exists only where they don't.
-  void confirm_sign_change(const Model& model) const {
-    const Witness& witness = *certificate_.witness;
-    const auto det = [&](const Place& place) { return determinant(mid(geometry_at(model, place).D)); };
+  void confirm_sign_change(const Model& model, const Witness& witness, const std::string& name) {
+    const auto det = [&](const Place& place) { return determinant(mid(situation_at(model, place).geometry.D)); };
     const Interval product = det(witness.at) * det(witness.to);
-    if (certainly_positive(product)) throw Rejected("witness: det D has the same sign at both places");
-    if (!certainly_negative(product)) throw Undefined("witness: the signs of det D");
+    if (certainly_positive(product)) throw Rejected(name + ": det D has the same sign at both places");
+    if (!certainly_negative(product)) throw Undefined(name + ": the signs of det D");
     const auto before = [](const Place& a, const Place& b) {
       return a.segment != b.segment ? a.segment < b.segment : a.s < b.s;
     };
     const auto [begin, end] = std::minmax(witness.at, witness.to, before);
     for (std::size_t k = begin.segment; k <= end.segment; ++k) {
-      require_continuous(model, k, {k == begin.segment ? begin.s : 0, k == end.segment ? end.s : 1}, 0);
-    }
-  }
-
-  void require_continuous(const Model& model, std::size_t k, const Box& box, int depth) const {
-    try {
-      (void)geometry(model, k, box);
-    } catch (const Undefined&) {
-      if (depth == kMaxDepth) throw;
-      const mpq_class middle = (box.begin + box.end) / 2;
-      require_continuous(model, k, {box.begin, middle}, depth + 1);
-      require_continuous(model, k, {middle, box.end}, depth + 1);
+      const Box box = {k == begin.segment ? begin.s : 0, k == end.segment ? end.s : 1};
+      if (box.begin == box.end && begin.segment != end.segment) continue;  // a place, which is in the neighbour, too
+      cover(box, name + ": segment " + std::to_string(k) + ", ",
+            [&](const Box& piece, int /*halvings*/) { (void)situation(model, k, piece); });
     }
   }
 
@@ -391,7 +478,7 @@ void require_problem(nlohmann::json problem, const nlohmann::json& of_case) {
 }
 
 std::string plural(std::size_t n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : what == "box" ? "es" : "s");
+  return std::to_string(n) + " " + what + (n == 1 ? "" : what == "box" || what == "stretch" ? "es" : "s");
 }
 
 /// What a file says may be printed on a terminal and searched by scripts: here it is one line of printable ASCII, with
@@ -412,7 +499,15 @@ std::string printable(const std::string& text) {
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
   const std::string bits = "; " + std::to_string(result.bits) + " bits";
   const std::string audit = certificate.problem.query.empty() ? "an audit, " : "";
-  if (certificate.verdict == Verdict::kRefuted) return audit + "refuted again: the witness is confirmed" + bits;
+  if (certificate.verdict == Verdict::kRefuted) {
+    const std::string refuted = audit + "refuted again: the witness is confirmed";
+    if (certificate.stretches.empty()) return refuted + bits;
+    const auto open = std::count_if(certificate.stretches.begin(), certificate.stretches.end(),
+                                    [](const Stretch& stretch) { return stretch.inner.empty(); });
+    return refuted + ", " + plural(certificate.stretches.size(), "stretch") + " (" + std::to_string(open) +
+           " open), and nothing outside of them: " + plural(result.boxes, "box") + " (" +
+           std::to_string(result.pieces) + " after splitting)" + bits;
+  }
   return audit + "proved again: " + plural(result.segments, "segment") + ", " + plural(result.boxes, "box") + " (" +
          std::to_string(result.pieces) + " after splitting), tension margin >= " + certificate.margins[0] +
          " N, length margin >= " + certificate.margins[1] + " m, wrench scale >= " + certificate.margins[2] + bits;
@@ -435,7 +530,6 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
       throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
     }
     if (problem != nullptr) require_problem(json["problem"], *problem);
-    if (certificate.problem.tolerances) throw Rejected("tolerances can't be checked yet");
     Checker checker(certificate, result);
     switch (certificate.verdict) {
       case Verdict::kUndecided:

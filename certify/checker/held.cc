@@ -42,13 +42,13 @@ Matrix3<Interval> turn_by(const Vector3<Interval>& v) {
 class HeldByLengths : public Equations {
  public:
   HeldByLengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube,
-                const Slack* slack)
+                const Deviation* deviation)
       : model_(model),
         reference_(reference),
         L_(L),
         position_(mpq_class(tube.position)),
         turn_(mpq_class(tube.turn)),
-        slack_(slack) {}
+        deviation_(deviation) {}
 
   [[nodiscard]] std::size_t unknowns() const override { return 6; }
 
@@ -66,11 +66,11 @@ class HeldByLengths : public Equations {
       Vector3<Interval> Rb = multiply(R, b);
       Vector3<Interval> from_a = p - model_.base_anchors()[i];
       Interval length = L_[i].range;
-      if (slack_ != nullptr) {
-        b = widened(b, slack_->platform[i]);
-        Rb = widened(Rb, slack_->platform[i]);
-        from_a = widened(from_a, slack_->anchors[i] - slack_->platform[i]);
-        length += slack_->length[i] * Interval::plus_minus_one();
+      if (deviation_ != nullptr) {
+        b = widened(b, deviation_->platform[i]);
+        Rb = widened(Rb, deviation_->platform[i]);
+        from_a = widened(from_a, deviation_->base[i]);
+        length += deviation_->length[i] * Interval::plus_minus_one();
       }
       const Vector3<Interval> d = from_a + Rb;
       const Vector3<Interval> x = cross(Rb, from_a);  // = cross(Rb, d)
@@ -92,15 +92,18 @@ class HeldByLengths : public Equations {
       const Vector3<Interval> d = p + multiply(R, model_.platform_anchors()[i]) - model_.base_anchors()[i];
       const Interval squared = squared_norm(d);
       result[i] = (squared - sqr(L_[i].mid)) / Interval(2);
-      if (slack_ != nullptr) result[i] += deviation(*slack_, i, sqrt(squared), L_[i].mid) * Interval::plus_minus_one();
+      if (deviation_ != nullptr)
+        result[i] += difference_of_machines(*deviation_, i, sqrt(squared), L_[i].mid) * Interval::plus_minus_one();
     }
     return result;
   }
 
   /// By how much g_i of two machines in the same pose may differ, |d_i| being that of one of them.
-  [[nodiscard]] static Interval deviation(const Slack& slack, std::size_t i, const Interval& d, const Interval& L) {
+  [[nodiscard]] static Interval difference_of_machines(const Deviation& deviation, std::size_t i, const Interval& d,
+                                                       const Interval& L) {
     const Interval two(2);
-    return d * slack.anchors[i] + sqr(slack.anchors[i]) / two + L * slack.length[i] + sqr(slack.length[i]) / two;
+    const Interval anchors = deviation.base[i] + deviation.platform[i];
+    return d * anchors + sqr(anchors) / two + L * deviation.length[i] + sqr(deviation.length[i]) / two;
   }
 
   [[nodiscard]] Frame pose(const Vector6<Form>& z) const {
@@ -123,7 +126,7 @@ class HeldByLengths : public Equations {
   const Vector6<Form>& L_;
   Interval position_;
   Interval turn_;
-  const Slack* slack_;
+  const Deviation* deviation_;
 };
 
 Vector6<Form> at_middle(const Vector6<Form>& x) {
@@ -144,9 +147,9 @@ Frame at_middle(const Frame& x) {
 }  // namespace
 
 Commanded held_by_lengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube,
-                          const Slack* slack) {
+                          const Deviation* deviation) {
   for (std::size_t i = 0; i < 6; ++i) {
-    const Interval least = slack == nullptr ? L[i].range : L[i].range - slack->length[i];
+    const Interval least = deviation == nullptr ? L[i].range : L[i].range - deviation->length[i];
     if (!certainly_positive(least)) throw Undefined("a cable may have no length");
   }
   const Interval whole(1);
@@ -160,13 +163,14 @@ Commanded held_by_lengths(const Model& model, const Frame& reference, const Vect
   Vector6<Form> z;
   for (std::size_t i = 0; i < 6; ++i) z[i] = Form::enclose(mid.y[i], range.slope[i], range.y[i]);
   Commanded result{stated.pose(z), Interval(), Interval()};
-  if (slack == nullptr) return result;
+  if (deviation == nullptr) return result;
 
-  const Zero family = only_zero(HeldByLengths(model, reference, L, tube, slack), whole, near);
+  const Zero family = only_zero(HeldByLengths(model, reference, L, tube, deviation), whole, near);
   Vector6<Interval> e;
   for (std::size_t i = 0; i < 6; ++i) {
     // Of a deviating machine at its own zero |d_i'| is L_i + e_i.
-    e[i] = HeldByLengths::deviation(*slack, i, L[i].range + slack->length[i], L[i].range) * Interval::plus_minus_one();
+    e[i] = HeldByLengths::difference_of_machines(*deviation, i, L[i].range + deviation->length[i], L[i].range) *
+           Interval::plus_minus_one();
   }
   const Vector6<Interval> dz = difference(family, e);
   result.moved = sqrt(squared_norm(stated.position(dz)));

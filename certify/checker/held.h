@@ -27,16 +27,9 @@ struct Commanded {
   Interval turned;  ///< the angle between R' and R <= [rad], likewise
 };
 
-/// Tolerances as a machine held by lengths meets them, at the working precision.
-struct Slack {
-  Vector6<Interval> platform;  ///< delta_b [m]
-  Vector6<Interval> anchors;   ///< delta_a + delta_b [m]
-  Vector6<Interval> length;    ///< delta_L [m]
-};
-
 /// @throws Undefined unless there is exactly one pose in the tube with the lengths L, for every u and every machine of the
-/// family; with no slack, for the machine as it is stated.
+/// family; where null, for the machine as it is stated.
 [[nodiscard]] Commanded held_by_lengths(const Model& model, const Frame& reference, const Vector6<Form>& L,
-                                        const PoseTube& tube, const Slack* slack);
+                                        const PoseTube& tube, const Deviation* deviation);
 
 }  // namespace taut::checker

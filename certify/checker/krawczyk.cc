@@ -3,6 +3,8 @@
 namespace taut::checker {
 namespace {
 
+constexpr int kMostRoom = 64;  ///< times as wide as what K of a single y is off
+
 Matrix6<Interval> identity() {
   Matrix6<Interval> result;
   for (std::size_t i = 0; i < 6; ++i) result[i][i] = Interval(1);
@@ -63,14 +65,20 @@ Zero only_zero(const Equations& equations, const Interval& tube, const Vector6<I
   const Vector6<Interval> guess = krawczyk(equations, near).y;
   Interval farthest;
   for (std::size_t i = 0; i < k; ++i) farthest = max(farthest, abs(guess[i] - near[i]));
-  Vector6<Interval> Z = near;
-  for (std::size_t i = 0; i < k; ++i) {
-    Z[i] += Interval(2) * farthest * Interval::plus_minus_one();
-    if (!certainly_positive(tube - abs(Z[i]))) throw Undefined("it may leave its tube");
-  }
-  Zero result = krawczyk(equations, Z);
-  for (std::size_t i = 0; i < k; ++i) {
-    if (!is_within(result.y[i], Z[i])) throw Undefined("it may not exist");
+  // A box with room for K: the wider, the smaller rho needs to be; but the equations change more across it.
+  Vector6<Interval> Z;
+  Zero result;
+  bool exists = false;
+  for (int room = 2; !exists; room *= 2) {
+    if (room > kMostRoom) throw Undefined("it may not exist");
+    Z = near;
+    for (std::size_t i = 0; i < k; ++i) {
+      Z[i] += Interval(room) * farthest * Interval::plus_minus_one();
+      if (!certainly_positive(tube - abs(Z[i]))) throw Undefined("it may leave its tube");
+    }
+    result = krawczyk(equations, Z);
+    exists = true;
+    for (std::size_t i = 0; i < k; ++i) exists = exists && is_within(result.y[i], Z[i]);
   }
   constexpr int kNarrowings = 2;  // each takes away most of what the last one left of the curvature's part
   for (int step = 0; step < kNarrowings; ++step) {

@@ -33,14 +33,39 @@ namespace taut::checker {
 
 /// Of all six cables, for every pose of the box.
 struct Geometry {
-  Vector6<Form> length;  ///< |d_i| [m]; certainly positive
+  std::array<Vector3<Form>, 6> d;    ///< d_i [m]
+  std::array<Vector3<Form>, 6> arm;  ///< r_i [m]
+  Vector6<Form> length;              ///< |d_i| [m]; certainly positive
   Matrix6<Form> D;
 };
 
-/// For every pose of the box; that it exists proves J non-singular there.
+/// D^-1 on the box; that it exists proves D non-singular there.
+struct Inverse {
+  Matrix6<Interval> C;
+  Matrix6<Interval> A;  ///< C D(u) - I for every u
+  Matrix6<Form> Y;
+};
+
+/// (1) and (2): Y for every matrix in A. @throws Undefined unless all of them have ||A|| < 1.
+[[nodiscard]] Matrix6<Interval> inverses(const Matrix6<Interval>& C, const Matrix6<Interval>& A);
+
+[[nodiscard]] Inverse inverse(const Matrix6<Form>& D);
+
+/// For every pose of the box.
 struct Tensions {
   Vector6<Form> centre;  ///< f0_i [N]
   Vector6<Form> spread;  ///< v_i [N]
+};
+
+/// Bounds of how far a machine may deviate from what the problem says of it: its Tolerances at one precision.
+struct Deviation {
+  Vector6<Interval> base;      ///< |a_i' - a_i| <= [m]
+  Vector6<Interval> platform;  ///< |b_i' - b_i| <= [m]
+  Vector6<Interval> length;    ///< of the lengths by which it is held, if it is [m]
+  Interval load_point;         ///< |p_m' - p_m| <= [m]
+  Vector6<Interval> wrench;    ///< w0' - w0 = t wrench, |t| <= 1 [N, N m]
+  Interval position;           ///< tracking: |p' - p| <= [m]
+  Interval angle;              ///< tracking: of the rotation from R to R' [rad]
 };
 
 /// Enclosures of one problem's numbers at one precision.
@@ -56,12 +81,21 @@ class Model {
   [[nodiscard]] const std::array<Vector3<Interval>, 6>& base_anchors() const { return base_; }
   [[nodiscard]] const std::array<Vector3<Interval>, 6>& platform_anchors() const { return platform_; }
 
+  [[nodiscard]] const std::array<Vector3<Interval>, 6>& arms() const { return arm_; }
+  [[nodiscard]] const Vector3<Interval>& load_point() const { return load_point_; }
+  [[nodiscard]] const Vector6<Interval>& wrench() const { return wrench_; }
+  /// M^-1, lower triangular: the wrenches of K are w0 + M^-T z, |z| <= 1.
+  [[nodiscard]] const Matrix6<Interval>& ellipsoid_factor() const { return M_inverse_; }
+  /// Null where there are no tolerances.
+  [[nodiscard]] const Deviation* deviation() const { return deviation_ ? &*deviation_ : nullptr; }
+
   /// The mean of |b_i| [m].
   [[nodiscard]] Interval platform_size() const;
 
   // At the working precision, which should be bits(). Each throws Undefined where the box has to be split.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;
-  [[nodiscard]] Tensions tensions(const Geometry& geometry) const;
+  [[nodiscard]] Tensions tensions(const Geometry& geometry) const { return tensions(geometry, inverse(geometry.D).Y); }
+  [[nodiscard]] Tensions tensions(const Geometry& geometry, const Matrix6<Form>& Y) const;
 
  private:
   int bits_;
@@ -71,7 +105,9 @@ class Model {
   std::array<std::array<Interval, 2>, 6> tension_;
   std::array<std::array<Interval, 2>, 6> length_;
   Vector6<Interval> wrench_;
-  Matrix6<Interval> M_inverse_;  ///< lower triangular
+  Vector3<Interval> load_point_;  ///< p_m
+  Matrix6<Interval> M_inverse_;
+  std::optional<Deviation> deviation_;
 };
 
 /// D at the centre of the box.

@@ -396,6 +396,7 @@ def main():
     splines()
     implied_motions()
     motions_between_poses()
+    tolerated()
 
 
 def explicit_motions():
@@ -899,7 +900,7 @@ def implied_motions():
            'From one sheet to another: the second tube holds both, so that the motion could jump.', unique)
     reject('implied_narrow_tubes_at_the_joint', toy_c('x*(x - 0.01)', points=((0, 0), (0.5, 0.0005), (1, 0.01)),
            normals=((0, 1),) * 3, tubes=[2**-9, 2**-11]),
-           'From one sheet to another: at the joint neither is in the narrow tube.', inside)
+           'From one sheet to another: at the joint neither is in the narrow tube.', exists)
     reject('implied_pose_off', ball_c, 'Robot and path are those of the proof, the sphere is 4 mm lower.', 'false',
            lambda c: (c['problem']['space']['constants'].update(zs='0.310'), c['path'].update(tubes=[hex64(2**-6)] * 2)))
     reject('implied_margin_too_high', ball_c, 'The tension margin is claimed 1 % too high.', 'tension margin',
@@ -986,6 +987,175 @@ FREE = {'parameters': [{'name': n, 'kind': 'periodic' if n in ('phi', 'sigma') e
 
 def audited(name, robot=ROBOT1, space=FREE):
     return problem(name, robot, space, [])
+
+
+def tolerances(**more):
+    return dict({'base_anchor_m': ['0'] * 6, 'platform_anchor_m': ['0'] * 6, 'load_point_m': '0', 'wrench': ['0'] * 6,
+                 'position_m': '0', 'orientation_rad': '0', 'cable_length_m': None}, **more)
+
+
+GROUPS = [('base_anchor_m', i, 3) for i in range(6)] + [('platform_anchor_m', i, 3) for i in range(6)] + [
+    ('load_point_m', None, 3), ('wrench', None, 1), ('position_m', None, 3), ('orientation_rad', None, 3)] + [
+    ('cable_length_m', i, 1) for i in range(6)]
+
+
+def deviant(pr, at, deviation):
+    """The machine that deviates, its numbers as floats, and its pose, from the stated one's at (p, R)."""
+    number = lambda v: [float(x) for x in v]
+    add = lambda v, w: [x + y for x, y in zip(v, w)]
+    get = lambda key, i=None: deviation.get((key, i), [0.0] * 3)
+    a, b = ([number(x) for x in pr['robot'][key]] for key in ('base_anchors_m', 'platform_anchors_m'))
+    tau = get('wrench')[0]
+    held = pr['tolerances']['cable_length_m'] is not None or pr.get('held')
+    lengths = geometry(pr, at)[1] if held else None
+    result = dict(pr, robot=dict(pr['robot'], base_anchors_m=[add(x, get('base_anchor_m', i)) for i, x in enumerate(a)],
+                                 platform_anchors_m=[add(x, get('platform_anchor_m', i)) for i, x in enumerate(b)]),
+                  load=dict(pr['load'], point_m=add(number(pr['load']['point_m']), get('load_point_m')),
+                            wrench=[x + tau * float(y) for x, y in zip(number(pr['load']['wrench']), pr['tolerances']['wrench'])]))
+    if held:
+        lengths = [x + get('cable_length_m', i)[0] for i, x in enumerate(lengths)]
+        at = with_lengths(result, at, lengths, {'position': '1', 'turn': '1'})
+    p, R = at
+    u = get('orientation_rad')
+    angle = sqrt(sum(x * x for x in u))
+    q = [x / angle * sin(angle / 2) for x in u] + [cos(angle / 2)] if angle > 0 else [0, 0, 0, 1]
+    return result, (add(p, get('position_m')), times(rotation(q), R))
+
+
+def all_margins(pr, at):
+    lengths, f0, v, _ = statics(pr, at)
+    result = []
+    for i in range(6):
+        lo, hi = map(float, pr['robot']['tension_N'][i])
+        short, long = map(float, pr['robot']['length_m'][i])
+        result.append((f0[i] - v[i] - lo, hi - f0[i] - v[i], lengths[i] - short, long - lengths[i],
+                       (f0[i] - lo) / v[i], (hi - f0[i]) / v[i]))
+    return result
+
+
+def tolerance_of(pr, key, i):
+    value = pr['tolerances'][key]
+    if value is None:
+        return 0.0
+    if key == 'wrench':
+        return 1.0 if any(float(x) for x in value) else 0.0
+    return evaluate({'constants': {}, 'parameters': []}, [value if i is None else value[i]], [])[0]
+
+
+def losses(pr, at):
+    """To first order, what each kind of tolerance takes from each margin, by differences."""
+    result = {}
+    for key, i, size in GROUPS:
+        tolerance = tolerance_of(pr, key, i)
+        if tolerance == 0:
+            continue
+        h = 1e-6
+        rates = []
+        for c in range(size):
+            up, down = ([x for row in all_margins(*deviant(pr, at, {(key, i): [e * (n == c) for n in range(3)]})) for x in row]
+                        for e in (h, -h))
+            rates.append([(x - y) / (2 * h) for x, y in zip(up, down)])
+        loss = [tolerance * sqrt(sum(r[n]**2 for r in rates)) for n in range(36)]
+        kind = result.setdefault(key, [0.0] * 36)
+        result[key] = [x + y for x, y in zip(kind, loss)]
+    return result
+
+
+def robust(pr, at, without=None):
+    """Margins less what the tolerances take: of all kinds but one."""
+    left = [x for row in all_margins(pr, at) for x in row]
+    for key, loss in losses(pr, at).items():
+        if key != without:
+            left = [x - y for x, y in zip(left, loss)]
+    kind = lambda columns: min(left[6 * i + c] for i in range(6) for c in columns)
+    return kind((0, 1)), kind((2, 3)), kind((4, 5))
+
+
+def tolerant(pr, pa, boxes=8, below=0.98, samples=4, without=None):
+    """Proved of every machine within the tolerances; or, without one of them, only claimed."""
+    pr = copy.deepcopy(pr)
+    n = control_points(pa)
+    segments = []
+    for k in range(len(pa['waypoints']) - n + 1):
+        seen = dict(pr, held=pa['interpolation'] == 'straight-in-cable-lengths')
+        sampled = [robust(seen, frame(pr, parameters(pr, pa, k, i / samples)), without) for i in range(samples + 1)]
+        lowest = [min(m[j] for m in sampled) * below for j in range(3)]
+        assert lowest[0] > 0 and lowest[1] > 0 and lowest[2] >= 1, (pr['name'], k, lowest)
+        segments.append(segment(k, n, lowest, boxes))
+    return of_segments(pr, pa, segments)
+
+
+KINDS = {'base_anchor_m': ['0.0001'] * 6, 'platform_anchor_m': ['0.0001'] * 6, 'load_point_m': '0.0002',
+         'wrench': ['0.003', '-0.002', '0.02', '0.0001', '0', '0'], 'position_m': '0.0001', 'orientation_rad': '(0.03)*pi/180'}
+
+# A machine held by lengths amplifies what its anchors do.
+LESS = dict(KINDS, base_anchor_m=['0.00001'] * 6, platform_anchor_m=['0.000015'] * 6)
+
+
+def tolerated():
+    """Tolerances of each kind, alone and together, of each law."""
+    near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
+    ends = straight(waypoint([-2.3, 1.6]), waypoint([-2.2, 1.55]))
+    def with_kinds(pr, **kinds):
+        return dict(copy.deepcopy(pr), tolerances=tolerances(**kinds))
+    for kind, value in KINDS.items():
+        name = kind.rsplit('_', 1)[0] if kind != 'wrench' else kind
+        alone = with_kinds(near, **{kind: value})
+        good = tolerant(alone, ends)
+        write('accepted', 'tolerance_' + name, good, 'A tolerance of one kind.')
+        reject('tolerance_%s_ignored' % name, tolerant(alone, ends, without=kind, below=0.999),
+               'The margins are those of the machine as it is stated.', 'as claimed')
+
+    everything = with_kinds(near, **KINDS)
+    all_c = tolerant(everything, ends, below=0.93)
+    write('accepted', 'tolerances', all_c, 'All kinds of tolerances at once.')
+    for kind in KINDS:
+        name = kind.rsplit('_', 1)[0] if kind != 'wrench' else kind
+        reject('tolerances_without_' + name, tolerant(everything, ends, without=kind, below=0.999), 'One kind of tolerance was left out.',
+               'as claimed')
+    held = with_kinds(near, **LESS, cable_length_m=['0.00001'] * 6)
+    on_lengths = dict(copy.deepcopy(ends), pose_tubes=[{'position': hex64(2**-9), 'turn': hex64(2**-8)}])
+    held_c = tolerant(held, on_lengths, below=0.85)
+    write('accepted', 'tolerances_held_by_lengths', held_c, 'All kinds of tolerances, of a machine that holds the lengths of its cables.')
+    for kind in ('cable_length_m', 'base_anchor_m', 'platform_anchor_m'):
+        reject('tolerances_held_without_' + kind.rsplit('_', 1)[0], tolerant(held, on_lengths, without=kind, below=0.999),
+               'One kind of tolerance was left out.', 'as claimed')
+    write('accepted', 'tolerance_of_exact_lengths', tolerant(with_kinds(near, cable_length_m=['0'] * 6, base_anchor_m=['0.00002'] * 6), on_lengths, below=0.93),
+          'Lengths are held exactly: the anchors move the platform.')
+    reject('tolerance_of_exact_lengths_taken_for_a_pose', changed(tolerant(with_kinds(near, base_anchor_m=['0.00002'] * 6), ends, below=0.999),
+           lambda c: (c['problem']['tolerances'].update(cable_length_m=['0'] * 6), c['path'].update(pose_tubes=on_lengths['pose_tubes']))),
+           'The platform does not stay where it was commanded: it is the lengths that are held.', 'as claimed')
+
+    sigma = 34 * pi / 180
+    start, end = ([0, 0, 0.35], quaternion(-2.3, 1.6, sigma)), ([0.001, 0, 0.351], quaternion(-2.27, 1.58, sigma))
+    free = audited('robot1-poses')
+    turn = poses('geodesic', pose(*start), pose(*end))
+    write('accepted', 'tolerances_of_a_geodesic', tolerant(with_kinds(free, **KINDS), turn), 'A geodesic, with tolerances.')
+    lengths_of = lambda at: geometry(free, (at[0], rotation(at[1])))[1]
+    winches = poses('straight-in-cable-lengths', *[pose(*at, lengths_of(at)) for at in (start, end)], pose_tubes=[(2**-9, 2**-8)])
+    winches_c = tolerant(with_kinds(free, **LESS, cable_length_m=['0.00001'] * 6), winches, below=0.93)
+    write('accepted', 'tolerances_of_lengths', winches_c, 'Lengths that are straight, with tolerances.')
+    write('accepted', 'tolerances_of_lengths_without_their_own', tolerant(with_kinds(free, base_anchor_m=['0.00003'] * 6), winches),
+          'Lengths that are straight and held exactly.')
+    reject('tolerances_of_lengths_without_cable_length', tolerant(with_kinds(free, **LESS, cable_length_m=['0.00001'] * 6), winches,
+           without='cable_length_m', below=0.999), 'One kind of tolerance was left out.', 'as claimed')
+
+    # A tension of a pose that stays, claimed 0.4 % of what a small tolerance takes below the truth; and that tolerance raised by 1 %.
+    still = straight(waypoint([-2.3, 1.6]), waypoint([-2.3, 1.6]))
+    still_pr = problem('robot1-still', ROBOT1, SLICE, [['-2.3', '1.6']] * 2)
+    def times_64th(value, factor):
+        if isinstance(value, list):
+            return [times_64th(v, factor) for v in value]
+        return value + '*%.9f' % (factor / 64) if '(' in value else '%.12f' % (float(value) * factor / 64)
+    for kind, value in KINDS.items():
+        name = kind.rsplit('_', 1)[0] if kind != 'wrench' else kind
+        tight = tolerant(with_kinds(still_pr, **{kind: times_64th(value, 1.004)}), still, boxes=1, below=1, samples=1)
+        for key, factor in (('length_m', 0.99), ('wrench_scale', 0.99)):
+            raise_margin(key, factor)(tight)
+        tight['problem']['tolerances'][kind] = times_64th(value, 1)
+        write('accepted', 'tight_' + name, seal(tight), 'A margin claimed nearly as high as it is.')
+        reject('tight_%s_raised' % name, tight, 'The tolerance was raised by 1 % afterwards.', 'lower tension margin as claimed',
+               lambda c: c['problem']['tolerances'].update({kind: times_64th(value, 1.01)}))
 
 
 def motions_between_poses():
