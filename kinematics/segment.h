@@ -18,7 +18,7 @@
 //   geodesic           p(s) = (1−s) p_0 + s p_1,  R(s) = R_0 exp(s log(R_0^T R_1)): at constant rate about one axis, by an
 //                      angle below π
 //   cable lengths      the commanded lengths L(s) = (1−s) L_0 + s L_1 [m]; the pose is implied by |d_i| = L_i(s). It is sought
-//                      around the reference p(s) = (1−s) p_0 + s p_1, R(s) = R((1−s) q_0 ± s q_1), the sign that of q_0·q_1
+//                      around the reference p(s) = (1−s) p_0 + s p_1, R(s) = R((1−s) q_0 + s q_1), that quaternion never 0
 //
 // Wherever the machine is held by its cables' lengths (that law, or TolerancesText::cable_length_m), the pose is
 //   p = p_ref + r_p z_p,  R = R(1, r_u z_u) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) = `pose_tube`,
