@@ -31,10 +31,6 @@ DecimalText decimal(const BigFloat& x, int digits, mpfr_rnd_t direction) {
 
 DecimalText decimal_below(double x) { return decimal(BigFloat(x), kMarginDigits, MPFR_RNDD); }
 
-Margins margins_below(const SegmentProof& proof) {
-  return {decimal_below(proof.tension_N), decimal_below(proof.length_m), decimal_below(proof.wrench_scale)};
-}
-
 const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   const auto cable = static_cast<std::size_t>(margin.cable);
   switch (margin.kind) {
@@ -86,6 +82,10 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
 
 }  // namespace
 
+Margins margins_below(double tension_N, double length_m, double wrench_scale) {
+  return {decimal_below(tension_N), decimal_below(length_m), decimal_below(wrench_scale)};
+}
+
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known) {
   PathProof result;
   if (path.segments() == 0) {
@@ -118,13 +118,12 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   const SegmentProof* length = tension;
   const SegmentProof* scale = tension;
   for (const SegmentProof& segment : result.segments) {
-    result.segment_margins.push_back(margins_below(segment));
+    result.segment_margins.push_back(margins_below(segment.tension_N, segment.length_m, segment.wrench_scale));
     if (segment.tension_N < tension->tension_N) tension = &segment;
     if (segment.length_m < length->length_m) length = &segment;
     if (segment.wrench_scale < scale->wrench_scale) scale = &segment;
   }
-  result.margins = {decimal_below(tension->tension_N), decimal_below(length->length_m),
-                    decimal_below(scale->wrench_scale)};
+  result.margins = margins_below(tension->tension_N, length->length_m, scale->wrench_scale);
   return result;
 }
 

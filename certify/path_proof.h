@@ -31,6 +31,9 @@ struct Margins {
   DecimalText tension_N, length_m, wrench_scale;  ///< decimals, rounded down
 };
 
+/// Proved lower bounds as decimals.
+[[nodiscard]] Margins margins_below(double tension_N, double length_m, double wrench_scale);
+
 struct PathProof {
   Verdict verdict = Verdict::kUndecided;
   std::vector<SegmentProof> segments;    ///< one a segment; complete only if proved

@@ -27,6 +27,8 @@ class NewFile {
   void write(std::string_view text);
   /// To disk, all of it.
   void finish();
+  /// Where it is meanwhile.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   /// Replaces any file of that name. @pre finish() was called last.
   void rename_into_place();
 

@@ -1,69 +1,29 @@
 // taut: plans motions of cable-driven hexapods and proves them. Command line and exit codes; decides nothing itself.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "certify/certificate.h"
 #include "certify/signature.h"
+#include "cli/audit_command.h"
+#include "cli/certificate_file.h"
+#include "cli/console.h"
 #include "cli/files.h"
 #include "cli/illustration.h"
+#include "cli/path_csv.h"
 #include "cli/plan.h"
 #include "kinematics/input_error.h"
-#include "kinematics/pose_sampler.h"
 #include "reports/html_report.h"
 
 namespace taut {
 namespace {
-
-enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInputExit = 3, kInternalExit = 4 };
-
-std::atomic<bool> interrupt_requested = false;
-extern "C" void request_interrupt(int /*signal*/) { interrupt_requested = true; }
-
-ExitCode exit_code(Verdict verdict) {
-  return verdict == Verdict::kProved ? kProvedExit : verdict == Verdict::kRefuted ? kRefutedExit : kUndecidedExit;
-}
-
-/// Shortest decimal that reads back as the same binary64.
-std::string shortest(double x) { return fmt::format("{}", x); }
-
-// ---- path.csv --------------------------------------------------------------------------------------------------------
-
-/// One waypoint a line: λ = x + π·half_turns, and the pose there (rounded; where the space has constraints, the one on
-/// them). x reads back bit for bit. The first column's name tells waypoints from a spline's control points.
-std::string path_csv(const Problem& problem, const Path& path) {
-  const PoseSampler sampler(problem);
-  std::string csv = path.interpolation == Interpolation::kStraight ? "waypoint" : "control_point";
-  for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",x.{}", parameter.name);
-  for (const Parameter& parameter : problem.space.parameters) csv += fmt::format(",half_turns.{}", parameter.name);
-  csv += ",px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n";
-  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
-    const Waypoint& waypoint = path.waypoints[k];
-    csv += std::to_string(k);
-    for (const double x : waypoint.x) csv += "," + shortest(x);
-    for (const int half_turns : waypoint.half_turns) csv += "," + std::to_string(half_turns);
-    const Pose<double> pose = sampler.pose(waypoint);
-    for (const double value : {pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta, pose.sigma}) {
-      csv += "," + shortest(value);
-    }
-    csv += "\n";
-  }
-  return csv;
-}
 
 // ---- taut plan -------------------------------------------------------------------------------------------------------
 
@@ -76,69 +36,6 @@ struct PlanArguments {
   bool grow = false;
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
-};
-
-/// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
-std::optional<SigningKey> load_signing_key(const std::string& path) {
-  if (path.empty()) return std::nullopt;
-  SigningKey key(read_whole(path), path);
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  constexpr auto kOthers = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
-  if (std::filesystem::is_regular_file(status) && (status.permissions() & kOthers) != std::filesystem::perms::none) {
-    fmt::print(stderr, "taut: warning: {}: others than its owner may use this private key (chmod 600)\n", path);
-  }
-  return key;
-}
-
-/// A line on stderr that overwrites itself, on a terminal only.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  void show(const PlanProgress& progress) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!enabled_ || now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
-    shown_ = true;
-    fmt::print(stderr, "\r\033[Kplanning: {} charts", progress.charts);
-    std::fflush(stderr);
-  }
-
- private:
-  bool enabled_;
-  bool shown_ = false;
-  std::chrono::steady_clock::time_point last_;
-};
-
-/// Turns a signal into a stop request, which a signal handler may not make itself.
-class Interruption {
- public:
-  Interruption() {
-    std::signal(SIGINT, request_interrupt);
-    std::signal(SIGTERM, request_interrupt);
-    watcher_ = std::jthread([this](const std::stop_token& finished) {
-      std::mutex mutex;
-      std::unique_lock lock(mutex);
-      std::condition_variable_any wake;
-      while (!finished.stop_requested()) {
-        wake.wait_for(lock, finished, std::chrono::milliseconds(50), [] { return interrupt_requested.load(); });
-        if (interrupt_requested) {
-          source_.request_stop();
-          return;
-        }
-      }
-    });
-  }
-  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
-
- private:
-  std::stop_source source_;
-  std::jthread watcher_;  // last: joins before the rest goes
 };
 
 std::string sentence(const Plan& plan) {
@@ -186,9 +83,7 @@ int run_plan(const PlanArguments& arguments) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;
   }
-  const std::filesystem::path out =
-      arguments.out.empty() ? std::filesystem::path("out") / std::filesystem::path(arguments.case_path).stem()
-                            : std::filesystem::path(arguments.out);
+  const std::filesystem::path out = out_folder(arguments.out, arguments.case_path);
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   if (!arguments.save_atlas.empty()) require_writable(arguments.save_atlas);
   Planner planner(case_, arguments.atlas);
@@ -199,7 +94,9 @@ int run_plan(const PlanArguments& arguments) {
   bool whole_atlas = false;
   {
     ProgressLine line(!arguments.json);
-    const auto progress = [&](const PlanProgress& at) { line.show(at); };
+    const auto progress = [&](const PlanProgress& at) {
+      line.show([&] { return fmt::format("planning: {} charts", at.charts); });
+    };
     result = planner.plan(progress, interruption.token());
     if (arguments.grow) whole_atlas = planner.grow_atlas(progress, interruption.token());
   }
@@ -261,32 +158,8 @@ int run_plan(const PlanArguments& arguments) {
 
 // ---- taut report -----------------------------------------------------------------------------------------------------
 
-/// A report is made of whole certificates only; whether they are true is taut-check's to say.
-void require_unaltered(const nlohmann::json& certificate, const std::string& path) {
-  nlohmann::json body = certificate;
-  const bool has_footer =
-      body.is_object() && body.contains("footer") && body["footer"].is_object() && body["footer"].contains("sha256");
-  const nlohmann::json digest = has_footer ? body["footer"]["sha256"] : nlohmann::json();
-  if (body.is_object()) {
-    body.erase("footer");
-    body.erase("signature");
-  }
-  if (digest != sha256(body)) {
-    throw InputError(
-        fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
-                    "or was cut or altered",
-                    path, digest.dump()));
-  }
-}
-
 int run_report(const std::string& certificate_path, const std::string& out) {
-  nlohmann::json certificate;
-  try {
-    certificate = nlohmann::json::parse(read_whole(certificate_path));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", certificate_path, error.what()));
-  }
-  require_unaltered(certificate, certificate_path);
+  const nlohmann::json certificate = read_certificate(certificate_path);
   const std::filesystem::path target =
       out.empty() ? std::filesystem::path(certificate_path).parent_path() / "report.html" : std::filesystem::path(out);
   write_whole({{target, html_report(certificate)}});
@@ -319,6 +192,10 @@ int run(int argc, char** argv) {
   plan_command->add_option("--sign", plan_arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
 
+  AuditArguments audit_arguments;
+  CLI::App* audit_command = app.add_subcommand("audit", "prove or refute a path that something else made");
+  add_audit_options(*audit_command, audit_arguments);
+
   std::string certificate_path;
   std::string report_out;
   CLI::App* report_command = app.add_subcommand("report", "write the report again from the certificate alone");
@@ -333,6 +210,10 @@ int run(int argc, char** argv) {
   if (*plan_command) {
     rounding_self_test();
     return run_plan(plan_arguments);
+  }
+  if (*audit_command) {
+    rounding_self_test();
+    return run_audit(audit_arguments);
   }
   return run_report(certificate_path, report_out);
 }

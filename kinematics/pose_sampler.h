@@ -25,11 +25,12 @@ class PoseSampler {
   /// Only in a space with constraints.
   [[nodiscard]] const std::optional<ConstraintFunctions>& constraints() const { return constraints_; }
 
-  /// Parameters of the motion (segment.h) at s: on the constraints, where the space has some and Newton's method finds them.
+  /// Parameters of the motion (segment.h) at s: on the constraints, where the space has some and Newton's method finds them. Under a
+  /// law with poses px … sigma; of cable lengths, the pose that Newton's method finds from the reference.
   [[nodiscard]] std::vector<double> parameters(const Segment& segment, double s) const;
 
   [[nodiscard]] Pose<double> pose(std::span<const double> parameters) const { return evaluate_pose(pose_, parameters); }
-  /// The pose that a path reaches at a waypoint.
+  /// The pose that a path through parameters reaches at a waypoint.
   [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const {
     return pose(parameters(Segment::straight(waypoint, waypoint), 0));
   }

@@ -154,7 +154,7 @@ CertificateView read(const json& certificate) {
   view.footer_sha256 = certificate.at("footer").at("sha256").get<std::string>();
   for (const json& segment : certificate.at("segments")) {
     view.segments.push_back({segment.at("from").get<int>(), segment.at("to").get<int>(), segment.at("boxes").size(),
-                             read_margins(segment.at("margins"))});
+                             segment.at("margins").is_null() ? MarginsView() : read_margins(segment.at("margins"))});
     view.boxes += view.segments.back().boxes;
   }
   if (view.verdict == "proved") view.margins = read_margins(certificate.at("margins"));

@@ -19,7 +19,7 @@ constexpr double kPanelHeight = 150;
 
 Axis path_axis(const Scene& scene) {
   const Path& path = scene.view.path;
-  const Html label = html("{}", path.interpolation == Interpolation::kStraight ? "waypoint" : "segment");
+  const Html label = html("{}", path.interpolation == Interpolation::kCubicBSpline ? "segment" : "waypoint");
   return {{0, std::max(1.0, static_cast<double>(path.segments()))}, label, 8, true};
 }
 

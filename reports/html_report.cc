@@ -37,20 +37,42 @@ std::string coordinate_text(double x, int half_turns) {
   return text;
 }
 
+/// The names of a waypoint's numbers, and their units.
+std::vector<std::pair<std::string, std::string>> coordinates(const CertificateView& view) {
+  std::vector<std::pair<std::string, std::string>> result;
+  if (!has_poses(view.path.interpolation)) {
+    const SpaceText& space = view.problem.space;
+    for (std::size_t j = 0; j < space.parameters.size(); ++j)
+      result.emplace_back(space.parameters[j].name, unit(space, j));
+    return result;
+  }
+  for (const char* name : {"px", "py", "pz"}) result.emplace_back(name, "m");
+  for (const char* name : {"qx", "qy", "qz", "qw"}) result.emplace_back(name, "");
+  if (view.path.interpolation == Interpolation::kCableLengths) {
+    for (const char* name : {"L1", "L2", "L3", "L4", "L5", "L6"}) result.emplace_back(name, "m");
+  }
+  return result;
+}
+
+int half_turns(const Waypoint& waypoint, std::size_t j) {
+  return j < waypoint.half_turns.size() ? waypoint.half_turns[j] : 0;
+}
+
 /// "(phi, theta) = (-2.3, 1.6)"
 std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint) {
   std::string names;
   std::string values;
+  const auto named = coordinates(view);
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
     const char* comma = j == 0 ? "" : ", ";
-    names += comma + view.problem.space.parameters[j].name;
-    values += comma + coordinate_text(waypoint.x[j], waypoint.half_turns[j]);
+    names += comma + named[j].first;
+    values += comma + coordinate_text(waypoint.x[j], half_turns(waypoint, j));
   }
   return fmt::format("({}) = ({})", names, values);
 }
 
 std::string segment_text(const CertificateView& view, int k) {
-  if (view.path.interpolation != Interpolation::kStraight) return fmt::format("segment {}", k);
+  if (view.path.interpolation == Interpolation::kCubicBSpline) return fmt::format("segment {}", k);
   return fmt::format("segment {}, between waypoints {} and {}", k, k, k + 1);
 }
 
@@ -408,12 +430,11 @@ Html robot(const Scene& scene) {
 Html waypoint_table(const Scene& scene) {
   constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
   const Path& path = scene.view.path;
-  const SpaceText& space = scene.view.problem.space;
-  const Html what = html("{}", path.interpolation == Interpolation::kStraight ? "Waypoint" : "Control point");
+  const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
+  const Html what = html("{}", is_spline ? "Control point" : "Waypoint");
   std::vector<Column> columns = {{what, true}};
-  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
-    columns.push_back({html("<code>{}</code> {}", space.parameters[j].name, in_brackets(unit(space, j))), true});
-  }
+  const auto named = coordinates(scene.view);
+  for (const auto& [name, unit] : named) columns.push_back({html("<code>{}</code> {}", name, in_brackets(unit)), true});
   std::vector<Column> pose_columns = {{what, true}};
   for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"}) {
     pose_columns.push_back({html("{}", name), true});
@@ -424,16 +445,17 @@ Html waypoint_table(const Scene& scene) {
     const Waypoint& waypoint = path.waypoints[k];
     rows.push_back({html("{}", k)});
     for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
-      rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], waypoint.half_turns[j])));
+      rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], half_turns(waypoint, j))));
     }
-    const Pose<double> pose = scene.sampler.pose(waypoint);
+    const Pose<double> pose =
+        is_spline ? scene.sampler.pose(waypoint) : scene.sampler.at(path, static_cast<double>(k)).pose;
     pose_rows.push_back({html("{}", k)});
     for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
     for (const double angle : {pose.phi, pose.theta, pose.sigma}) {
       pose_rows.back().push_back(html("{:.3f}", angle * kDegrees + 0.0));
     }
   }
-  if (space.parameters.size() > kSideBySide) return table(columns, rows) + table(pose_columns, pose_rows);
+  if (named.size() > kSideBySide) return table(columns, rows) + table(pose_columns, pose_rows);
   columns.insert(columns.end(), pose_columns.begin() + 1, pose_columns.end());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     rows[k].insert(rows[k].end(), pose_rows[k].begin() + 1, pose_rows[k].end());
@@ -458,7 +480,7 @@ Html path_section(const Scene& scene) {
   const std::size_t count = scene.view.path.waypoints.size();
   if (count == 0) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
   const Html segments =
-      scene.view.path.interpolation == Interpolation::kStraight
+      scene.view.path.interpolation != Interpolation::kCubicBSpline
           ? html("segment k leads from waypoint k to waypoint k + 1")
           : html(
                 "segment k is the piece of a spline that waypoints k to k + 3 control, passing through a waypoint only "

@@ -1,0 +1,341 @@
+#include "cli/audit.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "cli/path_csv.h"
+
+namespace taut {
+namespace {
+
+using nlohmann::json;
+
+/// A run of boxes of one segment that were not proved.
+struct Gap {
+  Dyadic begin, end;
+  std::optional<std::pair<PathWitness, PathWitness>> inner;
+  std::string reason;
+};
+
+/// What is known of one segment, and what the files say of it.
+struct SegmentResult {
+  double tube = 0;
+  PoseTube pose_tube;
+  std::size_t boxes = 0;  ///< proved
+  long boxes_judged = 0;
+  double tension_N = 0, length_m = 0, wrench_scale = 0;
+  std::vector<Gap> gaps;
+  std::string text;
+};
+
+/// Some successive segments, on their way through the pipeline.
+struct Batch {
+  std::size_t first_segment = 0;
+  std::size_t old_waypoints = 0;  ///< that the batch before has written
+  std::vector<SourceWaypoint> waypoints;
+  std::vector<std::string> waypoint_texts;  ///< of the new ones
+  std::string csv;
+  std::vector<SegmentResult> segments;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::string time_text(const SourceWaypoint& waypoint) { return waypoint.time_s ? waypoint.time_s->text() : ""; }
+
+json place_json(std::size_t segment, const Dyadic& s) { return {{"segment", segment}, {"s", s.text()}}; }
+
+// --- Reading and proving -----------------------------------------------------------------------------------------------
+
+/// Batches of waypoints in order; each begins with the control points that it shares with the one before.
+class BatchReader {
+ public:
+  BatchReader(PathSource& source, std::size_t batch_segments)
+      : source_(source), batch_segments_(batch_segments), shared_(control_points(source.law()) - 1) {}
+
+  /// Null behind the last.
+  std::shared_ptr<Batch> next() {
+    auto batch = std::make_shared<Batch>();
+    batch->first_segment = next_segment_;
+    batch->waypoints = std::move(tail_);
+    batch->old_waypoints = batch->waypoints.size();
+    const std::size_t wanted = batch_segments_ + shared_;
+    SourceWaypoint waypoint;
+    while (batch->waypoints.size() < wanted && source_.next(waypoint)) {
+      if (waypoint.is_copy) {
+        waypoint.waypoint = batch->waypoints.back().waypoint;
+        waypoint.line = batch->waypoints.back().line;
+      }
+      batch->waypoints.push_back(waypoint);
+    }
+    if (batch->waypoints.size() == batch->old_waypoints) return nullptr;
+    const std::size_t segments = batch->waypoints.size() - shared_;
+    batch->segments.resize(segments);
+    next_segment_ += segments;
+    tail_.assign(batch->waypoints.end() - static_cast<std::ptrdiff_t>(shared_), batch->waypoints.end());
+    return batch;
+  }
+
+ private:
+  PathSource& source_;
+  std::size_t batch_segments_;
+  std::size_t shared_;
+  std::size_t next_segment_ = 0;
+  std::vector<SourceWaypoint> tail_;
+};
+
+/// Proves the segments of batches, and says it in the files' words.
+class BatchProver {
+ public:
+  BatchProver(const Prover& prover, const PathSource& source)
+      : prover_(prover), law_(source.law()), csv_(source.problem(), source.law(), source.has_times()) {}
+
+  [[nodiscard]] std::string csv_header() const { return csv_.header(); }
+
+  void prove(Batch& batch) const {
+    const std::size_t first_waypoint = batch.first_segment;
+    for (std::size_t i = batch.old_waypoints; i < batch.waypoints.size(); ++i) {
+      const SourceWaypoint& waypoint = batch.waypoints[i];
+      batch.waypoint_texts.push_back(waypoint_text(law_, waypoint.waypoint));
+      if (!waypoint.is_copy) batch.csv += csv_.row(first_waypoint + i, waypoint.waypoint, time_text(waypoint));
+    }
+    for (std::size_t i = 0; i < batch.segments.size(); ++i) {
+      batch.segments[i] = prove(batch, i);
+    }
+  }
+
+ private:
+  [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i) const {
+    Segment segment{law_, {}, 0};
+    for (std::size_t c = 0; c < control_points(law_); ++c) segment.control[c] = &batch.waypoints[i + c].waypoint;
+    segment = prover_.prepared(segment);
+    const SegmentSurvey survey = prover_.survey(segment);
+    SegmentResult result;
+    result.tube = segment.tube;
+    result.pose_tube = segment.pose_tube;
+    result.boxes_judged = survey.boxes_judged;
+    result.tension_N = survey.tension_N;
+    result.length_m = survey.length_m;
+    result.wrench_scale = survey.wrench_scale;
+    const std::size_t number = batch.first_segment + i;
+    std::vector<DyadicBox> proved;
+    for (auto box = survey.boxes.begin(); box != survey.boxes.end();) {
+      const auto is_proved = [](const SurveyedBox& b) { return b.kind == SurveyedBox::Kind::kProved; };
+      if (is_proved(*box)) {
+        proved.push_back(box++->box);
+        continue;
+      }
+      const auto end = std::find_if(box, survey.boxes.end(), is_proved);
+      result.gaps.push_back(gap(segment, number, {box, end}));
+      box = end;
+    }
+    result.boxes = proved.size();
+    const Margins margins =
+        proved.empty() ? Margins{} : margins_below(survey.tension_N, survey.length_m, survey.wrench_scale);
+    const std::size_t to = number + control_points(law_) - 1;
+    result.text = segment_text(number, to, proved, proved.empty() ? nullptr : &margins);
+    return result;
+  }
+
+  [[nodiscard]] Gap gap(const Segment& segment, std::size_t number, std::span<const SurveyedBox> boxes) const {
+    Gap result{boxes.front().box.lower(), boxes.back().box.upper(), std::nullopt, ""};
+    const SurveyedBox* first = nullptr;
+    const SurveyedBox* last = nullptr;
+    for (const SurveyedBox& box : boxes) {
+      if (box.witness && first == nullptr) first = &box;
+      if (box.witness) last = &box;
+      if (result.reason.empty()) result.reason = box.reason;
+    }
+    if (first == nullptr) return result;
+    const auto witness = [&](const SurveyedBox& box) {
+      return path_witness(prover_, segment, static_cast<int>(number), *box.witness);
+    };
+    result.inner = {witness(*first), witness(*last)};
+    return result;
+  }
+
+  const Prover& prover_;
+  Interpolation law_;
+  PathCsv csv_;
+};
+
+// --- Writing -----------------------------------------------------------------------------------------------------------
+
+/// Takes batches in order; keeps what a summary needs.
+class BatchWriter {
+ public:
+  BatchWriter(const Prover& prover, const PathSource& source, CertificateStream& certificate, NewFile& csv)
+      : has_times_(source.has_times()),
+        has_tubes_(!source.problem().space.constraints.empty()),
+        has_pose_tubes_(prover.is_held_by_lengths(source.law())),
+        certificate_(certificate),
+        csv_(csv) {}
+
+  void write(const Batch& batch) {
+    for (const std::string& text : batch.waypoint_texts) certificate_.add_waypoint(text);
+    for (std::size_t i = batch.old_waypoints; has_times_ && i < batch.waypoints.size(); ++i) {
+      certificate_.add_time(time_text(batch.waypoints[i]));
+    }
+    csv_.write(batch.csv);
+    for (std::size_t i = 0; i < batch.segments.size(); ++i) {
+      const SegmentResult& segment = batch.segments[i];
+      if (has_tubes_) certificate_.add_tube(segment.tube);
+      if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube);
+      certificate_.add_segment(segment.text, segment.boxes);
+      result_.boxes += segment.boxes;
+      result_.boxes_judged += segment.boxes_judged;
+      if (segment.boxes > 0) {
+        tension_N_ = std::min(tension_N_, segment.tension_N);
+        length_m_ = std::min(length_m_, segment.length_m);
+        wrench_scale_ = std::min(wrench_scale_, segment.wrench_scale);
+      }
+      for (const Gap& gap : segment.gaps) add(batch, i, gap);
+    }
+    result_.segments += batch.segments.size();
+  }
+
+  /// The summary, once all is written.
+  [[nodiscard]] Audit finish() {
+    close_stretch();
+    if (result_.stretches_violated > 0) {
+      result_.verdict = Verdict::kRefuted;
+    } else if (result_.stretches_open == 0) {
+      result_.verdict = Verdict::kProved;
+      result_.margins = margins_below(tension_N_, length_m_, wrench_scale_);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] static AuditPlace place(const Batch& batch, std::size_t i, const Dyadic& s) {
+    // Splines have no waypoint at their joints: the control points that weigh most there are the middle ones.
+    const std::size_t shared = batch.waypoints.size() - batch.segments.size();
+    const std::size_t before = i + (shared - 1) / 2;
+    const SourceWaypoint& a = batch.waypoints[before];
+    const SourceWaypoint& b = batch.waypoints[before + 1];
+    AuditPlace place{batch.first_segment + i, s, a.line, b.line, std::nullopt};
+    if (s == Dyadic{0, 0}) place.line_behind = place.line_before;
+    if (s == Dyadic{1, 0}) place.line_before = place.line_behind;
+    if (a.time_s && b.time_s) {
+      const double from = ScalarTraits<double>::from_decimal(a.time_s->text());
+      const double to = ScalarTraits<double>::from_decimal(b.time_s->text());
+      place.time_s = from + s.approx() * (to - from);
+    }
+    return place;
+  }
+
+  void add(const Batch& batch, std::size_t i, const Gap& gap) {
+    const AuditPlace begin = place(batch, i, gap.begin);
+    const AuditPlace end = place(batch, i, gap.end);
+    const bool continues = stretch_ && gap.begin == Dyadic{0, 0} && stretch_->end.s == Dyadic{1, 0} &&
+                           stretch_->end.segment + 1 == begin.segment;
+    if (!continues) {
+      close_stretch();
+      stretch_ = AuditStretch{begin, end, std::nullopt, std::nullopt, gap.reason};
+    }
+    stretch_->end = end;
+    if (!gap.inner) return;
+    const PathWitness& last_witness = gap.inner->second;
+    const AuditPlace first = place(batch, i, gap.inner->first.at.s);
+    const AuditPlace last = place(batch, i, last_witness.singular ? last_witness.to.s : last_witness.at.s);
+    if (!stretch_->inner) {
+      stretch_->inner = gap.inner;
+      stretch_->inner_places = {first, last};
+    }
+    stretch_->inner->second = last_witness;
+    stretch_->inner_places->second = last;
+  }
+
+  void close_stretch() {
+    if (!stretch_) return;
+    json inner;
+    if (stretch_->inner) inner = {to_json(stretch_->inner->first), to_json(stretch_->inner->second)};
+    certificate_.add_stretch(
+        {{"outer",
+          {place_json(stretch_->begin.segment, stretch_->begin.s), place_json(stretch_->end.segment, stretch_->end.s)}},
+         {"inner", inner},
+         {"reason", stretch_->inner ? json() : json(stretch_->reason)}});
+    ++(stretch_->inner ? result_.stretches_violated : result_.stretches_open);
+    // A refuted audit shows a violation, whatever is open before it.
+    const bool is_first_violation = stretch_->inner && result_.stretches_violated == 1;
+    if (result_.stretches.size() < Audit::kMaxListed) {
+      result_.stretches.push_back(std::move(*stretch_));
+    } else if (is_first_violation) {
+      result_.stretches.back() = std::move(*stretch_);
+    }
+    stretch_.reset();
+  }
+
+  bool has_times_, has_tubes_, has_pose_tubes_;
+  CertificateStream& certificate_;
+  NewFile& csv_;
+  Audit result_;
+  double tension_N_ = std::numeric_limits<double>::infinity();
+  double length_m_ = std::numeric_limits<double>::infinity();
+  double wrench_scale_ = std::numeric_limits<double>::infinity();
+  std::optional<AuditStretch> stretch_;
+};
+
+}  // namespace
+
+Audit audit(const Prover& prover, PathSource& source, CertificateStream& certificate, NewFile& csv,
+            const AuditProgress& progress, const std::stop_token& stop) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  constexpr std::size_t kMostSegments = 128;
+  constexpr std::size_t kBatchesPerThread = 8;  // few segments are spread evenly
+  const std::size_t batch_segments =
+      std::clamp<std::size_t>(source.segments() / (kBatchesPerThread * threads), 1, kMostSegments);
+  BatchReader reader(source, batch_segments);
+  const BatchProver batch_prover(prover, source);
+  BatchWriter writer(prover, source, certificate, csv);
+  csv.write(batch_prover.csv_header());
+  std::size_t done = 0;
+  using BatchPointer = std::shared_ptr<Batch>;
+  const auto read = [&](tbb::flow_control& control) {
+    BatchPointer batch = stop.stop_requested() ? nullptr : reader.next();
+    if (!batch) control.stop();
+    return batch;
+  };
+  const auto prove = [&](BatchPointer batch) {
+    batch_prover.prove(*batch);
+    return batch;
+  };
+  const auto write = [&](const BatchPointer& batch) {
+    writer.write(*batch);
+    done += batch->segments.size();
+    progress(done);
+  };
+  constexpr std::size_t kBatchesInFlight = 3;  // a thread
+  tbb::parallel_pipeline(kBatchesInFlight * threads,
+                         tbb::make_filter<void, BatchPointer>(tbb::filter_mode::serial_in_order, read) &
+                             tbb::make_filter<BatchPointer, BatchPointer>(tbb::filter_mode::parallel, prove) &
+                             tbb::make_filter<BatchPointer, void>(tbb::filter_mode::serial_in_order, write));
+  Audit result;
+  if (!stop.stop_requested()) {
+    result = writer.finish();
+  }
+  result.interrupted = stop.stop_requested();
+  result.seconds = seconds_since(begin);
+  return result;
+}
+
+json undecided_json(const Audit& audit) {
+  if (audit.verdict != Verdict::kUndecided || audit.stretches.empty()) return nullptr;
+  const AuditStretch& open = audit.stretches.front();
+  const bool ends_there = open.end.segment == open.begin.segment;
+  return {{"reason", open.reason},
+          {"segment", open.begin.segment},
+          {"box", {open.begin.s.text(), ends_there ? open.end.s.text() : "1"}}};
+}
+
+}  // namespace taut

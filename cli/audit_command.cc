@@ -1,0 +1,250 @@
+#include "cli/audit_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stop_token>
+
+#include "cli/audit.h"
+#include "cli/certificate_file.h"
+#include "cli/console.h"
+#include "cli/files.h"
+#include "cli/path_source.h"
+#include "kinematics/case_file.h"
+#include "reports/html_report.h"
+
+namespace taut {
+namespace {
+
+/// A report draws every segment; beyond, it would be megabytes of pictures.
+constexpr std::size_t kMostReported = 5'000;
+constexpr std::size_t kShownStretches = 20;
+
+const std::map<std::string, Interpolation>& laws() {
+  static const std::map<std::string, Interpolation> all = {{"straight", Interpolation::kStraight},
+                                                           {"geodesic", Interpolation::kGeodesic},
+                                                           {"cable-lengths", Interpolation::kCableLengths}};
+  return all;
+}
+
+// --- What is said --------------------------------------------------------------------------------------------------
+
+std::string text(const AuditPlace& place, const char* place_name) {
+  const std::string where = place.line_before == place.line_behind
+                                ? fmt::format("{} {}", place_name, place.line_before)
+                                : fmt::format("{}s {}-{}", place_name, place.line_before, place.line_behind);
+  const std::string time = place.time_s ? fmt::format(", t = {:.6g} s", *place.time_s) : "";
+  return fmt::format("segment {} at s = {:.6g} ({}{})", place.segment, place.s.approx(), where, time);
+}
+
+std::string text(const PathWitness& witness) {
+  if (witness.singular) return "the force Jacobian becomes singular";
+  return fmt::format("{} of cable {} lies in [{}, {}], its limit is {}", name(witness.margin.kind),
+                     witness.margin.cable + 1, witness.value_lower, witness.value_upper, witness.limit);
+}
+
+std::string text(const AuditStretch& stretch, const char* place_name) {
+  std::string lines =
+      fmt::format("  from {}\n    to {}\n", text(stretch.begin, place_name), text(stretch.end, place_name));
+  if (!stretch.inner) return lines + fmt::format("    open: {}\n", stretch.reason);
+  lines += fmt::format("    violated from {}: {}\n", text(stretch.inner_places->first, place_name),
+                       text(stretch.inner->first));
+  return lines + fmt::format("              to {}: {}\n", text(stretch.inner_places->second, place_name),
+                             text(stretch.inner->second));
+}
+
+std::string counted(std::size_t n, std::string_view what) {
+  const bool hisses = what.ends_with('x') || what.ends_with("ch");
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : hisses ? "es" : "s");
+}
+
+std::string sentence(const Audit& audit) {
+  switch (audit.verdict) {
+    case Verdict::kProved:
+      return fmt::format(
+          "proved: the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} "
+          "in {}.\n"
+          "Proved margins: tension {} N, length {} m, wrench_scale {}.",
+          counted(audit.segments, "segment"), counted(audit.boxes, "box"), audit.margins->tension_N,
+          audit.margins->length_m, audit.margins->wrench_scale);
+    case Verdict::kRefuted:
+      return fmt::format("refuted: {} of the path {} proved violations{}; all the rest is proved.",
+                         counted(audit.stretches_violated, "stretch"), audit.stretches_violated == 1 ? "has" : "have",
+                         audit.stretches_open == 0
+                             ? ""
+                             : fmt::format(", and {} could not be decided", counted(audit.stretches_open, "other")));
+    case Verdict::kUndecided: break;
+  }
+  return fmt::format("undecided: {} of the path could not be decided; all the rest is proved.",
+                     counted(audit.stretches_open, "stretch"));
+}
+
+void print(const Audit& audit, const PathSource& source) {
+  fmt::print("{}{}\n", source.remarks(), sentence(audit));
+  if (audit.verdict == Verdict::kProved) {
+    fmt::print("{}\n", source.problem().tolerances
+                           ? "This holds for every deviation within the case's tolerances."
+                           : "The case states no tolerances: this is about a machine that is exactly as it says.");
+  }
+  if (!audit.stretches.empty()) fmt::print("Outside of these stretches the path is proved:\n");
+  const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
+  for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], source.place_name()));
+  const std::size_t all = audit.stretches_violated + audit.stretches_open;
+  if (all > shown) fmt::print("  … and {} more, in certificate.json\n", all - shown);
+  fmt::print("Audited {} in {:.3g} s, {:.4g} a second.\n", counted(audit.segments, "segment"), audit.seconds,
+             static_cast<double>(audit.segments) / audit.seconds);
+}
+
+nlohmann::json place_json(const AuditPlace& place, const char* place_name) {
+  return {{"segment", place.segment},
+          {"s", place.s.text()},
+          {std::string(place_name) + "s", {place.line_before, place.line_behind}},
+          {"t", place.time_s ? nlohmann::json(*place.time_s) : nlohmann::json()}};
+}
+
+nlohmann::json summary(const Audit& audit, const PathSource& source, const nlohmann::json& witness) {
+  nlohmann::json stretches = nlohmann::json::array();
+  for (const AuditStretch& stretch : audit.stretches) {
+    const char* place_name = source.place_name();
+    nlohmann::json inner;
+    if (stretch.inner) {
+      const auto end = [&](const AuditPlace& place, const PathWitness& violation) {
+        return nlohmann::json{{"at", place_json(place, place_name)}, {"witness", to_json(violation)}};
+      };
+      inner = {end(stretch.inner_places->first, stretch.inner->first),
+               end(stretch.inner_places->second, stretch.inner->second)};
+    }
+    stretches.push_back({{"outer", {place_json(stretch.begin, place_name), place_json(stretch.end, place_name)}},
+                         {"inner", inner},
+                         {"reason", stretch.inner ? nlohmann::json() : nlohmann::json(stretch.reason)}});
+  }
+  return {{"verdict", name(audit.verdict)},
+          {"interpolation", interpolation_name(source.law())},
+          {"waypoints", source.waypoints()},
+          {"segments", audit.segments},
+          {"boxes", audit.boxes},
+          {"boxes_judged", audit.boxes_judged},
+          {"margins", audit.margins ? to_json(*audit.margins) : nlohmann::json::object()},
+          {"witness", witness},
+          {"stretches_violated", audit.stretches_violated},
+          {"stretches_open", audit.stretches_open},
+          {"stretches", stretches},
+          {"seconds", audit.seconds},
+          {"read", source.description()},
+          {"remarks", source.remarks()}};
+}
+
+std::string progress_text(std::size_t done, std::size_t all, double seconds) {
+  const double rate = static_cast<double>(done) / seconds;
+  return fmt::format("auditing: {} of {} segments ({:.0f} %), {:.4g} a second, {:.0f} s left", done, all,
+                     100.0 * static_cast<double>(done) / static_cast<double>(all), rate,
+                     static_cast<double>(all - done) / rate);
+}
+
+/// The first violation; what a refuted certificate has as its witness.
+nlohmann::json witness_json(const Audit& audit) {
+  for (const AuditStretch& stretch : audit.stretches) {
+    if (stretch.inner) return to_json(stretch.inner->first);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void add_audit_options(CLI::App& command, AuditArguments& arguments) {
+  command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md); needs no query")->required();
+  command.add_option("PATH", arguments.path, "path file, or a certificate.json (docs/audits.md)")->required();
+  std::vector<std::string> names;
+  for (const auto& [law, ignored] : laws()) names.push_back(law);
+  command
+      .add_option("--interpolation", arguments.law, "what happens between waypoints (default: as the file suggests)")
+      ->check(CLI::IsMember(names));
+  command.add_option("--out", arguments.out, "directory for the results (default: out/PATH's name)");
+  constexpr int kLeastBits = 128;
+  constexpr int kMostBits = 1 << 20;
+  command.add_option("--bits", arguments.bits, "precision beyond which the prover gives up (default: 4096)")
+      ->check(CLI::Range(kLeastBits, kMostBits));
+  command.add_flag("--allow-repeats", arguments.allow_repeats, "drop rows that repeat the pose of the row before");
+  command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
+}
+
+int run_audit(const AuditArguments& arguments) {
+  const Case case_ = load_case(arguments.case_path);
+  const std::optional<SigningKey> key = load_signing_key(arguments.key);
+  const std::optional<Interpolation> law =
+      arguments.law.empty() ? std::nullopt : std::optional(laws().at(arguments.law));
+  PathSource source(case_.problem, arguments.path, law, {arguments.allow_repeats});
+  if (!arguments.json) fmt::print("{}", source.description());
+  std::fflush(stdout);
+
+  ProofOptions options;
+  options.max_bits = arguments.bits;
+  Prover prover(source.problem(), options);
+  std::atomic<bool> interrupted = false;
+  prover.interrupt = &interrupted;
+  const std::filesystem::path out = out_folder(arguments.out, arguments.path);
+  make_directories(out);
+  NewFile certificate(out / "certificate.json");
+  NewFile csv(out / "path.csv");
+  CertificateStream stream(out, source.problem(), source.law());
+  Audit result;
+  {
+    const Interruption interruption;
+    const std::stop_callback interrupt(interruption.token(), [&] { interrupted = true; });
+    ProgressLine line(!arguments.json);
+    const auto begin = std::chrono::steady_clock::now();
+    const auto progress = [&](std::size_t done) {
+      line.show([&] {
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+        return progress_text(done, source.segments(), spent.count());
+      });
+    };
+    result = audit(prover, source, stream, csv, progress, interruption.token());
+  }
+  if (result.interrupted) {
+    fmt::print(stderr, "taut: interrupted: nothing was written\n");
+    return kUndecidedExit;
+  }
+
+  CertificateStream::Ending ending;
+  ending.verdict = result.verdict;
+  ending.margins = result.margins;
+  ending.witness = witness_json(result);
+  ending.undecided = undecided_json(result);
+  ending.source = source.source();
+  CertificateStream::Sign sign;
+  if (key) sign = [&](const std::string& digest) { return key->signature(digest); };
+  stream.finish(
+      ending, [&](std::string_view text) { certificate.write(text); }, sign);
+  certificate.finish();
+  csv.finish();
+  std::vector<NewFile*> files = {&certificate, &csv};
+  const std::filesystem::path report_path = out / "report.html";
+  std::optional<NewFile> report;
+  if (result.segments <= kMostReported) {
+    report.emplace(report_path);
+    report->write(html_report(read_certificate(certificate.temporary().string())));
+    report->finish();
+    files.push_back(&*report);
+  }
+  for (NewFile* file : files) file->rename_into_place();
+  if (!report) std::filesystem::remove(report_path);  // of an earlier audit
+
+  if (arguments.json) {
+    nlohmann::json object = summary(result, source, ending.witness);
+    object["out"] = out.string();
+    fmt::print("{}\n", object.dump(1));
+  } else {
+    print(result, source);
+    fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(),
+               report ? ", report.html" : fmt::format("; no report.html beyond {} segments", kMostReported));
+  }
+  return exit_code(result.verdict);
+}
+
+}  // namespace taut

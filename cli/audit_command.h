@@ -1,0 +1,25 @@
+// `taut audit`: its arguments, what it writes and what it says (docs/audits.md).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace taut {
+
+struct AuditArguments {
+  std::string case_path;
+  std::string path;
+  std::string law;  ///< empty: the file's own
+  std::string out;
+  std::string key;   ///< file of the private key that signs, or empty
+  long bits = 4096;  ///< of the prover's last rung
+  bool allow_repeats = false;
+  bool json = false;
+};
+
+void add_audit_options(CLI::App& command, AuditArguments& arguments);
+
+/// @returns the exit code. @throws InputError
+[[nodiscard]] int run_audit(const AuditArguments& arguments);
+
+}  // namespace taut

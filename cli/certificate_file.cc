@@ -1,0 +1,42 @@
+#include "cli/certificate_file.h"
+
+#include <fmt/format.h>
+
+#include "certify/certificate.h"
+#include "cli/files.h"
+#include "kinematics/input_error.h"
+
+namespace taut {
+namespace {
+
+void require_unaltered(const nlohmann::json& certificate, const std::string& path) {
+  nlohmann::json body = certificate;
+  const bool has_footer =
+      body.is_object() && body.contains("footer") && body["footer"].is_object() && body["footer"].contains("sha256");
+  const nlohmann::json digest = has_footer ? body["footer"]["sha256"] : nlohmann::json();
+  if (body.is_object()) {
+    body.erase("footer");
+    body.erase("signature");
+  }
+  if (digest != sha256(body)) {
+    throw InputError(
+        fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
+                    "or was cut or altered",
+                    path, digest.dump()));
+  }
+}
+
+}  // namespace
+
+nlohmann::json read_certificate(const std::string& path) {
+  nlohmann::json certificate;
+  try {
+    certificate = nlohmann::json::parse(read_whole(path));
+    require_unaltered(certificate, path);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", path, error.what()));
+  }
+  return certificate;
+}
+
+}  // namespace taut

@@ -1,0 +1,79 @@
+#include "cli/console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+
+#include "cli/files.h"
+
+namespace taut {
+namespace {
+
+std::atomic<bool> interrupt_requested = false;
+extern "C" void request_interrupt(int /*signal*/) { interrupt_requested = true; }
+
+}  // namespace
+
+ExitCode exit_code(Verdict verdict) {
+  return verdict == Verdict::kProved ? kProvedExit : verdict == Verdict::kRefuted ? kRefutedExit : kUndecidedExit;
+}
+
+std::filesystem::path out_folder(const std::string& wanted, const std::string& file) {
+  return wanted.empty() ? std::filesystem::path("out") / std::filesystem::path(file).stem()
+                        : std::filesystem::path(wanted);
+}
+
+std::optional<SigningKey> load_signing_key(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  SigningKey key(read_whole(path), path);
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  constexpr auto kOthers = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
+  if (std::filesystem::is_regular_file(status) && (status.permissions() & kOthers) != std::filesystem::perms::none) {
+    fmt::print(stderr, "taut: warning: {}: others than its owner may use this private key (chmod 600)\n", path);
+  }
+  return key;
+}
+
+ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+bool ProgressLine::is_due() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!enabled_ || now - last_ < std::chrono::milliseconds(100)) return false;
+  last_ = now;
+  return true;
+}
+
+void ProgressLine::print(const std::string& text) {
+  shown_ = true;
+  fmt::print(stderr, "\r\033[K{}", text);
+  std::fflush(stderr);
+}
+
+Interruption::Interruption() {
+  std::signal(SIGINT, request_interrupt);
+  std::signal(SIGTERM, request_interrupt);
+  watcher_ = std::jthread([this](const std::stop_token& finished) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any wake;
+    while (!finished.stop_requested()) {
+      wake.wait_for(lock, finished, std::chrono::milliseconds(50), [] { return interrupt_requested.load(); });
+      if (interrupt_requested) {
+        source_.request_stop();
+        return;
+      }
+    }
+  });
+}
+
+}  // namespace taut

@@ -1,0 +1,60 @@
+// What commands share: exit codes, interruption, a progress line, keys.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "certify/segment_proof.h"
+#include "certify/signature.h"
+
+namespace taut {
+
+enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInputExit = 3, kInternalExit = 4 };
+
+[[nodiscard]] ExitCode exit_code(Verdict verdict);
+
+/// Where results go if nobody says: out/NAME, after the file of that name.
+[[nodiscard]] std::filesystem::path out_folder(const std::string& wanted, const std::string& file);
+
+/// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
+/// @throws InputError as SigningKey
+[[nodiscard]] std::optional<SigningKey> load_signing_key(const std::string& path);
+
+/// A line on stderr that overwrites itself, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  /// Calls `text()` and shows what it returns, ten times a second at most.
+  template <class Text>
+  void show(Text text) {
+    if (is_due()) print(text());
+  }
+
+ private:
+  [[nodiscard]] bool is_due();
+  void print(const std::string& text);
+
+  bool enabled_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+/// Turns SIGINT and SIGTERM into a stop request, which a signal handler may not make itself.
+class Interruption {
+ public:
+  Interruption();
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::jthread watcher_;  // last: joins before the rest goes
+};
+
+}  // namespace taut

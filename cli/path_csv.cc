@@ -1,0 +1,49 @@
+#include "cli/path_csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace taut {
+
+PathCsv::PathCsv(const Problem& problem, Interpolation law, bool has_times)
+    : problem_(problem), law_(law), has_times_(has_times), sampler_(problem) {}
+
+std::string PathCsv::header() const {
+  const std::string time = has_times_ ? "t[s]," : "";
+  if (has_poses(law_)) {
+    const char* lengths = law_ == Interpolation::kCableLengths ? ",l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]" : "";
+    return fmt::format("{}px[m],py[m],pz[m],qx,qy,qz,qw{}\n", time, lengths);
+  }
+  std::string text = law_ == Interpolation::kStraight ? "waypoint" : "control_point";
+  for (const Parameter& parameter : problem_.space.parameters) text += fmt::format(",x.{}", parameter.name);
+  for (const Parameter& parameter : problem_.space.parameters) text += fmt::format(",half_turns.{}", parameter.name);
+  return fmt::format("{},{}px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n", text, time);
+}
+
+std::string PathCsv::row(std::size_t number, const Waypoint& waypoint, std::string_view time) const {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  if (has_poses(law_)) {
+    if (has_times_) fmt::format_to(out, "{},", time);
+    fmt::format_to(out, "{}\n", fmt::join(waypoint.x, ","));  // shortest decimals that read back
+    return text;
+  }
+  fmt::format_to(out, "{},{},{}", number, fmt::join(waypoint.x, ","), fmt::join(waypoint.half_turns, ","));
+  if (has_times_) fmt::format_to(out, ",{}", time);
+  const Pose<double> pose = sampler_.pose(waypoint);
+  fmt::format_to(out, ",{},{},{},{},{},{}\n", pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta,
+                 pose.sigma);
+  return text;
+}
+
+std::string path_csv(const Problem& problem, const Path& path) {
+  const PathCsv csv(problem, path.interpolation, !path.times.empty());
+  std::string text = csv.header();
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    text += csv.row(k, path.waypoints[k], path.times.empty() ? std::string_view() : path.times[k]);
+  }
+  return text;
+}
+
+}  // namespace taut

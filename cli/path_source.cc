@@ -1,0 +1,184 @@
+#include "cli/path_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "certify/certificate.h"
+#include "certify/sha256.h"
+#include "cli/certificate_file.h"
+
+namespace taut {
+namespace {
+
+std::string sha256_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Sha256 digest;
+  std::vector<char> buffer(std::size_t{1} << 18U);
+  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0) {
+    digest.update(std::string_view(buffer.data(), static_cast<std::size_t>(file.gcount())));
+  }
+  return digest.hex();
+}
+
+std::string names(const Problem& problem) {
+  std::vector<std::string> list;
+  for (const Parameter& parameter : problem.space.parameters) list.push_back(parameter.name);
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+/// What the law means, in a sentence.
+std::string meaning(Interpolation law, const Problem& problem) {
+  switch (law) {
+    case Interpolation::kStraight:
+      return fmt::format(
+          "straight: between two waypoints {} each go from value to value at a constant rate, all at once{}",
+          names(problem), problem.space.constraints.empty() ? "" : ", and from there onto the constraints");
+    case Interpolation::kCubicBSpline:
+      return fmt::format("spline: {} follow a cubic B-spline of which these are the control points", names(problem));
+    case Interpolation::kGeodesic:
+      return "geodesic: between two waypoints the platform's origin moves straight, and the platform turns about one "
+             "axis, the "
+             "shorter way, both at constant rates";
+    case Interpolation::kCableLengths: break;
+  }
+  return "cable-lengths: between two waypoints the length of each cable changes at a constant rate, all at once; the "
+         "pose is the one "
+         "that the lengths imply";
+}
+
+}  // namespace
+
+PathSource::PathSource(const Problem& problem, const std::string& path, std::optional<Interpolation> law,
+                       PathFileOptions options)
+    : path_(path), case_problem_(problem), options_(options) {
+  if (is_certificate_name(path)) {
+    read_certificate_path(law);
+    waypoints_ = certificate_->waypoints.size();
+    description_ = fmt::format("a certificate's path, {} waypoint{}\n", waypoints_, waypoints_ == 1 ? "" : "s");
+  } else {
+    PathFile file(path, problem.space, options);
+    header_ = file.header();
+    law_ = law.value_or(usual_law(*header_));
+    WaypointMaker maker(problem, *header_, law_, path);
+    problem_ = maker.problem();
+    PathSummary summary(problem, *header_);
+    for (PathRow row; file.next(row);) summary.add(row);
+    waypoints_ = summary.rows();
+    description_ = summary.text();
+    if (file.repeats_dropped() > 0)
+      description_ += fmt::format("  {} repeated rows were dropped\n", file.repeats_dropped());
+  }
+  if (waypoints_ < control_points(law_) && (waypoints_ != 1 || law_ == Interpolation::kCubicBSpline)) {
+    throw InputError(
+        fmt::format("{}: got {} waypoints, expected at least {} of a spline", path, waypoints_, control_points(law_)));
+  }
+  if (waypoints_ == 1) description_ += "  one pose only: the platform stays there\n";
+  waypoints_ = std::max<std::size_t>(waypoints_, 2);
+  sha256_ = sha256_of_file(path);
+  open();
+}
+
+PathSource::~PathSource() = default;
+
+void PathSource::read_certificate_path(std::optional<Interpolation> law) {
+  const nlohmann::json certificate = read_certificate(path_);
+  const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
+                         certificate["problem"].is_object() && certificate["problem"].contains("space");
+  if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate");
+  certificate_ = path_from_json(certificate["path"]);
+  law_ = certificate_->interpolation;
+  if (law && *law != law_) {
+    throw InputError(path_ + ": got a certificate, expected no other law than its own");
+  }
+  if (certificate_->waypoints.empty()) throw InputError(path_ + ": path: got no waypoints, expected at least one");
+  problem_ = case_problem_;
+  problem_.query.clear();
+  const nlohmann::json& space = certificate["problem"]["space"];
+  if (space != to_json(problem_).at("space")) {
+    problem_.space = coordinate_space();
+    if (space != to_json(problem_).at("space")) {
+      throw InputError(path_ +
+                       ": problem.space: got another than the case's, expected a path in the space of the case");
+    }
+  }
+  const std::size_t parameters = problem_.space.parameters.size();
+  const std::size_t normals = parameters * problem_.space.constraints.size();
+  const bool fits = std::ranges::all_of(certificate_->waypoints, [&](const Waypoint& waypoint) {
+    return has_poses(law_) || (waypoint.x.size() == parameters && waypoint.normals.size() == normals);
+  });
+  if (!fits || (has_times() && certificate_->times.size() != certificate_->waypoints.size())) {
+    throw InputError(path_ + ": path: got waypoints or times of another size, expected those of the space");
+  }
+}
+
+void PathSource::open() {
+  if (certificate_) return;
+  file_ = std::make_unique<PathFile>(path_, case_problem_.space, options_);
+  maker_ = std::make_unique<WaypointMaker>(case_problem_, *header_, law_, path_);
+}
+
+bool PathSource::has_times() const { return certificate_ ? !certificate_->times.empty() : header_->time.has_value(); }
+
+bool PathSource::next(SourceWaypoint& result) {
+  if (next_ == waypoints_) {
+    if (sha256_of_file(path_) != sha256_) throw InputError(path_ + ": the file was changed while it was read");
+    return false;
+  }
+  const std::size_t k = next_++;
+  result.is_copy = false;
+  if (certificate_) {
+    const std::size_t known = certificate_->waypoints.size();
+    result.is_copy = k >= known;
+    result.line = std::min(k, known - 1);
+    result.waypoint = certificate_->waypoints[result.line];
+    if (has_times()) result.time_s = Decimal::parse(certificate_->times[result.line]);
+    return true;
+  }
+  PathRow row;
+  if (!file_->next(row)) {
+    if (k != 1) throw InputError(path_ + ": the file was changed while it was read");
+    result.is_copy = true;
+    return true;
+  }
+  result.waypoint = maker_->next(row, file_->start());
+  result.line = row.line;
+  result.time_s = row.time_s;
+  return true;
+}
+
+std::string PathSource::description() const {
+  std::string text = fmt::format("Read {}: {}Interpolation {}.\n", path_, description_, meaning(law_, problem_));
+  if (maker_ && maker_->is_converted()) {
+    text +=
+        "The file's poses were converted to this form in floating point: what is proved is about the converted "
+        "waypoints, those of path.csv.\n";
+  }
+  return text;
+}
+
+std::string PathSource::remarks() const {
+  constexpr double kLargeError = 1e-3;
+  std::string text;
+  if (maker_ && maker_->start_error_m() > kLargeError) {
+    text += fmt::format(
+        "The start pose has cable lengths up to {:.4g} m from those of the first row; the pose next to it was taken.\n",
+        maker_->start_error_m());
+  }
+  if (maker_ && maker_->lost_line()) {
+    text += fmt::format(
+        "From line {} on no pose was found that has the cable lengths of the file and follows from those before.\n",
+        *maker_->lost_line());
+  }
+  return text;
+}
+
+nlohmann::json PathSource::source() const {
+  return {{"file", std::filesystem::path(path_).filename().string()}, {"sha256", sha256_}};
+}
+
+}  // namespace taut

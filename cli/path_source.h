@@ -1,0 +1,74 @@
+// A path to be audited, waypoint by waypoint, wherever it comes from: a path file of any kind, or a certificate.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinematics/path_file.h"
+#include "kinematics/path_summary.h"
+#include "kinematics/segment.h"
+#include "kinematics/waypoint_maker.h"
+
+namespace taut {
+
+struct SourceWaypoint {
+  Waypoint waypoint;
+  std::size_t line = 0;  ///< of the file; of a certificate, the waypoint's number, from 0
+  std::optional<Decimal> time_s;
+  bool is_copy = false;  ///< a path of one pose is audited as a segment that stays there
+};
+
+class PathSource {
+ public:
+  /// Reads all of the file once, so that whatever is wrong with it is said at once, and stands before its first waypoint.
+  /// @param law  how to join the waypoints; nothing for the file's usual way.
+  /// @throws InputError
+  PathSource(const Problem& problem, const std::string& path, std::optional<Interpolation> law,
+             PathFileOptions options);
+  ~PathSource();
+  PathSource(const PathSource&) = delete;
+  PathSource& operator=(const PathSource&) = delete;
+
+  /// Without a query; in the case's space, or that of all poses.
+  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] Interpolation law() const { return law_; }
+  [[nodiscard]] std::size_t waypoints() const { return waypoints_; }  ///< with the copy of a single one
+  [[nodiscard]] std::size_t segments() const { return waypoints_ - control_points(law_) + 1; }
+  [[nodiscard]] bool has_times() const;
+  /// "line" or "waypoint": what SourceWaypoint::line counts.
+  [[nodiscard]] const char* place_name() const { return certificate_ ? "waypoint" : "line"; }
+
+  /// False behind the last. @throws InputError, also where the file changed since it was read first.
+  [[nodiscard]] bool next(SourceWaypoint& result);
+
+  /// Lines of text: what was read, how it is joined, and what that means.
+  [[nodiscard]] std::string description() const;
+  /// Of cable lengths, once all waypoints were read: what is odd about the poses that they imply; may be empty.
+  [[nodiscard]] std::string remarks() const;
+  /// A certificate's `source`.
+  [[nodiscard]] nlohmann::json source() const;
+
+ private:
+  void open();
+  void read_certificate_path(std::optional<Interpolation> law);
+
+  std::string path_;
+  Problem case_problem_;
+  Problem problem_;
+  PathFileOptions options_;
+  Interpolation law_ = Interpolation::kStraight;
+  std::size_t waypoints_ = 0;
+  std::string sha256_;
+  std::string description_;
+  std::optional<Path> certificate_;  ///< the path of one
+  std::unique_ptr<PathFile> file_;
+  std::unique_ptr<WaypointMaker> maker_;
+  std::optional<PathHeader> header_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace taut

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""`taut audit` through the command line: what is read, what is proved, what is listed, and with which exit code.
+
+Usage: audit_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import json
+import math
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TAUT, CHECK, SOURCE = sys.argv[1:4]
+AUDITS = os.path.join(SOURCE, "cases", "audits")
+EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
+ROBOT1 = os.path.join(SOURCE, "cases", "robot1-slice-qs-qg.yaml")
+
+
+def run(*arguments, **options):
+    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, **options)
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def fraction(text):
+    numerator, _, denominator = text.partition("/")
+    return int(numerator) / int(denominator or 1)
+
+
+def position(place):
+    return place["segment"] + fraction(place["s"])
+
+
+class Audit(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.out = directory.name
+        self.addCleanup(directory.cleanup)
+
+    def path(self, *parts):
+        return os.path.join(self.out, *parts)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def audit(self, case, path, *options, out="out"):
+        result = run(TAUT, "audit", case, path, "--out", self.path(out), "--json", *options)
+        self.assertIn(result.returncode, (0, 1, 2), result.stderr)
+        summary = json.loads(result.stdout)
+        self.assertEqual(result.returncode, EXIT[summary["verdict"]])
+        return summary
+
+    def certificate(self, out="out"):
+        return json.loads(text_of(self.path(out, "certificate.json")))
+
+    def refused(self, text, *expected, name="path.csv", options=()):
+        result = run(TAUT, "audit", ROBOT1, self.write(name, text), "--out", self.path("refused"), *options)
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        for message in expected:
+            self.assertIn(message, result.stderr)
+        self.assertFalse(os.path.exists(self.path("refused", "certificate.json")))
+
+    def cover(self, certificate, segments):
+        """Proved boxes and outer intervals are the whole path, and don't overlap."""
+        pieces = [(segment["from"] + fraction(a), segment["from"] + fraction(b))
+                  for segment in certificate["segments"] for a, b in segment["boxes"]]
+        pieces += [tuple(position(place) for place in stretch["outer"]) for stretch in certificate["stretches"] or []]
+        pieces.sort()
+        self.assertEqual(pieces[0][0], 0)
+        self.assertEqual(pieces[-1][1], segments)
+        for before, behind in zip(pieces, pieces[1:]):
+            self.assertEqual(before[1], behind[0])
+
+    def test_every_case_ends_as_it_declares_and_its_certificate_is_accepted(self):
+        laws = set()
+        for name in sorted(os.listdir(AUDITS)):
+            if not name.endswith(".yaml"):
+                continue
+            case = os.path.join(AUDITS, name)
+            with self.subTest(case=name):
+                path, *options = re.search(r"^# audit: (.*)$", text_of(case), re.M).group(1).split()
+                verdict = re.search(r"^expect: (\w+)$", text_of(case), re.M).group(1)
+                summary = self.audit(case, os.path.join(AUDITS, path), *options, out=name)
+                self.assertEqual(summary["verdict"], verdict)
+                laws.add((summary["verdict"], summary["interpolation"]))
+                self.cover(self.certificate(name), summary["segments"])
+                self.assertGreater(os.path.getsize(self.path(name, "report.html")), 10000)
+                checked = run(CHECK, self.path(name, "certificate.json"), case)
+                self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        for law in ["straight-in-parameters", "cubic-b-spline", "geodesic", "straight-in-cable-lengths"]:
+            self.assertIn(("proved", law), laws)
+
+    def test_the_bridge_is_between_two_samples_that_are_fine(self):
+        case, path = (os.path.join(AUDITS, "robot1-bridging" + end) for end in (".yaml", ".csv"))
+        summary = self.audit(case, path)
+        self.assertEqual(summary["stretches_violated"], 1)
+        stretch = summary["stretches"][0]
+        begin, end = (position(place) for place in stretch["outer"])
+        self.assertTrue(2 < begin < end < 3, "no sample is in it")
+        self.assertEqual(stretch["outer"][0]["lines"], [5, 6])
+
+    def test_path_csv_reads_back_bit_for_bit(self):
+        rows = ["t[ms],phi[deg],theta[deg]"] + [f"{10 * k},{-131.7 + k / 7},{91.7 + k / 9}" for k in range(8)]
+        first = self.audit(ROBOT1, self.write("path.csv", "\n".join(rows)))
+        again = self.audit(ROBOT1, self.path("out", "path.csv"), out="again")
+        self.assertEqual(text_of(self.path("out", "path.csv")), text_of(self.path("again", "path.csv")))
+        for key in ["path_sha256", "segments", "stretches", "margins", "witness"]:
+            self.assertEqual(self.certificate()[key], self.certificate("again")[key])
+        self.assertEqual(self.certificate()["path"]["times"][1], "0.01")
+        from_certificate = self.audit(ROBOT1, self.path("out", "certificate.json"), out="third")
+        self.assertEqual(self.certificate()["path"], self.certificate("third")["path"])
+        self.assertEqual(from_certificate["verdict"], first["verdict"])
+
+    def test_a_planned_path_is_proved_again(self):
+        for case in [ROBOT1, os.path.join(SOURCE, "cases", "tutorial", "03-a-smooth-move.yaml")]:
+            self.assertEqual(run(TAUT, "plan", case, "--out", self.path("plan")).returncode, 0)
+            for name in ["path.csv", "certificate.json"]:
+                self.assertEqual(self.audit(case, self.path("plan", name))["verdict"], "proved")
+                self.assertEqual(self.certificate()["path"], self.certificate("plan")["path"])
+
+    def test_other_laws_convert_the_waypoints_and_say_so(self):
+        text = "phi[deg],theta[deg]\n-88.9,80.2\n-88,80.4\n-87.5,80.4\n"
+        path = self.write("path.csv", text)
+        said = run(TAUT, "audit", ROBOT1, path, "--out", self.out, "--interpolation", "geodesic")
+        self.assertIn("Interpolation geodesic: between two waypoints", said.stdout)
+        self.assertIn("converted to this form in floating point", said.stdout)
+        for law in ["geodesic", "cable-lengths"]:
+            summary = self.audit(ROBOT1, path, "--interpolation", law, out=law)
+            self.assertEqual(summary["verdict"], "proved", law)
+            again = self.audit(ROBOT1, self.path(law, "path.csv"), out="again")
+            self.assertEqual(again["verdict"], "proved", law)
+        back = self.audit(ROBOT1, self.path("geodesic", "path.csv"), "--interpolation", "straight", out="back")
+        self.assertEqual(back["verdict"], "proved")
+        angles = [[float.fromhex(x) for x in w["x"][3:5]] for w in self.certificate("back")["path"]["waypoints"]]
+        for (phi, theta), row in zip(angles, text.splitlines()[1:]):
+            typed = [math.radians(float(cell)) for cell in row.split(",")]
+            self.assertAlmostEqual(phi, typed[0], places=13)
+            self.assertAlmostEqual(theta, typed[1], places=13)
+
+    def test_one_pose_is_a_platform_that_stays(self):
+        summary = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n"))
+        self.assertEqual((summary["verdict"], summary["segments"]), ("proved", 1))
+        slack = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n0,91.7\n"))
+        self.assertEqual(slack["verdict"], "refuted")
+
+    def test_bad_paths_are_refused_with_their_place(self):
+        self.refused("phi[deg],theta[deg]\n1,2\n3,nan\n", "path.csv:3: theta: got 'nan', expected a decimal number")
+        self.refused("phi[deg],theta[deg]\n1,2\n1,2\n", "path.csv:3: got the pose of line 2 again", "--allow-repeats")
+        self.refused("phi[deg],theta\n1,2\n", "path.csv:1: theta: got no unit")
+        self.refused("", "got no rows")
+        self.refused("{}", "certificate.json: footer.sha256", name="certificate.json")
+        self.refused("phi[deg],theta[deg]\n1,2\n", "wobbly not in", options=["--interpolation", "wobbly"])
+        self.refused("l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n1,1,1,1,1,1\n", "expected the law cable-lengths",
+                     options=["--interpolation", "straight"])
+        missing = run(TAUT, "audit", ROBOT1, self.path("nowhere.csv"), "--out", self.path("refused"))
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn("nowhere.csv", missing.stderr)
+        self.assertFalse(os.path.exists(self.path("refused")))
+
+    def test_repeats_are_dropped_where_allowed(self):
+        path = self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n-88.9,80.2\n-88,80.2\n")
+        summary = self.audit(ROBOT1, path, "--allow-repeats")
+        self.assertEqual(summary["segments"], 1)
+        self.assertIn("1 repeated rows were dropped", summary["read"])
+
+    def test_an_interrupted_audit_leaves_nothing(self):
+        def rows():
+            yield "phi[deg],theta[deg]"
+            for k in range(300000):
+                yield f"{-88.9 + 0.3 * math.sin(k / 100)},{80.2 + 0.3 * math.cos(k / 100)}"
+        path = self.write("path.csv", "\n".join(rows()))
+        process = subprocess.Popen([TAUT, "audit", ROBOT1, path, "--out", self.path("out")], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(1.5)
+        self.assertIsNone(process.poll(), "it should take longer")
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("interrupted: nothing was written", said)
+        self.assertEqual(os.listdir(self.path("out")), [])
+
+    def test_long_paths_have_no_report(self):
+        def rows():
+            yield "phi[deg],theta[deg]"
+            for k in range(6001):
+                yield f"{-88.9 + 0.3 * math.sin(k / 100)},{80.2 + 0.3 * math.cos(k / 100)}"
+        path = self.write("path.csv", "\n".join(rows()))
+        said = run(TAUT, "audit", ROBOT1, path, "--out", self.path("out"))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertIn("no report.html beyond 5000 segments", said.stdout)
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["certificate.json", "path.csv"])
+
+    def test_a_certificate_is_signed_where_asked(self):
+        key = self.path("key.pem")
+        self.assertEqual(run("openssl", "genpkey", "-algorithm", "ed25519", "-out", key).returncode, 0)
+        run("openssl", "pkey", "-in", key, "-pubout", "-out", self.path("key.pub"))
+        self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n-88,80.2\n"), "--sign", key)
+        checked = run(CHECK, self.path("out", "certificate.json"), "--trust", self.path("key.pub"))
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
