@@ -88,7 +88,8 @@ bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
   return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->held_by_lengths);
 }
 
-/// The commanded pose, and how far deviations displace it.
+}  // namespace
+
 template <class I>
 HeldMotion<I> commanded_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
                                const I& offset) {
@@ -106,8 +107,6 @@ HeldMotion<I> commanded_motion(const ProofModel<I>& problem, const Segment& segm
   const ToleranceModel<I>* tolerance = problem.tolerance ? &*problem.tolerance : nullptr;
   return hold_by_lengths(problem.model, reference, lengths, at_reference, segment.pose_tube, tolerance, offset);
 }
-
-}  // namespace
 
 template <class I>
 BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {

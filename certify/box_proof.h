@@ -18,6 +18,7 @@
 
 #include "certify/centered.h"
 #include "certify/dyadic.h"
+#include "certify/held_motion.h"
 #include "certify/interval.h"
 #include "certify/margin.h"
 #include "certify/motion.h"
@@ -40,6 +41,11 @@ struct ProofModel {
 [[nodiscard]] ProofModel<MpInterval> make_mp_proof_model(const Problem& problem);
 /// In binary64 intervals. @throws InputError likewise.
 [[nodiscard]] ProofModel<Interval> make_proof_model(const Problem& problem);
+
+/// The commanded pose over a box, and how far deviations displace it. Conditions as for enclose_box.
+template <class I>
+[[nodiscard]] HeldMotion<I> commanded_motion(const ProofModel<I>& problem, const Segment& segment,
+                                             const EnclosedBox<I>& s, const I& offset);
 
 /// What is known over one box.
 template <class I>

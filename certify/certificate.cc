@@ -38,11 +38,18 @@ json to_json(const PathPoint& p) {
 
 json to_json(const PathWitness& w) {
   if (w.singular) return {{"kind", "singular"}, {"at", to_json(w.at)}, {"to", to_json(w.to)}};
-  return {{"kind", name(w.margin.kind)},
-          {"at", to_json(w.at)},
-          {"cable", w.margin.cable + 1},
-          {"value", {w.value_lower, w.value_upper}},
-          {"limit", w.limit}};
+  json result = {{"kind", name(w.margin.kind)},
+                 {"at", to_json(w.at)},
+                 {"cable", w.margin.cable + 1},
+                 {"value", {w.value_lower, w.value_upper}},
+                 {"limit", w.limit}};
+  if (w.deviation) {
+    const Deviation& d = *w.deviation;
+    result["deviation"] = {{"base_anchors_m", d.base_anchors_m}, {"platform_anchors_m", d.platform_anchors_m},
+                           {"load_point_m", d.load_point_m},     {"wrench", d.wrench},
+                           {"position_m", d.position_m},         {"turn", d.turn}};
+  }
+  return result;
 }
 
 const char* interpolation_name(Interpolation law) {

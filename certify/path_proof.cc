@@ -42,13 +42,15 @@ const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   return problem.robot.length_m[cable].upper;
 }
 
-PathWitness make_witness(const Prover& prover, const Segment& segment, const DyadicBox& box, MarginId margin,
-                         PathPoint at) {
+PathWitness make_witness(const Prover& prover, const Segment& segment, const SegmentWitness& found, PathPoint at) {
+  const auto& [singular, margin, box, deviation] = found;
   PathWitness witness;
   witness.at = at;
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
-  const MpInterval value = prover.quantity_at_mid(segment, box, margin);
+  witness.deviation = deviation;
+  const MpInterval value = deviation ? prover.quantity_at_mid(segment, box, margin, *deviation)
+                                     : prover.quantity_at_mid(segment, box, margin);
   const Decimal limit = Decimal::parse(witness.limit);
   const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
   for (int digits = kWitnessDigits; digits <= kMostWitnessDigits; digits *= 2) {
@@ -62,14 +64,18 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Dya
 /// Of waypoint `index`: refute_waypoint() on a segment that stays there.
 std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, std::string& undecided) {
   const DyadicBox whole;
-  if (prover.prove(still).verdict == Verdict::kProved) return std::nullopt;
+  const SegmentProof proof = prover.prove(still);
+  if (proof.verdict == Verdict::kProved) return std::nullopt;
   if (!prover.may_follow(still)) {
     undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
     return std::nullopt;
   }
   const BoxVerdict verdict = prover.judge(still, whole);
   if (verdict.kind == BoxVerdict::Kind::kRefuted) {
-    return make_witness(prover, still, whole, verdict.worst, PathPoint{false, index, {}});
+    return make_witness(prover, still, {false, verdict.worst, whole}, PathPoint{false, index, {}});
+  }
+  if (proof.witness && proof.witness->deviation) {
+    return make_witness(prover, still, *proof.witness, PathPoint{false, index, {}});
   }
   undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
               : verdict.kind == BoxVerdict::Kind::kNoMotion
@@ -129,7 +135,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
 
 PathWitness path_witness(const Prover& prover, const Segment& segment, int index, const SegmentWitness& witness) {
   if (!witness.singular) {
-    return make_witness(prover, segment, witness.box, witness.margin, PathPoint{true, index, witness.box.mid()});
+    return make_witness(prover, segment, witness, PathPoint{true, index, witness.box.mid()});
   }
   PathWitness result;
   result.singular = true;

@@ -21,10 +21,11 @@ struct PathPoint {
 struct PathWitness {
   PathPoint at;
   bool singular = false;
-  PathPoint to;                          ///< the second point; only if singular
-  MarginId margin;                       ///< unless singular
-  DecimalText value_lower, value_upper;  ///< enclosure of f0 − v, f0 + v or d [N, m]; unless singular
-  DecimalText limit;                     ///< the limit it violates; unless singular
+  PathPoint to;                                          ///< the second point; only if singular
+  MarginId margin;                                       ///< unless singular
+  DecimalText value_lower, value_upper;                  ///< enclosure of f0 − v, f0 + v or d [N, m]; unless singular
+  DecimalText limit;                                     ///< the limit it violates; unless singular
+  std::shared_ptr<const Deviation> deviation = nullptr;  ///< within the tolerances; null: of the undisturbed machine
 };
 
 struct Margins {

@@ -11,6 +11,9 @@ namespace taut {
 
 namespace {
 
+/// Rung of the ladder at which deviations are examined.
+constexpr std::size_t kDeviationRung = 0;
+
 constexpr mpfr_prec_t kFirstRung = 128;
 
 std::vector<mpfr_prec_t> ladder(mpfr_prec_t max_bits) {
@@ -317,6 +320,9 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       return give_up("bisection depth reached at " + describe(verdict.worst));
     case Kind::kTolerance:
       if (box.depth < options_.tolerance_depth) return split;
+      if (auto deviation = refuting_deviation(walk.segment, box, verdict.worst)) {
+        return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
+      }
       return give_up("the tolerances are too large for a proof at " + describe(verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
@@ -420,7 +426,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
           report(Kind::kSingular);
         } else if (step.verdict.throughout && step.witness->box == task.box) {
           report(Kind::kViolated);
-        } else if (is_fine) {
+        } else if (is_fine || step.witness->deviation) {
           report(Kind::kViolatedInside);
         } else {
           walk.split(task, 0);
@@ -443,6 +449,50 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
   survey.boxes_judged = walk.judged;
   survey.boxes_multiprecision = walk.multiprecision;
   return survey;
+}
+
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
+                                   const Deviation& deviation) const {
+  const PrecisionScope precision(bits_[kDeviationRung]);
+  const ProofModel<MpInterval>& model = fine(kDeviationRung);
+  Faults<MpInterval>::clear();
+  const auto mid = enclose<MpInterval>(box.mid());
+  const HeldMotion<MpInterval> commanded = commanded_motion(model, segment, {mid, mid}, MpInterval(0.0));
+  const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
+  MpInterval quantity;
+  const bool is_known = commanded.motion.status == MotionEnclosure<MpInterval>::Status::kKnown;
+  if (is_known) {
+    quantity = deviated_quantity(model.model, *problem_.tolerances, commanded.motion.p_WP.unaryExpr(at_mid),
+                                 commanded.motion.r_WP.unaryExpr(at_mid), deviation, margin);
+  }
+  if (!is_known || Faults<MpInterval>::raised()) throw std::logic_error("a deviation has no enclosure");
+  return quantity;
+}
+
+std::shared_ptr<const Deviation> Prover::refuting_deviation(const Segment& segment, const DyadicBox& box,
+                                                            MarginId margin) const {
+  if (fine_.size() <= kDeviationRung) return nullptr;
+  std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
+  const RigidPose pose = sampler_->rigid_pose(segment, box.mid().approx());
+  auto deviation = std::make_shared<const Deviation>(
+      worst_deviation(*problem_.tolerances, sampler_->model(), pose, margin, is_held_by_lengths(segment.law)));
+  const PrecisionScope precision(bits_[kDeviationRung]);
+  const Model<MpInterval>& model = fine(kDeviationRung).model;
+  MpInterval quantity;
+  try {
+    quantity = quantity_at_mid(segment, box, margin, *deviation);
+  } catch (const std::logic_error&) {
+    return nullptr;
+  }
+  const auto n = static_cast<std::size_t>(margin.cable);
+  MpInterval room;
+  switch (margin.kind) {
+    case MarginKind::kTensionMin: room = quantity - model.tension_lower[n]; break;
+    case MarginKind::kTensionMax: room = model.tension_upper[n] - quantity; break;
+    case MarginKind::kLengthMin: room = quantity - model.length_lower[n]; break;
+    case MarginKind::kLengthMax: room = model.length_upper[n] - quantity; break;
+  }
+  return certainly_nonpositive(room) ? deviation : nullptr;
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {

@@ -7,12 +7,14 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "certify/box_proof.h"
+#include "certify/deviation.h"
 #include "kinematics/constraint_functions.h"
 #include "kinematics/pose_sampler.h"
 
@@ -39,6 +41,7 @@ struct SegmentWitness {
   bool singular = false;
   MarginId margin;  ///< unless singular
   DyadicBox box;
+  std::shared_ptr<const Deviation> deviation = nullptr;  ///< of the machine whose margin it is; null: undisturbed
 };
 
 struct SegmentProof {
@@ -120,7 +123,11 @@ class Prover {
 
   /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the least precision at which the
   /// margin is seen not to be positive, else at the highest that works.
+  /// @throws std::logic_error if there is none.
   [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
+  /// The same, of a machine that deviates.
+  [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
+                                           const Deviation& deviation) const;
 
   /// Whether all control points are such as the law asks for, and certainly in their ranges where it runs through parameters.
   [[nodiscard]] bool may_follow(const Segment& segment) const;
@@ -146,6 +153,10 @@ class Prover {
   [[nodiscard]] Step examine(Walk& walk, const Task& task) const;
   [[nodiscard]] Step settle(Walk& walk, const Task& task, MarginId margin) const;
   [[nodiscard]] bool is_singular_between_ends(const Segment& segment, const DyadicBox& box) const;
+
+  /// A deviation that breaks `margin` at the midpoint of a box, proved; null if the worst to first order does not.
+  [[nodiscard]] std::shared_ptr<const Deviation> refuting_deviation(const Segment& segment, const DyadicBox& box,
+                                                                    MarginId margin) const;
 
   Problem problem_;
   ProofOptions options_;

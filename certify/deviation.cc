@@ -1,0 +1,136 @@
+#include "certify/deviation.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+
+#include "certify/interval.h"
+#include "kinematics/quaternion.h"
+#include "kinematics/statics.h"
+
+namespace taut {
+namespace {
+
+/// A machine in binary64 that may be moved about.
+struct Machine {
+  Model<double> model;
+  RigidPose pose;
+};
+
+/// How far inside its limit a margin is [N or m].
+double margin_value(Machine machine, MarginId id) {
+  Model<double>& model = machine.model;
+  for (std::size_t i = 0; i < kCables; ++i) model.p_MB[i] = model.p_PB[i] - model.p_PM;
+  const auto i = static_cast<std::size_t>(id.cable);
+  const Statics<double> s = statics(model, machine.pose.p, Matrix3<double>(machine.pose.q.toRotationMatrix()));
+  switch (id.kind) {
+    case MarginKind::kTensionMin: return s.tension[i] - s.variation[i] - model.tension_lower[i];
+    case MarginKind::kTensionMax: return model.tension_upper[i] - s.tension[i] - s.variation[i];
+    case MarginKind::kLengthMin: return s.length[i] - model.length_lower[i];
+    case MarginKind::kLengthMax: break;
+  }
+  return model.length_upper[i] - s.length[i];
+}
+
+using Move = std::function<void(Machine&, const Vector3<double>&)>;
+
+/// Downhill by `size`, as decimals; none where nothing may move.
+std::array<DecimalText, 3> downhill(
+    const Machine& machine, MarginId id, double size, double step, const Move& move,
+    const std::function<double(double)>& scale = [](double x) { return x; }) {
+  constexpr double kInside = 1 - 1e-9;  // far more than twelve digits may be off
+  Vector3<double> slope = Vector3<double>::Zero();
+  for (int k = 0; size > 0 && k < 3; ++k) {
+    const auto at = [&](double x) {
+      Machine moved = machine;
+      move(moved, x * Vector3<double>::Unit(k));
+      return margin_value(std::move(moved), id);
+    };
+    slope(k) = at(step) - at(-step);
+  }
+  const double norm = slope.norm();
+  std::array<DecimalText, 3> result = {"0", "0", "0"};
+  if (!(norm > 0) || !std::isfinite(norm)) return result;
+  for (int k = 0; k < 3; ++k) {
+    result[static_cast<std::size_t>(k)] = fmt::format("{:.12g}", -slope(k) / norm * scale(kInside * size));
+  }
+  return result;
+}
+
+double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
+
+Vector3<MpInterval> vector(const std::array<DecimalText, 3>& text) {
+  const auto number = [](const DecimalText& x) { return ScalarTraits<MpInterval>::from_decimal(x); };
+  return {number(text[0]), number(text[1]), number(text[2])};
+}
+
+}  // namespace
+
+Deviation worst_deviation(const TolerancesText& tolerances, const Model<double>& model, const RigidPose& commanded,
+                          MarginId margin, bool held_by_lengths) {
+  const Machine machine{model, commanded};
+  const double step = 1e-6 * model.characteristic_length;
+  constexpr double kAngleStep = 1e-6;
+  Deviation result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const double base = held_by_lengths ? 0.0 : number(tolerances.base_anchor_m[i]);
+    const double platform = held_by_lengths ? 0.0 : number(tolerances.platform_anchor_m[i]);
+    result.base_anchors_m[i] =
+        downhill(machine, margin, base, step, [i](Machine& m, const Vector3<double>& x) { m.model.p_WA[i] += x; });
+    result.platform_anchors_m[i] =
+        downhill(machine, margin, platform, step, [i](Machine& m, const Vector3<double>& x) { m.model.p_PB[i] += x; });
+  }
+  result.load_point_m = downhill(machine, margin, number(tolerances.load_point_m), step,
+                                 [](Machine& m, const Vector3<double>& x) { m.model.p_PM += x; });
+  result.position_m = downhill(machine, margin, number(tolerances.position_m), step,
+                               [](Machine& m, const Vector3<double>& x) { m.pose.p += x; });
+  result.turn = downhill(
+      machine, margin, evaluate_constant<double>(tolerances.orientation_rad), kAngleStep,
+      [](Machine& m, const Vector3<double>& x) {
+        m.pose.q = Eigen::Quaterniond(Eigen::AngleAxisd(x.norm(), x.normalized())) * m.pose.q;
+      },
+      [](double angle) { return std::tan(0.5 * angle); });
+  const auto loaded = [&](double part) {
+    Machine moved = machine;
+    for (int k = 0; k < 6; ++k) moved.model.wrench(k) += part * number(tolerances.wrench[static_cast<std::size_t>(k)]);
+    return margin_value(std::move(moved), margin);
+  };
+  result.wrench = loaded(1) < loaded(-1) ? "1" : "-1";
+  return result;
+}
+
+MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
+                             const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
+                             const Deviation& deviation, MarginId margin) {
+  using I = MpInterval;
+  Model<I> deviated = model;
+  deviated.p_PM += vector(deviation.load_point_m);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    deviated.p_WA[i] += vector(deviation.base_anchors_m[i]);
+    deviated.p_PB[i] += vector(deviation.platform_anchors_m[i]);
+    deviated.p_MB[i] = deviated.p_PB[i] - deviated.p_PM;
+  }
+  const I load = ScalarTraits<I>::from_decimal(deviation.wrench);
+  for (int k = 0; k < 6; ++k) {
+    deviated.wrench(k) += load * ScalarTraits<I>::from_decimal(tolerances.wrench[static_cast<std::size_t>(k)]);
+  }
+  const Vector3<I> u = vector(deviation.turn);
+  const Matrix3<I> turn = rotation(Quaternion<I>{u(0), u(1), u(2), I(1.0)});
+  Matrix3<I> r;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) r(i, j) = turn(i, 0) * r_WP(0, j) + turn(i, 1) * r_WP(1, j) + turn(i, 2) * r_WP(2, j);
+  }
+  const Statics<I> s = statics(deviated, Vector3<I>(p_WP + vector(deviation.position_m)), r);
+  const auto i = static_cast<std::size_t>(margin.cable);
+  const bool of_length = margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
+  if (of_length) return s.length[i];
+  if (!s.regular) {
+    Faults<I>::raise();
+    return I(0.0);
+  }
+  return margin.kind == MarginKind::kTensionMin ? I(s.tension[i] - s.variation[i]) : I(s.tension[i] + s.variation[i]);
+}
+
+}  // namespace taut

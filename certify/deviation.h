@@ -1,0 +1,34 @@
+// One deviation within the tolerances, as exact numbers: what a refutation shows where the undisturbed machine is safe.
+#pragma once
+
+#include <array>
+
+#include "certify/margin.h"
+#include "certify/mp_interval.h"
+#include "kinematics/model.h"
+#include "kinematics/pose_conversion.h"
+
+namespace taut {
+
+/// What is added to the numbers of a problem and to the commanded pose (docs/certificate-format.md, "witness").
+struct Deviation {
+  std::array<std::array<DecimalText, 3>, kCables> base_anchors_m;
+  std::array<std::array<DecimalText, 3>, kCables> platform_anchors_m;
+  std::array<DecimalText, 3> load_point_m;
+  DecimalText wrench;                     ///< τ
+  std::array<DecimalText, 3> position_m;  ///< tracking
+  std::array<DecimalText, 3> turn;        ///< u of the rotation R(u, 1) by 2 atan |u|
+};
+
+/// The one within `tolerances` that brings a margin down furthest, to first order, in floating point: a proposal. It keeps a
+/// billionth off the tolerances. Anchors and lengths of a machine that is held by lengths do not deviate.
+[[nodiscard]] Deviation worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
+                                        const RigidPose& commanded, MarginId margin, bool held_by_lengths);
+
+/// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the commanded
+/// pose. Void if a fault is raised. At working_precision().
+[[nodiscard]] MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
+                                           const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
+                                           const Deviation& deviation, MarginId margin);
+
+}  // namespace taut
