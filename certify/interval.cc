@@ -140,9 +140,20 @@ Interval hull_with_extrema(Interval at_lower, Interval at_upper, Interval slope_
   return clamp_to_unit(minimum_possible ? -1.0 : lower_bound(ends), maximum_possible ? 1.0 : upper_bound(ends));
 }
 
+/// Width, relative to x, of what is an exact number but for rounding.
+constexpr double kNarrow = 0x1p-50;
+
 SinCos<Interval> sincos_interval(Interval x) {
   if (x.lower() == x.upper()) return sincos_thin(x.lower());
-  if (!(x.upper() - x.lower() < 3.0)) return {{-1.0, 1.0}, {-1.0, 1.0}};  // 3 < pi
+  const double width = x.upper() - x.lower();                                   // rounded up
+  if (!(width < 3.0)) return {{-1.0, 1.0}, {-1.0, 1.0}};                        // 3 < pi
+  if (width <= kNarrow * std::min(std::abs(x.lower()), std::abs(x.upper()))) {  // neither moves by more than x does
+    const SinCos<Interval> at_lower = sincos_thin(x.lower());
+    const Interval moved(-width, width);
+    const SinCos<Interval> around{at_lower.sin + moved, at_lower.cos + moved};
+    return {clamp_to_unit(around.sin.lower(), around.sin.upper()),
+            clamp_to_unit(around.cos.lower(), around.cos.upper())};
+  }
   const SinCos<Interval> a = sincos_thin(x.lower());
   const SinCos<Interval> b = sincos_thin(x.upper());
   return {hull_with_extrema(a.sin, b.sin, a.cos, b.cos), hull_with_extrema(a.cos, b.cos, -a.sin, -b.sin)};
