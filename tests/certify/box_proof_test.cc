@@ -134,11 +134,14 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
     expect_form<I>(enclosure.density[i], samples, component(&Sample::density), cable + ", density");
     expect_form<I>(enclosure.variation[i], samples, component(&Sample::variation), cable + ", variation");
   }
-  for (const auto& [id, value] : margins) {
-    expect_form<I>(
-        value, samples,
-        [&id](const Sample& x) -> const BigFloat& { return margin(x, id.kind)[static_cast<std::size_t>(id.cable)]; },
-        where + ", margin " + name(id.kind) + " of cable " + std::to_string(id.cable + 1));
+  for (const auto& entry : margins) {
+    const auto value = [&entry](const Sample& x) -> const BigFloat& {
+      return margin(x, entry.id.kind)[static_cast<std::size_t>(entry.id.cable)];
+    };
+    const std::string which =
+        where + ", margin " + name(entry.id.kind) + " of cable " + std::to_string(entry.id.cable + 1);
+    expect_form<I>(entry.value, samples, value, which);
+    for (const Sample& x : samples) EXPECT_TRUE(holds(entry.disturbed, value(x))) << which << " at s = " << hex(x.s);
   }
 
   if (verdict.kind == BoxVerdict::Kind::kProved) {
