@@ -169,7 +169,7 @@ class Checker {
       if (certainly_negative(excess.mid)) {
         throw Rejected(where + ", " + statement + " is false at its middle, by " + digits(-excess.mid));
       }
-      if (is_one_place && certainly_negative(excess.range - upper_end(loss_of_it))) {
+      if (is_one_place && certainly_negative(excess.range - highest(loss_of_it))) {
         throw Rejected("not confirmed: " + where + ", " +
                        statement);  // what deviations take is not a matter of rounding
       }

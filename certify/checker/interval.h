@@ -159,10 +159,6 @@ class Interval {
       mpfr_set(&r->right, &r->left, MPFR_RNDN);  // equal precisions: exact
     });
   }
-  /// The one-point Interval at the upper end of a.
-  friend Interval upper_end(const Interval& a) {
-    return make([&](mpfi_ptr r) { mpfi_set_fr(r, a.upper()); });
-  }
 
  private:
   enum Unset { kUnset };

@@ -257,7 +257,7 @@ class Judge {
     double determinant_sign = 0;
     for (int k = 0; k <= kSamples; ++k) {
       const double s = static_cast<double>(k) / kSamples;
-      const auto at = approx_->statics(s, {});
+      const auto at = approx_->statics(s, Deviation());
       if (!at || !std::isfinite(at->determinant) || determinant_sign * at->determinant < 0 || at->determinant == 0) {
         return false;
       }
@@ -457,7 +457,9 @@ class Judge {
 
   void examine_witness(const SegmentWitness& witness) {
     if (witness.singular) return;
-    const auto at = exact_->statics(enclose<MpInterval>(witness.box.mid()).lower(), {});
+    const BigFloat s = enclose<MpInterval>(witness.box.mid()).lower();
+    if (witness.deviation && !exact_->is_within(*witness.deviation)) breach("refuted by what is beyond the tolerances");
+    const auto at = witness.deviation ? exact_->statics(s, *witness.deviation) : exact_->statics(s, Deviation());
     if (!at) return breach("refuted where there is no pose");
     if (exact_limits_->margin(*at, witness.margin) > BigFloat(0.0)) breach("refuted by a false witness");
   }

@@ -459,6 +459,50 @@ std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const Deviation& devi
   return campaign::statics(machine(deviation), *pose);
 }
 
+namespace {
+
+template <class S>
+Vec<S> vector(const std::array<DecimalText, 3>& text) {
+  return {number<S>(text[0]), number<S>(text[1]), number<S>(text[2])};
+}
+
+}  // namespace
+
+template <class S>
+bool Motion<S>::is_within(const taut::Deviation& witness) const {
+  const auto fits = [](const std::array<DecimalText, 3>& text, const S& tolerance) {
+    const Vec<S> x = vector<S>(text);
+    return dot(x, x) <= tolerance * tolerance;
+  };
+  bool fit = fits(witness.load_point_m, tolerances_.load_point) && fits(witness.position_m, tolerances_.position) &&
+             magnitude(number<S>(witness.wrench)) <= S(1.0);
+  const Vec<S> u = vector<S>(witness.turn);
+  fit = fit && S(2.0) * angle(root(dot(u, u)), S(1.0)) <= tolerances_.turn;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const S zero(0.0);
+    fit = fit && fits(witness.base_anchors_m[i], trial_.is_held() ? zero : tolerances_.a[i]) &&
+          fits(witness.platform_anchors_m[i], trial_.is_held() ? zero : tolerances_.b[i]);
+  }
+  return fit;
+}
+
+template <class S>
+std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation& witness) const {
+  std::optional<RigidPose<S>> pose = commanded(s, Deviation());
+  if (!pose) return std::nullopt;
+  const Vec<S> u = vector<S>(witness.turn);
+  pose->p = pose->p + vector<S>(witness.position_m);
+  pose->r = rotation(Quaternion<S>{u[0], u[1], u[2], S(1.0)}) * pose->r;
+  Machine<S> machine = machine_;
+  machine.load_point = machine.load_point + vector<S>(witness.load_point_m);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    machine.a[i] = machine.a[i] + vector<S>(witness.base_anchors_m[i]);
+    machine.b[i] = machine.b[i] + vector<S>(witness.platform_anchors_m[i]);
+    machine.wrench[i] = machine.wrench[i] + number<S>(witness.wrench) * tolerances_.wrench[i];
+  }
+  return campaign::statics(machine, *pose);
+}
+
 template class Motion<double>;
 template class Motion<BigFloat>;
 

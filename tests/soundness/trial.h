@@ -76,6 +76,11 @@ class Motion {
   /// Statics of the machine as it is, tracking error included.
   [[nodiscard]] std::optional<StaticsAt<S>> statics(const S& s, const Deviation& deviation) const;
 
+  /// Of the machine of a witness. @pre is_within(witness)
+  [[nodiscard]] std::optional<StaticsAt<S>> statics(const S& s, const taut::Deviation& witness) const;
+  /// Whether a witness keeps to the tolerances.
+  [[nodiscard]] bool is_within(const taut::Deviation& witness) const;
+
   /// [m], deviation included.
   [[nodiscard]] Six<S> commanded_lengths(const S& s, const Deviation& deviation) const;
   [[nodiscard]] Machine<S> machine(const Deviation& deviation) const {
