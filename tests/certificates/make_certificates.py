@@ -397,6 +397,7 @@ def main():
     implied_motions()
     motions_between_poses()
     tolerated()
+    stretches()
 
 
 def explicit_motions():
@@ -1315,6 +1316,168 @@ def motions_between_poses():
             source={'file': 'x', 'sha256': '0' * 64}, problem=dict(c['problem'], space=SLICE, query={'waypoints': [['0', '0']] * 2}),
             path=straight(waypoint([0, 0]), waypoint([0, 0]), waypoint([0, 0]))), turn_c)
     malform('source_of_capitals', 'Hex digits are lower-case.', 'source.sha256', lambda c: c['source'].update(sha256='A' * 64), sourced)
+
+
+def surveyed(pr, pa, cells=32, fine=8):
+    """A refuted audit: cells with margins everywhere are proved, runs of others are stretches."""
+    n = control_points(pa)
+    count = len(pa['waypoints']) - n + 1
+    segments, runs = [], []
+    for k in range(count):
+        kept, lowest = [], [math.inf] * 3
+        for i in range(cells):
+            seen = [margins_at(pr, parameters(pr, pa, k, (i + j / fine) / cells)) for j in range(fine + 1)]
+            least = [min(m[j] for m in seen) for j in range(3)]
+            if least[0] > 0.004 and least[1] > 0.004:
+                kept.append([dyadic(i, cells), dyadic(i + 1, cells)])
+                lowest = [min(x, y) for x, y in zip(lowest, least)]
+            elif runs and runs[-1][1] == (k, i):
+                runs[-1][1] = (k, i + 1)
+            elif runs and i == 0 and runs[-1][1] == (k - 1, cells):
+                runs[-1][1] = (k, 1)
+            else:
+                runs.append([(k, i), (k, i + 1)])
+        segments.append({'from': k, 'to': k + n - 1, 'boxes': kept,
+                         'margins': segment(k, n, [0.9 * x for x in lowest[:2]] + [1 + 0.9 * (lowest[2] - 1)], 1)['margins'] if kept else None})
+    stretches = []
+    for (k0, i0), (k1, i1) in runs:
+        inner = [w for w in (violation(pr, pa, *divmod(m, cells * fine), cells * fine)
+                             for m in range((k0 * cells + i0) * fine, (k1 * cells + i1) * fine)) if w]
+        outer = [{'segment': k, 's': dyadic(i, cells)} for k, i in ((k0, i0), (k1, i1))]
+        stretches.append({'outer': outer, 'inner': [inner[0], inner[-1]] if inner else None,
+                          'reason': None if inner else 'a margin too small for this program'})
+    witness = next(s['inner'][0] for s in stretches if s['inner'])
+    return certificate(pr, pa, 'refuted', segments=segments, stretches=stretches, witness=witness)
+
+
+def violation(pr, pa, k, n, m):
+    lengths, f0, v, _ = statics(pr, parameters(pr, pa, k, n / m))
+    for i in range(6):
+        lo, hi = map(float, pr['robot']['tension_N'][i])
+        short, long = map(float, pr['robot']['length_m'][i])
+        for kind, value, limit, excess in (('tension_min', f0[i] - v[i], 0, lo - f0[i] + v[i]), ('tension_max', f0[i] + v[i], 1, f0[i] + v[i] - hi),
+                                           ('length_min', lengths[i], 0, short - lengths[i]), ('length_max', lengths[i], 1, lengths[i] - long)):
+            if 1e-5 < excess and abs(value) < 100:
+                of = 'tension_N' if kind.startswith('tension') else 'length_m'
+                return {'at': {'segment': k, 's': dyadic(n, m)}, 'kind': kind, 'cable': i + 1, 'value': enclosing(value),
+                        'limit': pr['robot'][of][i][limit]}
+    return None
+
+
+def stretches():
+    slice_audit = problem('robot1-audited', ROBOT1, SLICE, [])
+    a, m, b = waypoint([-2.3, 1.6]), waypoint([-0.3, 1.65]), waypoint([1.7, 1.7])
+    across = surveyed(slice_audit, straight(a, m, b))
+    assert len(across['stretches']) >= 1 and any(s['boxes'] for s in across['segments'])
+    write('accepted', 'stretches', across, 'Where the straight motion from q_s to q_g is not safe; the rest is proved.')
+    free = audited('robot1-poses')
+    sigma = 34 * pi / 180
+    at = lambda phi, theta: pose([0, 0, 0.35], quaternion(phi, theta, sigma))
+    turns = surveyed(free, poses('geodesic', at(-2.3, 1.6), at(-2.25, 1.6), at(-0.3, 1.65), at(1.6, 1.7), at(1.7, 1.7)))
+    write('accepted', 'stretches_of_geodesics', turns, 'A stretch over several segments, and one of them without a box.')
+    half = copy.deepcopy(turns)
+    half['path']['waypoints'].append(half['path']['waypoints'][-1] | {'quaternion': [hex64(x) for x in (lambda q: [q[3], -q[2], q[1], -q[0]])(
+        [float.fromhex(x) for x in half['path']['waypoints'][-1]['quaternion']])]})
+    last = len(half['segments'])
+    half['segments'].append({'from': last, 'to': last + 1, 'boxes': [], 'margins': None})
+    half['stretches'].append({'outer': [{'segment': last, 's': '0'}, {'segment': last, 's': '1'}], 'inner': None, 'reason': 'half a turn'})
+    write('accepted', 'stretches_open', seal(half), 'A second stretch is open: half a turn, of which nothing can be said.')
+    loose = dict(copy.deepcopy(slice_audit), tolerances=tolerances(load_point_m='0.0001', position_m='0.0001', wrench=['0', '0', '0.02', '0', '0', '0']))
+    tolerant_survey = surveyed(loose, straight(a, m, b), cells=128, fine=2)
+    # A machine that deviates at the first witness.
+    first = tolerant_survey['witness']
+    deviation = {'base_anchors_m': [['0'] * 3] * 6, 'platform_anchors_m': [['0'] * 3] * 6, 'load_point_m': ['0.00006', '0', '0.00008'],
+                 'wrench': '-0.5', 'position_m': ['0', '0', '0.0001'], 'turn': ['0', '0', '0']}
+    k, s = first['at']['segment'], Fraction(first['at']['s'])
+    number = lambda v: [float(x) for x in v]
+    other = dict(loose, load=dict(loose['load'], point_m=[x + y for x, y in zip(number(loose['load']['point_m']), number(deviation['load_point_m']))],
+                                  wrench=[0, 0, 1 - 0.5 * 0.02, 0, 0, 0]))
+    p, R = frame(loose, parameters(loose, tolerant_survey['path'], k, float(s)))
+    lengths, f0, v, _ = statics(other, ([p[0], p[1], p[2] + 0.0001], R))
+    i = first['cable'] - 1
+    value = {'tension_min': f0[i] - v[i], 'tension_max': f0[i] + v[i], 'length_min': lengths[i], 'length_max': lengths[i]}[first['kind']]
+    deviating = certificate(loose, straight(a, m, b), 'refuted', witness=dict(first, value=enclosing(value), deviation=deviation))
+    write('accepted', 'refuted_by_a_deviation', deviating, 'A machine within the tolerances is refuted: its numbers are stated.')
+
+    # False.
+    reject('stretches_box_in_a_violation', across, 'A box where the motion is not safe, and the stretch cut there.', 'segment', hide_violation)
+    reject('stretches_open_one_taken_for_proved', half, 'Nothing is known of the last segment; it was claimed to be proved.', 'half a turn',
+           lambda c: (c['stretches'].pop(), c['segments'][-1].update(boxes=[['0', '1']], margins=c['segments'][0]['margins'])))
+    reject('stretches_margin_too_high', across, 'The margin of the boxes is claimed ten times too high.', 'margin',
+           lambda c: [s['margins'].update(tension_N='%.6e' % (10 * float(s['margins']['tension_N']))) for s in c['segments'] if s['margins']])
+    def no_violation(c):
+        c['stretches'][0]['inner'][0]['at'] = c['stretches'][0]['outer'][0]
+        c['witness'] = c['stretches'][0]['inner'][1]
+    reject('stretches_inner_end_no_violation', across, 'At the first inner end nothing is violated yet.', 'stretch 0', no_violation)
+    for kind, value, what in (('load_point_m', ['0.00006', '0.00001', '0.00008'], 'the load point'), ('wrench', '-1.000001', 'the wrench'),
+                              ('position_m', ['0.00001', '0', '0.0001'], 'the position'), ('turn', ['0', '0', '1e-9'], 'the angle')):
+        reject('deviation_of_%s_too_large' % kind.rsplit('_', 1)[0], deviating, 'The deviation is outside of its tolerance.', what,
+               lambda c: c['witness']['deviation'].update({kind: value}))
+    reject('deviation_of_an_anchor_too_large', deviating, 'Anchors are exact here.', 'a base anchor',
+           lambda c: c['witness']['deviation']['base_anchors_m'].__setitem__(3, ['0', '1e-9', '0']))
+    reject('deviation_of_a_platform_anchor_too_large', deviating, 'Anchors are exact here.', 'a platform anchor',
+           lambda c: c['witness']['deviation']['platform_anchors_m'].__setitem__(3, ['0', '1e-9', '0']))
+    reject('deviation_not_the_one_of_the_value', deviating, 'The value is that of another machine.', 'value',
+           lambda c: c['witness']['deviation'].update(wrench='0.5'))
+
+    # Against the format.
+    def drop_box(c):
+        next(s for s in c['segments'] if s['boxes'])['boxes'].pop(0)
+    malform('stretches_with_a_gap', 'A part of the path is neither proved nor in a stretch.', 'tile the path', drop_box, across)
+    malform('stretches_box_inside', 'A box inside a stretch.', 'tile the path',
+            lambda c: next(s for s in c['segments'] if not s['boxes']).update(boxes=[['1/4', '1/2']], margins=c['segments'][0]['margins']), turns)
+    def outside(c):
+        c['stretches'][0]['inner'][0] = dict(c['stretches'][0]['inner'][0], at={'segment': 0, 's': '0'})
+        c['witness'] = c['stretches'][0]['inner'][1]
+    malform('stretches_inner_outside_of_outer', 'The inner ends are inside the outer ones.', 'between the outer ends', outside, across)
+    malform('stretches_inner_reversed', 'The first violation comes first.', 'two witnesses in order',
+            lambda c: c['stretches'][0]['inner'].reverse(), across)
+    malform('stretches_outer_reversed', 'Outer ends are in order.', 'two places in order', lambda c: c['stretches'][0]['outer'].reverse(), across)
+    malform('stretches_of_another_witness', "The witness is a stretch's.", "one of the stretches'",
+            lambda c: c['witness'].update(value=['-1', '1']), across)
+    malform('stretches_all_open', "The witness is a stretch's.", "one of the stretches'",
+            lambda c: [s.update(inner=None, reason='unknown') for s in c['stretches']], across)
+    malform('stretches_open_without_a_reason', 'Why is it open?', 'reason: expected a string', lambda c: c['stretches'][-1].update(reason=None), half)
+    malform('stretches_with_a_reason', 'A violation needs no reason.', 'reason: expected null', lambda c: c['stretches'][0].update(reason='x'), across)
+    malform('stretches_of_a_plan', 'Only of audits.', 'null where nothing was audited',
+            lambda c: c['problem']['query'].update(waypoints=[['-2.3', '1.6'], ['1.7', '1.7']]), across)
+    malform('stretches_margins_without_a_box', 'Nothing is claimed of a segment without boxes.', 'null where there is no box',
+            lambda c: next(s for s in c['segments'] if not s['boxes']).update(margins=c['segments'][0]['margins']), turns)
+    malform('stretches_of_a_proved_path', 'All of it is proved.', 'stretches: expected null', lambda c: c.update(stretches=[]),
+            proved(slice_audit, straight(a, a), 1, samples=1))
+    malform('stretches_null_but_boxes', 'Without stretches a refuted certificate proves nothing.', 'segments: expected an array of 0',
+            lambda c: c.update(stretches=None), across)
+    malform('deviation_without_tolerances', 'Nothing may deviate.', 'tolerances to be within', lambda c: c['problem'].update(tolerances=None), deviating)
+    malform('deviation_of_held_anchors', 'Anchors do not deviate where the machine is held by lengths.', 'anchors that do not deviate',
+            lambda c: (c['problem']['tolerances'].update(cable_length_m=['0'] * 6), c['path'].update(pose_tubes=[{'position': '0x1p-9', 'turn': '0x1p-9'}] * 2),
+                       c['witness']['deviation']['base_anchors_m'].__setitem__(0, ['0.001', '0', '0'])), deviating)
+    malform('tolerance_negative', 'Tolerances are >= 0.', 'a tolerance >= 0', lambda c: c['problem']['tolerances'].update(position_m='-0.001'), deviating)
+    malform('tolerance_of_a_turn', 'Angles are below 1 rad.', 'an angle from 0 to below 1', lambda c: c['problem']['tolerances'].update(orientation_rad='1'),
+            deviating)
+    malform('tolerance_of_a_negative_angle', 'Angles are >= 0.', 'an angle from 0 to below 1',
+            lambda c: c['problem']['tolerances'].update(orientation_rad='-pi/180'), deviating)
+    malform('tolerance_missing', 'All keys are there.', "the key 'load_point_m'", lambda c: c['problem']['tolerances'].pop('load_point_m'), deviating)
+    malform('tolerance_of_five_anchors', 'One an anchor.', 'array of 6', lambda c: c['problem']['tolerances']['base_anchor_m'].pop(), deviating)
+
+
+def hide_violation(c):
+    """Cuts the first stretch in two about its first violation, and claims the cell around that to be proved."""
+    stretch = c['stretches'][0]
+    at = stretch['inner'][0]['at']
+    s = Fraction(at['s'])
+    k, cell = at['segment'], 32
+    lo, hi = (Fraction(math.floor(s * cell) + e, cell) for e in (0, 1))
+    place = lambda x: {'segment': k, 's': str(x)}
+    rest = {'outer': [place(hi), stretch['outer'][1]], 'inner': [stretch['inner'][1]] * 2, 'reason': None}
+    parts = [rest]
+    if place(lo) != stretch['outer'][0]:
+        parts.insert(0, {'outer': [stretch['outer'][0], place(lo)], 'inner': None, 'reason': 'small'})
+    c['stretches'][0:1] = parts
+    c['witness'] = stretch['inner'][1]
+    boxes = c['segments'][k]['boxes']
+    boxes.append([str(lo), str(hi)])
+    boxes.sort(key=lambda b: Fraction(b[0]))
+    c['segments'][k]['margins'] = c['segments'][k]['margins'] or {'tension_N': '1e-6', 'length_m': '1e-6', 'wrench_scale': '1'}
 
 
 if __name__ == '__main__':

@@ -50,7 +50,6 @@ TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
       try {
         const Problem problem = problem_from_json(certificate["problem"]);
         const Path path = path_from_json(certificate["path"]);
-        if (has_poses(path.interpolation)) continue;  // the prover does not have these laws yet
         const PathProof proof = prove_path(Prover(problem, {.max_boxes = 5000, .max_multiprecision_boxes = 500}), path);
         if (std::string(folder) == "accepted") {
           EXPECT_NE(proof.verdict, Verdict::kUndecided) << proof.reason;
