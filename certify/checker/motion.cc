@@ -226,10 +226,8 @@ Frame pose_between_poses(const Path& path, std::size_t k, const Box& box) {
   if (path.interpolation == Interpolation::kGeodesic) {
     return {p, geodesic(q0, q1, form(over({0, 1}, box), {}))};
   }
-  // The shorter way of the two: then the sum is never 0.
-  const bool turned = q0[0] * q1[0] + q0[1] * q1[1] + q0[2] * q1[2] + q0[3] * q1[3] < 0;
   std::array<Form, 4> q;
-  for (std::size_t i = 0; i < 4; ++i) q[i] = form(over({q0[i], (turned ? mpq_class(-q1[i]) : q1[i]) - q0[i]}, box), {});
+  for (std::size_t i = 0; i < 4; ++i) q[i] = form(over({q0[i], q1[i] - q0[i]}, box), {});
   return {p, rotation(q)};
 }
 

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""docs/certificate.schema.json holds of every well-formed certificate, true or false, and not of structural mutants.
+
+Usage: schema_test.py ROOT
+"""
+import glob, json, os, sys
+
+import jsonschema
+
+root = sys.argv[1]
+with open(os.path.join(root, 'docs', 'certificate.schema.json')) as f:
+    schema = json.load(f)
+jsonschema.Draft202012Validator.check_schema(schema)
+validator = jsonschema.Draft202012Validator(schema)
+failures = []
+
+
+def certificates(folder):
+    return sorted(glob.glob(os.path.join(root, 'tests', 'certificates', folder, '*.json')))
+
+
+wellformed = certificates('accepted') + certificates('rejected')
+for path in wellformed:
+    with open(path) as f:
+        error = next(validator.iter_errors(json.load(f)), None)
+    if error is not None:
+        failures.append('%s: %s' % (path, error.message[:200]))
+
+# What is against the format by its keys, types or texts alone. The others break rules between values, which no schema sees.
+STRUCTURAL = """claim_reworded claim_of_another_verdict constraint_with_a_name decimal_nan
+geodesic_with_lengths interpolation_unknown lengths_missing no_parameters normals_by_rows number_for_string one_waypoint
+pose_for_parameters pose_with_parameters quaternion_of_three query_of_one_waypoint source_of_capitals spline_of_three stretches_of_a_proved_path
+stretches_null_but_boxes stretches_open_without_a_reason stretches_with_a_reason tolerance_missing tolerance_of_five_anchors tube_decimal tube_infinite
+unknown_key waypoint_decimal waypoint_infinite expression_with_a_tab expression_not_ascii boxes_empty message_breaks_the_line""".split()
+caught = set()
+for path in certificates('malformed'):
+    try:
+        with open(path, encoding='utf-8') as f:
+            value = json.load(f)
+    except (ValueError, RecursionError):
+        continue  # no JSON: no matter for a schema
+    if not validator.is_valid(value):
+        caught.add(os.path.basename(path)[:-5])
+missed = [name for name in STRUCTURAL
+          if os.path.exists(os.path.join(root, 'tests', 'certificates', 'malformed', name + '.json')) and name not in caught]
+for name in missed:
+    failures.append('the schema allows malformed/%s.json' % name)
+
+# Every key of every object matters: without it, or with another beside it, a certificate is malformed.
+FREE = ('generator', 'illustration', 'constants')
+for name in ('stretches_open', 'tolerances_of_lengths', 'implied_sphere', 'refuted_by_a_deviation', 'refuted_singular'):
+    with open(os.path.join(root, 'tests', 'certificates', 'accepted', name + '.json')) as f:
+        text = f.read()
+
+    def walk(value, at):
+        if isinstance(value, dict):
+            for key in list(value):
+                if key in FREE or (key == 'deviation') or (key in ('range', 'normals')):
+                    continue
+                yield at + (key,)
+                yield from walk(value[key], at + (key,))
+        elif isinstance(value, list):
+            for i in range(min(2, len(value))):
+                yield from walk(value[i], at + (i,))
+
+    for place in walk(json.loads(text), ()):
+        for change in ('lose', 'rename', 'number'):
+            mutant = json.loads(text)
+            holder = mutant
+            for step in place[:-1]:
+                holder = holder[step]
+            kept = holder.pop(place[-1]) if change != 'number' else None
+            if change == 'rename':
+                holder[place[-1] + '_'] = kept
+            if change == 'number':
+                holder[place[-1]] = 0.5
+            if validator.is_valid(mutant):
+                failures.append('%s: the schema allows %s of %s' % (name, change, '/'.join(map(str, place))))
+
+print('%d well-formed files, %d malformed ones caught' % (len(wellformed), len(caught)))
+print('\n'.join(failures))
+sys.exit(1 if failures or len(wellformed) < 100 or len(caught) < 30 else 0)
