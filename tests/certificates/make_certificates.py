@@ -1089,7 +1089,8 @@ KINDS = {'base_anchor_m': ['0.0001'] * 6, 'platform_anchor_m': ['0.0001'] * 6, '
          'wrench': ['0.003', '-0.002', '0.02', '0.0001', '0', '0'], 'position_m': '0.0001', 'orientation_rad': '(0.03)*pi/180'}
 
 # A machine held by lengths amplifies what its anchors do.
-LESS = dict(KINDS, base_anchor_m=['0.000005'] * 6, platform_anchor_m=['0.000005'] * 6)
+LESS = dict(KINDS, base_anchor_m=['0.000005'] * 6, platform_anchor_m=['0.000005'] * 6, load_point_m='0.00005', position_m='0.00003',
+            orientation_rad='(0.01)*pi/180')
 
 
 def tolerated():
