@@ -97,6 +97,19 @@ WitnessView read_witness(const json& witness, const Path& path) {
   return result;
 }
 
+StretchView read_stretch(const json& stretch, const Path& path) {
+  StretchView result;
+  result.begin = read_point(stretch.at("outer").at(0), path);
+  result.end = read_point(stretch.at("outer").at(1), path);
+  if (const json& inner = stretch.at("inner"); !inner.is_null()) {
+    result.first = read_witness(inner.at(0), path);
+    result.last = read_witness(inner.at(1), path);
+  } else {
+    result.reason = stretch.at("reason").get<std::string>();
+  }
+  return result;
+}
+
 UndecidedView read_undecided(const json& undecided, const Path& path) {
   UndecidedView result;
   result.reason = undecided.at("reason").get<std::string>();
@@ -160,6 +173,9 @@ CertificateView read(const json& certificate) {
   if (view.verdict == "proved") view.margins = read_margins(certificate.at("margins"));
   if (view.verdict == "refuted") view.witness = read_witness(certificate.at("witness"), view.path);
   if (view.verdict == "undecided") view.undecided = read_undecided(certificate.at("undecided"), view.path);
+  if (const json& stretches = certificate.at("stretches"); !stretches.is_null()) {
+    for (const json& stretch : stretches) view.stretches.push_back(read_stretch(stretch, view.path));
+  }
   if (const auto illustration = certificate.find("illustration"); illustration != certificate.end()) {
     read_illustration(*illustration, view);
   }

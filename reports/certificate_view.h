@@ -43,6 +43,15 @@ struct WitnessView {
   std::string limit;
 };
 
+/// Where an audited path is not proved.
+struct StretchView {
+  PathPointView begin;
+  PathPointView end;
+  std::optional<WitnessView> first;  ///< the first and the last proved violation; none of an open stretch
+  std::optional<WitnessView> last;
+  std::string reason;  ///< only of an open stretch
+};
+
 struct UndecidedView {
   std::string reason;
   std::optional<int> segment;
@@ -73,6 +82,7 @@ struct CertificateView {
   std::optional<MarginsView> margins;
   std::optional<WitnessView> witness;
   std::optional<UndecidedView> undecided;
+  std::vector<StretchView> stretches;  ///< of an audit that is not proved
   std::vector<ChartView> charts;
   std::map<std::string, std::string> stats;  ///< of the search, as printed
 };

@@ -23,7 +23,7 @@ std::string plain(const DecimalText& decimal) { return Decimal::parse(decimal).t
 std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metres) * Decimal::parse("1000")).text(); }
 
 std::string plural(std::size_t count, const std::string& noun) {
-  const std::string ending = noun.ends_with('x') ? "es" : "s";
+  const std::string ending = noun.ends_with('x') || noun.ends_with('h') ? "es" : "s";
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);
 }
 
@@ -556,6 +556,32 @@ Html margins(const CertificateView& view) {
           folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "segment")), all));
 }
 
+std::string violation_text(const WitnessView& end) {
+  if (end.to) return "the force Jacobian becomes singular";
+  return fmt::format("{} of cable {} in [{}, {}], limit {}, at {} of segment {}", end.kind, end.cable,
+                     plain(end.value_lower), plain(end.value_upper), end.limit, end.at.s.value_or("0"), end.at.index);
+}
+
+Html stretches(const CertificateView& view) {
+  if (view.stretches.empty()) return {};
+  const auto place = [](const PathPointView& point) {
+    return html("segment {}, s = {:.6g}", point.index, point.position - point.index);
+  };
+  std::vector<std::vector<Html>> rows;
+  for (const StretchView& stretch : view.stretches) {
+    rows.push_back({place(stretch.begin), place(stretch.end),
+                    stretch.first ? html("{}", violation_text(*stretch.first)) : html("open: {}", stretch.reason),
+                    stretch.last ? html("{}", violation_text(*stretch.last)) : Html()});
+  }
+  const Html all = table({{html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}}, rows);
+  return section("stretches", "Where the path is not proved",
+                 html("<p>{} Segment k leads from waypoint k to the next.</p>\n",
+                      view.verdict == "refuted" ? "Outside of these stretches the path is proved. Each violation is "
+                                                  "proved at one pose, with an enclosure of the quantity."
+                                                : "These stretches were left open; nothing is claimed of them.") +
+                     folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "stretch")), all));
+}
+
 Html slice(const Scene& scene) {
   const Html figure = slice_figure(scene);
   if (figure.empty()) return {};
@@ -575,7 +601,7 @@ Html slice(const Scene& scene) {
 /// Canonical JSON is what Python writes with these arguments, as a certificate has no fractional number.
 constexpr const char* kDigestCommand = R"(python3 -c '
 import json, hashlib
-c = json.load(open("certificate.json")); c.pop("footer")
+c = json.load(open("certificate.json")); c.pop("footer"); c.pop("signature", None)
 for v in (c["problem"], c["path"], c):
     text = json.dumps(v, sort_keys=True, separators=(",", ":"))
     print(hashlib.sha256(text.encode()).hexdigest())
@@ -611,6 +637,7 @@ Html contents(const Scene& scene) {
   link(true, "inputs", "Digests");
   link(true, "robot", "Robot");
   link(true, "path", "Path");
+  link(!scene.view.stretches.empty(), "stretches", "Stretches");
   link(sampled, "tensions", "Tensions");
   link(sampled, "lengths", "Lengths");
   link(scene.view.margins.has_value(), "margins", "Margins");
@@ -624,8 +651,8 @@ Html contents(const Scene& scene) {
 std::string html_report(const nlohmann::json& certificate) {
   const Scene scene(certificate);
   const Html body = header(scene) + contents(scene) + theorem(scene.view) + assumptions() + inputs(scene.view) +
-                    robot(scene) + path_section(scene) + tensions(scene) + lengths(scene) + margins(scene.view) +
-                    slice(scene) + recheck(scene.view) + signature(scene.view);
+                    robot(scene) + path_section(scene) + stretches(scene.view) + tensions(scene) + lengths(scene) +
+                    margins(scene.view) + slice(scene) + recheck(scene.view) + signature(scene.view);
   const Html title = html("{}: {}", scene.view.problem.name, scene.view.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(

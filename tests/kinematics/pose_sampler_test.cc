@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinematics/pose_conversion.h"
 #include "tests/support/robots.h"
 
 namespace taut {
@@ -39,6 +40,39 @@ TEST(PoseSampler, ThePublishedStartAndGoalAreClear) {
   for (const std::array<double, 2> q : {std::array{-2.3, 1.6}, std::array{1.7, 1.7}, std::array{-2.0, 0.0}}) {
     EXPECT_GT(sampler.clearance(sampler.statics(sampler.pose(q))), 0);
   }
+}
+
+TEST(PoseSampler, FollowsLawsOfPoses) {
+  Problem problem = testing::robot1_slice();
+  problem.space = coordinate_space();  // of every path under such a law
+  problem.query.clear();
+  const PoseSampler sampler(problem);
+  const RigidPose a = rigid_pose({Vector3<double>(0, 0, 0.35), -1.5, 1.4, 0.6});
+  const RigidPose b = rigid_pose({Vector3<double>(0.01, 0.02, 0.34), -1.3, 1.5, 0.7});
+  const auto waypoint = [&](const RigidPose& pose, double sign, bool with_lengths) {
+    Waypoint result{
+        {pose.p(0), pose.p(1), pose.p(2), sign * pose.q.x(), sign * pose.q.y(), sign * pose.q.z(), sign * pose.q.w()},
+        {}};
+    for (const double length : cable_lengths(sampler.model(), pose)) {
+      if (with_lengths) result.x.push_back(length);
+    }
+    return result;
+  };
+  // Geodesic: from a, the turn to b has the same angle at either half, whatever the signs of the quaternions.
+  for (const double sign : {1.0, -1.0}) {
+    const Waypoint from = waypoint(a, 1, false), to = waypoint(b, sign, false);
+    const Segment segment = Segment::between(Interpolation::kGeodesic, from, to);
+    const Pose<double> middle = sampler.pose(sampler.parameters(segment, 0.5));
+    EXPECT_LT((middle.p_WP - (a.p + b.p) / 2).norm(), 1e-15);
+    const Eigen::Quaterniond q = rigid_pose(middle).q;
+    EXPECT_NEAR(q.angularDistance(a.q), a.q.angularDistance(b.q) / 2, 1e-12);
+    EXPECT_NEAR(q.angularDistance(b.q), a.q.angularDistance(b.q) / 2, 1e-12);
+  }
+  // Cable lengths: the pose has the lengths that are commanded.
+  const Waypoint from = waypoint(a, 1, true), to = waypoint(b, 1, true);
+  const Segment segment = Segment::between(Interpolation::kCableLengths, from, to);
+  const auto lengths = cable_lengths(sampler.model(), rigid_pose(sampler.pose(sampler.parameters(segment, 0.25))));
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(lengths[i], 0.75 * from.x[7 + i] + 0.25 * to.x[7 + i], 1e-12);
 }
 
 }  // namespace

@@ -121,6 +121,22 @@ TEST(HtmlReport, SaysWhereARefutedMotionFails) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"margins\"")));
 }
 
+TEST(HtmlReport, ListsTheStretchesOfAnAudit) {
+  nlohmann::json certificate = sample::refuted();
+  const nlohmann::json witness = certificate["witness"];
+  certificate["stretches"] = {{{"outer", {{{"segment", 0}, {"s", "1/4"}}, {{"segment", 0}, {"s", "1"}}}},
+                               {"inner", {witness, witness}},
+                               {"reason", nullptr}},
+                              {{"outer", {{{"segment", 1}, {"s", "0"}}, {{"segment", 1}, {"s", "1/2"}}}},
+                               {"inner", nullptr},
+                               {"reason", "nobody knows"}}};
+  const std::string page = html_report(certificate);
+  EXPECT_THAT(page, HasSubstr("segment 0, s = 0.25"));
+  EXPECT_THAT(page, HasSubstr("Outside of these stretches the path is proved"));
+  EXPECT_THAT(page, HasSubstr("open: nobody knows"));
+  EXPECT_EQ(imbalance(page), "");
+}
+
 TEST(HtmlReport, SaysBetweenWhichPosesASingularOneLies) {
   const std::string& page = page_of("singular");
   EXPECT_THAT(page, HasSubstr("opposite signs at waypoint 0, (phi, theta) = (-2.3, 1.6) and at s = 5/8 of segment 1"));
