@@ -2,7 +2,7 @@
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
 // arithmetic, no heuristics that could matter. To believe "accepted", read in this order: errors.h, interval.h,
-// form.h, pose_proof.h and .cc (the mathematics), check.cc (what is proved of which poses), then exact.h,
+// form.h, krawczyk.h, motion.h, held.h, pose_proof.h, deviation.h and their .cc (the mathematics), check.cc (what is proved of which poses), then exact.h,
 // expression.h and certificate.h (that the numbers are those of the file); signature.h if it matters who wrote it.
 #pragma once
 

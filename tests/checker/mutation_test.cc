@@ -73,8 +73,9 @@ void for_each_mutant(const Json& original, const std::function<void(const Mutant
 }
 
 TEST(Mutation, WithoutNewDigestsNothingPasses) {
-  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped",
-                           "implied_start_is_goal", "refuted_implied_singular"}) {
+  for (const char* name :
+       {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped", "implied_start_is_goal",
+        "refuted_implied_singular", "geodesic_still", "lengths_still", "tight_position", "refuted_by_a_deviation"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
       EXPECT_EQ(check_certificate(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
@@ -164,6 +165,22 @@ TEST(Mutation, OfAnImpliedMotionOnlyTrueStatementsPass) {
       "implied_within_range", "/problem/space/constraints",
       {{"The same surface.", std::regex("/problem/space/constraints/0: changes its sign")},
        {"Another, of which it is true.", std::regex("/problem/space/constraints/0: becomes \"x\"")}});
+}
+
+TEST(Mutation, OfLawsOfPosesOnlyTrueStatementsPass) {
+  const Rule minus_zero = {"-0 is 0.", std::regex("/path/waypoints/./position/.: changes its sign"), true};
+  expect_accepted_mutants("geodesic_still", "/path", {minus_zero});
+  expect_accepted_mutants("lengths_still", "/path", {minus_zero});
+}
+
+TEST(Mutation, OfTolerancesOnlyTrueStatementsPass) {
+  const Rule minus_zero = {"-0 is 0.", std::regex("/.*: changes its sign"), true};
+  const Rule tiny = {"Far less than the 0.4 % that the margin claimed leaves, or a smaller tolerance.",
+                     std::regex("/.*: becomes 1e-400")};
+  expect_accepted_mutants(
+      "tight_position", "/problem/tolerances",
+      {minus_zero, tiny, {"The machine as it is stated.", std::regex("/problem/tolerances: becomes null")}});
+  expect_accepted_mutants("refuted_by_a_deviation", "/witness/deviation", {minus_zero});
 }
 
 TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {
