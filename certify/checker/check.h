@@ -1,9 +1,10 @@
 // Is the claim of a certificate true? Proves it again, from the file alone.
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
-// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: errors.h, interval.h,
-// form.h, krawczyk.h, motion.h, held.h, pose_proof.h, deviation.h and their .cc (the mathematics), check.cc (what is proved of which poses), then exact.h,
-// expression.h and certificate.h (that the numbers are those of the file); signature.h if it matters who wrote it.
+// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: errors.h, interval.h, form.h,
+// then krawczyk.h, motion.h, pose_proof.h, held.h, deviation.h and their .cc (the mathematics), check.cc (what is proved
+// of which poses), then exact.h, expression.h and certificate.h (that the numbers are those of the file); signature.h if
+// it matters who wrote it.
 #pragma once
 
 #include <nlohmann/json.hpp>
