@@ -14,6 +14,7 @@
 #include "cli/console.h"
 #include "cli/files.h"
 #include "cli/path_source.h"
+#include "cli/tolerance_table.h"
 #include "kinematics/case_file.h"
 #include "reports/html_report.h"
 
@@ -153,8 +154,6 @@ nlohmann::json witness_json(const Audit& audit) {
   return nullptr;
 }
 
-}  // namespace
-
 void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md); needs no query")->required();
   command.add_option("PATH", arguments.path, "path file, or a certificate.json (docs/audits.md)")->required();
@@ -172,6 +171,16 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
 }
+
+/// All waypoints at once: for paths of which a report is made.
+Path whole_path(PathSource& source) {
+  Path path;
+  path.interpolation = source.law();
+  for (SourceWaypoint waypoint; source.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
+  return path;
+}
+
+}  // namespace
 
 int run_audit(const AuditArguments& arguments) {
   const Case case_ = load_case(arguments.case_path);
@@ -211,7 +220,14 @@ int run_audit(const AuditArguments& arguments) {
     return kUndecidedExit;
   }
 
+  std::vector<ToleranceLimit> limits;
   CertificateStream::Ending ending;
+  if (result.verdict == Verdict::kProved && source.problem().tolerances && result.segments <= kMostReported) {
+    const Interruption interruption;
+    PathSource again(case_.problem, arguments.path, law, {arguments.allow_repeats});
+    limits = tolerance_limits(source.problem(), whole_path(again), interruption.token());
+    ending.illustration = {{"kind", "audit"}, {"tolerance_limits", to_json(limits)}};
+  }
   ending.verdict = result.verdict;
   ending.margins = result.margins;
   ending.witness = witness_json(result);
@@ -238,9 +254,11 @@ int run_audit(const AuditArguments& arguments) {
   if (arguments.json) {
     nlohmann::json object = summary(result, source, ending.witness);
     object["out"] = out.string();
+    object["tolerance_limits"] = to_json(limits);
     fmt::print("{}\n", object.dump(1));
   } else {
     print(result, source);
+    fmt::print("{}", tolerance_table(limits));
     fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(),
                report ? ", report.html" : fmt::format("; no report.html beyond {} segments", kMostReported));
   }

@@ -19,6 +19,7 @@
 #include "cli/illustration.h"
 #include "cli/path_csv.h"
 #include "cli/plan.h"
+#include "cli/tolerance_table.h"
 #include "kinematics/input_error.h"
 #include "reports/html_report.h"
 
@@ -100,8 +101,13 @@ int run_plan(const PlanArguments& arguments) {
     result = planner.plan(progress, interruption.token());
     if (arguments.grow) whole_atlas = planner.grow_atlas(progress, interruption.token());
   }
-  nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof,
-                                                illustrate(case_.problem, planner.atlas(), result.statistics));
+  nlohmann::json illustration = illustrate(case_.problem, planner.atlas(), result.statistics);
+  std::vector<ToleranceLimit> limits;
+  if (result.proof.verdict == Verdict::kProved && case_.problem.tolerances) {
+    limits = tolerance_limits(case_.problem, result.path, interruption.token());
+    illustration["tolerance_limits"] = to_json(limits);
+  }
+  nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof, std::move(illustration));
   if (key) key->sign(certificate);
   std::vector<FileContent> files = {{out / "path.csv", path_csv(case_.problem, result.path)},
                                     {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
@@ -131,6 +137,7 @@ int run_plan(const PlanArguments& arguments) {
                                     {"plan_seconds", s.plan_seconds},
                                     {"smooth_seconds", s.smooth_seconds},
                                     {"prove_seconds", s.prove_seconds},
+                                    {"tolerance_limits", to_json(limits)},
                                     {"margins", certificate["margins"]},
                                     {"witness", certificate["witness"]},
                                     {"undecided", certificate["undecided"]},
@@ -146,6 +153,7 @@ int run_plan(const PlanArguments& arguments) {
           s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, lengths.length_m,
           lengths.angle_rad, 1e3 * s.plan_seconds, 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
       if (is_proved) fmt::print("{}.\n", length_sentence(s));
+      fmt::print("{}", tolerance_table(limits));
     }
     fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
     if (saves_atlas) {

@@ -133,6 +133,12 @@ void read_illustration(const json& illustration, CertificateView& view) {
       view.stats[key] = value.is_string() ? value.get<std::string>() : value.dump();
     }
   }
+  if (const auto limits = illustration.find("tolerance_limits"); limits != illustration.end()) {
+    for (const json& limit : *limits) {
+      view.tolerance_limits.push_back({limit.at("tolerance").get<std::string>(), limit.at("proved").get<std::string>(),
+                                       limit.at("unit").get<std::string>()});
+    }
+  }
   const auto charts = illustration.find("charts");
   if (charts == illustration.end() || view.problem.space.parameters.size() != 2) return;
   for (const json& entry : *charts) {

@@ -61,6 +61,13 @@ struct UndecidedView {
   double upper = 1;
 };
 
+/// How far a tolerance could grow alone; as printed.
+struct ToleranceLimitView {
+  std::string tolerance;  ///< key of the case file
+  std::string proved;
+  std::string unit;
+};
+
 /// Polygon of a chart in the plane of the parameters.
 struct ChartView {
   std::vector<double> centre;
@@ -83,6 +90,7 @@ struct CertificateView {
   std::optional<WitnessView> witness;
   std::optional<UndecidedView> undecided;
   std::vector<StretchView> stretches;  ///< of an audit that is not proved
+  std::vector<ToleranceLimitView> tolerance_limits;
   std::vector<ChartView> charts;
   std::map<std::string, std::string> stats;  ///< of the search, as printed
 };

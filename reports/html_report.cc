@@ -230,6 +230,19 @@ Html header(const Scene& scene) {
       view.problem.name, view.verdict, sentences, tiles);
 }
 
+/// γ of segment k, where the path runs between poses.
+Html motion_between_poses(Interpolation law) {
+  if (law == Interpolation::kGeodesic) {
+    return html(
+        "<p>p(s) <span class=\"up\">=</span> (1 − s) p<sub>k</sub> + s p<sub>k+1</sub>,&ensp;R(s) <span "
+        "class=\"up\">=</span> R<sub>k</sub> exp(s log(R<sub>k</sub><sup>T</sup> R<sub>k+1</sub>)),&ensp;s ∈ [0, "
+        "1]</p>\n");
+  }
+  return html(
+      "<p>(p, R)(s) <span class=\"up\">the only pose in its tube with</span> |p + R b<sub>i</sub> − a<sub>i</sub>| = "
+      "(1 − s) L<sub>k,i</sub> + s L<sub>k+1,i</sub>,&ensp;s ∈ [0, 1]</p>\n");
+}
+
 Html formulas(const CertificateView& view) {
   if (view.verdict == "undecided") return {};
   const Html curve =
@@ -239,7 +252,8 @@ Html formulas(const CertificateView& view) {
                 "((1 − s)<sup>3</sup> λ<sub>k</sub> + (3s<sup>3</sup> − 6s<sup>2</sup> + 4) λ<sub>k+1</sub> + "
                 "(−3s<sup>3</sup> + 3s<sup>2</sup> + 3s + 1) λ<sub>k+2</sub> + s<sup>3</sup> λ<sub>k+3</sub>)/6");
   const Html motion =
-      view.problem.space.constraints.empty()
+      has_poses(view.path.interpolation) ? motion_between_poses(view.path.interpolation)
+      : view.problem.space.constraints.empty()
           ? html("<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose({}),&ensp;s ∈ [0, 1]</p>\n", curve)
           : html(
                 "<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose(ℓ<sub>k</sub>(s) + N<sub>k</sub>(s) y(s)),&ensp;"
@@ -261,15 +275,17 @@ Html formulas(const CertificateView& view) {
   }
   return html(
       "<div class=\"formulas\">{}"
-      "<p>∀ k ∈ {{0, …, {}}} &ensp;∀ s ∈ [0, 1] &ensp;∀ w ∈ K &ensp;∀ i ∈ {{1, …, 6}}, "
-      "<span class=\"up\">at the pose</span> γ<sub>k</sub>(s):</p>\n"
+      "<p>∀ k ∈ {{0, …, {}}} &ensp;∀ s ∈ [0, 1] &ensp;{}∀ w ∈ K &ensp;∀ i ∈ {{1, …, 6}}, "
+      "<span class=\"up\">at the pose</span> γ<sub>k</sub>(s){}:</p>\n"
       "<p>&emsp;det J ≠ 0, &emsp; J f = w ⟹ f<sub>lo,i</sub> &lt; f<sub>i</sub> &lt; f<sub>hi,i</sub>, &emsp; "
       "d<sub>lo,i</sub> &lt; d<sub>i</sub> &lt; d<sub>hi,i</sub></p>\n"
       "<p><span class=\"up\">which is the same as</span>&ensp; f<sub>lo,i</sub> &lt; f<sub>0,i</sub> − v<sub>i</sub>, "
       "&ensp; f<sub>0,i</sub> + v<sub>i</sub> &lt; f<sub>hi,i</sub>, &ensp;<span class=\"up\">where</span>&ensp; "
       "f<sub>0</sub> = J<sup>−1</sup> w<sub>0</sub>, &ensp; B = J<sup>T</sup> E J, &ensp; v<sub>i</sub> = "
       "√(B<sup>−1</sup>)<sub>ii</sub></p></div>\n",
-      path, view.segments.empty() ? 0 : view.segments.size() - 1);
+      path, view.segments.empty() ? 0 : view.segments.size() - 1,
+      view.problem.tolerances ? html("∀ <span class=\"up\">deviations within the tolerances</span> &ensp;") : Html(),
+      view.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html());
 }
 
 Html theorem(const CertificateView& view) {
@@ -308,7 +324,24 @@ Html theorem(const CertificateView& view) {
       html("<blockquote>{}</blockquote>\n{}{}", view.claim, formulas(view), folded(false, html("Symbols"), symbols)));
 }
 
-Html assumptions() {
+Html assumptions(const Problem& problem) {
+  const bool held = problem.tolerances && problem.tolerances->cable_length_m;
+  const Html exactness =
+      problem.tolerances
+          ? html(
+                "<li>Anchors, load and tracking differ from the numbers below by no more than the tolerances. Limits "
+                "and the "
+                "load ellipsoid are exactly as below.</li>\n")
+          : html(
+                "<li>Anchors, limits, load and ellipsoid are exactly the numbers below. Tolerances of manufacture, "
+                "measurement and control are not covered.</li>\n");
+  const Html following =
+      held
+          ? html(
+                "<li>The winches hold the lengths that the path commands, between waypoints too, within their "
+                "tolerance.</li>\n")
+          : html("<li>The controller follows the path as the interpolation law states, between waypoints too{}.</li>\n",
+                 problem.tolerances ? ", within the tolerances" : ", exactly");
   return section(
       "assumptions", "What is assumed, and what is not covered",
       html("<p>The claim is about a mathematical model. Whoever signs this report vouches that the machine "
@@ -317,14 +350,59 @@ Html assumptions() {
            "pulleys.</li>\n"
            "<li>The motion is quasi-static: forces of inertia are covered only as far as the load ellipsoid contains "
            "them.</li>\n"
-           "<li>Anchors, limits, load and ellipsoid are exactly the numbers below. Tolerances of manufacture, "
-           "measurement and control are not covered.</li>\n"
-           "<li>The controller follows the path exactly as the interpolation law states, between waypoints too.</li>\n"
+           "{}{}"
            "<li>Waypoints are the binary64 numbers below; a typed coordinate that is no such number is moved by at "
            "most half a unit in its last place.</li>\n"
            "<li>Collisions of cables, platform and surroundings are not examined.</li>\n"
            "<li>Whether the numbers are those of a built machine is outside the proof. Where a case says that its "
-           "geometry is a reconstruction, the claim is about the reconstruction.</li>\n</ul>\n"));
+           "geometry is a reconstruction, the claim is about the reconstruction.</li>\n</ul>\n",
+           exactness, following));
+}
+
+/// "0.5 mm", or six of them.
+Html each_cable(const std::array<DecimalText, kCables>& metres) {
+  if (std::ranges::all_of(metres, [&](const DecimalText& x) { return x == metres[0]; })) {
+    return html("{} mm", millimetres(metres[0]));
+  }
+  Html list;
+  for (const DecimalText& x : metres) list += html("{}{}", list.empty() ? "" : ", ", millimetres(x));
+  return list + html(" mm");
+}
+
+Html tolerances(const CertificateView& view) {
+  if (!view.problem.tolerances) return {};
+  const TolerancesText& t = *view.problem.tolerances;
+  std::vector<std::vector<Html>> rows;
+  const auto row = [&](const std::string& key, const Html& what, const Html& stated) {
+    Html limit = html("–");
+    for (const ToleranceLimitView& found : view.tolerance_limits) {
+      if (found.tolerance == key) limit = html("{} {}", found.proved, found.unit);
+    }
+    rows.push_back({what, stated, limit});
+  };
+  row("base_anchors", html("anchors on the base, each from where it is stated"), each_cable(t.base_anchor_m));
+  row("platform_anchors", html("anchors on the platform, likewise"), each_cable(t.platform_anchor_m));
+  row("load_point", html("load point on the platform"), html("{} mm", millimetres(t.load_point_m)));
+  Html wrench;
+  for (const DecimalText& x : t.wrench) wrench += html("{}{}", wrench.empty() ? "± (" : ", ", x);
+  row("load", html("wrench w<sub>0</sub>: force [N], moment [N·m]"), wrench + html(")"));
+  row("position", html("tracking: position of the platform's origin"), html("{} mm", millimetres(t.position_m)));
+  row("orientation", html("tracking: angle that the platform is turned by"), html("{} rad", t.orientation_rad));
+  if (t.cable_length_m)
+    row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m));
+  const Html note =
+      view.tolerance_limits.empty()
+          ? Html()
+          : html(
+                "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
+                "still be "
+                "proved, bisected; of six the largest. It was proved by {} and is no part of the claim that taut-check "
+                "proves again.</p>\n",
+                view.generator);
+  return section("tolerances", "Tolerances",
+                 html("<p>The claim covers every machine within all of these at once.</p>\n") +
+                     table({{html("Tolerance")}, {html("Stated"), true}, {html("Proved up to, alone"), true}}, rows) +
+                     note);
 }
 
 Html inputs(const CertificateView& view) {
@@ -633,6 +711,7 @@ Html contents(const Scene& scene) {
   };
   const bool sampled = !scene.samples.empty();
   link(true, "theorem", "Claim");
+  link(scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");
   link(true, "inputs", "Digests");
   link(true, "robot", "Robot");
@@ -650,9 +729,10 @@ Html contents(const Scene& scene) {
 
 std::string html_report(const nlohmann::json& certificate) {
   const Scene scene(certificate);
-  const Html body = header(scene) + contents(scene) + theorem(scene.view) + assumptions() + inputs(scene.view) +
-                    robot(scene) + path_section(scene) + stretches(scene.view) + tensions(scene) + lengths(scene) +
-                    margins(scene.view) + slice(scene) + recheck(scene.view) + signature(scene.view);
+  const Html body = header(scene) + contents(scene) + theorem(scene.view) + tolerances(scene.view) +
+                    assumptions(scene.view.problem) + inputs(scene.view) + robot(scene) + path_section(scene) +
+                    stretches(scene.view) + tensions(scene) + lengths(scene) + margins(scene.view) + slice(scene) +
+                    recheck(scene.view) + signature(scene.view);
   const Html title = html("{}: {}", scene.view.problem.name, scene.view.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
