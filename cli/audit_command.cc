@@ -154,6 +154,16 @@ nlohmann::json witness_json(const Audit& audit) {
   return nullptr;
 }
 
+/// All waypoints at once: for paths of which a report is made.
+Path whole_path(PathSource& source) {
+  Path path;
+  path.interpolation = source.law();
+  for (SourceWaypoint waypoint; source.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
+  return path;
+}
+
+}  // namespace
+
 void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md); needs no query")->required();
   command.add_option("PATH", arguments.path, "path file, or a certificate.json (docs/audits.md)")->required();
@@ -171,16 +181,6 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
 }
-
-/// All waypoints at once: for paths of which a report is made.
-Path whole_path(PathSource& source) {
-  Path path;
-  path.interpolation = source.law();
-  for (SourceWaypoint waypoint; source.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
-  return path;
-}
-
-}  // namespace
 
 int run_audit(const AuditArguments& arguments) {
   const Case case_ = load_case(arguments.case_path);
