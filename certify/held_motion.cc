@@ -9,6 +9,7 @@ namespace taut {
 namespace {
 
 constexpr std::size_t kUnknowns = 6;
+constexpr int kNarrowings = 3;  // of the poses of all deviations; more gain little
 
 template <class S>
 Vector3<S> cross(const Vector3<S>& a, const Vector3<S>& b) {
@@ -67,9 +68,9 @@ class LengthSystem {
     EquationDerivatives<kUnknowns, I> result;
     for (std::size_t i = 0; i < kCables; ++i) {
       const Vector3<I> reach = apply(r, platform_[i]);
-      const Vector3<I> d = {p(0) + reach(0) - base_[i](0), p(1) + reach(1) - base_[i](1),
-                            p(2) + reach(2) - base_[i](2)};
-      const Vector3<I> moment = cross(reach, d);
+      const Vector3<I> from_base = {p(0) - base_[i](0), p(1) - base_[i](1), p(2) - base_[i](2)};
+      const Vector3<I> d = {from_base(0) + reach(0), from_base(1) + reach(1), from_base(2) + reach(2)};
+      const Vector3<I> moment = cross(reach, from_base);  // = R b_i × d_i, and tighter
       const Vector3<I> turned = moment + cross(moment, u);
       for (int k = 0; k < 3; ++k) {
         result.by_y[i][static_cast<std::size_t>(k)] = I(tube_.position) * d(k);
@@ -133,8 +134,8 @@ template <class I>
 using Zero = std::array<Centered<I>, kUnknowns>;
 
 template <class I>
-bool solve(const LengthSystem<I>& system, const I& offset, Zero<I>& z) {
-  return ImpliedZero<kUnknowns, I, LengthSystem<I>>(system, offset, 1.0).enclose(z);
+bool solve(const LengthSystem<I>& system, const I& offset, Zero<I>& z, int narrowings = 0) {
+  return ImpliedZero<kUnknowns, I, LengthSystem<I>>(system, offset, 1.0).enclose(z, narrowings);
 }
 
 /// |x' − x| of three unknowns over the box, x' and x known to some ranges.
@@ -168,7 +169,9 @@ HeldMotion<I> hold_by_lengths(const Model<I>& model, const MotionEnclosure<I>& r
   if (!at_reference && !solve(LengthSystem<I>(model, reference, lengths, tube, nullptr), offset, z)) return result;
   if (tolerance != nullptr) {
     Zero<I> disturbed;
-    if (!solve(LengthSystem<I>(model, reference, lengths, tube, tolerance), offset, disturbed)) return result;
+    if (!solve(LengthSystem<I>(model, reference, lengths, tube, tolerance), offset, disturbed, kNarrowings)) {
+      return result;
+    }
     result.displacement.position = UpperOf<I>(tube.position) * distance(disturbed, z, 0);
     result.displacement.angle = UpperOf<I>(2.0) * UpperOf<I>(tube.turn) * distance(disturbed, z, 3);
   }

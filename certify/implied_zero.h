@@ -40,14 +40,19 @@ class ImpliedZero {
   ImpliedZero(const System& system, const I& offset, double radius)
       : system_(system), offset_(offset), radius_(radius) {}
 
-  /// y over T; false if (a) or (b) fails.
-  [[nodiscard]] bool enclose(std::array<Centered<I>, K>& y) {
+  /// y over T; false if (a) or (b) fails. What is enclosed for many deviations at once stays wide, and takes some `narrowings`: each
+  /// is (c) for the last box and ŷ.
+  [[nodiscard]] bool enclose(std::array<Centered<I>, K>& y, int narrowings = 0) {
     if (!(radius_ > 0) || !std::isfinite(radius_) || !start_newton()) return false;
     Vector whole;
     whole.fill(I(-radius_, radius_));
     Vector inside;
     if (!stay_inside(krawczyk(whole), inside)) return false;
-    const Step second = krawczyk(inside);
+    Step second = krawczyk(inside);
+    for (int step = 0; step < narrowings; ++step) {
+      for (std::size_t i = 0; i < K; ++i) inside[i] = hull(intersect(second.image[i], inside[i]), centre_[i]);
+      second = krawczyk(inside);
+    }
     Square<Upper, K> q;
     if (!neumann_bound<I>(magnitudes(second.rest), q)) return false;
     for (std::size_t i = 0; i < K; ++i) {

@@ -45,11 +45,32 @@ bool Prover::is_held_by_lengths(Interpolation law) const {
   return law == Interpolation::kCableLengths || (problem_.tolerances && problem_.tolerances->cable_length_m);
 }
 
+namespace {
+
+/// Whether one pose in the tube is proved in a few small boxes along the segment.
+bool seems_provable(const ProofModel<Interval>& model, const Segment& segment) {
+  constexpr int kDepth = 6;
+  constexpr int kSamples = 4;
+  bool is_known = true;
+  for (int k = 0; k <= kSamples && is_known; ++k) {
+    const DyadicBox box{((std::uint64_t{1} << kDepth) - 1) * static_cast<std::uint64_t>(k) / kSamples, kDepth};
+    const double radius = box.radius();
+    const bool is_sound = run_upward([&] {
+      const HeldMotion<Interval> held =
+          commanded_motion(model, segment, enclose<Interval>(box), Interval(-radius, radius));
+      is_known = held.motion.status != MotionEnclosure<Interval>::Status::kUnproved;
+    });
+    is_known = is_known && is_sound;
+  }
+  return is_known;
+}
+
+}  // namespace
+
 PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
-  constexpr int kSamples = 4;             // intervals of s
-  constexpr double kRoom = 4.0;           // around a motion, as in suitable_tube
-  constexpr double kRoomOfErrors = 1.75;  // (b) of implied_zero.h with ρ < 0.4; a wider tube only has a larger ρ
-  constexpr double kLeast = 0x1p-8;       // in a narrower tube boxes would have to be small, for (b)
+  constexpr int kSamples = 4;     // intervals of s
+  constexpr double kRoom = 1.75;  // around what floating point finds
+  constexpr double kLeast = 0x1p-20;
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const Model<double>& model = sampler_->model();
   const double unit = std::exp2(std::ceil(std::log2(model.characteristic_length)));
@@ -62,26 +83,33 @@ PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
                   (text.cable_length_m ? number((*text.cable_length_m)[i]) : 0.0);
     }
   }
-  double largest = 0;  // of positions over `unit`, and of half angles
+  double needed = 0;  // of positions over `unit`, and of half angles
   for (int k = 0; k <= kSamples; ++k) {
     const double s = static_cast<double>(k) / kSamples;
     const RigidPose pose = sampler_->rigid_pose(segment, s);
-    const std::optional<std::array<double, 6>> moved = displacement(model, pose, errors);
-    std::array<double, 6> away{};
-    for (std::size_t j = 0; moved && j < 6; ++j) away[j] = kRoomOfErrors * (*moved)[j];
+    std::array<double, 6> away = displacement(model, pose, errors).value_or(std::array<double, 6>{});
     if (segment.law == Interpolation::kCableLengths) {
       const RigidPose reference = pose_between(segment, s);
       const Vector3<double> offset = pose.p - reference.p;
       const double angle = pose.q.angularDistance(reference.q);
       for (std::size_t j = 0; j < 3; ++j) {
-        away[j] += kRoom * std::abs(offset(static_cast<int>(j)));
-        away[j + 3] += kRoom * angle;
+        away[j] += std::abs(offset(static_cast<int>(j)));
+        away[j + 3] += angle;
       }
     }
-    for (std::size_t j = 0; j < 3; ++j) largest = std::max({largest, away[j] / unit, 0.5 * away[j + 3]});
+    for (std::size_t j = 0; j < 3; ++j) needed = std::max({needed, away[j] / unit, 0.5 * away[j + 3]});
   }
-  const double size = std::max(largest, kLeast);
-  return std::isfinite(size) ? PoseTube{unit * size, size} : PoseTube{unit * kLeast, kLeast};
+  needed = std::isfinite(needed) ? std::max(kRoom * needed, kLeast) : kLeast;
+  // A wide tube lets boxes be large, by (b) of implied_zero.h; in a narrow one there is sooner one pose only.
+  PoseTube tube;
+  for (const double least : {0x1p-8, 0x1p-11, 0x1p-14, 0.0}) {
+    const double size = std::max(needed, least);
+    tube = {unit * size, size};
+    Segment trial = segment;
+    trial.pose_tube = tube;
+    if (size == needed || seems_provable(fast_, trial)) break;
+  }
+  return tube;
 }
 
 double Prover::suitable_tube(const Segment& segment) const {

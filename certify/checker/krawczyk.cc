@@ -73,8 +73,8 @@ Zero only_zero(const Equations& equations, const Interval& tube, const Vector6<I
     if (room > kMostRoom) throw Undefined("it may not exist");
     Z = near;
     for (std::size_t i = 0; i < k; ++i) {
-      Z[i] += Interval(room) * farthest * Interval::plus_minus_one();
-      if (!certainly_positive(tube - abs(Z[i]))) throw Undefined("it may leave its tube");
+      if (!certainly_positive(tube - abs(near[i]))) throw Undefined("it may leave its tube");
+      Z[i] = intersection(Z[i] + Interval(room) * farthest * Interval::plus_minus_one(), whole[i]);
     }
     result = krawczyk(equations, Z);
     exists = true;
