@@ -193,6 +193,8 @@ struct Prover::Walk {
   std::vector<Task> stack = {Task{}};
   int judged = 0;
   int multiprecision = 0;
+  bool motion_given_up = false;  ///< somewhere on the segment, with all means
+  bool deviation_found = false;  ///< that refutes it
   Task next() {
     const Task task = std::move(stack.back());
     stack.pop_back();
@@ -231,6 +233,10 @@ int deepest(std::size_t rung, const std::vector<mpfr_prec_t>& bits) {
 
 std::string describe(MarginId margin) {
   return std::string("margin ") + name(margin.kind) + " of cable " + std::to_string(margin.cable + 1);
+}
+
+std::string tolerances_too_large(MarginId margin) {
+  return "the tolerances are too large for a proof at " + describe(margin);
 }
 
 /// Of an enclosure at the working precision. Void if a fault is raised.
@@ -323,6 +329,7 @@ bool Prover::is_singular_between_ends(const Segment& segment, const DyadicBox& b
 
 Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   using Kind = BoxVerdict::Kind;
+  constexpr int kHastyMotionDepth = 5;      // where all means failed once, they are not tried again
   constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
   const auto& [box, rung, is_hopeless] = task;
   if (walk.judged >= options_.max_boxes || walk.multiprecision >= options_.max_multiprecision_boxes) {
@@ -348,18 +355,23 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       return give_up("bisection depth reached at " + describe(verdict.worst));
     case Kind::kTolerance:
       if (box.depth < options_.tolerance_depth) return split;
+      // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
+      if (walk.deviation_found && box.upper() != Dyadic{1, 0}) return give_up(tolerances_too_large(verdict.worst));
       if (auto deviation = refuting_deviation(walk.segment, box, verdict.worst)) {
+        walk.deviation_found = true;
         return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
       }
-      return give_up("the tolerances are too large for a proof at " + describe(verdict.worst));
+      return give_up(tolerances_too_large(verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up("precision reached at " + describe(verdict.worst) + ": it vanishes or nearly so");
     case Kind::kOutOfRange: return give_up("a parameter leaves its closed range, or may");
     case Kind::kNoMotion:
       // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
-      if (box.depth < options_.motion_depth) return split;
-      return higher_rung && rung < kSingularRung ? climb : give_up(undecided_reason(verdict.kind));
+      if (box.depth < (walk.motion_given_up ? kHastyMotionDepth : options_.motion_depth)) return split;
+      if (higher_rung && rung < kSingularRung && !walk.motion_given_up) return climb;
+      walk.motion_given_up = true;
+      return give_up(undecided_reason(verdict.kind));
     case Kind::kNearSingular:
     case Kind::kFault: break;
   }
@@ -465,7 +477,8 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
       case Step::Kind::kGiveUp:
         // There may be violations next to what can't be decided, but no ladder will help.
         task.is_hopeless = true;
-        if (is_fine || step.verdict.kind == BoxVerdict::Kind::kTolerance) {
+        if (is_fine || step.verdict.kind == BoxVerdict::Kind::kTolerance ||
+            step.verdict.kind == BoxVerdict::Kind::kNoMotion) {
           report(Kind::kOpen);
         } else {
           walk.split(task, 0);

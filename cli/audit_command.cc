@@ -44,8 +44,9 @@ std::string text(const AuditPlace& place, const char* place_name) {
 
 std::string text(const PathWitness& witness) {
   if (witness.singular) return "the force Jacobian becomes singular";
-  return fmt::format("{} of cable {} lies in [{}, {}], its limit is {}", name(witness.margin.kind),
-                     witness.margin.cable + 1, witness.value_lower, witness.value_upper, witness.limit);
+  return fmt::format("{} of cable {} lies in [{}, {}], its limit is {}{}", name(witness.margin.kind),
+                     witness.margin.cable + 1, witness.value_lower, witness.value_upper, witness.limit,
+                     witness.deviation ? ", on a machine within the tolerances that the certificate states" : "");
 }
 
 std::string text(const AuditStretch& stretch, const char* place_name) {

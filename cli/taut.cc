@@ -54,8 +54,10 @@ std::string sentence(const Plan& plan) {
       if (w.singular) return "refuted: the force Jacobian is singular at some pose of the path.";
       const std::string where = w.at.on_segment ? fmt::format("on segment {}", w.at.index) : "at a pose of the query";
       return fmt::format(
-          "refuted: {}, {} of cable {} is violated: the quantity lies in [{}, {}], its limit is {} [N, m].", where,
-          name(w.margin.kind), w.margin.cable + 1, w.value_lower, w.value_upper, w.limit);
+          "refuted: {}, {} of cable {} is violated{}: the quantity lies in [{}, {}], its limit is {} [N, m].", where,
+          name(w.margin.kind), w.margin.cable + 1,
+          w.deviation ? ", on a machine within the tolerances that the certificate states" : "", w.value_lower,
+          w.value_upper, w.limit);
     }
     case Verdict::kUndecided: break;
   }
