@@ -385,7 +385,7 @@ BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segme
 int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s) {
   Faults<MpInterval>::clear();
   const auto point = enclose<MpInterval>(s);
-  const MotionEnclosure<MpInterval> motion = enclose_motion(problem.motion, segment, point, point, MpInterval(0.0));
+  const MotionEnclosure<MpInterval> motion = commanded_motion(problem, segment, {point, point}, MpInterval(0.0)).motion;
   if (motion.status == MotionEnclosure<MpInterval>::Status::kUnproved) return 0;
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
   const Vector3<MpInterval> p_WP = motion.p_WP.unaryExpr(at_mid);

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "certify/checker/claims.h"
@@ -177,9 +179,9 @@ std::vector<double> binary64s(const json& list) {
   std::vector<double> values;
   for (const json& text : list) {
     const auto literal = text.get<std::string>();
-    std::size_t used = 0;
-    values.push_back(std::stod(literal, &used));
-    if (used != literal.size() || !std::isfinite(values.back())) {
+    char* end = nullptr;
+    values.push_back(std::strtod(literal.c_str(), &end));
+    if (literal.empty() || *end != '\0' || !std::isfinite(values.back())) {
       throw InputError(fmt::format("path: got '{}', expected a finite binary64", literal));
     }
   }

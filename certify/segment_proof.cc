@@ -164,7 +164,9 @@ const char* undecided_reason(BoxVerdict::Kind kind) {
   switch (kind) {
     case BoxVerdict::Kind::kFault: return "the pose or an equation is not defined on all of the box";
     case BoxVerdict::Kind::kNoMotion:
-      return "no single motion on the constraints, or with the cables' lengths, was proved to exist there";
+      return "no single motion was proved to exist there (on the constraints, with the cables' lengths, or between "
+             "orientations half "
+             "a turn apart)";
     default: return "the force Jacobian is singular or nearly so";
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -14,6 +15,23 @@
 
 namespace taut {
 namespace {
+
+/// What the readers of path files ask of rows, of a certificate's waypoints.
+void require_poses(const Path& path, const std::string& file) {
+  if (!has_poses(path.interpolation)) return;
+  constexpr double kMostOff = 1e-2;
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    const std::vector<double>& x = path.waypoints[k].x;
+    const double norm = std::hypot(std::hypot(x[3], x[4]), std::hypot(x[5], x[6]));
+    if (!(std::abs(norm - 1) <= kMostOff)) {
+      throw InputError(fmt::format("{}: path.waypoints[{}].quaternion: got one of length {:.6g}, expected 1 within {}",
+                                   file, k, norm, kMostOff));
+    }
+    if (!std::all_of(x.begin() + 7, x.end(), [](double length) { return length > 0; })) {
+      throw InputError(fmt::format("{}: path.waypoints[{}].lengths: got one that is not above 0", file, k));
+    }
+  }
+}
 
 std::string sha256_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -90,7 +108,12 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
   if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate");
-  certificate_ = path_from_json(certificate["path"]);
+  try {
+    certificate_ = path_from_json(certificate["path"]);
+  } catch (const InputError& error) {
+    throw InputError(path_ + ": " + error.what());
+  }
+  require_poses(*certificate_, path_);
   law_ = certificate_->interpolation;
   if (law && *law != law_) {
     throw InputError(path_ + ": got a certificate, expected no other law than its own");
@@ -146,9 +169,21 @@ bool PathSource::next(SourceWaypoint& result) {
     return true;
   }
   result.waypoint = maker_->next(row, file_->start());
+  if (k == 0) require_start(row.line);
   result.line = row.line;
   result.time_s = row.time_s;
   return true;
+}
+
+void PathSource::require_start(std::size_t line) const {
+  constexpr double kMostOff = 0.02;  // of the platform's size; beyond, it may be the start of another assembly
+  const double size = make_model<double>(case_problem_).characteristic_length;
+  const double off = maker_->start_error_m();
+  if (off <= kMostOff * size) return;
+  throw InputError(fmt::format(
+      "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row, expected "
+      "the pose that has them, to within {:.4g} m",
+      path_, line, off, kMostOff * size));
 }
 
 std::string PathSource::description() const {

@@ -54,6 +54,8 @@ class PathSource {
 
  private:
   void open();
+  /// @throws InputError where the start pose is plainly not one with the first row's lengths.
+  void require_start(std::size_t line) const;
   void read_certificate_path(std::optional<Interpolation> law);
 
   std::string path_;

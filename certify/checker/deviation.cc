@@ -92,10 +92,9 @@ class Family {
   }
 
   /// A bound of the rate of |d_i|.
-  [[nodiscard]] Interval length_rate(std::size_t i, bool is_held) const {
+  [[nodiscard]] Interval length_rate(std::size_t i) const {
     const Deviation& whole = *model_.deviation();
-    return whole.position + whole.angle * length(cross(Rb_[i], u_[i])) +
-           (is_held ? whole.length[i] : whole.base[i] + whole.platform[i]);
+    return whole.position + whole.angle * length(cross(Rb_[i], u_[i])) + whole.base[i] + whole.platform[i];
   }
 
  private:
@@ -160,7 +159,7 @@ Losses losses(const Model& model, const Geometry& geometry, const Inverse& inver
   for (int step = 1; step <= steps; ++step) {
     const Family family(model, geometry, inverse, commanded, Interval(mpq_class(step, steps)));
     for (std::size_t i = 0; i < 6; ++i) {
-      result.length[i] += share * family.length_rate(i, is_held);
+      if (!is_held) result.length[i] += share * family.length_rate(i);
       const auto plain = family.tension_rates(i, Interval(1), is_held);
       const auto wide = family.tension_rates(i, k, is_held);
       for (std::size_t side = 0; side < 2; ++side) {
@@ -168,6 +167,13 @@ Losses losses(const Model& model, const Geometry& geometry, const Inverse& inver
         result.scaled[i][side] += share * wide[side];
       }
     }
+  }
+  if (!is_held) return result;
+  // |d_i| = L_i + e_i at the commanded pose, whatever leads to it; tracking is added to that whole, not part by part.
+  const Deviation& whole = *model.deviation();
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Interval reach = length(model.platform_anchors()[i]) + whole.platform[i];
+    result.length[i] = whole.length[i] + whole.position + whole.angle * reach;
   }
   return result;
 }

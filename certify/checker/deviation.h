@@ -21,8 +21,8 @@
 //     rho_i = |d_i| e_i' - d_i . (b_i' - a_i'),  so that W = m_i rho_i,  p' = (f_i - m_i x R p_m) rho_i,
 // (f_i, m_i) row i of Y. Tracking errors come on top: they turn W, and b_i', by no more than their angle.
 //
-// The length |d_i| of a cable changes at the rate u_i . d_i'; held by lengths, it is L_i + e_i at the commanded pose, so that
-// e_i' stands for what the anchors do.
+// The length |d_i| of a cable changes at the rate u_i . d_i'. Held by lengths, it is L_i + e_i at the commanded pose of the whole
+// deviation, from which tracking then takes it by no more than the distance and the angle times |b_i'|.
 #pragma once
 
 #include "certify/checker/held.h"
