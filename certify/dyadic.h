@@ -25,7 +25,7 @@ struct Dyadic {
 
   // As numbers: 1/2 is 2/4.
   friend std::strong_ordering operator<=>(const Dyadic& a, const Dyadic& b);
-  friend bool operator==(const Dyadic& a, const Dyadic& b) { return (a <=> b) == 0; }
+  friend bool operator==(const Dyadic& a, const Dyadic& b) { return std::is_eq(a <=> b); }
 };
 
 /// [k/2^depth, (k+1)/2^depth] within [0, 1].

@@ -42,7 +42,8 @@ const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   return problem.robot.length_m[cable].upper;
 }
 
-PathWitness make_witness(const Prover& prover, const Segment& segment, const SegmentWitness& found, PathPoint at) {
+PathWitness make_witness(const Prover& prover, const Segment& segment, const SegmentWitness& found,
+                         const PathPoint& at) {
   const auto& [singular, margin, box, deviation] = found;
   PathWitness witness;
   witness.at = at;
