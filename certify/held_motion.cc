@@ -74,7 +74,7 @@ class LengthSystem {
       const Vector3<I> turned = moment + cross(moment, u);
       for (int k = 0; k < 3; ++k) {
         result.by_y[i][static_cast<std::size_t>(k)] = I(tube_.position) * d(k);
-        result.by_y[i][static_cast<std::size_t>(k + 3)] = scale * turned(k);
+        result.by_y[i][static_cast<std::size_t>(k) + 3] = scale * turned(k);
       }
       if (place == Place::kAtMid) continue;
       const Matrix3<I> r_slope = times(local, reference_.r_WP, &Centered<I>::slope);
