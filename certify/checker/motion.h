@@ -32,7 +32,7 @@ struct Frame {
   Matrix3<Form> R;
 };
 
-[[nodiscard]] Frame frame(const Vector6<Form>& coordinates);
+[[nodiscard]] Frame frame(const Vector6<Form>& pose);
 
 /// Of the quaternion q = (x, y, z, w), of any length but 0.
 [[nodiscard]] Matrix3<Form> rotation(const std::array<Form, 4>& q);

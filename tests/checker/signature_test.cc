@@ -135,7 +135,7 @@ TEST(Signature, WithAnyDigitAlteredIsMalformed) {
 
 TEST(Signature, OfAnyOtherFormIsMalformed) {
   const nlohmann::json certificate = signed_certificate();
-  const nlohmann::json signature = certificate["signature"];
+  const nlohmann::json& signature = certificate["signature"];
   std::vector<nlohmann::json> bad = {nullptr, 1, "x", nlohmann::json::array(), nlohmann::json::object()};
   for (const auto& item : signature.items()) {
     bad.push_back(signature);
