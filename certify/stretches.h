@@ -34,7 +34,7 @@ class StretchFinder {
   [[nodiscard]] Verdict verdict() const;
   [[nodiscard]] int segments() const { return segments_; }
   /// Least over the proved boxes of all segments; infinite where there is none.
-  [[nodiscard]] double tension_N() const { return tension_N_; }
+  [[nodiscard]] double tension_N() const { return tension_N_; }  // NOLINT(readability-identifier-naming): the unit
   [[nodiscard]] double length_m() const { return length_m_; }
   [[nodiscard]] double wrench_scale() const { return wrench_scale_; }
 

@@ -637,7 +637,7 @@ std::unique_ptr<std::istream> open(const std::string& path) {
 
 PathFile::PathFile(const std::string& path, const SpaceText& space, PathFileOptions options)
     : PathFile(open(path), path, space, options) {}
-PathFile::PathFile(std::unique_ptr<std::istream> text, std::string name, const SpaceText& space,
+PathFile::PathFile(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space,
                    PathFileOptions options)
     : self_(std::make_unique<Implementation>(std::move(text), name, space, options)) {}
 PathFile::~PathFile() = default;

@@ -78,7 +78,8 @@ class PathFile {
   /// Opens the file and reads its header. @throws InputError
   PathFile(const std::string& path, const SpaceText& space, PathFileOptions options = {});
   /// As above, from a stream; `name` stands for the file in messages.
-  PathFile(std::unique_ptr<std::istream> text, std::string name, const SpaceText& space, PathFileOptions options = {});
+  PathFile(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space,
+           PathFileOptions options = {});
   ~PathFile();
   PathFile(PathFile&&) noexcept;
   PathFile(const PathFile&) = delete;
