@@ -13,5 +13,5 @@ foreach(arithmetic Interval Mp BoostDouble Checker)
   add_test(NAME certify.interval_laws_at_length.${arithmetic}
     COMMAND certify_interval_laws_test --gtest_filter=IntervalLaws/${arithmetic}*.OperationsEncloseTheirRange)
   set_tests_properties(certify.interval_laws_at_length.${arithmetic} PROPERTIES LABELS slow TIMEOUT 3600
-    ENVIRONMENT TAUT_INTERVAL_CASES=8000)
+    ENVIRONMENT TAUT_INTERVAL_CASES=4000)
 endforeach()

@@ -14,7 +14,6 @@ namespace taut {
 namespace {
 
 using testing::robot1_slice;
-using testing::robot2_sphere;
 
 Waypoint at(std::vector<double> x) {
   std::vector<int> none(x.size(), 0);

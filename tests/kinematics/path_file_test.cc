@@ -174,6 +174,7 @@ TEST(PathFile, NamesLineColumnAndWhatWasSeen) {
   expect_rejected(header + "1," + std::string(100'000, '1') + "\n", "path.txt:2: got a line of more than 65536 bytes");
   expect_rejected(header + "1," + std::string(2'000, '1') + "\n", "path.txt:2: theta: got '1111");
   expect_rejected(header + std::string("1,2\n\0\n", 6), "path.txt:3: got the byte 0x00, expected text");
+  // NOLINTNEXTLINE(bugprone-string-literal-with-embedded-nul)
   expect_rejected("\xFF\xFEp\0x\0", "path.txt:1: got the byte 0xFF, expected text in UTF-8");
   expect_rejected(header + "1,\x80\n", "got '\\x80', expected");
   expect_rejected(header + "1,2\n1,3\n1,3\n", "path.txt:4: got the pose of line 3 again, expected another");
@@ -330,7 +331,7 @@ TEST(PathFile, AnyFileIsAPathOrAnInputError) {
       const auto at = static_cast<std::size_t>(random.pick(static_cast<int>(text.size())));
       switch (random.pick(6)) {
         case 0: text[at] = static_cast<char>(random.pick(256)); break;
-        case 1: text.erase(at, static_cast<std::size_t>(1 + random.pick(5))); break;
+        case 1: text.erase(at, static_cast<std::size_t>(random.pick(5)) + 1); break;
         case 2: text.insert(at, pieces[random.pick(16)]); break;
         case 3: text[at] = static_cast<char>('0' + random.pick(10)); break;
         case 4:
