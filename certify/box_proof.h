@@ -56,8 +56,8 @@ struct BoxEnclosure {
   std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
   std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]; only where regular
   I offset;                                    ///< contains t − m for all t in T
-  /// What deviations may change, where the problem has tolerances and the box is regular. Then `regular` says that J is
-  /// non-singular for every deviation; length, density and variation remain those of the undisturbed machine.
+  /// What deviations may change: only where the problem has tolerances, and J is proved to be non-singular for every deviation,
+  /// too. All of the above is about the undisturbed machine.
   std::optional<Disturbance<I>> disturbance;
 };
 

@@ -11,11 +11,6 @@ namespace {
 constexpr std::size_t kUnknowns = 6;
 constexpr int kNarrowings = 3;  // of the poses of all deviations; more gain little
 
-template <class S>
-Vector3<S> cross(const Vector3<S>& a, const Vector3<S>& b) {
-  return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
-}
-
 /// g of the header, for the undisturbed machine, or for all deviations within a tolerance.
 template <class I>
 class LengthSystem {

@@ -18,11 +18,6 @@ UpperOf<I> norm_above(const Vector3<I>& x) {
 }
 
 template <class I>
-Vector3<I> cross(const Vector3<I>& a, const Vector3<I>& b) {
-  return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
-}
-
-template <class I>
 I dot(const Vector3<I>& a, const Vector3<I>& b) {
   return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
 }
@@ -199,7 +194,6 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
     result.length[i] = tracking + (box.held_by_lengths ? tolerance.cable_length[i]
                                                        : tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
     x.length[i] = box.length[i].range + Scalars<I>::symmetric(result.length[i]);
-    // The commanded pose of a machine that is held by lengths may have less than the tracked one: all of X has this.
     if (!certainly_positive(x.length[i])) return std::nullopt;
   }
   Square<Upper> n;

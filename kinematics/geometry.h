@@ -71,6 +71,11 @@ template <class S, class K>
 }
 
 template <class S>
+[[nodiscard]] Vector3<S> cross(const Vector3<S>& a, const Vector3<S>& b) {
+  return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
+}
+
+template <class S>
 [[nodiscard]] S length(const Vector3<S>& d) {
   return sqrt(sqr(d(0)) + sqr(d(1)) + sqr(d(2)));
 }
