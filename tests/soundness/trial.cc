@@ -52,7 +52,8 @@ const auto six_coordinates = []<class S>(const std::vector<S>& q) {
 /// Millimetres to kilometres, millinewtons to meganewtons; one in eight nearly flat, one in eight with a platform that is
 /// nearly the base on a smaller scale, which is singular wherever both are level.
 Problem random_robot(Random& random, double& size) {
-  Problem problem = testing::free_flying(testing::robot1_slice());
+  static const Problem like = testing::free_flying(testing::robot1_slice());
+  Problem problem = like;
   size = std::pow(10.0, uniform(random, -3, 3));
   const double force = std::pow(10.0, uniform(random, -3, 6));
   const std::uint64_t kind = random() % 8;
