@@ -9,8 +9,8 @@
 #include <chrono>
 #include <limits>
 #include <memory>
-#include <span>
 
+#include "certify/gaps.h"
 #include "cli/path_csv.h"
 
 namespace taut {
@@ -18,11 +18,10 @@ namespace {
 
 using nlohmann::json;
 
-/// A run of boxes of one segment that were not proved.
-struct Gap {
-  Dyadic begin, end;
+/// A gap with its inner ends as a certificate states them.
+struct StatedGap {
+  Gap gap;
   std::optional<std::pair<PathWitness, PathWitness>> inner;
-  std::string reason;
 };
 
 /// What is known of one segment, and what the files say of it.
@@ -32,7 +31,7 @@ struct SegmentResult {
   std::size_t boxes = 0;  ///< proved
   long boxes_judged = 0;
   double tension_N = 0, length_m = 0, wrench_scale = 0;
-  std::vector<Gap> gaps;
+  std::vector<StatedGap> gaps;
   std::string text;
 };
 
@@ -128,16 +127,10 @@ class BatchProver {
     result.wrench_scale = survey.wrench_scale;
     const std::size_t number = batch.first_segment + i;
     std::vector<DyadicBox> proved;
-    for (auto box = survey.boxes.begin(); box != survey.boxes.end();) {
-      const auto is_proved = [](const SurveyedBox& b) { return b.kind == SurveyedBox::Kind::kProved; };
-      if (is_proved(*box)) {
-        proved.push_back(box++->box);
-        continue;
-      }
-      const auto end = std::find_if(box, survey.boxes.end(), is_proved);
-      result.gaps.push_back(gap(segment, number, {box, end}));
-      box = end;
+    for (const SurveyedBox& box : survey.boxes) {
+      if (box.kind == SurveyedBox::Kind::kProved) proved.push_back(box.box);
     }
+    for (Gap& gap : gaps(survey)) result.gaps.push_back(stated(segment, number, std::move(gap)));
     result.boxes = proved.size();
     const Margins margins =
         proved.empty() ? Margins{} : margins_below(survey.tension_N, survey.length_m, survey.wrench_scale);
@@ -146,20 +139,13 @@ class BatchProver {
     return result;
   }
 
-  [[nodiscard]] Gap gap(const Segment& segment, std::size_t number, std::span<const SurveyedBox> boxes) const {
-    Gap result{boxes.front().box.lower(), boxes.back().box.upper(), std::nullopt, ""};
-    const SurveyedBox* first = nullptr;
-    const SurveyedBox* last = nullptr;
-    for (const SurveyedBox& box : boxes) {
-      if (box.witness && first == nullptr) first = &box;
-      if (box.witness) last = &box;
-      if (result.reason.empty()) result.reason = box.reason;
-    }
-    if (first == nullptr) return result;
-    const auto witness = [&](const SurveyedBox& box) {
-      return path_witness(prover_, segment, static_cast<int>(number), *box.witness);
+  [[nodiscard]] StatedGap stated(const Segment& segment, std::size_t number, Gap gap) const {
+    StatedGap result{std::move(gap), std::nullopt};
+    if (!result.gap.first) return result;
+    const auto witness = [&](const SegmentWitness& end) {
+      return path_witness(prover_, segment, static_cast<int>(number), end);
     };
-    result.inner = {witness(*first), witness(*last)};
+    result.inner = {witness(*result.gap.first), witness(*result.gap.last)};
     return result;
   }
 
@@ -198,7 +184,7 @@ class BatchWriter {
         length_m_ = std::min(length_m_, segment.length_m);
         wrench_scale_ = std::min(wrench_scale_, segment.wrench_scale);
       }
-      for (const Gap& gap : segment.gaps) add(batch, i, gap);
+      for (const StatedGap& gap : segment.gaps) add(batch, i, gap);
     }
     result_.segments += batch.segments.size();
   }
@@ -233,7 +219,8 @@ class BatchWriter {
     return place;
   }
 
-  void add(const Batch& batch, std::size_t i, const Gap& gap) {
+  void add(const Batch& batch, std::size_t i, const StatedGap& stated) {
+    const Gap& gap = stated.gap;
     const AuditPlace begin = place(batch, i, gap.begin);
     const AuditPlace end = place(batch, i, gap.end);
     const bool continues = stretch_ && gap.begin == Dyadic{0, 0} && stretch_->end.s == Dyadic{1, 0} &&
@@ -243,12 +230,12 @@ class BatchWriter {
       stretch_ = AuditStretch{begin, end, std::nullopt, std::nullopt, gap.reason};
     }
     stretch_->end = end;
-    if (!gap.inner) return;
-    const PathWitness& last_witness = gap.inner->second;
-    const AuditPlace first = place(batch, i, gap.inner->first.at.s);
+    if (!stated.inner) return;
+    const PathWitness& last_witness = stated.inner->second;
+    const AuditPlace first = place(batch, i, stated.inner->first.at.s);
     const AuditPlace last = place(batch, i, last_witness.singular ? last_witness.to.s : last_witness.at.s);
     if (!stretch_->inner) {
-      stretch_->inner = gap.inner;
+      stretch_->inner = stated.inner;
       stretch_->inner_places = {first, last};
     }
     stretch_->inner->second = last_witness;

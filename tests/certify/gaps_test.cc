@@ -1,4 +1,4 @@
-#include "certify/stretches.h"
+#include "certify/gaps.h"
 
 #include <gtest/gtest.h>
 
@@ -23,62 +23,39 @@ SurveyedBox part(Kind kind, DyadicBox box) {
   return result;
 }
 
-SegmentSurvey survey_of(std::vector<SurveyedBox> boxes, double margin) {
+std::vector<Gap> gaps_of(std::vector<SurveyedBox> boxes) {
   SegmentSurvey survey;
   survey.boxes = std::move(boxes);
-  survey.tension_N = survey.length_m = survey.wrench_scale = margin;
-  return survey;
+  return gaps(survey);
 }
 
-TEST(StretchFinder, APathWithoutGapsIsProved) {
-  StretchFinder finder;
-  EXPECT_EQ(finder.verdict(), Verdict::kUndecided) << "nothing was proved yet";
-  EXPECT_TRUE(finder.add(survey_of({part(Kind::kProved, {0, 0})}, 3)).empty());
-  EXPECT_TRUE(finder.add(survey_of({part(Kind::kProved, {0, 1}), part(Kind::kProved, {1, 1})}, 2)).empty());
-  EXPECT_FALSE(finder.finish().has_value());
-  EXPECT_EQ(finder.verdict(), Verdict::kProved);
-  EXPECT_EQ(finder.tension_N(), 2);
-  EXPECT_EQ(finder.segments(), 2);
+TEST(Gaps, ThereAreNoneWhereAllIsProved) {
+  EXPECT_TRUE(gaps_of({part(Kind::kProved, {0, 0})}).empty());
+  EXPECT_TRUE(gaps_of({part(Kind::kProved, {0, 1}), part(Kind::kProved, {1, 1})}).empty());
 }
 
-TEST(StretchFinder, ARunGoesOnFromSegmentToSegment) {
-  StretchFinder finder;
-  EXPECT_TRUE(finder.add(survey_of({part(Kind::kProved, {0, 1}), part(Kind::kOpen, {1, 1})}, 3)).empty());
-  EXPECT_EQ(finder.verdict(), Verdict::kUndecided);
-  EXPECT_TRUE(finder.add(survey_of({part(Kind::kViolated, {0, 0})}, 9)).empty());
-  EXPECT_EQ(finder.verdict(), Verdict::kRefuted);
-  const auto ended = finder.add(
-      survey_of({part(Kind::kViolatedInside, {0, 2}), part(Kind::kOpen, {1, 2}), part(Kind::kProved, {1, 1})}, 4));
-  ASSERT_EQ(ended.size(), 1u);
-  const Stretch& stretch = ended[0];
-  EXPECT_EQ(stretch.begin.index, 0);
-  EXPECT_EQ(stretch.begin.s, (Dyadic{1, 1}));
-  EXPECT_EQ(stretch.end.index, 2);
-  EXPECT_EQ(stretch.end.s, (Dyadic{1, 1}));
-  ASSERT_TRUE(stretch.first && stretch.last);
-  EXPECT_EQ(stretch.first->segment, 1);
-  EXPECT_EQ(stretch.first->witness.box, (DyadicBox{0, 16})) << "next to the end of what is violated throughout";
-  EXPECT_EQ(stretch.last->segment, 2);
-  EXPECT_EQ(stretch.last->witness.box, (DyadicBox{0, 2}));
-  EXPECT_TRUE(stretch.reason.empty());
-  EXPECT_FALSE(finder.finish().has_value());
-  EXPECT_EQ(finder.tension_N(), 3);
+TEST(Gaps, ARunIsOneGapWhateverItsBoxesAre) {
+  const auto found =
+      gaps_of({part(Kind::kProved, {0, 2}), part(Kind::kOpen, {2, 3}), part(Kind::kViolated, {3, 3}),
+               part(Kind::kViolatedInside, {4, 3}), part(Kind::kOpen, {5, 3}), part(Kind::kProved, {3, 2})});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].begin, (Dyadic{1, 2}));
+  EXPECT_EQ(found[0].end, (Dyadic{3, 2}));
+  ASSERT_TRUE(found[0].first && found[0].last);
+  EXPECT_EQ(found[0].first->box, (DyadicBox{3 << 13, 16})) << "next to the end of what is violated throughout";
+  EXPECT_EQ(found[0].last->box, (DyadicBox{4, 3}));
+  EXPECT_TRUE(found[0].reason.empty());
 }
 
-TEST(StretchFinder, AnOpenStretchHasTheReasonOfItsFirstBox) {
-  StretchFinder finder;
-  const auto ended = finder.add(survey_of(
-      {part(Kind::kOpen, {0, 2}), part(Kind::kOpen, {1, 2}), part(Kind::kProved, {2, 2}), part(Kind::kOpen, {3, 2})},
-      1));
-  ASSERT_EQ(ended.size(), 1u);
-  EXPECT_FALSE(ended[0].first.has_value());
-  EXPECT_EQ(ended[0].reason, "because of 0");
-  EXPECT_EQ(ended[0].end.s, (Dyadic{1, 1}));
-  const std::optional<Stretch> last = finder.finish();
-  ASSERT_TRUE(last.has_value());
-  EXPECT_EQ(last->reason, "because of 3/4");
-  EXPECT_EQ(last->end.s, kEnd);
-  EXPECT_EQ(finder.verdict(), Verdict::kUndecided);
+TEST(Gaps, AnOpenOneHasTheReasonOfItsFirstBox) {
+  const auto found = gaps_of(
+      {part(Kind::kOpen, {0, 2}), part(Kind::kOpen, {1, 2}), part(Kind::kProved, {2, 2}), part(Kind::kOpen, {3, 2})});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_FALSE(found[0].first.has_value());
+  EXPECT_EQ(found[0].reason, "because of 0");
+  EXPECT_EQ(found[0].end, (Dyadic{1, 1}));
+  EXPECT_EQ(found[1].reason, "because of 3/4");
+  EXPECT_EQ(found[1].end, kEnd);
 }
 
 void expect_cover(const SegmentSurvey& survey) {
@@ -122,15 +99,14 @@ bool is_feasible(const Space& space, const oracle::OracleStatics& at) {
 }
 
 /// Paths of random segments, each surveyed, against points of them.
-TEST(Stretches, HoldEveryViolationAndBeginAndEndInOne) {
+TEST(Gaps, HoldEveryViolationAndBeginAndEndInOne) {
   constexpr int kPaths = 60;
   constexpr int kSegments = 4;
   constexpr int kSamples = 64;  // a segment
   const PrecisionScope precision(oracle::kBits);
   Operands operands(20261121);
   const std::vector<Space> spaces = {slice_space(), sphere_space(), curved_space()};
-  int stretches_seen = 0;
-  int joined = 0;
+  int gaps_seen = 0;
   int violations_seen = 0;
   int proved_segments = 0;
   for (int trial = 0; trial < kPaths; ++trial) {
@@ -149,71 +125,59 @@ TEST(Stretches, HoldEveryViolationAndBeginAndEndInOne) {
       }
       path.waypoints.push_back(waypoint);
     }
-    StretchFinder finder;
-    std::vector<Stretch> stretches;
+    std::vector<std::vector<Gap>> found;  // of each segment
     for (std::size_t k = 0; k < path.segments(); ++k) {
       const SegmentSurvey survey = prover.survey(path.segment(k));
       expect_cover(survey);
       const SegmentProof proof = prover.prove(path.segment(k));
-      EXPECT_EQ(proof.verdict == Verdict::kProved,
-                std::ranges::all_of(survey.boxes, [](const SurveyedBox& x) { return x.kind == Kind::kProved; }));
-      if (proof.verdict == Verdict::kProved) {
-        ++proved_segments;
-        EXPECT_EQ(survey.boxes_judged, proof.boxes_judged);
-        EXPECT_EQ(survey.boxes.size(), proof.boxes.size());
-        EXPECT_EQ(survey.tension_N, proof.tension_N);
-        EXPECT_EQ(survey.wrench_scale, proof.wrench_scale);
-      }
-      for (Stretch& stretch : finder.add(survey)) stretches.push_back(std::move(stretch));
+      found.push_back(gaps(survey));
+      EXPECT_EQ(proof.verdict == Verdict::kProved, found.back().empty());
+      if (proof.verdict != Verdict::kProved) continue;
+      ++proved_segments;
+      EXPECT_EQ(survey.boxes_judged, proof.boxes_judged);
+      EXPECT_EQ(survey.boxes.size(), proof.boxes.size());
+      EXPECT_EQ(survey.tension_N, proof.tension_N);
+      EXPECT_EQ(survey.wrench_scale, proof.wrench_scale);
     }
-    if (auto last = finder.finish()) stretches.push_back(std::move(*last));
-    stretches_seen += static_cast<int>(stretches.size());
-    const auto statics_at = [&](int segment, const BigFloat& s) {
-      const auto k = static_cast<std::size_t>(segment);
+    const auto statics_at = [&](std::size_t k, const BigFloat& s) {
       return oracle::statics(space.problem, space.pose(parameters_at(path.waypoints[k], path.waypoints[k + 1], s)));
     };
-    const auto before = [](const PathPoint& a, const PathPoint& b) {
-      return a.index != b.index ? a.index < b.index : a.s < b.s;
-    };
-    for (std::size_t n = 0; n < stretches.size(); ++n) {
-      const Stretch& stretch = stretches[n];
-      joined += stretch.begin.index != stretch.end.index ? 1 : 0;
-      EXPECT_TRUE(before(stretch.begin, stretch.end));
-      EXPECT_TRUE(n == 0 || before(stretches[n - 1].end, stretch.begin));
-      EXPECT_EQ(stretch.first.has_value(), stretch.reason.empty());
-      if (!stretch.first) continue;
-      for (const Stretch::Violation& violation : {*stretch.first, *stretch.last}) {
-        ++violations_seen;
-        const SegmentWitness& witness = violation.witness;
-        EXPECT_FALSE(before({true, violation.segment, witness.box.lower()}, stretch.begin));
-        EXPECT_FALSE(before(stretch.end, {true, violation.segment, witness.box.upper()}));
-        const auto oracle_at = [&](const Dyadic& s) {
-          return statics_at(violation.segment, enclose<MpInterval>(s).lower());
-        };
-        if (witness.singular) {
-          EXPECT_LT(oracle_at(witness.box.lower()).determinant * oracle_at(witness.box.upper()).determinant,
-                    BigFloat(0.0));
-        } else {
-          EXPECT_LE(margin_at(space, oracle_at(witness.box.mid()), witness.margin), BigFloat(0.0))
-              << name(witness.margin.kind) << " at " << witness.box.mid().text() << " of " << violation.segment;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      for (std::size_t n = 0; n < found[k].size(); ++n) {
+        const Gap& gap = found[k][n];
+        ++gaps_seen;
+        EXPECT_LT(gap.begin, gap.end);
+        EXPECT_TRUE(n == 0 || found[k][n - 1].end < gap.begin);
+        EXPECT_EQ(gap.first.has_value(), gap.reason.empty());
+        if (!gap.first) continue;
+        for (const SegmentWitness& witness : {*gap.first, *gap.last}) {
+          ++violations_seen;
+          EXPECT_LE(gap.begin, witness.box.lower());
+          EXPECT_LE(witness.box.upper(), gap.end);
+          const auto oracle_at = [&](const Dyadic& s) { return statics_at(k, enclose<MpInterval>(s).lower()); };
+          if (witness.singular) {
+            EXPECT_LT(oracle_at(witness.box.lower()).determinant * oracle_at(witness.box.upper()).determinant,
+                      BigFloat(0.0));
+          } else {
+            EXPECT_LE(margin_at(space, oracle_at(witness.box.mid()), witness.margin), BigFloat(0.0))
+                << name(witness.margin.kind) << " at " << witness.box.mid().text() << " of " << k;
+          }
         }
       }
     }
-    for (int segment = 0; segment < kSegments; ++segment) {
+    for (std::size_t segment = 0; segment < found.size(); ++segment) {
       for (int k = 0; k < kSamples; ++k) {
         const Dyadic s = Dyadic::nearest(BigFloat(operands.uniform(0, 1)), 53);
-        const PathPoint at{true, segment, s};
-        const bool is_outside = std::ranges::none_of(
-            stretches, [&](const Stretch& stretch) { return !before(at, stretch.begin) && !before(stretch.end, at); });
+        const bool is_outside =
+            std::ranges::none_of(found[segment], [&](const Gap& gap) { return gap.begin <= s && s <= gap.end; });
         if (!is_outside) continue;
         EXPECT_TRUE(is_feasible(space, statics_at(segment, BigFloat(s.approx()))))
             << s.text() << " of segment " << segment << " of path " << trial;
       }
     }
   }
-  EXPECT_GT(stretches_seen, 40);
+  EXPECT_GT(gaps_seen, 40);
   EXPECT_GT(violations_seen, 60);
-  EXPECT_GT(joined, 10);
   EXPECT_GT(proved_segments, 20);
 }
 
@@ -234,59 +198,52 @@ struct Slide {
   }
 };
 
-std::vector<Stretch> stretches_of(const SegmentSurvey& survey) {
-  StretchFinder finder;
-  std::vector<Stretch> result = finder.add(survey);
-  if (auto last = finder.finish()) result.push_back(std::move(*last));
-  return result;
-}
-
-TEST(Stretches, EndWhereTheLimitIsCrossed) {
+TEST(Gaps, EndWhereTheLimitIsCrossed) {
   Slide slide;
   slide.problem.robot.length_m[0].lower = "0.5000063";  // |x| < 0.00251, at |s − 2/5| < 0.0837
   const SegmentSurvey survey = slide.survey(-0.012, 0.018);
-  const auto stretches = stretches_of(survey);
-  ASSERT_EQ(stretches.size(), 1u);
+  const auto found = gaps(survey);
+  ASSERT_EQ(found.size(), 1u);
   const double half = std::sqrt(0.5000063 * 0.5000063 - 0.25) / 0.03;
   constexpr double kResolution = 0x1p-11;
-  EXPECT_NEAR(stretches[0].begin.s.approx(), 0.4 - half, kResolution);
-  EXPECT_NEAR(stretches[0].end.s.approx(), 0.4 + half, kResolution);
-  EXPECT_NEAR(stretches[0].first->witness.box.mid().approx(), 0.4 - half, kResolution);
-  EXPECT_NEAR(stretches[0].last->witness.box.mid().approx(), 0.4 + half, kResolution);
-  EXPECT_LE(stretches[0].begin.s.approx(), 0.4 - half);
-  EXPECT_GE(stretches[0].end.s.approx(), 0.4 + half);
+  EXPECT_NEAR(found[0].begin.approx(), 0.4 - half, kResolution);
+  EXPECT_NEAR(found[0].end.approx(), 0.4 + half, kResolution);
+  EXPECT_NEAR(found[0].first->box.mid().approx(), 0.4 - half, kResolution);
+  EXPECT_NEAR(found[0].last->box.mid().approx(), 0.4 + half, kResolution);
+  EXPECT_LE(found[0].begin.approx(), 0.4 - half);
+  EXPECT_GE(found[0].end.approx(), 0.4 + half);
   EXPECT_LT(survey.boxes_judged, 120) << "none are spent inside";
 }
 
-TEST(Stretches, AViolationFarThinnerThanTheResolutionIsFound) {
+TEST(Gaps, AViolationFarThinnerThanTheResolutionIsFound) {
   Slide slide;
   slide.problem.robot.length_m[0].lower = "0.50000000000000000000000000000000000000000000000001";  // by 1e-50
   const SegmentSurvey survey = slide.survey(-0.01, 0.02);
   expect_cover(survey);
-  const auto stretches = stretches_of(survey);
-  ASSERT_EQ(stretches.size(), 1u);
-  ASSERT_TRUE(stretches[0].first.has_value());
-  EXPECT_NEAR(stretches[0].first->witness.box.mid().approx(), 1.0 / 3, 1e-15);
-  EXPECT_LT(stretches[0].end.s.approx() - stretches[0].begin.s.approx(), 0x1p-11);
+  const auto found = gaps(survey);
+  ASSERT_EQ(found.size(), 1u);
+  ASSERT_TRUE(found[0].first.has_value());
+  EXPECT_NEAR(found[0].first->box.mid().approx(), 1.0 / 3, 1e-15);
+  EXPECT_LT(found[0].end.approx() - found[0].begin.approx(), 0x1p-11);
 }
 
-TEST(Stretches, WhatVanishesIsOpenAndHidesNothing) {
+TEST(Gaps, WhatVanishesIsOpenAndHidesNothing) {
   Slide slide;
   slide.problem.robot.length_m[0] = {"0.5", "0.50001"};  // touched at s = 1/3, passed at the end, where x > 0.00316
   const SegmentSurvey survey = slide.survey(-0.002, 0.004);
   expect_cover(survey);
-  const auto stretches = stretches_of(survey);
-  ASSERT_EQ(stretches.size(), 2u);
-  EXPECT_FALSE(stretches[0].first.has_value());
-  EXPECT_NE(stretches[0].reason.find("is zero"), std::string::npos) << stretches[0].reason;
-  EXPECT_NEAR(stretches[0].begin.s.approx(), 1.0 / 3, 0x1p-10);
-  EXPECT_NEAR(stretches[0].end.s.approx(), 1.0 / 3, 0x1p-10);
-  ASSERT_TRUE(stretches[1].first.has_value());
-  EXPECT_EQ(stretches[1].end.s, kEnd);
+  const auto found = gaps(survey);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_FALSE(found[0].first.has_value());
+  EXPECT_NE(found[0].reason.find("is zero"), std::string::npos) << found[0].reason;
+  EXPECT_NEAR(found[0].begin.approx(), 1.0 / 3, 0x1p-10);
+  EXPECT_NEAR(found[0].end.approx(), 1.0 / 3, 0x1p-10);
+  ASSERT_TRUE(found[1].first.has_value());
+  EXPECT_EQ(found[1].end, kEnd);
   EXPECT_LT(survey.boxes_judged, 400);
 }
 
-TEST(Stretches, AMarginThatIsZeroEverywhereTakesNoLongerThanBisection) {
+TEST(Gaps, AMarginThatIsZeroEverywhereTakesNoLongerThanBisection) {
   Slide slide;
   slide.problem.space.pose[0] = "0.001*cos(px)";  // x² + y² stays
   slide.problem.space.pose[1] = "0.001*sin(px)";
@@ -303,7 +260,7 @@ TEST(Stretches, AMarginThatIsZeroEverywhereTakesNoLongerThanBisection) {
   EXPECT_LE(survey.boxes.size(), std::size_t{1} << 12);
 }
 
-TEST(Stretches, ASingularPoseIsLocatedByTheSignsOfItsNeighbours) {
+TEST(Gaps, ASingularPoseIsLocatedByTheSignsOfItsNeighbours) {
   Problem problem = robot1_slice();
   problem.load.wrench = {"0", "0", "0", "0", "0", "0"};
   for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e300";
@@ -313,16 +270,16 @@ TEST(Stretches, ASingularPoseIsLocatedByTheSignsOfItsNeighbours) {
   const Waypoint b{{1.7, 1.7}, {0, 0}};
   const SegmentSurvey survey = Prover(problem).survey(Segment::straight(a, b));
   expect_cover(survey);
-  const auto stretches = stretches_of(survey);
-  ASSERT_FALSE(stretches.empty());
-  for (const Stretch& stretch : stretches) {
-    EXPECT_LT(stretch.end.s.approx() - stretch.begin.s.approx(), 1e-3);
-    ASSERT_TRUE(stretch.first.has_value()) << stretch.reason;
-    EXPECT_TRUE(stretch.first->witness.singular);
+  const auto found = gaps(survey);
+  ASSERT_FALSE(found.empty());
+  for (const Gap& gap : found) {
+    EXPECT_LT(gap.end.approx() - gap.begin.approx(), 1e-3);
+    ASSERT_TRUE(gap.first.has_value()) << gap.reason;
+    EXPECT_TRUE(gap.first->singular);
   }
 }
 
-TEST(Stretches, AWaypointOutOfItsRangeLeavesTheSegmentOpen) {
+TEST(Gaps, AWaypointOutOfItsRangeLeavesTheSegmentOpen) {
   Problem problem = robot1_slice();
   problem.space.flip.reset();
   problem.space.parameters[1] = {"theta", ParameterKind::kRange, "0", "1.5"};
@@ -333,7 +290,7 @@ TEST(Stretches, AWaypointOutOfItsRangeLeavesTheSegmentOpen) {
   EXPECT_EQ(survey.boxes[0].kind, Kind::kOpen);
 }
 
-TEST(Stretches, WhatABudgetLeavesIsOpen) {
+TEST(Gaps, WhatABudgetLeavesIsOpen) {
   ProofOptions options;
   options.max_boxes = 5;
   const Waypoint a{{-2.3, 1.6}, {0, 0}};
