@@ -14,7 +14,7 @@ is_current() {
   [[ -x $build/cli/taut && -x $build/certify/checker/taut-check && -r $stamp ]] || return
   read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
   newer=$(find "$root"/{kinematics,atlas,certify,reports,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} \
-    -newer "$stamp" -print -quit 2>/dev/null) || return
+    "$root/package-lock.json" -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
 }
 
@@ -50,16 +50,21 @@ under_lock() (
   "$@" 2>&1 </dev/null | tee "$log" >&2
 )
 
+# install_for GROUP…: Debian's packages of these groups, and npm's.
+install_for() {
+  "$root/scripts/install-packages" "$@" && "$root/scripts/install-web"
+}
+
 build_programs() {
   is_current && return # another start has built it while this one waited
   echo "building taut in $build (first use, or newer sources) ..."
   local tests=()
   [[ -f $build/CMakeCache.txt ]] || tests=(-DTAUT_TESTS=OFF) # ./test turns them on
-  "$root/scripts/install-packages" build && build_release_now "${tests[@]}" -- taut taut-check
+  install_for build && build_release_now "${tests[@]}" -- taut taut-check
 }
 
 build_all() {
-  "$root/scripts/install-packages" build test && build_release_now -DTAUT_TESTS=ON --
+  install_for build test && build_release_now -DTAUT_TESTS=ON --
 }
 
 # or_exit_4 COMMAND…

@@ -1,0 +1,14 @@
+// The script that draws the report's plots and the picture of the move in the reader's browser: all of reports/web/
+// with the libraries that it uses, bundled when taut is built.
+#pragma once
+
+#include <string_view>
+
+namespace taut {
+
+/// UTF-8, as it stands between <script> and </script>. Opens with the licences of the libraries in it.
+[[nodiscard]] std::string_view page_script();
+/// Its SHA-256 in base64, for the page's Content-Security-Policy, which allows this script and no other.
+[[nodiscard]] std::string_view page_script_sha256();
+
+}  // namespace taut
