@@ -12,13 +12,7 @@ namespace {
 
 using testing::coordinates;
 using testing::kPi;
-
-AtlasOptions options(double radius, double epsilon) {
-  AtlasOptions result;
-  result.radius = radius;
-  result.epsilon = epsilon;
-  return result;
-}
+using testing::options;
 
 TEST(Atlas, CoversACircle) {
   const testing::FlatTorus circle({0});

@@ -4,16 +4,13 @@
 
 #include <cmath>
 
+#include "tests/atlas/surfaces.h"
 #include "tests/support/robots.h"
 
 namespace taut {
 namespace {
 
-Coordinates at(double x, double y) {
-  Coordinates q(2);
-  q << x, y;
-  return q;
-}
+using testing::coordinates;
 
 class ClearEdgeTest : public ::testing::Test {
  protected:
@@ -25,11 +22,11 @@ class ClearEdgeTest : public ::testing::Test {
 };
 
 // The paper's q_s and q_g: feasible both, and the straight way between them is not.
-const Coordinates kStart = at(-2.3, 1.6);
-const Coordinates kGoal = at(1.7, 1.7);
+const Coordinates kStart = coordinates({-2.3, 1.6});
+const Coordinates kGoal = coordinates({1.7, 1.7});
 
 TEST_F(ClearEdgeTest, AcceptsASmallMoveAmongFeasiblePoses) {
-  EXPECT_TRUE(ClearEdge(sampler_, 0)(at(-2.0, 0.1), at(-2.0, 0.4)));
+  EXPECT_TRUE(ClearEdge(sampler_, 0)(coordinates({-2.0, 0.1}), coordinates({-2.0, 0.4})));
 }
 
 TEST_F(ClearEdgeTest, RefusesAWayThatLeavesTheLimitsBetweenItsEnds) {
@@ -39,7 +36,7 @@ TEST_F(ClearEdgeTest, RefusesAWayThatLeavesTheLimitsBetweenItsEnds) {
 }
 
 TEST_F(ClearEdgeTest, RefusesEitherEndWithinTheClearance) {
-  const Coordinates near = at(-2.0, 0.1);
+  const Coordinates near = coordinates({-2.0, 0.1});
   const double room = std::min(clearance(near), clearance(kStart));
   EXPECT_TRUE(ClearEdge(sampler_, 0.99 * room)(kStart, kStart));
   EXPECT_FALSE(ClearEdge(sampler_, 1.01 * clearance(kStart))(kStart, near));

@@ -8,29 +8,26 @@
 
 #include "kinematics/geometry.h"
 #include "kinematics/input_error.h"
+#include "tests/atlas/surfaces.h"
 #include "tests/support/robots.h"
 
 namespace taut {
 namespace {
 
-Coordinates at(double x, double y) {
-  Coordinates q(2);
-  q << x, y;
-  return q;
-}
+using testing::coordinates;
 
 TEST(PathLength, OfATurnAboutOneAxisIsItsAngle) {
   const PoseSampler sampler(testing::robot1_slice());
-  const PathLength length(sampler, Cost::kRotation, {at(0, 0)});
+  const PathLength length(sampler, Cost::kRotation, {coordinates({0, 0})});
   // Along theta, at any phi, the platform turns about one axis.
-  EXPECT_NEAR(length.distance(at(0.3, 0.2), at(0.3, 1.4)), 1.2, 1e-12);
-  EXPECT_NEAR(length.along(at(0.3, 0.2), at(0.3, 1.4)), 1.2, 1e-12);
+  EXPECT_NEAR(length.distance(coordinates({0.3, 0.2}), coordinates({0.3, 1.4})), 1.2, 1e-12);
+  EXPECT_NEAR(length.along(coordinates({0.3, 0.2}), coordinates({0.3, 1.4})), 1.2, 1e-12);
 }
 
 TEST(PathLength, OfALevelTurnOfPhiAloneIsZeroAtTheta0) {
   const PoseSampler sampler(testing::robot1_slice());
-  const PathLength length(sampler, Cost::kRotation, {at(0, 0)});
-  EXPECT_NEAR(length.along(at(-2, 0), at(1, 0)), 0.0, 1e-7);
+  const PathLength length(sampler, Cost::kRotation, {coordinates({0, 0})});
+  EXPECT_NEAR(length.along(coordinates({-2, 0}), coordinates({1, 0})), 0.0, 1e-7);
 }
 
 TEST(PathLength, AlongIsTheSumOfManySmallDistances) {
@@ -38,11 +35,11 @@ TEST(PathLength, AlongIsTheSumOfManySmallDistances) {
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
   const PoseSampler slice(testing::robot1_slice());
   const PoseSampler sphere(testing::robot2_sphere());
-  const PathLength turn(slice, Cost::kRotation, {at(0, 0)});
-  const PathLength way(sphere, Cost::kGreatCircle, {at(0.5, 1.0)});
+  const PathLength turn(slice, Cost::kRotation, {coordinates({0, 0})});
+  const PathLength way(sphere, Cost::kGreatCircle, {coordinates({0.5, 1.0})});
   for (int repeat = 0; repeat < 50; ++repeat) {
-    const Coordinates a = at(coordinate(random), coordinate(random));
-    const Coordinates b = at(coordinate(random), coordinate(random));
+    const Coordinates a = coordinates({coordinate(random), coordinate(random)});
+    const Coordinates b = coordinates({coordinate(random), coordinate(random)});
     for (const PathLength* length : {&turn, &way}) {
       constexpr int kPieces = 2000;
       double sum = 0;
@@ -57,8 +54,9 @@ TEST(PathLength, AlongIsTheSumOfManySmallDistances) {
 
 TEST(PathLength, OnTheSphereIsTheArcOfItsRadius) {
   const PoseSampler sampler(testing::robot2_sphere());
-  const PathLength length(sampler, Cost::kGreatCircle, {at(0.55, 0.75), at(2.63, 0.75)});
-  EXPECT_NEAR(length.along(at(0.55, 0.2), at(0.55, 1.2)), 0.13, 1e-9);  // a meridian, radius 130 mm
+  const PathLength length(sampler, Cost::kGreatCircle, {coordinates({0.55, 0.75}), coordinates({2.63, 0.75})});
+  EXPECT_NEAR(length.along(coordinates({0.55, 0.2}), coordinates({0.55, 1.2})), 0.13,
+              1e-9);  // a meridian, radius 130 mm
 }
 
 TEST(PathLength, RefusesAGreatCircleWherePositionsLieOnNoSphere) {

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/atlas/surfaces.h"
+
 namespace taut {
 namespace {
 
-Coordinates at(double x, double y) {
-  Coordinates q(2);
-  q << x, y;
-  return q;
-}
+using testing::coordinates;
 
 /// A plane with a disc of radius 1 about the origin that must not be entered.
 struct DiscWorld {
@@ -34,13 +32,13 @@ struct DiscWorld {
 };
 
 std::vector<Coordinates> jagged_detour() {
-  std::vector<Coordinates> path = {at(-2, 0)};
+  std::vector<Coordinates> path = {coordinates({-2, 0})};
   for (int k = 1; k < 40; ++k) {
     const double angle = std::numbers::pi * (1.0 - k / 40.0);
     const double radius = 2.0 + 0.15 * (k % 2 == 0 ? 1 : -1);
-    path.push_back(at(radius * std::cos(angle), radius * std::sin(angle)));
+    path.push_back(coordinates({radius * std::cos(angle), radius * std::sin(angle)}));
   }
-  path.push_back(at(2, 0));
+  path.push_back(coordinates({2, 0}));
   return path;
 }
 
@@ -66,14 +64,15 @@ TEST(Shorten, KeepsTheEndsAndEveryEdgeOk) {
   DiscWorld world;
   std::vector<Coordinates> path = jagged_detour();
   (void)shorten(path, world.problem());
-  EXPECT_EQ(path.front(), at(-2, 0));
-  EXPECT_EQ(path.back(), at(2, 0));
+  EXPECT_EQ(path.front(), coordinates({-2, 0}));
+  EXPECT_EQ(path.back(), coordinates({2, 0}));
   for (std::size_t k = 1; k < path.size(); ++k) EXPECT_TRUE(DiscWorld::clear(path[k - 1], path[k]));
 }
 
 TEST(Shorten, NeverLengthens) {
   DiscWorld world;
-  std::vector<Coordinates> path = {at(-2, 0), at(-1, 1.2), at(1, 1.2), at(2, 0)};
+  std::vector<Coordinates> path = {coordinates({-2, 0}), coordinates({-1, 1.2}), coordinates({1, 1.2}),
+                                   coordinates({2, 0})};
   const double before = length(path);
   const ShortenResult result = shorten(path, world.problem());
   EXPECT_NEAR(result.cost_before, before, 1e-12);
@@ -91,7 +90,7 @@ TEST(Shorten, FollowsAGeodesicThatIsNotStraightInTheCoordinates) {
     }
     return sum;
   };
-  std::vector<Coordinates> path = {at(1, 0), at(1, 2)};
+  std::vector<Coordinates> path = {coordinates({1, 0}), coordinates({1, 2})};
   const ShortenResult result = shorten(path, {along, [](const Coordinates&, const Coordinates&) { return true; }, {}});
   const double best = (place(path.front()) - place(path.back())).norm();
   EXPECT_GE(result.cost_after, best);
@@ -100,7 +99,7 @@ TEST(Shorten, FollowsAGeodesicThatIsNotStraightInTheCoordinates) {
 
 TEST(Shorten, AStraightPathStaysStraight) {
   DiscWorld world;
-  std::vector<Coordinates> path = {at(-2, 2), at(0, 2), at(2, 2)};
+  std::vector<Coordinates> path = {coordinates({-2, 2}), coordinates({0, 2}), coordinates({2, 2})};
   EXPECT_NEAR(shorten(path, world.problem()).cost_after, 4.0, 1e-12);
 }
 
@@ -136,7 +135,7 @@ TEST(Shorten, StopsWhenAsked) {
 
 TEST(Shorten, APathOfOneVertexIsLeftAlone) {
   DiscWorld world;
-  std::vector<Coordinates> path = {at(2, 0)};
+  std::vector<Coordinates> path = {coordinates({2, 0})};
   EXPECT_EQ(shorten(path, world.problem()).cost_after, 0.0);
 }
 

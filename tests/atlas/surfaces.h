@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "atlas/atlas.h"
 #include "atlas/manifold.h"
 
 namespace taut::testing {
@@ -17,6 +18,13 @@ inline constexpr double kPi = std::numbers::pi;
 inline Coordinates coordinates(std::initializer_list<double> values) {
   Coordinates result(values.size());
   std::copy(values.begin(), values.end(), result.data());
+  return result;
+}
+
+inline AtlasOptions options(double radius, double epsilon) {
+  AtlasOptions result;
+  result.radius = radius;
+  result.epsilon = epsilon;
   return result;
 }
 

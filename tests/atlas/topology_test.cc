@@ -9,13 +9,7 @@ namespace {
 
 using testing::coordinates;
 using testing::kPi;
-
-AtlasOptions options(double radius, double epsilon) {
-  AtlasOptions result;
-  result.radius = radius;
-  result.epsilon = epsilon;
-  return result;
-}
+using testing::options;
 
 // Reference by another route: area of f = 0 from marching tetrahedra on a grid of [0, 1.2]^3, one of eight octants alike.
 double octant_area(const testing::ImplicitSurface& surface, int cells) {

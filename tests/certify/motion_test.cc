@@ -11,12 +11,11 @@
 #include "certify/segment_proof.h"
 #include "kinematics/constraint_functions.h"
 #include "tests/support/enclosing.h"
+#include "tests/support/linear_system.h"
 #include "tests/support/segments.h"
 
 namespace taut::testing {
 namespace {
-
-using Vector = std::vector<BigFloat>;
 
 /// All six coordinates of the pose are parameters, so that an enclosure of the pose is one of them.
 struct Surface {
@@ -61,25 +60,6 @@ Surface curve() {
                                  q[2] - oracle::big("0.3") - oracle::big("0.02") * s * s * s,
                                  sin(q[3]) - oracle::big("0.3") * cos(s), q[4] - atan2(s, two + s) / BigFloat(4.0)};
                  });
-}
-
-/// A x = b by elimination.
-Vector solve(std::vector<Vector> a, Vector b) {
-  const std::size_t n = b.size();
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t best = c;
-    for (std::size_t i = c + 1; i < n; ++i) best = abs(a[i][c]) > abs(a[best][c]) ? i : best;
-    std::swap(a[c], a[best]);
-    std::swap(b[c], b[best]);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == c) continue;
-      const BigFloat factor = a[i][c] / a[c][c];
-      for (std::size_t j = c; j < n; ++j) a[i][j] -= factor * a[c][j];
-      b[i] -= factor * b[c];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) b[i] /= a[i][i];
-  return b;
 }
 
 /// The format's mixing of control points, at a binary64 s.

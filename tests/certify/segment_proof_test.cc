@@ -12,12 +12,8 @@
 namespace taut {
 namespace {
 
+using testing::at;
 using testing::robot1_slice;
-
-Waypoint at(std::vector<double> x) {
-  std::vector<int> none(x.size(), 0);
-  return {std::move(x), std::move(none)};
-}
 
 const Waypoint kStart = at({-2.3, 1.6});
 const Waypoint kNearStart = at({-2.25, 1.5});

@@ -13,12 +13,8 @@
 namespace taut {
 namespace {
 
+using testing::at;
 using testing::robot1_slice;
-
-Waypoint at(std::vector<double> x) {
-  std::vector<int> none(x.size(), 0);
-  return {std::move(x), std::move(none)};
-}
 
 /// A deviation in binary64: the machine, and what tracking adds.
 struct Deviated {

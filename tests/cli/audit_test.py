@@ -9,24 +9,12 @@ import os
 import re
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-TAUT, CHECK, SOURCE = sys.argv[1:4]
+from command_line import CHECK, EXIT, InFolder, SOURCE, TAUT, main, run, text_of
+
 AUDITS = os.path.join(SOURCE, "cases", "audits")
-EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
 ROBOT1 = os.path.join(SOURCE, "cases", "robot1-slice-qs-qg.yaml")
-
-
-def run(*arguments, **options):
-    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, **options)
-
-
-def text_of(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
 
 
 def fraction(text):
@@ -38,20 +26,7 @@ def position(place):
     return place["segment"] + fraction(place["s"])
 
 
-class Audit(unittest.TestCase):
-    def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.out = directory.name
-        self.addCleanup(directory.cleanup)
-
-    def path(self, *parts):
-        return os.path.join(self.out, *parts)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
-
+class Audit(InFolder):
     def audit(self, case, path, *options, out="out"):
         result = run(TAUT, "audit", case, path, "--out", self.path(out), "--json", *options)
         self.assertIn(result.returncode, (0, 1, 2), result.stderr)
@@ -209,4 +184,4 @@ class Audit(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
+    main()

@@ -10,18 +10,10 @@ import os
 import re
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-TAUT, CHECK, SOURCE = sys.argv[1:4]
-CASES = os.path.join(SOURCE, "cases")
-EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
+from command_line import CASES, CHECK, EXIT, InFolder, TAUT, expected, main, run, text_of
 
-
-def run(*arguments, **options):
-    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, **options)
 
 
 def all_cases():
@@ -31,32 +23,7 @@ def all_cases():
                 yield os.path.join(folder, name)
 
 
-def text_of(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
-def expected(case):
-    return re.search(r"^expect:\s*(\w+)", text_of(case), re.M).group(1)
-
-
-class EndToEnd(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.out = self.directory.name
-        self.addCleanup(self.directory.cleanup)
-
-    def path(self, *parts):
-        return os.path.join(self.out, *parts)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
-
-    def certificate(self, folder="."):
-        return json.loads(text_of(self.path(folder, "certificate.json")))
-
+class EndToEnd(InFolder):
     def test_every_case_ends_as_it_declares_and_its_certificate_is_accepted(self):
         for number, case in enumerate(all_cases()):
             with self.subTest(case=case):
@@ -377,4 +344,4 @@ class EndToEnd(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    main()

@@ -7,38 +7,28 @@ import hashlib
 import json
 import os
 import subprocess
-import sys
-import tempfile
-import unittest
 
-TAUT, CHECK, SOURCE = sys.argv[1:4]
+from command_line import CHECK, InFolder, SOURCE, TAUT, main, run
+
 CASE = os.path.join(SOURCE, "cases", "robot1-slice-qs1-qg.yaml")
-
-
-def run(*arguments, **options):
-    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, check=False, **options)
 
 
 def openssl(*arguments):
     subprocess.run(["openssl", *arguments], check=True, capture_output=True, timeout=60)
 
 
-class Signature(unittest.TestCase):
+class Signature(InFolder):
     def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
+        super().setUp()
         for name in ("me", "other"):
             self.make_key(name)
-
-    def path(self, name):
-        return os.path.join(self.directory.name, name)
 
     def make_key(self, name, *kind):
         openssl("genpkey", *(kind or ("-algorithm", "ed25519")), "-out", self.path(name + ".pem"))
         openssl("pkey", "-in", self.path(name + ".pem"), "-pubout", "-out", self.path(name + ".pub"))
 
     def plan(self, *options):
-        planned = run(TAUT, "plan", CASE, "--out", self.directory.name, *options)
+        planned = run(TAUT, "plan", CASE, "--out", self.out, *options)
         self.assertEqual(planned.returncode, 0, planned.stderr)
         return planned
 
@@ -126,4 +116,4 @@ class Signature(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=1)
+    main()

@@ -10,12 +10,8 @@
 namespace taut {
 namespace {
 
+using testing::at;
 using testing::robot1_slice;
-
-Waypoint at(std::vector<double> x) {
-  std::vector<int> none(x.size(), 0);
-  return {std::move(x), std::move(none)};
-}
 
 double length(const Path& path) {
   return motion_length(path, curve_parameters, [](const std::vector<double>& a, const std::vector<double>& b) {

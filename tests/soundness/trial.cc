@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kinematics/motion_length.h"
+#include "tests/support/linear_system.h"
 #include "tests/support/robots.h"
 
 namespace taut::campaign {
@@ -323,27 +324,6 @@ BigFloat mix(const Trial& trial, const BigFloat& t, F value) {
          six;
 }
 
-/// Gauss elimination of a small system.
-Vector solve(std::vector<Vector> a, Vector b) {
-  const std::size_t n = b.size();
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t pivot = c;
-    for (std::size_t i = c + 1; i < n; ++i) {
-      if (abs(a[i][c]) > abs(a[pivot][c])) pivot = i;
-    }
-    std::swap(a[c], a[pivot]);
-    std::swap(b[c], b[pivot]);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == c) continue;
-      const BigFloat factor = a[i][c] / a[c][c];
-      for (std::size_t j = c; j < n; ++j) a[i][j] -= factor * a[c][j];
-      b[i] -= factor * b[c];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) b[i] /= a[i][i];
-  return b;
-}
-
 Vector parameters_at(const Trial& trial, const BigFloat& s) {
   Vector q;
   const std::size_t m = trial.controls[0].x.size();
@@ -365,7 +345,7 @@ Vector parameters_at(const Trial& trial, const BigFloat& s) {
         for (std::size_t j = 0; j < m; ++j) g_y[i][l] += gradients[i][j] * normals[j][l];
       }
     }
-    const Vector y = solve(g_y, trial.constraints->values(q));
+    const Vector y = testing::solve(g_y, trial.constraints->values(q));
     for (std::size_t j = 0; j < m; ++j) {
       for (std::size_t i = 0; i < k; ++i) q[j] -= normals[j][i] * y[i];
     }

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kinematics/case_file.h"
+#include "kinematics/segment.h"
 
 namespace taut::testing {
 
@@ -31,6 +34,12 @@ inline Problem robot2_implicit_sphere(bool sigma_free) {
   problem.space.constraints = {"px + 0.13*sin(theta)*cos(phi)", "py + 0.13*sin(theta)*sin(phi)",
                                "pz - 0.306 + 0.13*cos(theta)"};
   return problem;
+}
+
+/// A waypoint without half turns.
+inline Waypoint at(std::vector<double> x) {
+  std::vector<int> none(x.size(), 0);
+  return {std::move(x), std::move(none)};
 }
 
 /// The same robot and load with all six pose coordinates free.

@@ -1,0 +1,50 @@
+"""What tests through the command line share."""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TAUT, CHECK, SOURCE = sys.argv[1:4]
+CASES = os.path.join(SOURCE, "cases")
+EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
+
+
+def run(*arguments, **options):
+    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, check=False, **options)
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def expected(case):
+    """The verdict that a case declares."""
+    return re.search(r"^expect:\s*(\w+)", text_of(case), re.M).group(1)
+
+
+class InFolder(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.out = directory.name
+        self.addCleanup(directory.cleanup)
+
+    def path(self, *parts):
+        return os.path.join(self.out, *parts)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def certificate(self, folder="."):
+        return json.loads(text_of(self.path(folder, "certificate.json")))
+
+
+def main():
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
