@@ -1,4 +1,4 @@
-foreach(header interval form expression exact)
+foreach(header interval form expression exact krawczyk)
   taut_add_test(checker ${header} LABELS unit laws LIBS taut_checker)
 endforeach()
 taut_add_test(checker pose_proof LABELS unit laws LIBS taut_checker)
