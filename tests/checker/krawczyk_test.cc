@@ -96,7 +96,7 @@ TEST(Krawczyk, RefusesTwoZerosInOneTube) {
   EXPECT_THROW((void)only_zero(equations, kOne, {ratio(1, 4)}), Undefined);
   EXPECT_THROW((void)only_zero(equations, ratio(3, 10), {ratio(1, 4)}), Undefined) << "-1/4 is in it as well";
   const OneUnknown unlike{[](const Interval& y) { return (y - ratio(1, 4)) * (y + ratio(1, 2)); },
-                          [](const Interval& y) { return Interval(2) * y + ratio(1, 4); }, Interval(0)};
+                          [](const Interval& y) { return Interval(2) * y + ratio(1, 4); }, ratio(1, 1000)};
   EXPECT_THROW((void)only_zero(unlike, kOne, {ratio(1, 4)}), Undefined);
 }
 
