@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,40 @@ double dyadic_approximation(const std::string& text) {
     throw InputError(fmt::format("certificate: got '{}', expected a dyadic from 0 to 1", text));
   }
   return value;
+}
+
+/// "k/m", "0" or "1".
+Dyadic read_dyadic(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string numerator = text.substr(0, slash);
+  const std::string denominator = slash < text.size() ? text.substr(slash + 1) : "1";
+  constexpr std::size_t kMostDigits = 310;  // 2^1000 has 302
+  const auto is_natural = [](const std::string& digits) {
+    return !digits.empty() && digits.size() <= kMostDigits &&
+           std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; }) &&
+           (digits == "0" || digits.front() != '0');
+  };
+  if (is_natural(numerator) && is_natural(denominator) && denominator != "0") {
+    const boost::multiprecision::cpp_int k(numerator);
+    const boost::multiprecision::cpp_int m(denominator);
+    const unsigned depth = msb(m);
+    if (m == boost::multiprecision::cpp_int(1) << depth && k <= m && depth <= DyadicBox::kMaxDepth + 1) {
+      return {k, static_cast<int>(depth)};
+    }
+  }
+  throw InputError(fmt::format("certificate: got '{}', expected a dyadic from 0 to 1", text));
+}
+
+std::vector<DyadicBox> read_boxes(const json& boxes) {
+  std::vector<DyadicBox> result;
+  for (const json& ends : boxes) {
+    const Dyadic lower = read_dyadic(ends.at(0).get<std::string>());
+    const Dyadic upper = read_dyadic(ends.at(1).get<std::string>());
+    const int depth = std::max(lower.depth, upper.depth);
+    const DyadicBox box = {lower.k << (depth - lower.depth), depth};
+    if (depth <= DyadicBox::kMaxDepth && box.upper() == upper) result.push_back(box);
+  }
+  return result;
 }
 
 Path read_path(const json& path, const SpaceText& space) {
@@ -175,6 +210,7 @@ CertificateView read(const json& certificate) {
     view.segments.push_back({segment.at("from").get<int>(), segment.at("to").get<int>(), segment.at("boxes").size(),
                              segment.at("margins").is_null() ? MarginsView() : read_margins(segment.at("margins"))});
     view.boxes += view.segments.back().boxes;
+    view.segment_boxes.push_back(read_boxes(segment.at("boxes")));
   }
   if (view.verdict == "proved") view.margins = read_margins(certificate.at("margins"));
   if (view.verdict == "refuted") view.witness = read_witness(certificate.at("witness"), view.path);

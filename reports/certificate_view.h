@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "certify/dyadic.h"
 #include "kinematics/problem.h"
 #include "kinematics/segment.h"
 
@@ -86,6 +87,8 @@ struct CertificateView {
   std::string footer_sha256;
   std::size_t boxes = 0;
   std::vector<SegmentView> segments;
+  /// The boxes of each segment, without those that are none of the form [k/2^d, (k+1)/2^d], which taut does not write.
+  std::vector<std::vector<DyadicBox>> segment_boxes;
   std::optional<MarginsView> margins;
   std::optional<WitnessView> witness;
   std::optional<UndecidedView> undecided;

@@ -11,7 +11,6 @@ namespace taut {
 
 namespace {
 
-constexpr std::size_t kPathSamples = 480;  ///< along the whole path; a page of 50 segments stays below 0.5 MB
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kMillimetres = 1000;
 constexpr double kPanelWidth = 270;  ///< of small multiples, three to a row
@@ -446,19 +445,6 @@ std::string polygon(const std::vector<Point2>& points, const std::function<Point
 
 }  // namespace
 
-Scene::Scene(const nlohmann::json& certificate)
-    : view(read_certificate(certificate)), sampler(view.problem), samples(sampler.along(view.path, kPathSamples)) {}
-
-std::string unit(const SpaceText& space, std::size_t j) {
-  const Parameter& parameter = space.parameters[j];
-  for (std::size_t c = 0; c < space.pose.size(); ++c) {
-    if (space.pose[c] == parameter.name) return c < 3 ? "m" : "rad";
-  }
-  const bool angular = parameter.kind == ParameterKind::kPeriodic ||
-                       (parameter.range_lower + parameter.range_upper).find("pi") != std::string::npos;
-  return angular ? "rad" : "";
-}
-
 bool is_plane(const SpaceText& space) { return space.parameters.size() == 2 && space.constraints.empty(); }
 
 Html tension_figure(const Scene& scene) { return all_cables(scene, tension_panel); }
@@ -499,8 +485,6 @@ Html slice_figure(const Scene& scene) {
       plot.svg(picture, "The plane of the two parameters: feasible set, atlas and path", slice_marks(scene, plot)),
       keys);
 }
-
-std::string in_brackets(const std::string& unit) { return unit.empty() ? "" : fmt::format("[{}]", unit); }
 
 Html robot_figure(const Scene& scene) {
   const Path& path = scene.view.path;

@@ -1,24 +1,10 @@
 // The report's pictures. All of them are floating-point samples of what the certificate is about.
 #pragma once
 
-#include "reports/certificate_view.h"
 #include "reports/markup.h"
-#include "reports/samples.h"
+#include "reports/scene.h"
 
 namespace taut {
-
-struct Scene {
-  explicit Scene(const nlohmann::json& certificate);
-
-  CertificateView view;
-  Sampler sampler;
-  std::vector<PathSample> samples;  ///< along the whole path
-};
-
-/// "rad", "m" or "": the unit of parameter j, where it can be told.
-[[nodiscard]] std::string unit(const SpaceText& space, std::size_t j);
-/// "[rad]"; nothing for "".
-[[nodiscard]] std::string in_brackets(const std::string& unit);
 
 /// The robot at the first and the last waypoint, and at the witness if there is one, seen from the side.
 [[nodiscard]] Html robot_figure(const Scene& scene);

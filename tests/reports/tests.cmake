@@ -1,4 +1,4 @@
-foreach(header markup plot samples html_report)
+foreach(header markup plot samples scene travel html_report)
   taut_add_test(reports ${header} LABELS unit LIBS taut::reports fmt::fmt)
 endforeach()
 

@@ -1,0 +1,31 @@
+// What a report is made from: the certificate, and floating-point samples of what it is about.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "certify/box_ranges.h"
+#include "reports/certificate_view.h"
+#include "reports/samples.h"
+#include "reports/travel.h"
+
+namespace taut {
+
+struct Scene {
+  explicit Scene(const nlohmann::json& certificate);
+
+  CertificateView view;
+  Sampler sampler;
+  std::vector<PathSample> samples;  ///< along the whole path
+  Travel travel;                    ///< how far into the move a place is
+  /// Of the certificate's boxes, computed anew: proved where the certificate is right. Floating point has no part in them.
+  PathRanges ranges;
+};
+
+/// "rad", "m" or "": the unit of parameter j, where it can be told.
+[[nodiscard]] std::string unit(const SpaceText& space, std::size_t j);
+/// "[rad]"; nothing for "".
+[[nodiscard]] std::string in_brackets(const std::string& unit);
+
+}  // namespace taut

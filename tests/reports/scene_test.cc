@@ -1,0 +1,56 @@
+#include "reports/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kinematics/input_error.h"
+#include "tests/reports/sample_certificates.h"
+
+namespace taut {
+namespace {
+
+TEST(Scene, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
+  const Scene scene(sample::proved());
+  ASSERT_EQ(scene.ranges.segments.size(), 2u);
+  std::size_t seen = 0;
+  for (const PathSample& sample : scene.samples) {
+    const auto k = static_cast<std::size_t>(std::min(sample.position, 1.0));
+    const double s = sample.position - static_cast<double>(k);
+    for (const BoxRanges& box : scene.ranges.segments[k]) {
+      if (s < box.box.lower().approx() || s > box.box.upper().approx()) continue;
+      ++seen;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        EXPECT_LE(box.tension[i].lower, sample.statics.tension[i] - sample.statics.variation[i] + 1e-12);
+        EXPECT_GE(box.tension[i].upper, sample.statics.tension[i] + sample.statics.variation[i] - 1e-12);
+        EXPECT_LE(box.length[i].lower, sample.statics.length[i] + 1e-12);
+        EXPECT_GE(box.length[i].upper, sample.statics.length[i] - 1e-12);
+      }
+    }
+  }
+  EXPECT_GE(seen, scene.samples.size());
+}
+
+TEST(Scene, ReadsBoxesAsTheyAre) {
+  const Scene scene(sample::proved());
+  ASSERT_EQ(scene.view.segment_boxes.size(), 2u);
+  EXPECT_EQ(scene.view.segment_boxes[0], (std::vector<DyadicBox>{{0, 1}, {1, 1}}));
+  EXPECT_EQ(scene.view.segment_boxes[1], (std::vector<DyadicBox>{{0, 0}}));
+}
+
+TEST(Scene, LeavesOutBoxesThatAreNotHalvesOfHalves) {
+  nlohmann::json certificate = sample::proved();
+  certificate["segments"][0]["boxes"] = nlohmann::json::parse(R"([["0","1/4"],["1/4","3/4"],["3/4","1"]])");
+  EXPECT_EQ(Scene(certificate).view.segment_boxes[0], (std::vector<DyadicBox>{{0, 2}, {3, 2}}));
+}
+
+TEST(Scene, RefusesBoxesThatAreNoNumbers) {
+  for (const char* end : {"1/3", "2", "-1", "1/0", "0x1", "", "1/", "/2", "01/2", "1/2 "}) {
+    nlohmann::json certificate = sample::proved();
+    certificate["segments"][1]["boxes"][0] = {"0", end};
+    EXPECT_THROW(Scene{certificate}, InputError) << end;
+  }
+}
+
+}  // namespace
+}  // namespace taut
