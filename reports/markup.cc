@@ -46,4 +46,8 @@ Html folded(bool long_, const Html& summary, const Html& body) {
   return html("<details{}><summary>{}</summary>\n{}</details>\n", long_ ? Html() : html(" open=\"\""), summary, body);
 }
 
+Html section(const char* id, const char* title, const Html& body) {
+  return html("<section id=\"{}\"><h2>{}</h2>\n{}</section>\n", id, title, body);
+}
+
 }  // namespace taut

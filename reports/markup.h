@@ -73,4 +73,7 @@ struct Column {
 /// `body`, folded under `summary` where it is `long_`; printed in full either way.
 [[nodiscard]] Html folded(bool long_, const Html& summary, const Html& body);
 
+/// A section of the page, under a heading of the second level.
+[[nodiscard]] Html section(const char* id, const char* title, const Html& body);
+
 }  // namespace taut

@@ -21,6 +21,8 @@ struct Scene {
   Travel travel;                    ///< how far into the move a place is
   /// Of the certificate's boxes, computed anew: proved where the certificate is right. Floating point has no part in them.
   PathRanges ranges;
+  /// Whether they are those of the whole path: the boxes are without gaps, and all of them were enclosed.
+  bool ranges_are_whole = false;
 };
 
 /// "rad", "m" or "": the unit of parameter j, where it can be told.

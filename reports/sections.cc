@@ -1,0 +1,441 @@
+#include "reports/sections.h"
+
+#include <algorithm>
+
+#include "reports/figures.h"
+#include "reports/wording.h"
+
+namespace taut {
+
+namespace {
+
+constexpr std::size_t kLongTable = 14;  ///< rows; longer tables are folded on the screen
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+/// γ of segment k, where the path runs between poses.
+Html motion_between_poses(Interpolation law) {
+  if (law == Interpolation::kGeodesic) {
+    return html(
+        "<p>p(s) <span class=\"up\">=</span> (1 − s) p<sub>k</sub> + s p<sub>k+1</sub>,&ensp;R(s) <span "
+        "class=\"up\">=</span> R<sub>k</sub> exp(s log(R<sub>k</sub><sup>T</sup> R<sub>k+1</sub>)),&ensp;s ∈ [0, "
+        "1]</p>\n");
+  }
+  return html(
+      "<p>(p, R)(s) <span class=\"up\">the only pose in its tube with</span> |p + R b<sub>i</sub> − a<sub>i</sub>| = "
+      "(1 − s) L<sub>k,i</sub> + s L<sub>k+1,i</sub>,&ensp;s ∈ [0, 1]</p>\n");
+}
+
+Html formulas(const CertificateView& view) {
+  if (view.verdict == "undecided") return {};
+  const Html curve =
+      view.path.interpolation == Interpolation::kStraight
+          ? html("(1 − s) λ<sub>k</sub> + s λ<sub>k+1</sub>")
+          : html(
+                "((1 − s)<sup>3</sup> λ<sub>k</sub> + (3s<sup>3</sup> − 6s<sup>2</sup> + 4) λ<sub>k+1</sub> + "
+                "(−3s<sup>3</sup> + 3s<sup>2</sup> + 3s + 1) λ<sub>k+2</sub> + s<sup>3</sup> λ<sub>k+3</sub>)/6");
+  const Html motion =
+      has_poses(view.path.interpolation) ? motion_between_poses(view.path.interpolation)
+      : view.problem.space.constraints.empty()
+          ? html("<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose({}),&ensp;s ∈ [0, 1]</p>\n", curve)
+          : html(
+                "<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose(ℓ<sub>k</sub>(s) + N<sub>k</sub>(s) y(s)),&ensp;"
+                "ℓ<sub>k</sub>(s) = {},&ensp;s ∈ [0, 1]</p>\n"
+                "<p>y(s) <span class=\"up\">the only</span> y <span class=\"up\">with</span> C(ℓ<sub>k</sub>(s) + "
+                "N<sub>k</sub>(s) y) = 0, |y<sub>i</sub>| ≤ r<sub>k</sub></p>\n",
+                curve);
+  const Html path = html(
+      "{}<p>K <span class=\"up\">=</span> {{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 "
+      "}}</p>\n",
+      motion);
+  if (view.verdict == "refuted") {
+    return html(
+        "<div class=\"formulas\">{}"
+        "<p>∃ k, s ∈ [0, 1], i, w ∈ K :&ensp; det J(γ<sub>k</sub>(s)) = 0 &ensp;<span class=\"up\">or</span>&ensp; "
+        "f<sub>i</sub> ∉ (f<sub>lo,i</sub>, f<sub>hi,i</sub>) <span class=\"up\">with</span> J f = w "
+        "&ensp;<span class=\"up\">or</span>&ensp; d<sub>i</sub> ∉ (d<sub>lo,i</sub>, d<sub>hi,i</sub>)</p></div>\n",
+        path);
+  }
+  return html(
+      "<div class=\"formulas\">{}"
+      "<p>∀ k ∈ {{0, …, {}}} &ensp;∀ s ∈ [0, 1] &ensp;{}∀ w ∈ K &ensp;∀ i ∈ {{1, …, 6}}, "
+      "<span class=\"up\">at the pose</span> γ<sub>k</sub>(s){}:</p>\n"
+      "<p>&emsp;det J ≠ 0, &emsp; J f = w ⟹ f<sub>lo,i</sub> &lt; f<sub>i</sub> &lt; f<sub>hi,i</sub>, &emsp; "
+      "d<sub>lo,i</sub> &lt; d<sub>i</sub> &lt; d<sub>hi,i</sub></p>\n"
+      "<p><span class=\"up\">which is the same as</span>&ensp; f<sub>lo,i</sub> &lt; f<sub>0,i</sub> − v<sub>i</sub>, "
+      "&ensp; f<sub>0,i</sub> + v<sub>i</sub> &lt; f<sub>hi,i</sub>, &ensp;<span class=\"up\">where</span>&ensp; "
+      "f<sub>0</sub> = J<sup>−1</sup> w<sub>0</sub>, &ensp; B = J<sup>T</sup> E J, &ensp; v<sub>i</sub> = "
+      "√(B<sup>−1</sup>)<sub>ii</sub></p></div>\n",
+      path, view.segments.empty() ? 0 : view.segments.size() - 1,
+      view.problem.tolerances ? html("∀ <span class=\"up\">deviations within the tolerances</span> &ensp;") : Html(),
+      view.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html());
+}
+
+/// "0.5 mm", or six of them.
+Html each_cable(const std::array<DecimalText, kCables>& metres) {
+  if (std::ranges::all_of(metres, [&](const DecimalText& x) { return x == metres[0]; })) {
+    return html("{} mm", millimetres(metres[0]));
+  }
+  Html list;
+  for (const DecimalText& x : metres) list += html("{}{}", list.empty() ? "" : ", ", millimetres(x));
+  return list + html(" mm");
+}
+
+Html triple(const std::array<DecimalText, 3>& metres) {
+  return html("({}, {}, {})", millimetres(metres[0]), millimetres(metres[1]), millimetres(metres[2]));
+}
+
+Html robot_tables(const Problem& problem) {
+  std::vector<std::vector<Html>> cables;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Limits& tension = problem.robot.tension_N[i];
+    const Limits& length = problem.robot.length_m[i];
+    cables.push_back({html("{}", i + 1), triple(problem.robot.base_anchors_m[i]),
+                      triple(problem.robot.platform_anchors_m[i]),
+                      html("({}, {})", plain(tension.lower), plain(tension.upper)),
+                      html("({}, {})", millimetres(length.lower), millimetres(length.upper))});
+  }
+  return table({{html("Cable"), true},
+                {html("Base anchor a [mm]")},
+                {html("Platform anchor b [mm]")},
+                {html("Tension limits [N]")},
+                {html("Length limits [mm]")}},
+               cables);
+}
+
+Html load_table(const LoadText& load) {
+  constexpr std::array<const char*, 6> kNames = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
+  std::vector<Column> columns = {{html("Component")}, {html("w<sub>0</sub>"), true}};
+  for (int j = 1; j <= 6; ++j) columns.push_back({html("E<sub>i{}</sub>", j), true});
+  std::vector<std::vector<Html>> rows;
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::vector<Html> row = {html("{} [{}]", kNames[i], i < 3 ? "N" : "N·m"), html("{}", plain(load.wrench[i]))};
+    for (std::size_t j = 0; j < 6; ++j) row.push_back(html("{}", plain(load.ellipsoid[i][j])));
+    rows.push_back(std::move(row));
+  }
+  return html(
+             "<p>Load point p<sub>m</sub> = {} mm in the platform frame. Wrenches are about that point, in the axes of "
+             "the world. E in 1/N², 1/(N·N·m) and 1/(N·m)².</p>\n",
+             triple(load.point_m)) +
+         table(columns, rows);
+}
+
+Html space_tables(const Problem& problem) {
+  const SpaceText& space = problem.space;
+  std::vector<std::vector<Html>> rows;
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    const Parameter& parameter = space.parameters[j];
+    Html range = html("any real number");
+    if (parameter.kind == ParameterKind::kPeriodic) range = html("an angle; values 2π apart are the same");
+    if (parameter.kind == ParameterKind::kRange) {
+      range = html("<code>{}</code> to <code>{}</code>", parameter.range_lower, parameter.range_upper);
+    }
+    Html typed;
+    for (const auto& waypoint : problem.query) {
+      typed += html("{}<code>{}</code>", typed.empty() ? Html() : html(", "), j < waypoint.size() ? waypoint[j] : "");
+    }
+    rows.push_back({html("<code>{}</code>", parameter.name), html("{}", unit(space, j)), range, typed});
+  }
+  std::vector<std::vector<Html>> pose;
+  for (std::size_t c = 0; c < 6; ++c) {
+    pose.push_back({html("<code>{}</code>", kPoseNames[c]), html("<code>{}</code>", space.pose[c]),
+                    html("{}", c < 3 ? "m" : "rad")});
+  }
+  Html constants;
+  for (const auto& [name, value] : space.constants) constants += html("<li><code>{} = {}</code></li>\n", name, value);
+  Html result = table({{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
+                table({{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
+  if (!constants.empty()) result += html("<p>Constants, as the expressions use them:</p><ul>{}</ul>\n", constants);
+  Html constraints;
+  for (const ExpressionText& c : space.constraints) constraints += html("<li><code>{} = 0</code></li>\n", c);
+  if (!constraints.empty()) {
+    result +=
+        html("<p>Constraints, which every pose of the path fulfils exactly (m, rad):</p><ul>{}</ul>\n", constraints);
+  }
+  if (space.flip) result += html("<p>(φ, θ) and (φ + π, −θ) are the same pose, and count as such.</p>\n");
+  return result;
+}
+
+/// Exact parameters and rounded pose of every waypoint: side by side, or one below the other where that is too wide.
+Html waypoint_table(const Scene& scene) {
+  constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
+  const Path& path = scene.view.path;
+  const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
+  const Html what = html("{}", is_spline ? "Control point" : "Waypoint");
+  std::vector<Column> columns = {{what, true}};
+  const auto named = coordinates(scene.view);
+  for (const auto& [name, unit] : named) columns.push_back({html("<code>{}</code> {}", name, in_brackets(unit)), true});
+  std::vector<Column> pose_columns = {{what, true}};
+  for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"}) {
+    pose_columns.push_back({html("{}", name), true});
+  }
+  std::vector<std::vector<Html>> rows;
+  std::vector<std::vector<Html>> pose_rows;
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    const Waypoint& waypoint = path.waypoints[k];
+    rows.push_back({html("{}", k)});
+    for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+      rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], half_turns(waypoint, j))));
+    }
+    const Pose<double> pose =
+        is_spline ? scene.sampler.pose(waypoint) : scene.sampler.at(path, static_cast<double>(k)).pose;
+    pose_rows.push_back({html("{}", k)});
+    for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
+    for (const double angle : {pose.phi, pose.theta, pose.sigma}) {
+      pose_rows.back().push_back(html("{:.3f}", angle * kDegrees + 0.0));
+    }
+  }
+  if (named.size() > kSideBySide) return table(columns, rows) + table(pose_columns, pose_rows);
+  columns.insert(columns.end(), pose_columns.begin() + 1, pose_columns.end());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].insert(rows[k].end(), pose_rows[k].begin() + 1, pose_rows[k].end());
+  }
+  return table(columns, rows);
+}
+
+/// How the path is on the constraints, and how far that takes it from the waypoints.
+Html on_constraints(const Scene& scene) {
+  const std::vector<double>& tubes = scene.view.path.tubes;
+  const double widest = tubes.empty() ? 0 : *std::max_element(tubes.begin(), tubes.end());
+  return html(
+      " All poses of the motion lie on the constraints, exactly; waypoints lie near them, and the poses shown are "
+      "those "
+      "on them. The motion is at most {:.3g} (m, rad; r<sub>k</sub> along each column of N) from what the waypoints "
+      "alone "
+      "would give.",
+      widest);
+}
+
+std::string violation_text(const WitnessView& end) {
+  if (end.to) return "the force Jacobian becomes singular";
+  return fmt::format("{} of cable {} in [{}, {}], limit {}, at {} of segment {}", end.kind, end.cable,
+                     plain(end.value_lower), plain(end.value_upper), end.limit, end.at.s.value_or("0"), end.at.index);
+}
+
+/// Canonical JSON is what Python writes with these arguments, as a certificate has no fractional number.
+constexpr const char* kDigestCommand = R"(python3 -c '
+import json, hashlib
+c = json.load(open("certificate.json")); c.pop("footer"); c.pop("signature", None)
+for v in (c["problem"], c["path"], c):
+    text = json.dumps(v, sort_keys=True, separators=(",", ":"))
+    print(hashlib.sha256(text.encode()).hexdigest())
+')";
+
+}  // namespace
+
+Html theorem(const CertificateView& view) {
+  const std::vector<Column> columns = {{html("Symbol")}, {html("Meaning")}, {html("Unit")}};
+  const auto row = [](const Html& symbol, const Html& meaning, const Html& unit) {
+    return std::vector<Html>{html("<i>{}</i>", symbol), meaning, unit};
+  };
+  const Html symbols = table(
+      columns,
+      {row(html("γ<sub>k</sub>(s)"), html("pose of the platform at the point s of segment k"), html("")),
+       row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
+           html("m, rad")),
+       row(html("p, R"),
+           html("position of the platform's origin; its orientation R = R<sub>z</sub>(φ) R<sub>y</sub>(θ) "
+                "R<sub>z</sub>(σ − φ)"),
+           html("m, rad")),
+       row(html("a<sub>i</sub>, b<sub>i</sub>"),
+           html("anchors of cable i on the base (world axes) and on the platform (platform axes)"), html("m")),
+       row(html("d<sub>i</sub>"), html("length of cable i, |p + R b<sub>i</sub> − a<sub>i</sub>|"), html("m")),
+       row(html("u<sub>i</sub>"), html("direction of cable i, from base to platform"), html("1")),
+       row(html("J"),
+           html("force Jacobian: column i is (u<sub>i</sub> ; (R (b<sub>i</sub> − p<sub>m</sub>)) × u<sub>i</sub>), "
+                "about the load point"),
+           html("1, m")),
+       row(html("f<sub>i</sub>"), html("tension of cable i"), html("N")),
+       row(html("w, w<sub>0</sub>"),
+           html("wrench (force, moment about the load point) that the cables balance; its centre value"),
+           html("N, N·m")),
+       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches in it"), html("1/N², 1/(N·m)²")),
+       row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
+           html("least and greatest tension of cable i over all wrenches in K"), html("N")),
+       row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
+           html("limits of tension and length; they are themselves excluded"), html("N, m"))});
+  return section(
+      "theorem", "What is claimed",
+      html("<blockquote>{}</blockquote>\n{}{}", view.claim, formulas(view), folded(false, html("Symbols"), symbols)));
+}
+
+Html assumptions(const Problem& problem) {
+  const bool held = problem.tolerances && problem.tolerances->cable_length_m;
+  const Html exactness =
+      problem.tolerances
+          ? html(
+                "<li>Anchors, load and tracking differ from the numbers below by no more than the tolerances. Limits "
+                "and the "
+                "load ellipsoid are exactly as below.</li>\n")
+          : html(
+                "<li>Anchors, limits, load and ellipsoid are exactly the numbers below. Tolerances of manufacture, "
+                "measurement and control are not covered.</li>\n");
+  const Html following =
+      held
+          ? html(
+                "<li>The winches hold the lengths that the path commands, between waypoints too, within their "
+                "tolerance.</li>\n")
+          : html("<li>The controller follows the path as the interpolation law states, between waypoints too{}.</li>\n",
+                 problem.tolerances ? ", within the tolerances" : ", exactly");
+  return section(
+      "assumptions", "What is assumed, and what is not covered",
+      html("<p>The claim is about a mathematical model. Whoever signs this report vouches that the machine "
+           "agrees with it.</p>\n<ul>\n"
+           "<li>Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no "
+           "pulleys.</li>\n"
+           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load ellipsoid contains "
+           "them.</li>\n"
+           "{}{}"
+           "<li>Waypoints are the binary64 numbers below; a typed coordinate that is no such number is moved by at "
+           "most half a unit in its last place.</li>\n"
+           "<li>Collisions of cables, platform and surroundings are not examined.</li>\n"
+           "<li>Whether the numbers are those of a built machine is outside the proof. Where a case says that its "
+           "geometry is a reconstruction, the claim is about the reconstruction.</li>\n</ul>\n",
+           exactness, following));
+}
+
+Html tolerances(const CertificateView& view) {
+  if (!view.problem.tolerances) return {};
+  const TolerancesText& t = *view.problem.tolerances;
+  std::vector<std::vector<Html>> rows;
+  const auto row = [&](const std::string& key, const Html& what, const Html& stated) {
+    Html limit = html("–");
+    for (const ToleranceLimitView& found : view.tolerance_limits) {
+      if (found.tolerance == key) limit = html("{} {}", found.proved, found.unit);
+    }
+    rows.push_back({what, stated, limit});
+  };
+  row("base_anchors", html("anchors on the base, each from where it is stated"), each_cable(t.base_anchor_m));
+  row("platform_anchors", html("anchors on the platform, likewise"), each_cable(t.platform_anchor_m));
+  row("load_point", html("load point on the platform"), html("{} mm", millimetres(t.load_point_m)));
+  Html wrench;
+  for (const DecimalText& x : t.wrench) wrench += html("{}{}", wrench.empty() ? "± (" : ", ", x);
+  row("load", html("wrench w<sub>0</sub>: force [N], moment [N·m]"), wrench + html(")"));
+  row("position", html("tracking: position of the platform's origin"), html("{} mm", millimetres(t.position_m)));
+  row("orientation", html("tracking: angle that the platform is turned by"), html("{} rad", t.orientation_rad));
+  if (t.cable_length_m)
+    row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m));
+  const Html note =
+      view.tolerance_limits.empty()
+          ? Html()
+          : html(
+                "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
+                "still be "
+                "proved, bisected; of six the largest. It was proved by {} and is no part of the claim that taut-check "
+                "proves again.</p>\n",
+                view.generator);
+  return section("tolerances", "Tolerances",
+                 html("<p>The claim covers every machine within all of these at once.</p>\n") +
+                     table({{html("Tolerance")}, {html("Stated"), true}, {html("Proved up to, alone"), true}}, rows) +
+                     note);
+}
+
+Html inputs(const CertificateView& view) {
+  const auto digest = [](const std::string& text) { return html("<span class=\"digest\">{}</span>", text); };
+  const auto row = [](const Html& what, const Html& value) { return std::vector<Html>{what, value}; };
+  return section(
+      "inputs", "Inputs and digests",
+      table({{html("What")}, {html("Value")}},
+            {row(html("case"), html("<bdi>{}</bdi>", view.problem.name)),
+             row(html("made by"), html("{}", view.generator)), row(html("problem_sha256"), digest(view.problem_sha256)),
+             row(html("path_sha256"), digest(view.path_sha256)),
+             row(html("footer.sha256"), digest(view.footer_sha256))}) +
+          html("<p class=\"note\">SHA-256 of the canonical JSON of the problem, of the path, and of the whole "
+               "certificate without its footer. This report prints them; taut-check compares them.</p>\n"));
+}
+
+Html robot(const Scene& scene) {
+  return section(
+      "robot", "Robot, load and space of poses",
+      robot_figure(scene) +
+          html("<p class=\"note\">Seen from the side, with the load pulling down; the dot is the load point. "
+               "Numbers are cables.</p>\n") +
+          robot_tables(scene.view.problem) + html("<h3>Load</h3>\n") + load_table(scene.view.problem.load) +
+          html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
+}
+
+Html path_section(const Scene& scene) {
+  const std::size_t count = scene.view.path.waypoints.size();
+  if (count == 0) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
+  const Html segments =
+      scene.view.path.interpolation != Interpolation::kCubicBSpline
+          ? html("segment k leads from waypoint k to waypoint k + 1")
+          : html(
+                "segment k is the piece of a spline that waypoints k to k + 3 control, passing through a waypoint only "
+                "where that stands three times in a row");
+  const bool constrained = !scene.view.problem.space.constraints.empty();
+  return section(
+      "path", "Path",
+      html("<p>{}, numbered from 0; {}. Interpolation: "
+           "<code>{}</code>.{} Parameters are exact: the decimals read back to the binary64 numbers of the "
+           "certificate bit for bit, and a multiple of π is added where it is written. Pose coordinates are rounded, "
+           "and angles are not wrapped.</p>\n",
+           plural(count, "waypoint"), segments, scene.view.interpolation,
+           constrained ? on_constraints(scene) : Html()) +
+          pose_figure(scene) +
+          folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene)));
+}
+
+Html margins(const CertificateView& view) {
+  if (!view.margins) return {};
+  std::vector<std::vector<Html>> rows;
+  rows.reserve(view.segments.size());
+  const auto cell = [](const std::string& value, const std::string& least) {
+    return value == least ? html("<b>{}</b>", value) : html("{}", value);
+  };
+  for (const SegmentView& segment : view.segments) {
+    rows.push_back({html("{}", segment.from), html("{} → {}", segment.from, segment.to), html("{}", segment.boxes),
+                    cell(segment.margins.tension_N, view.margins->tension_N),
+                    cell(segment.margins.length_m, view.margins->length_m),
+                    cell(segment.margins.wrench_scale, view.margins->wrench_scale)});
+  }
+  const Html all = table({{html("Segment"), true},
+                          {html("Waypoints"), true},
+                          {html("Boxes"), true},
+                          {html("tension_N [N]"), true},
+                          {html("length_m [m]"), true},
+                          {html("wrench_scale [1]"), true}},
+                         rows);
+  return section(
+      "margins", "Proved margins",
+      html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load in K, as the "
+           "certificate states them. <code>tension_N</code>: distance of a tension from its nearer limit. "
+           "<code>length_m</code>: the same for a length. <code>wrench_scale</code>: the factor by which the "
+           "semi-axes of K may grow before a tension reaches its limit; along the whole path it is at least "
+           "<b>{}</b>. The least of each column is set in bold. The true margins may be larger: a bound is as sharp "
+           "as the proof needed it.</p>\n",
+           plain(view.margins->wrench_scale)) +
+          folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "segment")), all));
+}
+
+Html stretches(const CertificateView& view) {
+  if (view.stretches.empty()) return {};
+  const auto place = [](const PathPointView& point) {
+    return html("segment {}, s = {:.6g}", point.index, point.position - point.index);
+  };
+  std::vector<std::vector<Html>> rows;
+  for (const StretchView& stretch : view.stretches) {
+    rows.push_back({place(stretch.begin), place(stretch.end),
+                    stretch.first ? html("{}", violation_text(*stretch.first)) : html("open: {}", stretch.reason),
+                    stretch.last ? html("{}", violation_text(*stretch.last)) : Html()});
+  }
+  const Html all = table({{html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}}, rows);
+  return section("stretches", "Where the path is not proved",
+                 html("<p>{} Segment k leads from waypoint k to the next.</p>\n",
+                      view.verdict == "refuted" ? "Outside of these stretches the path is proved. Each violation is "
+                                                  "proved at one pose, with an enclosure of the quantity."
+                                                : "These stretches were left open; nothing is claimed of them.") +
+                     folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "stretch")), all));
+}
+
+Html recheck(const CertificateView& view) {
+  return section("recheck", "How to check this again",
+                 html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
+                      "certificate and the case file. It should exit with {}.</p>\n<pre>taut-check certificate.json "
+                      "CASE.yaml</pre>\n"
+                      "<p>The printed digests can be computed without taut:</p>\n"
+                      "<pre>{}</pre>\n"
+                      "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
+                      view.verdict == "undecided" ? "2, undecided" : "0, accepted", kDigestCommand));
+}
+
+}  // namespace taut

@@ -1,0 +1,27 @@
+// The report's sections behind its first page: what a certificate says, in full, in words and tables. Some are empty where there is
+// nothing to say.
+#pragma once
+
+#include "reports/markup.h"
+#include "reports/scene.h"
+
+namespace taut {
+
+/// The claim, word by word and in formulas, with its symbols.
+[[nodiscard]] Html theorem(const CertificateView& view);
+[[nodiscard]] Html tolerances(const CertificateView& view);
+[[nodiscard]] Html assumptions(const Problem& problem);
+/// What the certificate is made from, with digests.
+[[nodiscard]] Html inputs(const CertificateView& view);
+/// Robot, load and space of poses.
+[[nodiscard]] Html robot(const Scene& scene);
+/// The path's waypoints.
+[[nodiscard]] Html path_section(const Scene& scene);
+/// Where an audited path is not proved.
+[[nodiscard]] Html stretches(const CertificateView& view);
+/// Proved margins of each segment.
+[[nodiscard]] Html margins(const CertificateView& view);
+/// How to check the certificate again.
+[[nodiscard]] Html recheck(const CertificateView& view);
+
+}  // namespace taut

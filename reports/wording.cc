@@ -1,0 +1,83 @@
+#include "reports/wording.h"
+
+#include <fmt/format.h>
+
+#include "kinematics/decimal.h"
+#include "reports/scene.h"
+
+namespace taut {
+
+namespace {
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+}  // namespace
+
+std::string plain(const DecimalText& decimal) { return Decimal::parse(decimal).text(); }
+
+std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metres) * Decimal::parse("1000")).text(); }
+
+std::string plural(std::size_t count, const std::string& noun) {
+  const std::string ending = noun.ends_with('x') || noun.ends_with('h') ? "es" : "s";
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);
+}
+
+std::string coordinate_text(double x, int half_turns) {
+  std::string text = fmt::format("{}", x);
+  if (half_turns != 0) {
+    const int count = std::abs(half_turns);
+    text += fmt::format(" {} {}π", half_turns > 0 ? "+" : "−", count == 1 ? "" : std::to_string(count));
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> coordinates(const CertificateView& view) {
+  std::vector<std::pair<std::string, std::string>> result;
+  if (!has_poses(view.path.interpolation)) {
+    const SpaceText& space = view.problem.space;
+    for (std::size_t j = 0; j < space.parameters.size(); ++j)
+      result.emplace_back(space.parameters[j].name, unit(space, j));
+    return result;
+  }
+  for (const char* name : {"px", "py", "pz"}) result.emplace_back(name, "m");
+  for (const char* name : {"qx", "qy", "qz", "qw"}) result.emplace_back(name, "");
+  if (view.path.interpolation == Interpolation::kCableLengths) {
+    for (const char* name : {"L1", "L2", "L3", "L4", "L5", "L6"}) result.emplace_back(name, "m");
+  }
+  return result;
+}
+
+int half_turns(const Waypoint& waypoint, std::size_t j) {
+  return j < waypoint.half_turns.size() ? waypoint.half_turns[j] : 0;
+}
+
+std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint) {
+  std::string names;
+  std::string values;
+  const auto named = coordinates(view);
+  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+    const char* comma = j == 0 ? "" : ", ";
+    names += comma + named[j].first;
+    values += comma + coordinate_text(waypoint.x[j], half_turns(waypoint, j));
+  }
+  return fmt::format("({}) = ({})", names, values);
+}
+
+std::string segment_text(const CertificateView& view, int k) {
+  if (view.path.interpolation == Interpolation::kCubicBSpline) return fmt::format("segment {}", k);
+  return fmt::format("segment {}, between waypoints {} and {}", k, k, k + 1);
+}
+
+std::string point_text(const CertificateView& view, const PathPointView& point) {
+  if (!point.s)
+    return fmt::format("waypoint {}, {}", point.index, waypoint_text(view, view.path.waypoints[point.index]));
+  return fmt::format("s = {} of {}", *point.s, segment_text(view, point.index));
+}
+
+std::string pose_text(const Pose<double>& pose) {
+  return fmt::format("p = ({:.4g}, {:.4g}, {:.4g}) mm, φ = {:.4g}°, θ = {:.4g}°, σ = {:.4g}°", pose.p_WP(0) * 1000,
+                     pose.p_WP(1) * 1000, pose.p_WP(2) * 1000, pose.phi * kDegrees, pose.theta * kDegrees,
+                     pose.sigma * kDegrees);
+}
+
+}  // namespace taut
