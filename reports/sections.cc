@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "reports/figures.h"
 #include "reports/wording.h"
 
 namespace taut {
@@ -344,13 +343,9 @@ Html inputs(const CertificateView& view) {
 }
 
 Html robot(const Scene& scene) {
-  return section(
-      "robot", "Robot, load and space of poses",
-      robot_figure(scene) +
-          html("<p class=\"note\">Seen from the side, with the load pulling down; the dot is the load point. "
-               "Numbers are cables.</p>\n") +
-          robot_tables(scene.view.problem) + html("<h3>Load</h3>\n") + load_table(scene.view.problem.load) +
-          html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
+  return section("robot", "Robot, load and space of poses",
+                 robot_tables(scene.view.problem) + html("<h3>Load</h3>\n") + load_table(scene.view.problem.load) +
+                     html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
 }
 
 Html path_section(const Scene& scene) {
@@ -371,7 +366,6 @@ Html path_section(const Scene& scene) {
            "and angles are not wrapped.</p>\n",
            plural(count, "waypoint"), segments, scene.view.interpolation,
            constrained ? on_constraints(scene) : Html()) +
-          pose_figure(scene) +
           folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene)));
 }
 
