@@ -16,6 +16,7 @@
 #include "cli/path_source.h"
 #include "cli/tolerance_table.h"
 #include "kinematics/case_file.h"
+#include "kinematics/input_error.h"
 #include "reports/html_report.h"
 
 namespace taut {
@@ -163,11 +164,23 @@ Path whole_path(PathSource& source) {
   return path;
 }
 
+/// The path that the case names, where the command line names none; and with that path, how to read it.
+void take_what_the_case_says(const Case& case_, AuditArguments& arguments) {
+  if (!arguments.path.empty()) return;
+  if (!case_.audit) {
+    throw InputError(arguments.case_path + ": got no PATH and no key 'audit', expected a path to audit");
+  }
+  arguments.path = (std::filesystem::path(arguments.case_path).parent_path() / case_.audit->file).string();
+  if (arguments.law.empty()) arguments.law = case_.audit->interpolation;
+  arguments.allow_repeats = arguments.allow_repeats || case_.audit->allow_repeats;
+}
+
 }  // namespace
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md); needs no query")->required();
-  command.add_option("PATH", arguments.path, "path file, or a certificate.json (docs/audits.md)")->required();
+  command.add_option("PATH", arguments.path,
+                     "path file, or a certificate.json (docs/audits.md; default: what the case's 'audit' names)");
   std::vector<std::string> names;
   for (const auto& [law, ignored] : laws()) names.push_back(law);
   command
@@ -183,8 +196,9 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_flag("--json", arguments.json, "print the result as JSON");
 }
 
-int run_audit(const AuditArguments& arguments) {
+int run_audit(AuditArguments arguments) {
   const Case case_ = load_case(arguments.case_path);
+  take_what_the_case_says(case_, arguments);
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::optional<Interpolation> law =
       arguments.law.empty() ? std::nullopt : std::optional(laws().at(arguments.law));

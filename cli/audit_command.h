@@ -8,7 +8,7 @@ namespace taut {
 
 struct AuditArguments {
   std::string case_path;
-  std::string path;
+  std::string path;  ///< empty: the case's
   std::string law;  ///< empty: the file's own
   std::string out;
   std::string key;   ///< file of the private key that signs, or empty
@@ -20,6 +20,6 @@ struct AuditArguments {
 void add_audit_options(CLI::App& command, AuditArguments& arguments);
 
 /// @returns the exit code. @throws InputError
-[[nodiscard]] int run_audit(const AuditArguments& arguments);
+[[nodiscard]] int run_audit(AuditArguments arguments);
 
 }  // namespace taut

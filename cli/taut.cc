@@ -19,6 +19,7 @@
 #include "cli/illustration.h"
 #include "cli/path_csv.h"
 #include "cli/plan.h"
+#include "cli/regress_command.h"
 #include "cli/tolerance_table.h"
 #include "kinematics/input_error.h"
 #include "reports/html_report.h"
@@ -206,6 +207,10 @@ int run(int argc, char** argv) {
   CLI::App* audit_command = app.add_subcommand("audit", "prove or refute a path that something else made");
   add_audit_options(*audit_command, audit_arguments);
 
+  RegressArguments regress_arguments;
+  CLI::App* regress_command = app.add_subcommand("regress", "run every case of a folder against what it declares");
+  add_regress_options(*regress_command, regress_arguments);
+
   std::string certificate_path;
   std::string report_out;
   CLI::App* report_command = app.add_subcommand("report", "write the report again from the certificate alone");
@@ -225,6 +230,7 @@ int run(int argc, char** argv) {
     rounding_self_test();
     return run_audit(audit_arguments);
   }
+  if (*regress_command) return run_regress(regress_arguments);
   return run_report(certificate_path, report_out);
 }
 

@@ -694,6 +694,63 @@ PlannerOptions read_planner(const Field& field) {
   return planner;
 }
 
+double read_bound(const Field& field, std::optional<Unit> unit) {
+  if (!unit) return ScalarTraits<double>::from_decimal(read_decimal(field).text());
+  return evaluate_constant<double>(read_quantity(field, *unit));
+}
+
+std::vector<Bound> read_bounds(const Map& map, const Units& units) {
+  const std::map<std::string, Dimension> dimensions = {{"tension_margin", Dimension::kForce},
+                                                       {"length_margin", Dimension::kLength},
+                                                       {"length", Dimension::kLength},
+                                                       {"angle", Dimension::kAngle}};
+  std::vector<Bound> bounds;
+  for (const char* quantity : kBoundQuantities) {
+    const auto field = map.find(quantity);
+    if (!field) continue;
+    const auto dimension = dimensions.find(quantity);
+    const std::optional<Unit> unit =
+        dimension == dimensions.end() ? std::nullopt : std::optional(units[dimension->second]);
+    const std::vector<Field> ends = field->list(2, "a pair [lower, upper], either of which may be null");
+    Bound bound{quantity};
+    if (!ends[0].node().IsNull()) bound.lower = read_bound(ends[0], unit);
+    if (!ends[1].node().IsNull()) bound.upper = read_bound(ends[1], unit);
+    if (!(bound.lower <= bound.upper)) field->fail("lower <= upper");
+    bounds.push_back(bound);
+  }
+  return bounds;
+}
+
+/// A verdict, or a map of it and of bounds.
+void read_expectation(const Field& field, const Units& units, Case& result) {
+  Field verdict = field;
+  if (field.node().IsMap()) {
+    std::vector<std::string> keys = {"verdict"};
+    keys.insert(keys.end(), kBoundQuantities.begin(), kBoundQuantities.end());
+    const Map map = field.map(keys);
+    verdict = map.at("verdict");
+    result.bounds = read_bounds(map, units);
+  }
+  result.expect = read_choice<Expectation>(
+      verdict,
+      {{"proved", Expectation::kProved}, {"refuted", Expectation::kRefuted}, {"undecided", Expectation::kUndecided}});
+}
+
+AuditedPath read_audited_path(const Field& field) {
+  const Map map = field.map({"path", "interpolation", "allow_repeats"});
+  AuditedPath result;
+  result.file = map.at("path").text("the name of a path file, seen from the case file");
+  if (const auto law = map.find("interpolation")) {
+    const std::vector<std::string> laws = {"straight", "geodesic", "cable-lengths"};
+    result.interpolation = law->text("one of " + join(laws));
+    if (std::ranges::find(laws, result.interpolation) == laws.end()) law->fail("one of " + join(laws));
+  }
+  if (const auto allow = map.find("allow_repeats")) {
+    result.allow_repeats = read_choice<bool>(*allow, {{"true", true}, {"false", false}});
+  }
+  return result;
+}
+
 std::string read_name(const Field& field) {
   constexpr std::size_t kMaxLength = 200;
   const std::string expected = fmt::format("a name of 1 to {} characters on one line", kMaxLength);
@@ -704,8 +761,8 @@ std::string read_name(const Field& field) {
 }
 
 Case read_case(const Field& root) {
-  const Map map =
-      root.map({"taut", "name", "units", "robot", "load", "tolerances", "space", "query", "planner", "expect"});
+  const Map map = root.map(
+      {"taut", "name", "units", "robot", "load", "tolerances", "space", "query", "planner", "audit", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }
@@ -727,11 +784,8 @@ Case read_case(const Field& root) {
     if (query) result.problem.query = read_query(*query, space);
   }
   if (const auto planner = map.find("planner")) result.planner = read_planner(*planner);
-  if (const auto expect = map.find("expect")) {
-    result.expect = read_choice<Expectation>(
-        *expect,
-        {{"proved", Expectation::kProved}, {"refuted", Expectation::kRefuted}, {"undecided", Expectation::kUndecided}});
-  }
+  if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit);
+  if (const auto expect = map.find("expect")) read_expectation(*expect, units, result);
   return result;
 }
 

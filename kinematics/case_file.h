@@ -1,9 +1,12 @@
 // Case files: YAML in, exact Problem out (docs/case-format.md).
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "kinematics/problem.h"
 #include "kinematics/units.h"
@@ -30,11 +33,31 @@ struct PlannerOptions {
   Smoothing smoothing = Smoothing::kShorten;  ///< what is done to the path found, before it is proved as a whole
 };
 
+/// What a case says that something which is measured of its result should be, in SI: lower <= it <= upper.
+struct Bound {
+  std::string quantity;  ///< one of kBoundQuantities
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+};
+/// The proved margins [N, m, 1]; the way of the platform's origin [m] and the angle it turns by [rad]; the planner's cost; counts.
+inline constexpr std::array<const char*, 10> kBoundQuantities = {
+    "tension_margin", "length_margin", "wrench_scale", "length", "angle",
+    "cost",           "segments",      "boxes",        "charts", "stretches"};
+
+/// A path that a case is about: to be audited, where others are planned.
+struct AuditedPath {
+  std::string file;           ///< beside the case file
+  std::string interpolation;  ///< empty: as the file suggests
+  bool allow_repeats = false;
+};
+
 /// Without `space` in the file: coordinate_space(). Without `query`: none, such a case is for audits.
 struct Case {
   Problem problem;
   PlannerOptions planner;
   Expectation expect = Expectation::kNone;
+  std::vector<Bound> bounds;  ///< what else is expected
+  std::optional<AuditedPath> audit;
   std::string description;                         ///< the file's leading comment block, for reports
   Unit length_unit = si_unit(Dimension::kLength);  ///< of bare lengths, for messages
 };

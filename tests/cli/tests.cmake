@@ -14,3 +14,6 @@ taut_add_test(cli any_anchors LABELS unit LIBS taut_plan taut::reports fmt::fmt)
 add_test(NAME cli.audit COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/audit_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.audit PROPERTIES LABELS "unit" TIMEOUT 300)
+add_test(NAME cli.regress COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/regress_test.py
+  $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
+set_tests_properties(cli.regress PROPERTIES LABELS "unit" TIMEOUT 300)

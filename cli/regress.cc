@@ -1,0 +1,407 @@
+#include "cli/regress.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <thread>
+
+#include "cli/console.h"
+#include "cli/files.h"
+#include "cli/subprocess.h"
+#include "kinematics/case_file.h"
+#include "kinematics/input_error.h"
+#include "kinematics/shown.h"
+
+namespace taut {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kBaselineFormat = "taut-baseline";
+constexpr int kBaselineVersion = 1;
+
+/// A folder that is gone with its object, unless the user wants to keep it.
+class ResultFolder {
+ public:
+  explicit ResultFolder(const fs::path& wanted) : is_kept_(!wanted.empty()) {
+    if (is_kept_) {
+      make_directories(wanted);
+      path_ = wanted;
+      return;
+    }
+    std::string name = (fs::temp_directory_path() / "taut-regress-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw InputError(fmt::format("{}: {}", name, std::generic_category().message(errno)));
+    }
+    path_ = name;
+  }
+  ~ResultFolder() {
+    std::error_code ignored;
+    if (!is_kept_) fs::remove_all(path_, ignored);
+  }
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  bool is_kept_;
+  fs::path path_;
+};
+
+const char* name(Expectation expectation) {
+  switch (expectation) {
+    case Expectation::kProved: return "proved";
+    case Expectation::kRefuted: return "refuted";
+    case Expectation::kUndecided: return "undecided";
+    case Expectation::kNone: break;
+  }
+  return "";
+}
+
+// --- One case ----------------------------------------------------------------------------------------------------------
+
+/// Margins are decimals as text, counts and lengths are numbers.
+std::optional<double> number(const json& value) {
+  if (value.is_number()) return value.get<double>();
+  if (!value.is_string()) return std::nullopt;
+  return ScalarTraits<double>::from_decimal(value.get<std::string>());
+}
+
+/// From what `taut plan --json` and `taut audit --json` print.
+Measurement measurement(const json& summary) {
+  Measurement result{summary.at("verdict"), {}};
+  const auto take = [&](const char* quantity, const json& object, const char* key) {
+    if (!object.is_object() || !object.contains(key)) return;
+    if (const auto value = number(object.at(key))) result.quantities[quantity] = *value;
+  };
+  const json margins = summary.value("margins", json());
+  take("tension_margin", margins, "tension_N");
+  take("length_margin", margins, "length_m");
+  take("wrench_scale", margins, "wrench_scale");
+  take("segments", summary, "segments");
+  take("boxes", summary, "boxes");
+  if (summary.contains("stretches_violated")) {
+    result.quantities["stretches"] =
+        summary.at("stretches_violated").get<double>() + summary.at("stretches_open").get<double>();
+  } else if (result.verdict == "proved") {
+    take("length", summary, "length_m");
+    take("angle", summary, "angle_rad");
+    take("cost", summary, "cost");
+    take("charts", summary, "charts");
+  }
+  return result;
+}
+
+std::string shown_number(double x) { return fmt::format("{:.6g}", x); }
+
+std::string shown_bound(const Bound& bound) {
+  if (std::isinf(bound.upper)) return "at least " + shown_number(bound.lower);
+  if (std::isinf(bound.lower)) return "at most " + shown_number(bound.upper);
+  return fmt::format("{} to {}", shown_number(bound.lower), shown_number(bound.upper));
+}
+
+std::vector<std::string> differences(const Case& declared, const Measurement& measured) {
+  std::vector<std::string> result;
+  if (measured.verdict != name(declared.expect)) {
+    result.push_back(fmt::format("{}, expected {}", measured.verdict, name(declared.expect)));
+  }
+  for (const Bound& bound : declared.bounds) {
+    const auto found = measured.quantities.find(bound.quantity);
+    if (found == measured.quantities.end()) {
+      result.push_back(fmt::format("{} was not measured", bound.quantity));
+      continue;
+    }
+    if (bound.lower <= found->second && found->second <= bound.upper) continue;
+    result.push_back(
+        fmt::format("{} is {}, expected {}", bound.quantity, shown_number(found->second), shown_bound(bound)));
+  }
+  return result;
+}
+
+/// What a program that failed said last.
+std::string last_lines(const std::string& text) {
+  constexpr std::size_t kMost = 2000;
+  std::string tail = text.size() > kMost ? text.substr(text.size() - kMost) : text;
+  while (!tail.empty() && tail.back() == '\n') tail.pop_back();
+  return tail;
+}
+
+std::vector<std::string> command_for(const Case& declared, const fs::path& file, const RegressOptions& options,
+                                     const fs::path& out) {
+  std::vector<std::string> command = {own_program(), declared.audit ? "audit" : "plan", file.string()};
+  if (declared.audit) {
+    if (declared.audit->allow_repeats) command.emplace_back("--allow-repeats");
+  } else if (options.budget) {
+    command.insert(command.end(), {"--budget", fmt::format("{}", *options.budget)});
+  }
+  command.insert(command.end(), {"--json", "--out", out.string()});
+  return command;
+}
+
+/// taut-check lies beside taut, where it was installed, or else where it was built.
+std::string checker_program() {
+  const fs::path here = fs::path(own_program()).parent_path();
+  for (const fs::path& candidate : {here / "taut-check", here / "../certify/checker/taut-check"}) {
+    if (fs::exists(candidate)) return candidate.string();
+  }
+  return "taut-check";
+}
+
+void recheck(const fs::path& file, const fs::path& out, const RegressOptions& options, const std::stop_token& stop,
+             RegressedCase& result) {
+  const FinishedProgram checked =
+      run_program({checker_program(), (out / "certificate.json").string(), file.string()}, stop, options.most_seconds);
+  const int expected = result.measurement->verdict == "undecided" ? kUndecidedExit : kProvedExit;
+  if (checked.exit_code == expected) return;
+  result.differences.push_back(fmt::format("taut-check ended with {}, expected {}: {}", checked.exit_code, expected,
+                                           last_lines(checked.out + checked.err)));
+}
+
+void run(const fs::path& file, const fs::path& out, const RegressOptions& options, const std::stop_token& stop,
+         RegressedCase& result) {
+  Case declared;
+  try {
+    declared = load_case(file.string());
+    if (declared.expect == Expectation::kNone) {
+      throw InputError(file.string() + ": got no 'expect', expected the verdict that the case should get");
+    }
+  } catch (const InputError& error) {
+    result.error = error.what();
+    result.is_bad_input = true;
+    return;
+  }
+  result.expected = name(declared.expect);
+  result.has_budget = options.budget.has_value() || declared.planner.has_budget;
+  const FinishedProgram ran = run_program(command_for(declared, file, options, out), stop, options.most_seconds);
+  result.seconds = ran.seconds;
+  if (ran.timed_out) {
+    result.error = fmt::format("took longer than {} s", options.most_seconds);
+    return;
+  }
+  if (ran.exit_code > kUndecidedExit) {
+    result.error = fmt::format("ended with {}: {}", ran.exit_code, last_lines(ran.err));
+    result.is_bad_input = ran.exit_code == kBadInputExit;
+    return;
+  }
+  result.measurement = measurement(json::parse(ran.out));
+  result.differences = differences(declared, *result.measurement);
+  if (options.check) recheck(file, out, options, stop, result);
+}
+
+// --- JUnit -------------------------------------------------------------------------------------------------------------
+
+/// Text that XML 1.0 may have.
+std::string xml_text(const std::string& text) {
+  std::string lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines += (lines.empty() ? "" : "\n") + without_control_characters(line);
+  return lines;
+}
+
+void add_property(pugi::xml_node& properties, const std::string& name, const std::string& value) {
+  pugi::xml_node property = properties.append_child("property");
+  property.append_attribute("name") = name.c_str();
+  property.append_attribute("value") = value.c_str();
+}
+
+void add_trouble(pugi::xml_node& testcase, const char* kind, const std::string& type, const std::string& message) {
+  pugi::xml_node trouble = testcase.append_child(kind);
+  trouble.append_attribute("type") = type.c_str();
+  trouble.append_attribute("message") = xml_text(message).c_str();
+}
+
+bool is_margin(const std::string& quantity) { return quantity.ends_with("_margin") || quantity == "wrench_scale"; }
+
+}  // namespace
+
+std::vector<fs::path> find_cases(const fs::path& folder) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) throw InputError(folder.string() + ": got nothing, expected a folder of cases");
+  if (!fs::is_directory(status)) return {folder};
+  std::vector<fs::path> result;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().filename().string().starts_with(".")) {
+      it.disable_recursion_pending();
+      continue;
+    }
+    if (it->is_regular_file() && it->path().extension() == ".yaml") result.push_back(it->path());
+  }
+  if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
+  if (result.empty()) throw InputError(folder.string() + ": got no *.yaml, expected a folder of cases");
+  std::ranges::sort(result);
+  return result;
+}
+
+std::vector<RegressedCase> regress(const fs::path& folder, const std::vector<fs::path>& files,
+                                   const RegressOptions& options, const std::function<void(std::size_t)>& done,
+                                   const std::stop_token& stop) {
+  const ResultFolder out(options.out);
+  std::vector<RegressedCase> results(files.size());
+  std::vector<char> has_ended(files.size(), 0);
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::size_t count = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < files.size() && !stop.stop_requested(); i = next++) {
+      RegressedCase& result = results[i];
+      const fs::path seen = files[i].lexically_relative(folder);
+      result.name = (seen.empty() || seen == "." ? files[i].filename() : seen).string();
+      try {
+        run(files[i], out.path() / fs::path(result.name).replace_extension(), options, stop, result);
+      } catch (const std::exception& error) {
+        result.error = error.what();
+      }
+      if (stop.stop_requested()) return;  // this one may have been cut short
+      has_ended[i] = 1;
+      const std::lock_guard lock(mutex);
+      done(++count);
+    }
+  };
+  {
+    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t jobs = std::min(options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : cores, files.size());
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 0; k < jobs; ++k) threads.emplace_back(work);
+  }
+  std::vector<RegressedCase> ended;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (has_ended[i] != 0) ended.push_back(std::move(results[i]));
+  }
+  return ended;
+}
+
+std::vector<std::string> compare(const Baseline& baseline, std::vector<RegressedCase>& cases) {
+  std::set<std::string> gone;
+  for (const auto& [name, ignored] : baseline.cases) gone.insert(name);
+  for (RegressedCase& regressed : cases) {
+    gone.erase(regressed.name);
+    const auto before = baseline.cases.find(regressed.name);
+    if (before == baseline.cases.end() || !regressed.measurement) continue;
+    if (before->second.verdict != regressed.measurement->verdict) {
+      regressed.differences.push_back(
+          fmt::format("{}, in the baseline {}", regressed.measurement->verdict, before->second.verdict));
+      continue;
+    }
+    if (regressed.has_budget) continue;
+    for (const auto& [quantity, then] : before->second.quantities) {
+      const auto now = regressed.measurement->quantities.find(quantity);
+      const double slack = baseline.tolerance * std::abs(then);
+      if (now == regressed.measurement->quantities.end()) {
+        regressed.differences.push_back(
+            fmt::format("{} was not measured, in the baseline {}", quantity, shown_number(then)));
+      } else if (is_margin(quantity) ? now->second < then - slack : now->second > then + slack) {
+        regressed.differences.push_back(
+            fmt::format("{} is {}, in the baseline {}", quantity, shown_number(now->second), shown_number(then)));
+      }
+    }
+  }
+  return {gone.begin(), gone.end()};
+}
+
+Baseline read_baseline(const fs::path& path) {
+  const auto fail = [&](const std::string& what) {
+    return InputError(fmt::format("{}: {}, expected a baseline that taut regress --update wrote", path.string(), what));
+  };
+  const json file = json::parse(read_whole(path), nullptr, false);
+  if (!file.is_object() || file.value("format", json()) != kBaselineFormat) throw fail("got another file");
+  if (file.value("version", json()) != kBaselineVersion) throw fail("got another version");
+  Baseline result;
+  try {
+    for (const auto& [name, entry] : file.at("cases").items()) {
+      Measurement measured{entry.at("verdict"), {}};
+      for (const char* quantity : kBoundQuantities) {
+        if (entry.contains(quantity)) measured.quantities[quantity] = entry.at(quantity).get<double>();
+      }
+      result.cases.emplace(name, std::move(measured));
+    }
+  } catch (const json::exception& error) {
+    throw fail(fmt::format("got a damaged file ({})", error.what()));
+  }
+  return result;
+}
+
+std::string baseline_text(const std::vector<RegressedCase>& cases) {
+  json entries = json::object();
+  for (const RegressedCase& regressed : cases) {
+    if (!regressed.measurement) continue;
+    json& entry = entries[regressed.name];
+    entry["verdict"] = regressed.measurement->verdict;
+    for (const auto& [quantity, value] : regressed.measurement->quantities) entry[quantity] = value;
+  }
+  return json{{"format", kBaselineFormat}, {"version", kBaselineVersion}, {"cases", entries}}.dump(1, ' ', true) + "\n";
+}
+
+std::string junit_text(const std::string& suite_name, const std::vector<RegressedCase>& cases,
+                       const std::vector<std::string>& gone) {
+  pugi::xml_document document;
+  pugi::xml_node suite = document.append_child("testsuites").append_child("testsuite");
+  double seconds = 0;
+  std::size_t failures = gone.size();
+  std::size_t errors = 0;
+  for (const RegressedCase& regressed : cases) {
+    seconds += regressed.seconds;
+    errors += regressed.error.empty() ? 0 : 1;
+    failures += regressed.error.empty() && !regressed.differences.empty() ? 1 : 0;
+  }
+  suite.append_attribute("name") = xml_text(suite_name).c_str();
+  suite.append_attribute("tests") = cases.size() + gone.size();
+  suite.append_attribute("failures") = failures;
+  suite.append_attribute("errors") = errors;
+  suite.append_attribute("skipped") = 0;
+  suite.append_attribute("time") = fmt::format("{:.3f}", seconds).c_str();
+  const auto add = [&](const std::string& case_name, double time) {
+    pugi::xml_node testcase = suite.append_child("testcase");
+    testcase.append_attribute("classname") = "taut.regress";
+    testcase.append_attribute("name") = xml_text(case_name).c_str();
+    testcase.append_attribute("time") = fmt::format("{:.3f}", time).c_str();
+    return testcase;
+  };
+  for (const RegressedCase& regressed : cases) {
+    pugi::xml_node testcase = add(regressed.name, regressed.seconds);
+    if (regressed.measurement) {
+      pugi::xml_node properties = testcase.append_child("properties");
+      add_property(properties, "verdict", regressed.measurement->verdict);
+      for (const auto& [quantity, value] : regressed.measurement->quantities) {
+        add_property(properties, quantity, fmt::format("{}", value));
+      }
+    }
+    if (!regressed.error.empty())
+      add_trouble(testcase, "error", regressed.is_bad_input ? "bad input" : "no result", regressed.error);
+    for (const std::string& difference : regressed.differences) add_trouble(testcase, "failure", "differs", difference);
+  }
+  for (const std::string& name : gone) {
+    pugi::xml_node testcase = add(name, 0);
+    add_trouble(testcase, "failure", "gone", "is in the baseline, and is no more");
+  }
+  std::ostringstream text;
+  document.save(text, " ", pugi::format_default, pugi::encoding_utf8);
+  return text.str();
+}
+
+json to_json(const RegressedCase& regressed) {
+  json result = {{"case", regressed.name},
+                 {"as_declared", regressed.is_as_declared()},
+                 {"expected", regressed.expected},
+                 {"differences", regressed.differences},
+                 {"error", regressed.error.empty() ? json() : json(regressed.error)},
+                 {"seconds", regressed.seconds},
+                 {"verdict", nullptr}};
+  if (!regressed.measurement) return result;
+  result["verdict"] = regressed.measurement->verdict;
+  for (const auto& [quantity, value] : regressed.measurement->quantities) result["measured"][quantity] = value;
+  return result;
+}
+
+}  // namespace taut

@@ -1,0 +1,75 @@
+// Regression proofs: every case of a folder is planned or audited, each by a taut of its own, and held to what it declares and to
+// what an earlier run measured.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+/// What a run of a case came to: a verdict, and numbers by the names of kBoundQuantities (SI); what was not measured is missing.
+struct Measurement {
+  std::string verdict;
+  std::map<std::string, double> quantities;
+};
+
+struct RegressedCase {
+  std::string name;                        ///< the file, seen from the folder
+  std::optional<Measurement> measurement;  ///< none where there was no result
+  std::string expected;                    ///< the declared verdict; empty where the case could not be read
+  bool has_budget = false;                 ///< a planner with a budget: what it finds may differ from run to run
+  std::vector<std::string> differences;    ///< from what was declared or is in the baseline
+  std::string error;                       ///< bad input, a crash, too long; empty where there is a result
+  bool is_bad_input = false;
+  double seconds = 0;
+
+  [[nodiscard]] bool is_as_declared() const { return error.empty() && differences.empty(); }
+};
+
+struct RegressOptions {
+  int jobs = 0;                  ///< cases at a time; 0: one a core
+  double most_seconds = 600;     ///< for one case
+  std::optional<double> budget;  ///< seconds of planning, before each case's own
+  bool check = false;            ///< have each certificate proved again by taut-check
+  std::filesystem::path out;     ///< keeps the results, a folder a case; empty: they are thrown away
+};
+
+/// Measurements of an earlier run, by case.
+struct Baseline {
+  std::map<std::string, Measurement> cases;
+  /// Relative change of a number for the worse that is let pass: less margin, more of all else.
+  double tolerance = 0.05;
+};
+
+/// *.yaml in `folder` and all below it, sorted; the file itself where it is one. @throws InputError if there is none.
+[[nodiscard]] std::vector<std::filesystem::path> find_cases(const std::filesystem::path& folder);
+
+/// @param done  called after each case, from any thread but one at a time, with how many are done
+/// @returns the cases in the order of `files`; only those that ended where `stop` was requested.
+[[nodiscard]] std::vector<RegressedCase> regress(const std::filesystem::path& folder,
+                                                 const std::vector<std::filesystem::path>& files,
+                                                 const RegressOptions& options,
+                                                 const std::function<void(std::size_t)>& done,
+                                                 const std::stop_token& stop);
+
+/// Adds to each case's differences what is worse than in the baseline.
+/// @returns cases of the baseline that are no more.
+[[nodiscard]] std::vector<std::string> compare(const Baseline& baseline, std::vector<RegressedCase>& cases);
+
+/// @throws InputError, naming the file, where it is none.
+[[nodiscard]] Baseline read_baseline(const std::filesystem::path& path);
+[[nodiscard]] std::string baseline_text(const std::vector<RegressedCase>& cases);
+
+/// JUnit's XML: one suite, a test case for each case, its measurements as properties.
+[[nodiscard]] std::string junit_text(const std::string& suite, const std::vector<RegressedCase>& cases,
+                                     const std::vector<std::string>& gone);
+
+[[nodiscard]] nlohmann::json to_json(const RegressedCase& regressed);
+
+}  // namespace taut

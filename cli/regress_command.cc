@@ -1,0 +1,135 @@
+#include "cli/regress_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "cli/console.h"
+#include "cli/files.h"
+#include "kinematics/input_error.h"
+#include "kinematics/shown.h"
+
+namespace taut {
+namespace {
+
+std::string cell(const RegressedCase& regressed, const char* quantity, const char* format) {
+  if (!regressed.measurement) return "";
+  const auto found = regressed.measurement->quantities.find(quantity);
+  return found == regressed.measurement->quantities.end() ? "" : fmt::format(fmt::runtime(format), found->second);
+}
+
+void print_table(const std::vector<RegressedCase>& cases) {
+  std::size_t width = 4;
+  for (const RegressedCase& regressed : cases) width = std::max(width, regressed.name.size());
+  fmt::print("{:<{}}  {:<9}  {:>8} {:>8} {:>11} {:>11} {:>9} {:>8}\n", "case", width, "verdict", "segments", "boxes",
+             "tension [N]", "length [m]", "scale", "time [s]");
+  for (const RegressedCase& regressed : cases) {
+    fmt::print("{:<{}}  {:<9}  {:>8} {:>8} {:>11} {:>11} {:>9} {:>8.2f}{}\n",
+               without_control_characters(regressed.name), width,
+               regressed.measurement ? regressed.measurement->verdict : "-", cell(regressed, "segments", "{:.0f}"),
+               cell(regressed, "boxes", "{:.0f}"), cell(regressed, "tension_margin", "{:.4g}"),
+               cell(regressed, "length_margin", "{:.4g}"), cell(regressed, "wrench_scale", "{:.4g}"), regressed.seconds,
+               regressed.is_as_declared() ? "" : "  <- differs");
+    if (!regressed.error.empty()) fmt::print("    {}\n", regressed.error);
+    for (const std::string& difference : regressed.differences) fmt::print("    {}\n", difference);
+  }
+}
+
+int exit_code(const std::vector<RegressedCase>& cases, const std::vector<std::string>& gone) {
+  const auto any = [&](auto what) { return std::ranges::any_of(cases, what); };
+  if (any([](const RegressedCase& c) { return !c.error.empty() && !c.is_bad_input; })) return kInternalExit;
+  if (any([](const RegressedCase& c) { return c.is_bad_input; })) return kBadInputExit;
+  const bool differs = !gone.empty() || any([](const RegressedCase& c) { return !c.is_as_declared(); });
+  return differs ? kRefutedExit : kProvedExit;
+}
+
+std::string positive_number(const std::string& text) {
+  double value = 0;
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0
+             ? ""
+             : "got '" + text + "', expected a number above 0";
+}
+
+}  // namespace
+
+void add_regress_options(CLI::App& command, RegressArguments& arguments) {
+  command.add_option("DIR", arguments.folder, "folder of cases, each with 'expect' (docs/regress.md)")->required();
+  command.add_option("--junit", arguments.junit, "write a JUnit XML file, too");
+  CLI::Option* baseline =
+      command.add_option("--baseline", arguments.baseline, "file of an earlier run's measurements to compare with");
+  command.add_flag("--update", arguments.update, "write the baseline instead of comparing with it")->needs(baseline);
+  command
+      .add_option("--tolerance", arguments.tolerance, "relative change for the worse that is let pass (default: 0.05)")
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_option("--jobs", arguments.options.jobs, "cases at a time (default: one a core)")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--timeout", arguments.options.most_seconds, "seconds for one case (default: 600)")
+      ->check(positive_number);
+  command.add_option("--budget", arguments.budget, "seconds of planning a case, before its own")
+      ->check(positive_number);
+  command.add_flag("--check", arguments.options.check, "have each certificate proved again by taut-check");
+  command.add_option("--out", arguments.out, "keep the results here, a folder a case (default: thrown away)");
+  command.add_flag("--json", arguments.json, "print the results as JSON");
+}
+
+int run_regress(RegressArguments arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<std::filesystem::path> files = find_cases(arguments.folder);
+  std::optional<Baseline> baseline;
+  if (!arguments.baseline.empty() && !arguments.update) {
+    baseline = read_baseline(arguments.baseline);
+    baseline->tolerance = arguments.tolerance;
+  }
+  for (const std::string& written : {arguments.junit, arguments.update ? arguments.baseline : std::string()}) {
+    if (!written.empty()) require_writable(written);
+  }
+  arguments.options.out = arguments.out;
+  if (arguments.budget > 0) arguments.options.budget = arguments.budget;
+
+  const Interruption interruption;
+  std::vector<RegressedCase> cases;
+  {
+    ProgressLine line(!arguments.json);
+    cases = regress(
+        arguments.folder, files, arguments.options,
+        [&](std::size_t count) { line.show([&] { return fmt::format("{} of {} cases", count, files.size()); }); },
+        interruption.token());
+  }
+  if (cases.size() < files.size()) {
+    fmt::print(stderr, "taut: interrupted after {} of {} cases: nothing was written\n", cases.size(), files.size());
+    return kUndecidedExit;
+  }
+  std::vector<std::string> gone;
+  if (baseline) gone = compare(*baseline, cases);
+
+  std::vector<FileContent> written;
+  if (!arguments.junit.empty()) {
+    written.push_back({arguments.junit, junit_text("taut regress " + arguments.folder, cases, gone)});
+  }
+  if (arguments.update) written.push_back({arguments.baseline, baseline_text(cases)});
+  write_whole(written);
+
+  const auto as_declared = std::ranges::count_if(cases, [](const RegressedCase& c) { return c.is_as_declared(); });
+  const int code = exit_code(cases, gone);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  if (arguments.json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const RegressedCase& regressed : cases) list.push_back(to_json(regressed));
+    fmt::print("{}\n", nlohmann::json{{"cases", list},
+                                      {"gone", gone},
+                                      {"as_declared", as_declared},
+                                      {"seconds", seconds.count()},
+                                      {"exit_code", code}}
+                           .dump(1, ' ', true));
+    return code;
+  }
+  print_table(cases);
+  for (const std::string& name : gone) fmt::print("{}: is in the baseline, and is no more\n", name);
+  fmt::print("{} of {} cases as declared, in {:.1f} s.\n", as_declared, cases.size(), seconds.count());
+  for (const FileContent& file : written) fmt::print("Written: {}\n", file.path.string());
+  return code;
+}
+
+}  // namespace taut

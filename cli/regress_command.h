@@ -1,0 +1,29 @@
+// `taut regress`: its arguments and what it says (docs/regress.md).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "cli/regress.h"
+
+namespace taut {
+
+struct RegressArguments {
+  std::string folder;
+  std::string junit;
+  std::string baseline;
+  bool update = false;
+  double tolerance = 0.05;
+  RegressOptions options;
+  std::string out;
+  double budget = 0;  ///< 0: each case's own
+  bool json = false;
+};
+
+void add_regress_options(CLI::App& command, RegressArguments& arguments);
+
+/// @returns 0 where every case is as declared, 1 where one differs, 3 where one is bad input, 4 where one had no result.
+/// @throws InputError
+[[nodiscard]] int run_regress(RegressArguments arguments);
+
+}  // namespace taut
