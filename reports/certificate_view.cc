@@ -129,6 +129,7 @@ WitnessView read_witness(const json& witness, const Path& path) {
   result.value_lower = witness.at("value").at(0).get<std::string>();
   result.value_upper = witness.at("value").at(1).get<std::string>();
   result.limit = witness.at("limit").get<std::string>();
+  result.deviates = witness.contains("deviation");
   return result;
 }
 

@@ -42,6 +42,7 @@ struct WitnessView {
   std::string value_lower;
   std::string value_upper;
   std::string limit;
+  bool deviates = false;  ///< the machine is not the stated one, but within the tolerances
 };
 
 /// Where an audited path is not proved.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "kinematics/input_error.h"
+#include "kinematics/shown.h"
 #include "reports/figures.h"
+#include "reports/first_page.h"
 #include "reports/plot_sections.h"
 #include "reports/sections.h"
-#include "reports/sentences.h"
 #include "reports/style.h"
 #include "reports/wording.h"
 
@@ -14,69 +16,67 @@ namespace taut {
 
 namespace {
 
-Html tile(const std::string& value, const Html& words) {
-  return html("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", value, words);
-}
-
-Html header(const Scene& scene) {
-  const CertificateView& view = scene.view;
-  Html sentences;
-  for (const std::string& sentence : verdict_text(scene)) sentences += html("<p>{}</p>\n", sentence);
-  Html tiles;
-  if (view.margins) {
-    tiles = html(
-        "<div class=\"tiles\">\n{}{}{}{}</div>\n",
-        tile(plain(view.margins->tension_N) + " N", html("tension_N: least distance of a tension from its limits")),
-        tile(millimetres(view.margins->length_m) + " mm", html("length_m: least distance of a length from its limits")),
-        tile("× " + plain(view.margins->wrench_scale),
-             html("wrench_scale: factor by which the load ellipsoid may grow")),
-        tile(fmt::format("{} / {}", view.segments.size(), view.boxes), html("segments / boxes that were proved")));
-  }
-  return html(
-      "<header>\n<p class=\"kind\">Motion report for a cable-driven hexapod</p>\n<h1><bdi>{}</bdi></h1>\n"
-      "<div class=\"verdict {}\">{}</div>\n{}</header>\n",
-      view.problem.name, view.verdict, sentences, tiles);
-}
-
 Html contents(const Scene& scene) {
   Html links;
   const auto link = [&](bool present, const char* id, const char* title) {
     if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
   };
   const bool has_path = !scene.samples.empty();
-  link(true, "theorem", "Claim");
-  link(scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
-  link(true, "assumptions", "Assumptions");
-  link(true, "inputs", "Digests");
   link(has_path, "move", "The move");
   link(!scene.view.stretches.empty(), "stretches", "Stretches");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
   link(is_plane(scene.view.problem.space), "slice", "Plane");
-  link(scene.view.margins.has_value(), "margins", "Margins");
+  link(!scene.view.segments.empty(), "margins", "Margins");
+  link(true, "theorem", "Claim");
+  link(scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
+  link(true, "assumptions", "Assumptions");
   link(true, "robot", "Robot");
   link(true, "path", "Path");
+  link(true, "inputs", "Digests");
   link(true, "recheck", "Check again");
   return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
 }
 
-Html signature(const CertificateView& view) {
-  return html(
-      "<div class=\"sign\"><div>Name</div><div>Date</div><div>Signature</div></div>\n"
-      "<p class=\"note\">This report belongs to the certificate with footer.sha256 <span "
-      "class=\"digest\">{}</span>.</p>\n",
-      view.footer_sha256);
+/// Document numbers, revisions and dates go into a style sheet, and onto paper.
+void require_plain(const ReportOptions& options) {
+  constexpr std::size_t kLongest = 40;
+  const auto is_plain = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           std::string_view(" .,:;/_+-#()").find(c) != std::string_view::npos;
+  };
+  const auto require = [&](const std::string& text, const char* what) {
+    if (text.size() > kLongest || !std::ranges::all_of(text, is_plain)) {
+      throw InputError(
+          fmt::format("{}: got '{}', expected at most {} letters, digits, blanks and . , : ; / _ + - # ( )", what,
+                      shown(text), kLongest));
+    }
+  };
+  require(options.document, "document");
+  require(options.revision, "revision");
+  require(options.date, "date");
+}
+
+/// What a style sheet says of the page's footer: the document's number, and the page's. @pre the number has no quote or backslash.
+std::string footer_style(const std::string& document) {
+  return fmt::format(
+      "@media print {{ @page {{ @bottom-left {{ content: \"{}\"; }} @bottom-right {{ content: \"Page \" counter(page) "
+      "\" of "
+      "\" counter(pages); }} }} }}\n",
+      document);
 }
 
 }  // namespace
 
-std::string html_report(const nlohmann::json& certificate) {
+std::string html_report(const nlohmann::json& certificate, const ReportOptions& options) {
+  require_plain(options);
   const Scene scene(certificate);
-  const Html body = header(scene) + contents(scene) + theorem(scene.view) + tolerances(scene.view) +
-                    assumptions(scene.view.problem) + inputs(scene.view) + move_section(scene) + stretches(scene.view) +
-                    plot_sections(scene) + margins(scene.view) + robot(scene) + path_section(scene) +
-                    recheck(scene.view) + signature(scene.view);
+  const Summary summary(scene, options);
+  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
+                    plot_sections(scene) + margins(scene) + theorem(scene.view) + tolerances(scene.view) +
+                    assumptions(scene.view.problem) + robot(scene) + path_section(scene) + inputs(scene.view) +
+                    recheck(scene.view);
   const Html title = html("{}: {}", scene.view.problem.name, scene.view.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
@@ -84,14 +84,21 @@ std::string html_report(const nlohmann::json& certificate) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      title.str(), kStyle, body.str());
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+      title.str(), kStyle, footer_style(summary.document), body.str());
 }
 
-std::string text_summary(const nlohmann::json& certificate) {
-  std::string result;
-  for (const std::string& sentence : verdict_text(Scene(certificate))) result += sentence + "\n";
-  return result;
+std::string text_summary(const nlohmann::json& certificate, const ReportOptions& options) {
+  require_plain(options);
+  return to_text(Summary(Scene(certificate), options));
+}
+std::string markdown_summary(const nlohmann::json& certificate, const ReportOptions& options) {
+  require_plain(options);
+  return to_markdown(Summary(Scene(certificate), options));
+}
+nlohmann::json json_summary(const nlohmann::json& certificate, const ReportOptions& options) {
+  require_plain(options);
+  return to_json(Summary(Scene(certificate), options));
 }
 
 }  // namespace taut

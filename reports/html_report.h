@@ -8,14 +8,18 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "reports/report_options.h"
+
 namespace taut {
 
 /// A complete HTML document, UTF-8.
-/// @throws InputError where the certificate is not of the form of docs/certificate-format.md. Digests and statements
-/// are not checked; that is taut-check's.
-[[nodiscard]] std::string html_report(const nlohmann::json& certificate);
+/// @throws InputError where the certificate is not of the form of docs/certificate-format.md, or an option is too long or strange.
+/// Digests and statements are not checked; that is taut-check's.
+[[nodiscard]] std::string html_report(const nlohmann::json& certificate, const ReportOptions& options = {});
 
-/// The verdict in a few lines of plain text, as at the head of the page. @throws as html_report.
-[[nodiscard]] std::string text_summary(const nlohmann::json& certificate);
+/// Its first page in other forms (summary.h). @throws as html_report.
+[[nodiscard]] std::string text_summary(const nlohmann::json& certificate, const ReportOptions& options = {});
+[[nodiscard]] std::string markdown_summary(const nlohmann::json& certificate, const ReportOptions& options = {});
+[[nodiscard]] nlohmann::json json_summary(const nlohmann::json& certificate, const ReportOptions& options = {});
 
 }  // namespace taut

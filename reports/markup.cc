@@ -26,7 +26,7 @@ std::string escape(std::string_view text) {
   return result;
 }
 
-Html table(const std::vector<Column>& columns, const std::vector<std::vector<Html>>& rows) {
+Html table(const Html& caption, const std::vector<Column>& columns, const std::vector<std::vector<Html>>& rows) {
   Html head;
   for (const Column& column : columns) {
     head += html("<th scope=\"col\"{}>{}</th>", column.number ? html(" class=\"n\"") : Html(), column.head);
@@ -39,7 +39,9 @@ Html table(const std::vector<Column>& columns, const std::vector<std::vector<Htm
     }
     body += html("<tr>{}</tr>\n", cells);
   }
-  return html("<div class=\"scroll\"><table><thead><tr>{}</tr></thead>\n<tbody>{}</tbody></table></div>\n", head, body);
+  return html(
+      "<div class=\"scroll\"><table><caption>{}</caption><thead><tr>{}</tr></thead>\n<tbody>{}</tbody></table></div>\n",
+      caption, head, body);
 }
 
 Html folded(bool long_, const Html& summary, const Html& body) {

@@ -68,7 +68,8 @@ struct Column {
 };
 
 /// A table that scrolls sideways where it is wider than the page. Cells of `rows` in the order of `columns`.
-[[nodiscard]] Html table(const std::vector<Column>& columns, const std::vector<std::vector<Html>>& rows);
+[[nodiscard]] Html table(const Html& caption, const std::vector<Column>& columns,
+                         const std::vector<std::vector<Html>>& rows);
 
 /// `body`, folded under `summary` where it is `long_`; printed in full either way.
 [[nodiscard]] Html folded(bool long_, const Html& summary, const Html& body);

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 
+#include "reports/sentences.h"
 #include "reports/wording.h"
 
 namespace taut {
 
 namespace {
 
-constexpr std::size_t kLongTable = 14;  ///< rows; longer tables are folded on the screen
+constexpr std::size_t kLongTable = 14;   ///< rows; longer tables are folded on the screen
+constexpr std::size_t kMostRows = 300;   ///< of what is listed in full; longer lists are shown in blocks,
+constexpr std::size_t kBlocks = 100;     ///< so many at most
+constexpr std::size_t kLeastShown = 50;  ///< segments with the least margins
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// γ of segment k, where the path runs between poses.
@@ -93,7 +97,8 @@ Html robot_tables(const Problem& problem) {
                       html("({}, {})", plain(tension.lower), plain(tension.upper)),
                       html("({}, {})", millimetres(length.lower), millimetres(length.upper))});
   }
-  return table({{html("Cable"), true},
+  return table(html("Cables: anchors and limits, exact"),
+               {{html("Cable"), true},
                 {html("Base anchor a [mm]")},
                 {html("Platform anchor b [mm]")},
                 {html("Tension limits [N]")},
@@ -115,7 +120,7 @@ Html load_table(const LoadText& load) {
              "<p>Load point p<sub>m</sub> = {} mm in the platform frame. Wrenches are about that point, in the axes of "
              "the world. E in 1/N², 1/(N·N·m) and 1/(N·m)².</p>\n",
              triple(load.point_m)) +
-         table(columns, rows);
+         table(html("Centre load w<sub>0</sub> and matrix E of the set of loads, exact"), columns, rows);
 }
 
 Html space_tables(const Problem& problem) {
@@ -141,8 +146,10 @@ Html space_tables(const Problem& problem) {
   }
   Html constants;
   for (const auto& [name, value] : space.constants) constants += html("<li><code>{} = {}</code></li>\n", name, value);
-  Html result = table({{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
-                table({{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
+  Html result =
+      table(html("Parameters of the poses"),
+            {{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
+      table(html("Pose as a function of the parameters"), {{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
   if (!constants.empty()) result += html("<p>Constants, as the expressions use them:</p><ul>{}</ul>\n", constants);
   Html constraints;
   for (const ExpressionText& c : space.constraints) constraints += html("<li><code>{} = 0</code></li>\n", c);
@@ -154,8 +161,9 @@ Html space_tables(const Problem& problem) {
   return result;
 }
 
-/// Exact parameters and rounded pose of every waypoint: side by side, or one below the other where that is too wide.
-Html waypoint_table(const Scene& scene) {
+/// Exact parameters and rounded pose of every `step`th waypoint and of the last: side by side, or one below the other where that is
+/// too wide.
+Html waypoint_table(const Scene& scene, std::size_t step) {
   constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
   const Path& path = scene.view.path;
   const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
@@ -169,7 +177,8 @@ Html waypoint_table(const Scene& scene) {
   }
   std::vector<std::vector<Html>> rows;
   std::vector<std::vector<Html>> pose_rows;
-  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+  const std::size_t last = path.waypoints.size() - 1;
+  for (std::size_t k = 0; k <= last; k = k < last ? std::min(k + step, last) : last + 1) {
     const Waypoint& waypoint = path.waypoints[k];
     rows.push_back({html("{}", k)});
     for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
@@ -183,12 +192,14 @@ Html waypoint_table(const Scene& scene) {
       pose_rows.back().push_back(html("{:.3f}", angle * kDegrees + 0.0));
     }
   }
-  if (named.size() > kSideBySide) return table(columns, rows) + table(pose_columns, pose_rows);
+  const Html exact = html("{}s: exact parameters", what);
+  const Html rounded = html("{}s: rounded poses", what);
+  if (named.size() > kSideBySide) return table(exact, columns, rows) + table(rounded, pose_columns, pose_rows);
   columns.insert(columns.end(), pose_columns.begin() + 1, pose_columns.end());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     rows[k].insert(rows[k].end(), pose_rows[k].begin() + 1, pose_rows[k].end());
   }
-  return table(columns, rows);
+  return table(html("{}s: exact parameters and rounded poses", what), columns, rows);
 }
 
 /// How the path is on the constraints, and how far that takes it from the waypoints.
@@ -204,10 +215,80 @@ Html on_constraints(const Scene& scene) {
       widest);
 }
 
-std::string violation_text(const WitnessView& end) {
-  if (end.to) return "the force Jacobian becomes singular";
-  return fmt::format("{} of cable {} in [{}, {}], limit {}, at {} of segment {}", end.kind, end.cable,
-                     plain(end.value_lower), plain(end.value_upper), end.limit, end.at.s.value_or("0"), end.at.index);
+/// What is printed of a segment, or of several in a row.
+struct MarginRow {
+  std::size_t first = 0, last = 0;  ///< segments
+  std::size_t boxes = 0;
+  int depth = 0;                         ///< of the narrowest box: it is 2^-depth wide
+  const MarginsView* tension = nullptr;  ///< of the segment with the least; null where none is proved
+  const MarginsView* length = nullptr;
+  const MarginsView* scale = nullptr;
+};
+
+double approximate(const std::string& margin) { return ScalarTraits<double>::from_decimal(margin); }
+
+MarginRow margin_row(const CertificateView& view, std::size_t first, std::size_t last) {
+  MarginRow row{first, last};
+  for (std::size_t k = first; k <= last; ++k) {
+    const SegmentView& segment = view.segments[k];
+    row.boxes += segment.boxes;
+    for (const DyadicBox& box : view.segment_boxes[k]) row.depth = std::max(row.depth, box.depth);
+    const MarginsView& margins = segment.margins;
+    if (margins.tension_N.empty()) continue;
+    const auto keep_least = [&](const MarginsView*& least, std::string MarginsView::*margin) {
+      if (least == nullptr || approximate(margins.*margin) < approximate(least->*margin)) least = &margins;
+    };
+    keep_least(row.tension, &MarginsView::tension_N);
+    keep_least(row.length, &MarginsView::length_m);
+    keep_least(row.scale, &MarginsView::wrench_scale);
+  }
+  return row;
+}
+
+Html margin_table(const CertificateView& view, const std::string& caption, const std::vector<MarginRow>& rows) {
+  const auto cell = [&](const MarginsView* least, std::string MarginsView::*margin) {
+    if (least == nullptr) return html("–");
+    const std::string& value = least->*margin;
+    return view.margins && value == (*view.margins).*margin ? html("<b>{}</b>", value) : html("{}", value);
+  };
+  std::vector<std::vector<Html>> cells;
+  cells.reserve(rows.size());
+  for (const MarginRow& row : rows) {
+    cells.push_back({row.first == row.last ? html("{}", row.first) : html("{} – {}", row.first, row.last),
+                     html("{} → {}", view.segments[row.first].from, view.segments[row.last].to), html("{}", row.boxes),
+                     row.boxes == 0   ? html("–")
+                     : row.depth == 0 ? html("1")
+                                      : html("2<sup>−{}</sup>", row.depth),
+                     cell(row.tension, &MarginsView::tension_N), cell(row.length, &MarginsView::length_m),
+                     cell(row.scale, &MarginsView::wrench_scale)});
+  }
+  return table(html("{}", caption),
+               {{html("Segment"), true},
+                {html("Waypoints"), true},
+                {html("Boxes"), true},
+                {html("Narrowest"), true},
+                {html("tension_N [N]"), true},
+                {html("length_m [m]"), true},
+                {html("wrench_scale [1]"), true}},
+               cells);
+}
+
+/// The segments with the least margins: of each kind those that come first, in order along the path.
+std::vector<MarginRow> least_segments(const CertificateView& view) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < view.segments.size(); ++k) {
+    if (!view.segments[k].margins.tension_N.empty()) all.push_back(k);
+  }
+  std::vector<double> scale(view.segments.size());
+  for (const std::size_t k : all) scale[k] = approximate(view.segments[k].margins.wrench_scale);
+  const std::size_t count = std::min(kLeastShown, all.size());
+  std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count), {},
+                            [&](std::size_t k) { return scale[k]; });
+  all.resize(count);
+  std::ranges::sort(all);
+  std::vector<MarginRow> rows;
+  for (const std::size_t k : all) rows.push_back(margin_row(view, k, k));
+  return rows;
 }
 
 /// Canonical JSON is what Python writes with these arguments, as a certificate has no fractional number.
@@ -227,7 +308,7 @@ Html theorem(const CertificateView& view) {
     return std::vector<Html>{html("<i>{}</i>", symbol), meaning, unit};
   };
   const Html symbols = table(
-      columns,
+      html("Symbols of the claim"), columns,
       {row(html("γ<sub>k</sub>(s)"), html("pose of the platform at the point s of segment k"), html("")),
        row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
            html("m, rad")),
@@ -324,7 +405,8 @@ Html tolerances(const CertificateView& view) {
                 view.generator);
   return section("tolerances", "Tolerances",
                  html("<p>The claim covers every machine within all of these at once.</p>\n") +
-                     table({{html("Tolerance")}, {html("Stated"), true}, {html("Proved up to, alone"), true}}, rows) +
+                     table(html("Tolerances"),
+                           {{html("Tolerance")}, {html("Stated"), true}, {html("Proved up to, alone"), true}}, rows) +
                      note);
 }
 
@@ -333,7 +415,7 @@ Html inputs(const CertificateView& view) {
   const auto row = [](const Html& what, const Html& value) { return std::vector<Html>{what, value}; };
   return section(
       "inputs", "Inputs and digests",
-      table({{html("What")}, {html("Value")}},
+      table(html("Inputs and digests"), {{html("What")}, {html("Value")}},
             {row(html("case"), html("<bdi>{}</bdi>", view.problem.name)),
              row(html("made by"), html("{}", view.generator)), row(html("problem_sha256"), digest(view.problem_sha256)),
              row(html("path_sha256"), digest(view.path_sha256)),
@@ -357,6 +439,7 @@ Html path_section(const Scene& scene) {
           : html(
                 "segment k is the piece of a spline that waypoints k to k + 3 control, passing through a waypoint only "
                 "where that stands three times in a row");
+  const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
   const bool constrained = !scene.view.problem.space.constraints.empty();
   return section(
       "path", "Path",
@@ -366,59 +449,79 @@ Html path_section(const Scene& scene) {
            "and angles are not wrapped.</p>\n",
            plural(count, "waypoint"), segments, scene.view.interpolation,
            constrained ? on_constraints(scene) : Html()) +
-          folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene)));
+          (step == 1 ? Html()
+                     : html("<p>Every {}th of them is shown; the certificate and path.csv have all.</p>\n", step)) +
+          folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene, step)));
 }
 
-Html margins(const CertificateView& view) {
-  if (!view.margins) return {};
-  std::vector<std::vector<Html>> rows;
-  rows.reserve(view.segments.size());
-  const auto cell = [](const std::string& value, const std::string& least) {
-    return value == least ? html("<b>{}</b>", value) : html("{}", value);
-  };
-  for (const SegmentView& segment : view.segments) {
-    rows.push_back({html("{}", segment.from), html("{} → {}", segment.from, segment.to), html("{}", segment.boxes),
-                    cell(segment.margins.tension_N, view.margins->tension_N),
-                    cell(segment.margins.length_m, view.margins->length_m),
-                    cell(segment.margins.wrench_scale, view.margins->wrench_scale)});
+Html margins(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  const std::size_t count = view.segments.size();
+  if (count == 0) return {};
+  const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
+  std::vector<MarginRow> rows;
+  for (std::size_t k = 0; k < count; k += step) rows.push_back(margin_row(view, k, std::min(k + step, count) - 1));
+  Html tables;
+  if (step == 1) {
+    tables = folded(count > kLongTable, html("{}", plural(count, "segment")),
+                    margin_table(view, "Proved margins of each segment", rows));
+  } else {
+    tables =
+        html("<p>The certificate has all {}. Here are blocks of them, and those with the least wrench_scale.</p>\n",
+             plural(count, "segment")) +
+        folded(true, html("{}", plural(rows.size(), "block")),
+               margin_table(view, fmt::format("The least proved margins of blocks of {}", plural(step, "segment")),
+                            rows)) +
+        folded(true, html("The segments with the least wrench_scale"),
+               margin_table(view, "Proved margins of the segments with the least wrench_scale", least_segments(view)));
   }
-  const Html all = table({{html("Segment"), true},
-                          {html("Waypoints"), true},
-                          {html("Boxes"), true},
-                          {html("tension_N [N]"), true},
-                          {html("length_m [m]"), true},
-                          {html("wrench_scale [1]"), true}},
-                         rows);
+  const Html whole = view.margins
+                         ? html("; along the whole path it is at least <b>{}</b>", plain(view.margins->wrench_scale))
+                         : Html();
   return section(
       "margins", "Proved margins",
       html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load in K, as the "
-           "certificate states them. <code>tension_N</code>: distance of a tension from its nearer limit. "
+           "certificate states them{}. <code>tension_N</code>: distance of a tension from its nearer limit. "
            "<code>length_m</code>: the same for a length. <code>wrench_scale</code>: the factor by which the "
-           "semi-axes of K may grow before a tension reaches its limit; along the whole path it is at least "
-           "<b>{}</b>. The least of each column is set in bold. The true margins may be larger: a bound is as sharp "
-           "as the proof needed it.</p>\n",
-           plain(view.margins->wrench_scale)) +
-          folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "segment")), all));
+           "semi-axes of K may grow before a tension reaches its limit{}. {}The true margins may be larger: a bound is "
+           "as sharp "
+           "as the proof needed it. Boxes are the intervals of s, from 0 to 1 along a segment, that were proved at one "
+           "go.</p>\n",
+           view.margins ? "" : ", for those parts of the path that it proves", whole,
+           view.margins ? "The least of each column is set in bold. " : "") +
+          tables);
 }
 
-Html stretches(const CertificateView& view) {
+Html stretches(const Scene& scene) {
+  const CertificateView& view = scene.view;
   if (view.stretches.empty()) return {};
-  const auto place = [](const PathPointView& point) {
-    return html("segment {}, s = {:.6g}", point.index, point.position - point.index);
+  const auto place = [&](const PathPointView& point) {
+    return html("{}, s = {:.6g}", place_text(scene, point.position), point.position - point.index);
   };
+  const auto violation = [&](const WitnessView& end) {
+    return html("{}, {}, s = {}", violation_text(end), place_text(scene, end.at.position), end.at.s.value_or("0"));
+  };
+  const std::size_t shown = std::min(view.stretches.size(), kMostRows);
   std::vector<std::vector<Html>> rows;
-  for (const StretchView& stretch : view.stretches) {
-    rows.push_back({place(stretch.begin), place(stretch.end),
-                    stretch.first ? html("{}", violation_text(*stretch.first)) : html("open: {}", stretch.reason),
-                    stretch.last ? html("{}", violation_text(*stretch.last)) : Html()});
+  for (std::size_t k = 0; k < shown; ++k) {
+    const StretchView& stretch = view.stretches[k];
+    rows.push_back({html("{}", k + 1), place(stretch.begin), place(stretch.end),
+                    stretch.first ? violation(*stretch.first) : html("open: {}", stretch.reason),
+                    stretch.last ? violation(*stretch.last) : Html()});
   }
-  const Html all = table({{html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}}, rows);
+  const Html all = table(
+      html("Stretches that are not proved"),
+      {{html(""), true}, {html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}}, rows);
+  const Html rest = view.stretches.size() > shown ? html("<p>These are the first {}; the certificate has all {}.</p>\n",
+                                                         shown, view.stretches.size())
+                                                  : Html();
   return section("stretches", "Where the path is not proved",
                  html("<p>{} Segment k leads from waypoint k to the next.</p>\n",
                       view.verdict == "refuted" ? "Outside of these stretches the path is proved. Each violation is "
                                                   "proved at one pose, with an enclosure of the quantity."
                                                 : "These stretches were left open; nothing is claimed of them.") +
-                     folded(rows.size() > kLongTable, html("{}", plural(rows.size(), "stretch")), all));
+                     folded(rows.size() > kLongTable, html("{}", plural(view.stretches.size(), "stretch")), all) +
+                     rest);
 }
 
 Html recheck(const CertificateView& view) {

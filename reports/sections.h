@@ -18,9 +18,9 @@ namespace taut {
 /// The path's waypoints.
 [[nodiscard]] Html path_section(const Scene& scene);
 /// Where an audited path is not proved.
-[[nodiscard]] Html stretches(const CertificateView& view);
-/// Proved margins of each segment.
-[[nodiscard]] Html margins(const CertificateView& view);
+[[nodiscard]] Html stretches(const Scene& scene);
+/// Proved margins of each segment; of a long path, of blocks of segments and of the segments with the least.
+[[nodiscard]] Html margins(const Scene& scene);
 /// How to check the certificate again.
 [[nodiscard]] Html recheck(const CertificateView& view);
 

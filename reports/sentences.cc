@@ -2,123 +2,391 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
+#include "kinematics/decimal.h"
 #include "reports/wording.h"
 
 namespace taut {
 
 namespace {
 
-/// " (0.05 N to 0.5 N)" where it is the same for all six cables.
-std::string common_limits(const std::array<Limits, kCables>& limits, bool length) {
-  if (!std::all_of(limits.begin(), limits.end(), [&](const Limits& l) { return l == limits[0]; })) return "";
-  const auto text = [&](const DecimalText& value) { return length ? millimetres(value) : plain(value); };
-  return fmt::format(" ({} to {} {})", text(limits[0].lower), text(limits[0].upper), length ? "mm" : "N");
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& items) {
+  std::string result;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    result += (i == 0 ? "" : i + 1 == items.size() ? " and " : ", ") + items[i];
+  }
+  return result;
+}
+
+bool is_length(const WitnessView& witness) { return witness.kind.starts_with("length"); }
+bool is_upper(const WitnessView& witness) { return witness.kind.ends_with("max"); }
+
+/// A tension or a length as it is printed, exactly, with its unit.
+std::string quantity(const DecimalText& value, bool length) {
+  return length ? millimetres(value) + " mm" : plain(value) + " N";
+}
+
+/// A number of a witness, which has as many digits as its proof took: four of them, in the direction that keeps the sentence true.
+std::string shortened(const DecimalText& value, bool length, bool up) {
+  const double x = number(value);
+  const std::string text = up ? rounded_up(x) : rounded_down(x);
+  // Rounded once more by binary64, it might say what is not: then all digits.
+  const bool is_true =
+      up ? Decimal::parse(text) >= Decimal::parse(value) : Decimal::parse(text) <= Decimal::parse(value);
+  return quantity(is_true ? text : value, length);
+}
+
+/// By how much a witness breaks its limit, at least.
+double violation(const WitnessView& witness) {
+  const auto value = Decimal::parse(is_upper(witness) ? witness.value_lower : witness.value_upper).rational();
+  const auto limit = Decimal::parse(witness.limit).rational();
+  const auto beyond = is_upper(witness) ? value - limit : limit - value;
+  constexpr double kBelow = 1 - 1e-15;  // of the nearest number
+  return beyond.convert_to<double>() * kBelow;
 }
 
 /// The segment that a margin of the whole path comes from.
 std::string where_least(const CertificateView& view, std::string MarginsView::*margin) {
-  const auto least = std::find_if(view.segments.begin(), view.segments.end(), [&](const SegmentView& segment) {
-    return segment.margins.*margin == (*view.margins).*margin;
-  });
+  const auto least = std::ranges::find_if(
+      view.segments, [&](const SegmentView& segment) { return segment.margins.*margin == (*view.margins).*margin; });
   return least == view.segments.end() ? "no segment" : fmt::format("segment {}", least->from);
 }
 
-std::string closest_text(const Scene& scene) {
-  const Model<double>& model = scene.sampler.model();
-  const std::optional<Closest> tension = closest_tension(model, scene.samples);
-  const std::optional<Closest> length = closest_length(model, scene.samples);
-  if (!tension || !length) return "";
-  const int last = std::max(0, static_cast<int>(scene.view.path.segments()) - 1);
-  const auto segment = [&](const Closest& c) { return std::min(static_cast<int>(c.position), last); };
-  const auto limit = [](const Closest& c) { return c.upper ? "upper" : "lower"; };
-  return fmt::format(
-      "In floating-point samples of the path, cable {} comes closest to a tension limit: within {:.2g} N of its {} "
-      "limit, {:.2g} % of the way between its limits, in segment {}. Cable {} comes closest to a length limit: within "
-      "{:.3g} mm of its {} limit, in segment {}.",
-      tension->cable + 1, tension->margin, limit(*tension), 100 * tension->fraction, segment(*tension),
-      length->cable + 1, 1000 * length->margin, limit(*length), segment(*length));
+std::string deviating(const CertificateView& view) {
+  return view.problem.tolerances ? ", for every machine within the stated tolerances" : "";
 }
 
-std::vector<std::string> proved_text(const Scene& scene) {
-  const CertificateView& view = scene.view;
-  const RobotText& robot = view.problem.robot;
-  std::vector<std::string> result = {"Proved: this motion is wrench-feasible, from its first pose to its last."};
-  if (!view.path.waypoints.empty()) {
-    result.push_back(
-        fmt::format("At every pose on the way from {} to {}, and for every load in the given ellipsoid of wrenches, "
-                    "the six cables of "
-                    "\u201C{}\u201D balance the load with each tension strictly within its limits{}, each cable length "
-                    "is strictly within "
-                    "its limits{}, and no singular pose is met. The motion has {}; it was proved as a whole, in {} "
-                    "without gaps, not "
-                    "at samples.",
-                    waypoint_text(view, view.path.waypoints.front()), waypoint_text(view, view.path.waypoints.back()),
-                    view.problem.name, common_limits(robot.tension_N, false), common_limits(robot.length_m, true),
-                    plural(view.segments.size(), "segment"), plural(view.boxes, "box")));
-  }
-  result.push_back(fmt::format(
-      "Proved reserves along the whole motion: every tension stays at least {} N inside its limits (least "
-      "in {}), every "
-      "length at least {} mm (least in {}), and the load ellipsoid could grow at least {}-fold before a tension "
-      "limit is reached "
+// ---- Details of a verdict.
+
+std::vector<std::string> proved_details(const CertificateView& view) {
+  return {fmt::format(
+      "Reserves, proved for the whole move: every tension stays at least {} N inside its limits (least in {}), every "
+      "length "
+      "at least {} mm (least in {}), and the set of loads could grow at least {}-fold before a tension reaches a limit "
       "(least in {}).",
       plain(view.margins->tension_N), where_least(view, &MarginsView::tension_N), millimetres(view.margins->length_m),
       where_least(view, &MarginsView::length_m), plain(view.margins->wrench_scale),
-      where_least(view, &MarginsView::wrench_scale)));
-  if (const std::string closest = closest_text(scene); !closest.empty()) result.push_back(closest);
-  return result;
+      where_least(view, &MarginsView::wrench_scale))};
 }
 
-std::vector<std::string> refuted_text(const Scene& scene) {
-  const WitnessView& witness = *scene.view.witness;
-  std::vector<std::string> result = {"Refuted: this motion is not wrench-feasible."};
-  const std::string at = point_text(scene.view, witness.at);
-  const Pose<double> pose = scene.sampler.at(scene.view.path, witness.at.position).pose;
+/// "3 stretches of the path are violated, …"
+std::string stretches_text(const CertificateView& view) {
+  const auto violated = static_cast<std::size_t>(
+      std::ranges::count_if(view.stretches, [](const StretchView& stretch) { return stretch.first.has_value(); }));
+  const std::size_t open = view.stretches.size() - violated;
+  std::string text = fmt::format("In all, {} of the path {} proved violations", plural(violated, "stretch"),
+                                 violated == 1 ? "has" : "have");
+  if (open > 0) text += fmt::format(", and {} could not be decided", plural(open, "stretch"));
+  return text + "; outside of them the path is proved.";
+}
+
+std::vector<std::string> refuted_details(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  const WitnessView& witness = *view.witness;
+  const auto pose_at = [&](double position) { return pose_text(scene.sampler.at(view.path, position).pose); };
+  std::vector<std::string> result;
   if (witness.to) {
-    result.push_back(fmt::format(
-        "The determinant of the force Jacobian has opposite signs at {} and at {}. Somewhere between these two poses "
-        "the motion therefore passes a singular pose, where the cables can't balance every load.",
-        at, point_text(scene.view, *witness.to)));
-    result.push_back(fmt::format("The first of the two poses, rounded: {}. The second: {}.", pose_text(pose),
-                                 pose_text(scene.sampler.at(scene.view.path, witness.to->position).pose)));
-    return result;
+    result.push_back(
+        fmt::format("It lies between these two poses, at which the determinant of the force Jacobian has opposite "
+                    "signs: {}, {}; and "
+                    "{}, {}.",
+                    place_text(scene, witness.at.position), pose_at(witness.at.position),
+                    place_text(scene, witness.to->position), pose_at(witness.to->position)));
+  } else {
+    const double beyond = violation(witness);
+    const double limit = number(witness.limit);
+    const bool length = is_length(witness);
+    std::string by = "It is exactly at the limit, which is itself excluded.";
+    if (beyond > 0) {
+      by = fmt::format("It is beyond the limit by at least {}{}",
+                       length ? rounded_down(1000 * beyond, 3) + " mm" : rounded_down(beyond, 3) + " N",
+                       limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
+    }
+    result.push_back(
+        fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by, place_text(scene, witness.at.position),
+                    point_text(view, witness.at), pose_at(witness.at.position),
+                    witness.deviates ? " The machine there is not quite the stated one: it deviates within the "
+                                       "tolerances, as the certificate says."
+                                     : ""));
   }
-  const bool length = witness.kind.starts_with("length");
-  const bool upper = witness.kind.ends_with("max");
-  const auto text = [&](const DecimalText& value) { return length ? millimetres(value) : plain(value); };
-  const char* unit = length ? "mm" : "N";
-  const std::string subject =
-      length ? fmt::format("cable {} has a length", witness.cable)
-             : fmt::format("some load in the given ellipsoid of wrenches gives cable {} a tension", witness.cable);
-  result.push_back(fmt::format("At {}, {} of {} {} {}: not {} its {} limit of {} {}.", at, subject,
-                               upper ? "at least" : "at most",
-                               upper ? text(witness.value_lower) : text(witness.value_upper), unit,
-                               upper ? "below" : "above", upper ? "upper" : "lower", text(witness.limit), unit));
-  result.push_back(fmt::format("That value was proved to lie between {} and {} {}. The pose, rounded: {}.",
-                               text(witness.value_lower), text(witness.value_upper), unit, pose_text(pose)));
+  if (view.path.segments() == 0) {
+    result.emplace_back("Every path of the query passes this pose, so that none is feasible.");
+  } else if (!view.stretches.empty()) {
+    result.push_back(stretches_text(view));
+  } else {
+    result.emplace_back("There may be other violations: the proof ends at the first.");
+  }
   return result;
 }
 
-std::vector<std::string> undecided_text(const Scene& scene) {
+std::vector<std::string> undecided_details(const Scene& scene) {
   const UndecidedView& open = *scene.view.undecided;
-  std::vector<std::string> result = {"Undecided: nothing is claimed about this motion."};
-  result.push_back(
-      fmt::format("It was neither proved nor refuted; that does not mean that it is unsafe. Reason: {}", open.reason));
+  std::vector<std::string> result = {
+      "It was neither proved nor refuted: that does not mean that it is unsafe, and it is no evidence that it is safe.",
+      fmt::format("Reason: {}.", open.reason)};
   if (open.segment) {
-    result.push_back(fmt::format(
-        "What is open lies on {}{}.", segment_text(scene.view, *open.segment),
-        open.box_lower.empty() ? "" : fmt::format(", from s = {} to s = {}", open.box_lower, open.box_upper)));
+    const double from = *open.segment + open.lower;
+    const std::string box =
+        open.box_lower.empty() ? "" : fmt::format(", from s = {} to s = {}", open.box_lower, open.box_upper);
+    result.push_back(fmt::format("What is open begins {}, on {}{}. The pose there, rounded: {}.",
+                                 place_text(scene, from), segment_text(scene.view, *open.segment), box,
+                                 pose_text(scene.sampler.at(scene.view.path, from).pose)));
+  }
+  if (!scene.view.stretches.empty()) {
+    result.push_back(fmt::format("In all, {} could not be decided.", plural(scene.view.stretches.size(), "stretch")));
   }
   return result;
+}
+
+// ---- What the verdict is about.
+
+std::string law_text(const CertificateView& view) {
+  switch (view.path.interpolation) {
+    case Interpolation::kStraight: return "straight in the parameters of the case";
+    case Interpolation::kCubicBSpline: return "a cubic spline in the parameters of the case";
+    case Interpolation::kGeodesic: return "straight in position and at a constant rate of turning";
+    case Interpolation::kCableLengths: break;
+  }
+  return "straight in the six cable lengths";
+}
+
+std::string motion_text(const Scene& scene) {
+  const Path& path = scene.view.path;
+  if (path.waypoints.empty()) return "The certificate contains no path.";
+  const auto segments = static_cast<double>(path.segments());
+  const auto pose = [&](double position) { return pose_text(scene.sampler.at(path, position).pose); };
+  if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
+  std::string text = fmt::format("{}, {}. The platform's origin travels {:.4g} m and the platform turns {:.4g}°",
+                                 plural(path.segments(), "segment"), law_text(scene.view),
+                                 scene.travel.distance_m(segments), scene.travel.turned_rad(segments) * kDegrees);
+  const auto begin = scene.travel.time_s(0);
+  const auto end = scene.travel.time_s(segments);
+  if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
+  return text + fmt::format(". From {} to {}. Positions and angles here are rounded.", pose(0), pose(segments));
+}
+
+/// "10 N along (0, 0, 1)", or the components where there is more than one.
+std::string vector_text(const std::array<double, 3>& v, const char* what, const char* unit) {
+  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  const auto components = std::ranges::count_if(v, [](double x) { return x != 0; });
+  if (components == 0) return fmt::format("no {}", what);
+  if (components == 1) {
+    const auto at = std::ranges::find_if(v, [](double x) { return x != 0; });
+    return fmt::format("a {} of {:.6g} {} along {}{}", what, std::abs(*at), unit, *at < 0 ? "−" : "+",
+                       kAxes.at(static_cast<std::size_t>(at - v.begin())));
+  }
+  return fmt::format("a {} of ({:.6g}, {:.6g}, {:.6g}) {}", what, v[0], v[1], v[2], unit);
+}
+
+/// How far each component of a wrench in K is from w0 at most: sqrt((E^-1)_ii). The half axes, where E is diagonal.
+std::string spread_text(const LoadText& load) {
+  Eigen::Matrix<double, 6, 6> e;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      e(i, j) = number(load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+    }
+  }
+  const Eigen::Matrix<double, 6, 6> inverse = e.inverse();
+  const auto group = [&](int first, const char* what, const char* unit) {
+    std::array<double, 3> s{};
+    for (int i = 0; i < 3; ++i) s[static_cast<std::size_t>(i)] = std::sqrt(inverse(first + i, first + i));
+    if (s[0] == s[1] && s[1] == s[2]) return fmt::format("each component of {} by up to {:.4g} {}", what, s[0], unit);
+    return fmt::format("the components of {} by up to ({:.4g}, {:.4g}, {:.4g}) {}", what, s[0], s[1], s[2], unit);
+  };
+  const bool is_diagonal = e.isDiagonal(0.0);
+  return fmt::format("{} and {}, all at once, within an ellipsoid of these {}", group(0, "the force", "N"),
+                     group(3, "the moment", "N·m"), is_diagonal ? "semi-axes" : "extents, whose axes are oblique");
+}
+
+std::string load_text(const LoadText& load) {
+  constexpr double kStandardGravity = 9.80665;  // [m/s²]
+  std::array<double, 3> force{};
+  std::array<double, 3> moment{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    force[i] = number(load.wrench[i]);
+    moment[i] = number(load.wrench[i + 3]);
+  }
+  const double size = std::hypot(force[0], force[1], force[2]);
+  const std::string weight =
+      size > 0 ? fmt::format(" (the weight of {:.4g} kg under standard gravity)", size / kStandardGravity) : "";
+  return fmt::format(
+      "At the load point ({}, {}, {}) mm of the platform, {}{} and {}, in the axes of the base; changing by any "
+      "amount that moves {}.",
+      millimetres(load.point_m[0]), millimetres(load.point_m[1]), millimetres(load.point_m[2]),
+      vector_text(force, "force", "N"), weight, vector_text(moment, "moment", "N·m"), spread_text(load));
+}
+
+/// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
+std::string limits_text(const RobotText& robot) {
+  const auto text = [](const std::array<Limits, kCables>& limits, bool length) -> std::string {
+    if (!std::ranges::all_of(limits, [&](const Limits& l) { return l == limits[0]; })) {
+      return "between the limits of each cable, in the table below";
+    }
+    return fmt::format("above {} and below {}", quantity(limits[0].lower, length), quantity(limits[0].upper, length));
+  };
+  return fmt::format("Every tension {}; every cable length {}.", text(robot.tension_N, false),
+                     text(robot.length_m, true));
+}
+
+std::string largest_mm(const std::array<DecimalText, kCables>& metres) {
+  const auto largest = std::ranges::max_element(
+      metres, [](const DecimalText& a, const DecimalText& b) { return Decimal::parse(a) < Decimal::parse(b); });
+  return millimetres(*largest) + " mm";
+}
+
+std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
+  if (!tolerances) {
+    return "None. The verdict is about a machine that is exactly as stated and follows the path exactly.";
+  }
+  const TolerancesText& t = *tolerances;
+  const auto is_zero = [](const DecimalText& x) { return Decimal::parse(x).sign() == 0; };
+  std::vector<std::string> items;
+  const auto add = [&](bool is_some, const std::string& text) {
+    if (is_some) items.push_back(text);
+  };
+  add(!std::ranges::all_of(t.base_anchor_m, is_zero), "base anchors " + largest_mm(t.base_anchor_m));
+  add(!std::ranges::all_of(t.platform_anchor_m, is_zero), "platform anchors " + largest_mm(t.platform_anchor_m));
+  add(!is_zero(t.load_point_m), fmt::format("load point {} mm", millimetres(t.load_point_m)));
+  if (!std::ranges::all_of(t.wrench, is_zero)) {
+    std::string wrench;
+    for (const DecimalText& x : t.wrench) wrench += (wrench.empty() ? "" : ", ") + plain(x);
+    items.push_back(fmt::format("centre load ± ({}) N, N·m", wrench));
+  }
+  add(!is_zero(t.position_m), fmt::format("position of the platform {} mm", millimetres(t.position_m)));
+  add(t.orientation_rad != "0", fmt::format("its orientation {} rad", t.orientation_rad));
+  if (t.cable_length_m) {
+    items.push_back(std::ranges::all_of(*t.cable_length_m, is_zero)
+                        ? "the winches hold the cables' lengths exactly"
+                        : "cable lengths " + largest_mm(*t.cable_length_m) + ", held by the winches");
+  }
+  if (items.empty()) return "Stated, and all zero.";
+  return fmt::format("Up to, in any direction and all at once: {}.", listed(items));
+}
+
+std::string assumptions_text(const Problem& problem) {
+  return fmt::format(
+      "Cables are massless, straight and inextensible and end in points. The motion is slow: inertia counts only as "
+      "far as the "
+      "set of loads contains it. The machine is as stated{}; its controller follows the path between waypoints too.",
+      problem.tolerances ? ", within the tolerances" : "");
+}
+
+std::string not_covered_text(const Problem& problem) {
+  return fmt::format(
+      "Collisions of cables, platform, load and surroundings. Sag, stretch and wear of cables, pulleys, winches, "
+      "brakes. "
+      "Strength of anchors, fittings and structure. Failure or loss of a cable, drive, sensor or power. Vibration, "
+      "wind and "
+      "impact beyond the set of loads. {}Whether the numbers stated are those of the machine that is used.",
+      problem.tolerances ? "" : "Errors of manufacture, measurement and control. ");
+}
+
+std::string recheck_text(const CertificateView& view, const Recheck& recheck) {
+  const std::string command = "taut-check certificate.json CASE.yaml";
+  switch (recheck.result) {
+    case Recheck::Result::kNotRun: break;
+    case Recheck::Result::kConfirmed:
+      return fmt::format(
+          "{}, an independent program with other arithmetic, proved the certificate's claim (\u201C{}\u201D) again: "
+          "{}.",
+          recheck.checker, view.verdict, recheck.message);
+    case Recheck::Result::kNoClaim:
+      return fmt::format("{}, an independent program, found it well formed; it claims nothing: {}.", recheck.checker,
+                         recheck.message);
+    case Recheck::Result::kRejected:
+      return fmt::format("REJECTED by {}, an independent program: {}. Nothing in this report may be relied on.",
+                         recheck.checker, recheck.message);
+  }
+  return fmt::format("Not re-checked{}. Before relying on it run: {}",
+                     recheck.message.empty() ? "" : fmt::format(" ({})", recheck.message), command);
 }
 
 }  // namespace
 
-std::vector<std::string> verdict_text(const Scene& scene) {
-  if (scene.view.verdict == "proved") return proved_text(scene);
-  return scene.view.verdict == "refuted" ? refuted_text(scene) : undecided_text(scene);
+std::string headline(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  if (view.verdict == "undecided") return "Undecided: nothing is claimed about this move.";
+  if (view.verdict == "proved") {
+    return fmt::format(
+        "Proved: at every pose of this move, under every load stated below{}, all six cables stay taut, below their "
+        "greatest "
+        "tension and within their lengths, and no singular pose is met.",
+        deviating(view));
+  }
+  const WitnessView& witness = *view.witness;
+  const bool by_load = !witness.to && !is_length(witness);
+  return fmt::format("Refuted: on this move {}{}.", violation_text(witness),
+                     by_load ? ", under a load of the set stated below" : "");
+}
+
+std::string violation_text(const WitnessView& witness) {
+  if (witness.to) return "the platform passes a singular pose, where the cables cannot balance every load";
+  const bool length = is_length(witness);
+  const bool upper = is_upper(witness);
+  const DecimalText& value = upper ? witness.value_lower : witness.value_upper;
+  return fmt::format("{} of cable {} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
+                     witness.cable, upper ? "reaches at least" : "falls to at most", shortened(value, length, !upper),
+                     upper ? "not below" : "not above", upper ? "upper" : "lower", quantity(witness.limit, length));
+}
+
+std::vector<std::string> verdict_details(const Scene& scene) {
+  if (scene.view.verdict == "proved") return proved_details(scene.view);
+  return scene.view.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
+}
+
+std::vector<std::string> closest_text(const Scene& scene, const CableUse& use) {
+  if (scene.view.verdict != "proved" || use.source != CableUse::Source::kProved) return {};
+  const RobotText& robot = scene.view.problem.robot;
+  const auto sentence = [&](const std::array<Use, kCables>& uses, bool length) {
+    const ClosestUse c = closest(uses);
+    const double beside = c.is_upper ? c.limit - c.value : c.value - c.limit;
+    const Limits& limits = (length ? robot.length_m : robot.tension_N).at(static_cast<std::size_t>(c.cable));
+    const std::string within =
+        c.limit > 0 ? rounded_up(100 * beside / c.limit, 3) + " %" : quantity(rounded_up(beside, 3), length);
+    return fmt::format("Cable {} comes within {} of its {} {} limit, {}: it stays at or {} {}, the limit is {}.",
+                       c.cable + 1, within, c.is_upper ? "upper" : "lower", length ? "length" : "tension",
+                       place_text(scene, c.at), c.is_upper ? "below" : "above",
+                       quantity(c.is_upper ? rounded_up(c.value) : rounded_down(c.value), length),
+                       quantity(c.is_upper ? limits.upper : limits.lower, length));
+  };
+  return {sentence(use.tension, false), sentence(use.length, true)};
+}
+
+std::vector<Statement> statements(const Scene& scene, const Recheck& recheck) {
+  const CertificateView& view = scene.view;
+  const Problem& problem = view.problem;
+  std::string proof = view.generator + " made the certificate";
+  if (view.boxes > 0) {
+    proof += fmt::format("; interval arithmetic, {} in {} without sampling", plural(view.boxes, "box"),
+                         plural(view.segments.size(), "segment"));
+  }
+  return {{"motion", "Motion", motion_text(scene)},
+          {"load", "Loads", load_text(problem.load)},
+          {"limits", "Limits", limits_text(problem.robot)},
+          {"tolerances", "Tolerances", tolerances_text(problem.tolerances)},
+          {"assumptions", "Assumptions", assumptions_text(problem)},
+          {"not_covered", "Not covered", not_covered_text(problem)},
+          {"proof", "Proof", proof + "."},
+          {"recheck", "Re-check", recheck_text(view, recheck)}};
+}
+
+std::string use_caption(CableUse::Source source) {
+  switch (source) {
+    case CableUse::Source::kNone: break;
+    case CableUse::Source::kSamples: return "Cables over the move, in floating-point samples: not proved";
+    case CableUse::Source::kProvedParts: return "Cables over those parts of the move that are proved";
+    case CableUse::Source::kProved:
+      return "Cables over the whole move, proved: no load of the set asks for more, or less";
+  }
+  return "";
 }
 
 }  // namespace taut

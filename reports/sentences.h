@@ -5,11 +5,37 @@
 #include <string>
 #include <vector>
 
+#include "reports/cable_use.h"
+#include "reports/report_options.h"
 #include "reports/scene.h"
 
 namespace taut {
 
-/// The verdict, first in one sentence, then with what was proved, or what is wrong and where.
-[[nodiscard]] std::vector<std::string> verdict_text(const Scene& scene);
+/// The verdict in one sentence.
+[[nodiscard]] std::string headline(const Scene& scene);
+
+/// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N"
+[[nodiscard]] std::string violation_text(const WitnessView& witness);
+
+/// What follows from it: of a refuted one by how much, where and at which pose; of an undecided one the reason and where; of a
+/// proved one its reserves.
+[[nodiscard]] std::vector<std::string> verdict_details(const Scene& scene);
+
+/// How close the move comes to limits of tension and of length: "Cable 3 comes within 12 % of …". Nothing unless all of the move is
+/// proved.
+[[nodiscard]] std::vector<std::string> closest_text(const Scene& scene, const CableUse& use);
+
+/// What a statement is about, and the statement.
+struct Statement {
+  const char* key;    ///< for machines: "motion"
+  const char* title;  ///< for people: "Motion"
+  std::string text;
+};
+
+/// What the verdict is about: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and who checked it again.
+[[nodiscard]] std::vector<Statement> statements(const Scene& scene, const Recheck& recheck);
+
+/// "Utilisation of the cables, proved …": what the table of cables shows.
+[[nodiscard]] std::string use_caption(CableUse::Source source);
 
 }  // namespace taut

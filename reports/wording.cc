@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "certify/big_float.h"
 #include "kinematics/decimal.h"
-#include "reports/scene.h"
 
 namespace taut {
 
@@ -11,11 +14,33 @@ namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
+std::string rounded(double x, int digits, mpfr_rnd_t direction) {
+  // What Decimal can't hold is absurd anyway.
+  constexpr double kLargest = 1e290;
+  const double size = std::abs(x);
+  if (x == 0) return "0";
+  if (!(size < kLargest && size > 1 / kLargest)) return fmt::format("{:.{}g}", x, digits);
+  const PrecisionScope precision(64);
+  const BigFloat exact(x);
+  char* text = nullptr;
+  if (direction == MPFR_RNDD) {
+    mpfr_asprintf(&text, "%.*RDe", digits - 1, exact.get());
+  } else {
+    mpfr_asprintf(&text, "%.*RUe", digits - 1, exact.get());
+  }
+  const std::string result = text;
+  mpfr_free_str(text);
+  return plain(result);
+}
+
 }  // namespace
 
 std::string plain(const DecimalText& decimal) { return Decimal::parse(decimal).text(); }
 
 std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metres) * Decimal::parse("1000")).text(); }
+
+std::string rounded_down(double x, int digits) { return rounded(x, digits, MPFR_RNDD); }
+std::string rounded_up(double x, int digits) { return rounded(x, digits, MPFR_RNDU); }
 
 std::string plural(std::size_t count, const std::string& noun) {
   const std::string ending = noun.ends_with('x') || noun.ends_with('h') ? "es" : "s";
@@ -78,6 +103,24 @@ std::string pose_text(const Pose<double>& pose) {
   return fmt::format("p = ({:.4g}, {:.4g}, {:.4g}) mm, φ = {:.4g}°, θ = {:.4g}°, σ = {:.4g}°", pose.p_WP(0) * 1000,
                      pose.p_WP(1) * 1000, pose.p_WP(2) * 1000, pose.phi * kDegrees, pose.theta * kDegrees,
                      pose.sigma * kDegrees);
+}
+
+std::string place_text(const Scene& scene, double position) {
+  constexpr double kStill = 1e-9;  // [m], [rad]: less is rounding
+  const auto segments = static_cast<double>(scene.view.path.segments());
+  if (segments == 0) return "at the only pose of the path";
+  const double way = scene.travel.distance_m(segments);
+  const double turn = scene.travel.turned_rad(segments);
+  const auto segment = static_cast<std::size_t>(std::clamp(position, 0.0, segments - 1));
+  std::string in = fmt::format("segment {}", segment);
+  if (const auto time = scene.travel.time_s(position)) in += fmt::format(", t = {:.6g} s", *time);
+  if (position <= 0) return fmt::format("at the start of the move ({})", in);
+  if (position >= segments) return fmt::format("at the end of the move ({})", in);
+  if (way > kStill) return fmt::format("{:.3g} m into the move ({})", scene.travel.distance_m(position), in);
+  if (turn > kStill) {
+    return fmt::format("after {:.3g}° of turning ({})", scene.travel.turned_rad(position) * kDegrees, in);
+  }
+  return fmt::format("in {}", in);
 }
 
 }  // namespace taut

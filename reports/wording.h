@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinematics/model.h"
-#include "reports/certificate_view.h"
+#include "reports/scene.h"
 
 namespace taut {
 
@@ -14,6 +14,9 @@ namespace taut {
 [[nodiscard]] std::string plain(const DecimalText& decimal);
 /// Exactly the same length, in millimetres.
 [[nodiscard]] std::string millimetres(const DecimalText& metres);
+/// `digits` significant digits, rounded towards −∞ or +∞, without exponent where it is readable.
+[[nodiscard]] std::string rounded_down(double x, int digits = 4);
+[[nodiscard]] std::string rounded_up(double x, int digits = 4);
 /// "1 box", "2 boxes".
 [[nodiscard]] std::string plural(std::size_t count, const std::string& noun);
 
@@ -31,5 +34,9 @@ namespace taut {
 [[nodiscard]] std::string point_text(const CertificateView& view, const PathPointView& point);
 /// "p = (0, 0, 350) mm, φ = …": rounded.
 [[nodiscard]] std::string pose_text(const Pose<double>& pose);
+
+/// "4.2 m into the move (segment 17)": where the path's origin does not move, by the angle turned; with the time, if the path has any.
+/// `position` counts segments: k + s is the point s of segment k.
+[[nodiscard]] std::string place_text(const Scene& scene, double position);
 
 }  // namespace taut

@@ -1,0 +1,47 @@
+// What a move asks of each cable: the least and the greatest tension and length, and how close that comes to the limits.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "reports/scene.h"
+
+namespace taut {
+
+/// Of one quantity of one cable, over the move.
+struct Use {
+  Range range;             ///< [N] or [m]
+  double lower_limit = 0;  ///< rounded to nearest; the certificate has it exactly
+  double upper_limit = 0;  ///< likewise
+  double least_at = 0;     ///< where `range.lower` is; places count segments (PathSample::position)
+  double greatest_at = 0;  ///< where `range.upper` is
+
+  /// The greatest as a share of the upper limit, what engineers call utilisation [1].
+  [[nodiscard]] double used() const { return range.upper / upper_limit; }
+};
+
+struct CableUse {
+  enum class Source {
+    kNone,         ///< nothing is known: there is no path, or not one regular pose in its samples
+    kSamples,      ///< floating-point samples: not proved
+    kProvedParts,  ///< proved, of those parts of the path that the certificate proves
+    kProved,       ///< proved, of the whole path
+  };
+  Source source = Source::kNone;
+  std::array<Use, kCables> tension;
+  std::array<Use, kCables> length;
+};
+
+[[nodiscard]] CableUse cable_use(const Scene& scene);
+
+/// The cable that comes closest to one of its limits, measured by the width between them.
+struct ClosestUse {
+  int cable = 0;          ///< 0…5
+  bool is_upper = false;  ///< which limit
+  double limit = 0;
+  double value = 0;  ///< the end of the range next to the limit
+  double at = 0;     ///< place
+};
+[[nodiscard]] ClosestUse closest(const std::array<Use, kCables>& uses);
+
+}  // namespace taut

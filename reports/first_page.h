@@ -1,0 +1,11 @@
+// The report's first page: all that whoever signs it has to know, on one sheet of A4 in usual cases.
+#pragma once
+
+#include "reports/markup.h"
+#include "reports/summary.h"
+
+namespace taut {
+
+[[nodiscard]] Html first_page(const Scene& scene, const Summary& summary);
+
+}  // namespace taut

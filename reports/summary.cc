@@ -1,0 +1,198 @@
+#include "reports/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "kinematics/shown.h"
+#include "reports/wording.h"
+
+namespace taut {
+
+namespace {
+
+struct CableRow {
+  std::array<std::string, 7> cells;  ///< cable; least, greatest and share of tension; of length
+};
+
+constexpr std::array<const char*, 7> kCableHeads = {
+    "Cable", "Tension from [N]", "to [N]", "of limit", "Length from [mm]", "to [mm]", "of limit"};
+
+std::vector<CableRow> cable_rows(const CableUse& use) {
+  std::vector<CableRow> rows;
+  if (use.source == CableUse::Source::kNone) return rows;
+  const auto percent = [](const Use& x) { return rounded_up(100 * x.used(), 3) + " %"; };
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Use& t = use.tension[i];
+    const Use& d = use.length[i];
+    rows.push_back({{std::to_string(i + 1), rounded_down(t.range.lower), rounded_up(t.range.upper), percent(t),
+                     millimetres(rounded_down(d.range.lower)), millimetres(rounded_up(d.range.upper)), percent(d)}});
+  }
+  return rows;
+}
+
+/// Markdown in which no character of `text` is markup: each that could be is escaped. On one line.
+std::string markdown(const std::string& text) {
+  std::string result;
+  for (const char c : without_control_characters(text)) {
+    if (std::string_view(R"(\\`*_{}[]()<>#|!~&$@:)").find(c) != std::string_view::npos) {
+      result += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string rejection(const Recheck& recheck) {
+  return recheck.result == Recheck::Result::kRejected
+             ? fmt::format("REJECTED by {}: {}. Nothing below may be relied on.", recheck.checker, recheck.message)
+             : "";
+}
+
+const char* name(Recheck::Result result) {
+  switch (result) {
+    case Recheck::Result::kNotRun: break;
+    case Recheck::Result::kConfirmed: return "confirmed";
+    case Recheck::Result::kNoClaim: return "no claim";
+    case Recheck::Result::kRejected: return "rejected";
+  }
+  return "not run";
+}
+
+const char* name(CableUse::Source source) {
+  switch (source) {
+    case CableUse::Source::kNone: break;
+    case CableUse::Source::kSamples: return "samples";
+    case CableUse::Source::kProvedParts: return "proved parts";
+    case CableUse::Source::kProved: return "proved";
+  }
+  return "none";
+}
+
+}  // namespace
+
+Summary::Summary(const Scene& scene, const ReportOptions& options)
+    : document(options.document.empty() ? document_number(scene.view.footer_sha256) : options.document),
+      revision(options.revision),
+      date(options.date),
+      name(scene.view.problem.name),
+      verdict(scene.view.verdict),
+      headline(taut::headline(scene)),
+      details(verdict_details(scene)),
+      statements(taut::statements(scene, options.recheck)),
+      use(cable_use(scene)),
+      recheck(options.recheck),
+      problem_sha256(scene.view.problem_sha256),
+      path_sha256(scene.view.path_sha256),
+      footer_sha256(scene.view.footer_sha256) {
+  closest = closest_text(scene, use);
+}
+
+std::string document_number(const std::string& footer_sha256) {
+  constexpr std::size_t kDigestDigits = 64;
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (footer_sha256.size() != kDigestDigits || !std::ranges::all_of(footer_sha256, is_hex)) return "";
+  std::string number = "TAUT";
+  for (std::size_t i = 0; i < 12; ++i) {
+    if (i % 4 == 0) number += '-';
+    const char c = footer_sha256[i];
+    number += c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  return number;
+}
+
+std::string to_text(const Summary& s) {
+  constexpr std::size_t kWidest = 12;  // of the statements' titles
+  std::string text;
+  const auto line = [&](const std::string& content) { text += without_control_characters(content) + "\n"; };
+  line(fmt::format("{}{}{}: {}", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
+                   s.date.empty() ? "" : ", " + s.date, s.name));
+  if (const std::string rejected = rejection(s.recheck); !rejected.empty()) line(rejected);
+  line(s.headline);
+  for (const std::string& sentence : s.details) line(sentence);
+  for (const std::string& sentence : s.closest) line(sentence);
+  if (const std::vector<CableRow> rows = cable_rows(s.use); !rows.empty()) {
+    line(use_caption(s.use.source) + ":");
+    line(fmt::format("  {:>5} {:>16} {:>10} {:>8} {:>17} {:>10} {:>8}", kCableHeads[0], kCableHeads[1], kCableHeads[2],
+                     kCableHeads[3], kCableHeads[4], kCableHeads[5], kCableHeads[6]));
+    for (const auto& [c] : rows) {
+      line(fmt::format("  {:>5} {:>16} {:>10} {:>8} {:>17} {:>10} {:>8}", c[0], c[1], c[2], c[3], c[4], c[5], c[6]));
+    }
+  }
+  for (const Statement& statement : s.statements)
+    line(fmt::format("{:<{}} {}", statement.title, kWidest, statement.text));
+  line(fmt::format("{:<{}} problem {}", "SHA-256", kWidest, s.problem_sha256));
+  line(fmt::format("{:<{}} path    {}", "", kWidest, s.path_sha256));
+  line(fmt::format("{:<{}} footer  {}", "", kWidest, s.footer_sha256));
+  return text;
+}
+
+std::string to_markdown(const Summary& s) {
+  std::string text = fmt::format("## {}\n\n", markdown(s.name));
+  std::string head = s.document;
+  if (!s.revision.empty()) head += ", revision " + s.revision;
+  if (!s.date.empty()) head += ", " + s.date;
+  if (!head.empty()) text += markdown(head) + "\n\n";
+  if (const std::string rejected = rejection(s.recheck); !rejected.empty()) {
+    text += fmt::format("**{}**\n\n", markdown(rejected));
+  }
+  text += fmt::format("**{}**\n\n", markdown(s.headline));
+  for (const std::string& sentence : s.details) text += markdown(sentence) + "\n\n";
+  for (const std::string& sentence : s.closest) text += fmt::format("- {}\n", markdown(sentence));
+  if (!s.closest.empty()) text += "\n";
+  if (const std::vector<CableRow> rows = cable_rows(s.use); !rows.empty()) {
+    text += markdown(use_caption(s.use.source)) + ":\n\n|";
+    for (const char* cell : kCableHeads) text += fmt::format(" {} |", markdown(cell));
+    text += "\n|" + std::string("---:|---:|---:|---:|---:|---:|---:|") + "\n";
+    for (const auto& [cells] : rows) {
+      text += "|";
+      for (const std::string& cell : cells) text += fmt::format(" {} |", cell);
+      text += "\n";
+    }
+    text += "\n";
+  }
+  text += "| | |\n|---|---|\n";
+  for (const Statement& statement : s.statements) {
+    text += fmt::format("| {} | {} |\n", statement.title, markdown(statement.text));
+  }
+  text += fmt::format("| SHA-256 | problem {}, path {}, footer {} |\n", markdown(s.problem_sha256),
+                      markdown(s.path_sha256), markdown(s.footer_sha256));
+  return text;
+}
+
+nlohmann::json to_json(const Summary& s) {
+  using nlohmann::json;
+  json statements = json::object();
+  for (const Statement& statement : s.statements) statements[statement.key] = statement.text;
+  json cables = json::array();
+  if (s.use.source != CableUse::Source::kNone) {
+    const auto one = [](const Use& use) {
+      return json{{"least", use.range.lower},           {"greatest", use.range.upper},
+                  {"lower_limit", use.lower_limit},     {"upper_limit", use.upper_limit},
+                  {"share_of_upper_limit", use.used()}, {"least_at", use.least_at},
+                  {"greatest_at", use.greatest_at}};
+    };
+    for (std::size_t i = 0; i < kCables; ++i) {
+      cables.push_back({{"cable", i + 1}, {"tension_N", one(s.use.tension[i])}, {"length_m", one(s.use.length[i])}});
+    }
+  }
+  const auto text_or_null = [](const std::string& text) { return text.empty() ? json() : json(text); };
+  return {
+      {"document", text_or_null(s.document)},
+      {"revision", text_or_null(s.revision)},
+      {"date", text_or_null(s.date)},
+      {"case", s.name},
+      {"verdict", s.verdict},
+      {"headline", s.headline},
+      {"details", s.details},
+      {"closest", s.closest},
+      {"statements", statements},
+      {"cables_source", name(s.use.source)},
+      {"cables", cables},
+      {"recheck", {{"result", name(s.recheck.result)}, {"checker", s.recheck.checker}, {"message", s.recheck.message}}},
+      {"sha256", {{"problem", s.problem_sha256}, {"path", s.path_sha256}, {"footer", s.footer_sha256}}}};
+}
+
+}  // namespace taut

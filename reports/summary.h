@@ -1,0 +1,39 @@
+// The first page as data, and in the three forms that are not HTML: plain text, Markdown, JSON. All say the same.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/sentences.h"
+
+namespace taut {
+
+struct Summary {
+  Summary(const Scene& scene, const ReportOptions& options);
+
+  std::string document;  ///< its number
+  std::string revision;  ///< may be empty, as the date
+  std::string date;
+  std::string name;     ///< the case's
+  std::string verdict;  ///< "proved", "refuted" or "undecided"
+  std::string headline;
+  std::vector<std::string> details;
+  std::vector<std::string> closest;
+  std::vector<Statement> statements;
+  CableUse use;
+  Recheck recheck;
+  std::string problem_sha256, path_sha256, footer_sha256;
+};
+
+/// "TAUT-1A2B-3C4D-5E6F", from the certificate's own digest; nothing where that is no digest.
+[[nodiscard]] std::string document_number(const std::string& footer_sha256);
+
+/// Lines of plain text, without control characters, for logs.
+[[nodiscard]] std::string to_text(const Summary& summary);
+/// GitHub's Markdown; what the certificate says can't make markup of its own.
+[[nodiscard]] std::string to_markdown(const Summary& summary);
+/// docs/report.md has the keys.
+[[nodiscard]] nlohmann::json to_json(const Summary& summary);
+
+}  // namespace taut
