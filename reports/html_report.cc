@@ -28,7 +28,7 @@ Html contents(const Scene& scene) {
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
   link(is_plane(scene.view.problem.space), "slice", "Plane");
-  link(!scene.view.segments.empty(), "margins", "Margins");
+  link(scene.view.boxes > 0, "margins", "Margins");
   link(true, "theorem", "Claim");
   link(scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");

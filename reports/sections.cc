@@ -192,9 +192,25 @@ Html waypoint_table(const Scene& scene, std::size_t step) {
       pose_rows.back().push_back(html("{:.3f}", angle * kDegrees + 0.0));
     }
   }
-  const Html exact = html("{}s: exact parameters", what);
-  const Html rounded = html("{}s: rounded poses", what);
-  if (named.size() > kSideBySide) return table(exact, columns, rows) + table(rounded, pose_columns, pose_rows);
+  if (named.size() > kSideBySide) {
+    // Groups of columns that fit on a page: px py pz, qx qy qz qw, L1 L2 L3, L4 L5 L6; or three parameters each.
+    Html tables;
+    for (std::size_t first = 1; first < columns.size();) {
+      const bool is_quaternion = has_poses(path.interpolation) && first == 4;
+      const std::size_t end = std::min(columns.size(), first + (is_quaternion ? 4 : kSideBySide));
+      const auto part = [&](const auto& row) {
+        auto cells = std::vector(row.begin() + static_cast<std::ptrdiff_t>(first),
+                                 row.begin() + static_cast<std::ptrdiff_t>(end));
+        cells.insert(cells.begin(), row.front());
+        return cells;
+      };
+      std::vector<std::vector<Html>> part_rows;
+      for (const std::vector<Html>& row : rows) part_rows.push_back(part(row));
+      tables += table(html("{}s: exact numbers", what), part(columns), part_rows);
+      first = end;
+    }
+    return tables + table(html("{}s: rounded poses", what), pose_columns, pose_rows);
+  }
   columns.insert(columns.end(), pose_columns.begin() + 1, pose_columns.end());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     rows[k].insert(rows[k].end(), pose_rows[k].begin() + 1, pose_rows[k].end());
@@ -457,7 +473,7 @@ Html path_section(const Scene& scene) {
 Html margins(const Scene& scene) {
   const CertificateView& view = scene.view;
   const std::size_t count = view.segments.size();
-  if (count == 0) return {};
+  if (view.boxes == 0) return {};
   const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
   std::vector<MarginRow> rows;
   for (std::size_t k = 0; k < count; k += step) rows.push_back(margin_row(view, k, std::min(k + step, count) - 1));

@@ -48,7 +48,8 @@ std::string shortened(const DecimalText& value, bool length, bool up) {
 double violation(const WitnessView& witness) {
   const auto value = Decimal::parse(is_upper(witness) ? witness.value_lower : witness.value_upper).rational();
   const auto limit = Decimal::parse(witness.limit).rational();
-  const auto beyond = is_upper(witness) ? value - limit : limit - value;
+  using Rational = boost::multiprecision::cpp_rational;
+  const Rational beyond = is_upper(witness) ? Rational(value - limit) : Rational(limit - value);
   constexpr double kBelow = 1 - 1e-15;  // of the nearest number
   return beyond.convert_to<double>() * kBelow;
 }
@@ -85,7 +86,7 @@ std::string stretches_text(const CertificateView& view) {
   std::string text = fmt::format("In all, {} of the path {} proved violations", plural(violated, "stretch"),
                                  violated == 1 ? "has" : "have");
   if (open > 0) text += fmt::format(", and {} could not be decided", plural(open, "stretch"));
-  return text + "; outside of them the path is proved.";
+  return text + "; outside of these the path is proved.";
 }
 
 std::vector<std::string> refuted_details(const Scene& scene) {
@@ -164,9 +165,10 @@ std::string motion_text(const Scene& scene) {
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) { return pose_text(scene.sampler.at(path, position).pose); };
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
-  std::string text = fmt::format("{}, {}. The platform's origin travels {:.4g} m and the platform turns {:.4g}°",
-                                 plural(path.segments(), "segment"), law_text(scene.view),
-                                 scene.travel.distance_m(segments), scene.travel.turned_rad(segments) * kDegrees);
+  std::string text =
+      fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",
+                  plural(path.segments(), "segment"), law_text(scene.view),
+                  distance_text(scene.travel.distance_m(segments)), scene.travel.turned_rad(segments) * kDegrees);
   const auto begin = scene.travel.time_s(0);
   const auto end = scene.travel.time_s(segments);
   if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
@@ -218,8 +220,8 @@ std::string load_text(const LoadText& load) {
   const std::string weight =
       size > 0 ? fmt::format(" (the weight of {:.4g} kg under standard gravity)", size / kStandardGravity) : "";
   return fmt::format(
-      "At the load point ({}, {}, {}) mm of the platform, {}{} and {}, in the axes of the base; changing by any "
-      "amount that moves {}.",
+      "At the load point ({}, {}, {}) mm of the platform, {}{} and {}, in the axes of the base. Covered, too, is "
+      "every load that differs from it in {}.",
       millimetres(load.point_m[0]), millimetres(load.point_m[1]), millimetres(load.point_m[2]),
       vector_text(force, "force", "N"), weight, vector_text(moment, "moment", "N·m"), spread_text(load));
 }
@@ -350,7 +352,7 @@ std::vector<std::string> closest_text(const Scene& scene, const CableUse& use) {
     const double beside = c.is_upper ? c.limit - c.value : c.value - c.limit;
     const Limits& limits = (length ? robot.length_m : robot.tension_N).at(static_cast<std::size_t>(c.cable));
     const std::string within =
-        c.limit > 0 ? rounded_up(100 * beside / c.limit, 3) + " %" : quantity(rounded_up(beside, 3), length);
+        c.is_upper ? rounded_up(100 * beside / c.limit, 3) + " %" : quantity(rounded_up(beside, 3), length);
     return fmt::format("Cable {} comes within {} of its {} {} limit, {}: it stays at or {} {}, the limit is {}.",
                        c.cable + 1, within, c.is_upper ? "upper" : "lower", length ? "length" : "tension",
                        place_text(scene, c.at), c.is_upper ? "below" : "above",

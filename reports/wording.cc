@@ -100,9 +100,20 @@ std::string point_text(const CertificateView& view, const PathPointView& point) 
 }
 
 std::string pose_text(const Pose<double>& pose) {
-  return fmt::format("p = ({:.4g}, {:.4g}, {:.4g}) mm, φ = {:.4g}°, θ = {:.4g}°, σ = {:.4g}°", pose.p_WP(0) * 1000,
-                     pose.p_WP(1) * 1000, pose.p_WP(2) * 1000, pose.phi * kDegrees, pose.theta * kDegrees,
-                     pose.sigma * kDegrees);
+  // To a micrometre and a thousandth of a degree.
+  const auto text = [](double x) {
+    constexpr double kLargest = 1e9;
+    if (!(std::abs(x) < kLargest)) return fmt::format("{:.4g}", x);
+    return fmt::format("{:.12g}", std::round(x * 1000) / 1000 + 0.0);
+  };
+  return fmt::format("p = ({}, {}, {}) mm, φ = {}°, θ = {}°, σ = {}°", text(pose.p_WP(0) * 1000),
+                     text(pose.p_WP(1) * 1000), text(pose.p_WP(2) * 1000), text(pose.phi * kDegrees),
+                     text(pose.theta * kDegrees), text(pose.sigma * kDegrees));
+}
+
+std::string distance_text(double metres) {
+  constexpr double kShort = 0.1;
+  return metres < kShort ? fmt::format("{:.3g} mm", std::round(metres * 1e6) / 1000) : fmt::format("{:.4g} m", metres);
 }
 
 std::string place_text(const Scene& scene, double position) {
@@ -116,7 +127,7 @@ std::string place_text(const Scene& scene, double position) {
   if (const auto time = scene.travel.time_s(position)) in += fmt::format(", t = {:.6g} s", *time);
   if (position <= 0) return fmt::format("at the start of the move ({})", in);
   if (position >= segments) return fmt::format("at the end of the move ({})", in);
-  if (way > kStill) return fmt::format("{:.3g} m into the move ({})", scene.travel.distance_m(position), in);
+  if (way > kStill) return fmt::format("{} into the move ({})", distance_text(scene.travel.distance_m(position)), in);
   if (turn > kStill) {
     return fmt::format("after {:.3g}° of turning ({})", scene.travel.turned_rad(position) * kDegrees, in);
   }

@@ -35,6 +35,8 @@ namespace taut {
 /// "p = (0, 0, 350) mm, φ = …": rounded.
 [[nodiscard]] std::string pose_text(const Pose<double>& pose);
 
+/// "4.2 m", "12 mm": rounded.
+[[nodiscard]] std::string distance_text(double metres);
 /// "4.2 m into the move (segment 17)": where the path's origin does not move, by the angle turned; with the time, if the path has any.
 /// `position` counts segments: k + s is the point s of segment k.
 [[nodiscard]] std::string place_text(const Scene& scene, double position);

@@ -71,16 +71,63 @@ const std::string& page_of(const std::string& name) {
   throw std::out_of_range(name);
 }
 
+ReportOptions named(const std::string& document, const std::string& revision, const std::string& date) {
+  return {document, revision, date, {}};
+}
+
 TEST(HtmlReport, SaysWhatWasProvedAndHowClose) {
   const std::string& page = page_of("proved");
-  EXPECT_THAT(page, HasSubstr("Proved: this motion is wrench-feasible"));
-  EXPECT_THAT(page, HasSubstr("(0.05 to 0.5 N)"));
-  EXPECT_THAT(page, HasSubstr("(100 to 550 mm)"));
+  EXPECT_THAT(page,
+              HasSubstr("Proved: at every pose of this move, under every load stated below, all six cables stay taut"));
+  EXPECT_THAT(
+      page, HasSubstr("Every tension above 0.05 N and below 0.5 N; every cable length above 100 mm and below 550 mm."));
   EXPECT_THAT(page, HasSubstr("2 segments"));
-  EXPECT_THAT(page, HasSubstr("in 3 boxes"));
+  EXPECT_THAT(page, HasSubstr("3 boxes in 2 segments"));
   EXPECT_THAT(page, HasSubstr("at least 0.0425 N inside its limits (least in segment 1)"));
   EXPECT_THAT(page, HasSubstr("at least 10.61 mm (least in segment 0)"));
   EXPECT_THAT(page, HasSubstr("at least 2.71-fold"));
+}
+
+TEST(HtmlReport, OpensWithASheetToSign) {
+  for (const auto& [name, page] : pages()) {
+    for (const char* text :
+         {"Prepared by", "Checked by", "Approved by", "<dt>Motion</dt>", "<dt>Loads</dt>", "<dt>Limits</dt>",
+          "<dt>Tolerances</dt>", "<dt>Assumptions</dt>", "<dt>Not covered</dt>", "<dt>Re-check</dt>"}) {
+      EXPECT_THAT(page, HasSubstr(text)) << name;
+    }
+  }
+  EXPECT_THAT(page_of("proved"), HasSubstr("<bdi>TAUT-CCCC-CCCC-CCCC</bdi>"));
+  EXPECT_THAT(page_of("proved"), HasSubstr("a force of 1 N along +z (the weight of 0.102 kg under standard gravity)"));
+  EXPECT_THAT(page_of("proved"),
+              HasSubstr("each component of the force by up to 0.01 N and each component of the moment by up to "
+                        "0.001 N·m"));
+}
+
+TEST(HtmlReport, PrintsWhatItIsToldOfTheDocument) {
+  const std::string page = html_report(sample::proved(), named("LP-17/4", "B", "2024-02-29"));
+  EXPECT_THAT(page, HasSubstr("<dd><bdi>LP-17/4</bdi></dd>"));
+  EXPECT_THAT(page, HasSubstr("<dd><bdi>B</bdi></dd>"));
+  EXPECT_THAT(page, HasSubstr("<dd><bdi>2024-02-29</bdi></dd>"));
+  EXPECT_THAT(page, HasSubstr("@bottom-left { content: \"LP-17/4\"; }"));
+  for (const std::string& bad : {std::string("\"; } body { display: none"), std::string("a\\b"), std::string("a\nb"),
+                                 std::string(41, 'x'), std::string(sample::kAttack)}) {
+    EXPECT_THROW((void)html_report(sample::proved(), named(bad, "", "")), InputError) << bad;
+    EXPECT_THROW((void)html_report(sample::proved(), named("", bad, "")), InputError) << bad;
+    EXPECT_THROW((void)html_report(sample::proved(), named("", "", bad)), InputError) << bad;
+  }
+}
+
+TEST(HtmlReport, SaysWhatTheCheckerFound) {
+  const auto page = [](Recheck::Result result) {
+    return html_report(sample::proved(), {"", "", "", {result, "taut-check 9.9", "so <it> is"}});
+  };
+  EXPECT_THAT(page_of("proved"), HasSubstr("Not re-checked. Before relying on it run: taut-check certificate.json"));
+  EXPECT_THAT(page(Recheck::Result::kConfirmed),
+              HasSubstr("taut-check 9.9, an independent program with other arithmetic, proved"));
+  EXPECT_THAT(page(Recheck::Result::kConfirmed), HasSubstr("so &lt;it&gt; is"));
+  EXPECT_THAT(page(Recheck::Result::kConfirmed), Not(HasSubstr("REJECTED")));
+  EXPECT_THAT(page(Recheck::Result::kNoClaim), HasSubstr("it claims nothing"));
+  EXPECT_THAT(page(Recheck::Result::kRejected), HasSubstr("This certificate is REJECTED."));
 }
 
 TEST(HtmlReport, PrintsClaimAndDigestsAsTheCertificateStatesThem) {
@@ -101,22 +148,35 @@ TEST(HtmlReport, PrintsExactNumbersOfRobotAndPath) {
   EXPECT_THAT(page, HasSubstr("<td class=\"n\"><b>4.25e-02</b></td>")) << "margins stay the certificate's strings";
 }
 
-TEST(HtmlReport, NamesTheCableThatComesClosestInSamples) {
+TEST(HtmlReport, NamesTheCableThatComesClosest) {
   // By a separate program: at q_s, cable 3 has 0.05167 N and cable 5 has 10.659 mm left, the least along this path.
-  const std::string summary = text_summary(sample::proved());
-  EXPECT_THAT(summary, HasSubstr("samples of the path, cable 3 comes closest to a tension limit: within 0.052 N of its "
-                                 "lower limit, 11 % of the way between its limits, in segment 0."));
-  EXPECT_THAT(summary,
-              HasSubstr("Cable 5 comes closest to a length limit: within 10.7 mm of its upper limit, in segment 0."));
+  const std::string& page = page_of("proved");
+  EXPECT_THAT(
+      page,
+      HasSubstr("Cable 3 comes within 0.0517 N of its lower tension limit, after "));
+  EXPECT_THAT(page, HasSubstr("it stays at or above 0.1016 N, the limit is 0.05 N."));
+  EXPECT_THAT(page, HasSubstr("Cable 5 comes within 1.9"));
+  EXPECT_THAT(page, HasSubstr("% of its upper length limit, "));
+  EXPECT_THAT(page, HasSubstr("it stays at or below 539.4 mm, the limit is 550 mm."));
+}
+
+TEST(HtmlReport, ClaimsNothingOfThePathWhereBoxesAreMissing) {
+  nlohmann::json certificate = sample::proved();
+  certificate["segments"][0]["boxes"].erase(0);
+  const std::string page = html_report(certificate);
+  EXPECT_THAT(page, HasSubstr("Cables over those parts of the move that are proved"));
+  EXPECT_THAT(page, Not(HasSubstr("comes within")));
 }
 
 TEST(HtmlReport, SaysWhereARefutedMotionFails) {
   const std::string& page = page_of("refuted");
-  EXPECT_THAT(page, HasSubstr("Refuted: this motion is not wrench-feasible."));
-  EXPECT_THAT(page,
-              HasSubstr("At s = 3/8 of segment 1, between waypoints 1 and 2, some load in the given ellipsoid of "
-                        "wrenches gives cable 3 a tension of at least 0.8123 N: not below its upper limit of 0.5 N."));
-  EXPECT_THAT(page, HasSubstr("Dashed red: the witness pose."));
+  EXPECT_THAT(
+      page,
+      HasSubstr("Refuted: on this move the tension of cable 3 reaches at least 0.8123 N, not below its upper limit of "
+                "0.5 N, under a load of the set stated below."));
+  EXPECT_THAT(page, HasSubstr("beyond the limit by at least 0.312 N, 62 % of it."));
+  EXPECT_THAT(page, HasSubstr("of turning (segment 1), at s = 3/8 of segment 1, between waypoints 1 and 2."));
+  EXPECT_THAT(page, HasSubstr("in floating-point samples: not proved")) << "no box is proved";
   EXPECT_THAT(page, Not(HasSubstr("Proved:")));
   EXPECT_THAT(page, Not(HasSubstr("id=\"margins\"")));
 }
@@ -131,7 +191,9 @@ TEST(HtmlReport, ListsTheStretchesOfAnAudit) {
                                {"inner", nullptr},
                                {"reason", "nobody knows"}}};
   const std::string page = html_report(certificate);
-  EXPECT_THAT(page, HasSubstr("segment 0, s = 0.25"));
+  EXPECT_THAT(page, HasSubstr("(segment 0), s = 0.25"));
+  EXPECT_THAT(page,
+              HasSubstr("In all, 1 stretch of the path has proved violations, and 1 stretch could not be decided"));
   EXPECT_THAT(page, HasSubstr("Outside of these stretches the path is proved"));
   EXPECT_THAT(page, HasSubstr("open: nobody knows"));
   EXPECT_EQ(imbalance(page), "");
@@ -139,7 +201,9 @@ TEST(HtmlReport, ListsTheStretchesOfAnAudit) {
 
 TEST(HtmlReport, SaysBetweenWhichPosesASingularOneLies) {
   const std::string& page = page_of("singular");
-  EXPECT_THAT(page, HasSubstr("opposite signs at waypoint 0, (phi, theta) = (-2.3, 1.6) and at s = 5/8 of segment 1"));
+  EXPECT_THAT(page, HasSubstr("Refuted: on this move the platform passes a singular pose"));
+  EXPECT_THAT(page,
+              HasSubstr("opposite signs: at the start of the move (segment 0), p = (0, 0, 350) mm, φ = -131.78°"));
 }
 
 TEST(HtmlReport, RefutesByALengthInMillimetres) {
@@ -148,14 +212,15 @@ TEST(HtmlReport, RefutesByALengthInMillimetres) {
   certificate["witness"]["value"] = {"0.0991", "0.0992"};
   certificate["witness"]["limit"] = "0.1";
   EXPECT_THAT(html_report(certificate),
-              HasSubstr("cable 3 has a length of at most 99.2 mm: not above its lower limit of 100 mm."));
+              HasSubstr("the length of cable 3 falls to at most 99.2 mm, not above its lower limit of 100 mm."));
 }
 
 TEST(HtmlReport, SaysWhatIsOpen) {
   const std::string& page = page_of("undecided");
-  EXPECT_THAT(page, HasSubstr("Undecided: nothing is claimed about this motion."));
+  EXPECT_THAT(page, HasSubstr("Undecided: nothing is claimed about this move."));
   EXPECT_THAT(page, HasSubstr("Reason: the determinant may vanish"));
   EXPECT_THAT(page, HasSubstr("segment 1, between waypoints 1 and 2, from s = 1/4 to s = 3/8."));
+  EXPECT_THAT(page, HasSubstr("What is open begins after "));
   EXPECT_THAT(page_of("no path"), HasSubstr("Reason: no path was found"));
 }
 
@@ -247,6 +312,28 @@ TEST(HtmlReport, SurvivesAbsurdNumbers) {
   EXPECT_LT(page.size(), 1'000'000u);
 }
 
+TEST(HtmlReport, ShowsLongPathsInBlocks) {
+  nlohmann::json certificate = sample::proved();
+  const nlohmann::json waypoint = certificate["path"]["waypoints"][1];
+  const nlohmann::json segment = certificate["segments"][1];
+  for (int k = 3; k <= 1000; ++k) {
+    certificate["path"]["waypoints"].push_back(waypoint);
+    certificate["segments"].push_back(segment);
+    certificate["segments"].back()["from"] = k - 1;
+    certificate["segments"].back()["to"] = k;
+  }
+  certificate["segments"][777]["margins"]["wrench_scale"] = "1.01e+00";
+  certificate["margins"]["wrench_scale"] = "1.01e+00";
+  const std::string page = html_report(certificate);
+  EXPECT_THAT(page, HasSubstr("The certificate has all 1000 segments."));
+  EXPECT_THAT(page, HasSubstr("770 – 779</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\">777</td>")) << "among those with the least";
+  EXPECT_THAT(page, Not(HasSubstr("<td class=\"n\">771</td>")));
+  EXPECT_THAT(page, HasSubstr("Every 11th of them is shown"));
+  EXPECT_LT(page.size(), 1'500'000u);
+  EXPECT_EQ(imbalance(page), "");
+}
+
 TEST(HtmlReport, DrawsNoPlaneForThreeParameters) {
   nlohmann::json certificate = sample::proved();
   certificate["problem"]["space"]["parameters"].push_back(
@@ -261,11 +348,6 @@ TEST(HtmlReport, DrawsNoPlaneForThreeParameters) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"slice\"")));
   EXPECT_THAT(page, HasSubstr("<code>z</code> [m]"));
   EXPECT_EQ(imbalance(page), "");
-}
-
-TEST(TextSummary, IsTheVerdictInPlainText) {
-  EXPECT_THAT(text_summary(sample::hostile()), HasSubstr(sample::kAttack)) << "plain text needs no escaping";
-  EXPECT_THAT(text_summary(sample::undecided()), testing::StartsWith("Undecided: nothing is claimed"));
 }
 
 }  // namespace
