@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/auxv.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -139,6 +139,10 @@ FinishedProgram run_program(const std::vector<std::string>& command, const std::
   return result;
 }
 
-std::string own_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+std::string own_program() {
+  // The name that it was started by, which the kernel tells, also where /proc is not mounted.
+  return reinterpret_cast<const char*>(
+      ::getauxval(AT_EXECFN));  // NOLINT(performance-no-int-to-ptr): the kernel's interface
+}
 
 }  // namespace taut

@@ -89,7 +89,7 @@ int run(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_flag("--json", as_json, "print one JSON object");
   app.add_flag("--quiet", quiet, "print nothing: the exit code says it");
-  app.set_version_flag("--version", TAUT_VERSION);
+  app.set_version_flag("--version", std::string("taut-check ") + TAUT_VERSION);
   app.footer("Exit codes: 0 accepted, 1 rejected, 2 the certificate says undecided, 3 malformed, 4 internal failure.");
   try {
     app.parse(argc, argv);
