@@ -9,7 +9,7 @@ namespace taut {
 struct AuditArguments {
   std::string case_path;
   std::string path;  ///< empty: the case's
-  std::string law;  ///< empty: the file's own
+  std::string law;   ///< empty: the file's own
   std::string out;
   std::string key;   ///< file of the private key that signs, or empty
   long bits = 4096;  ///< of the prover's last rung

@@ -148,15 +148,6 @@ std::vector<std::string> command_for(const Case& declared, const fs::path& file,
   return command;
 }
 
-/// taut-check lies beside taut, where it was installed, or else where it was built.
-std::string checker_program() {
-  const fs::path here = fs::path(own_program()).parent_path();
-  for (const fs::path& candidate : {here / "taut-check", here / "../certify/checker/taut-check"}) {
-    if (fs::exists(candidate)) return candidate.string();
-  }
-  return "taut-check";
-}
-
 void recheck(const fs::path& file, const fs::path& out, const RegressOptions& options, const std::stop_token& stop,
              RegressedCase& result) {
   const FinishedProgram checked =

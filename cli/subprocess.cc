@@ -13,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -143,6 +144,14 @@ std::string own_program() {
   // The name that it was started by, which the kernel tells, also where /proc is not mounted.
   return reinterpret_cast<const char*>(
       ::getauxval(AT_EXECFN));  // NOLINT(performance-no-int-to-ptr): the kernel's interface
+}
+
+std::string checker_program() {
+  const std::filesystem::path here = std::filesystem::path(own_program()).parent_path();
+  for (const std::filesystem::path& candidate : {here / "taut-check", here / "../certify/checker/taut-check"}) {
+    if (std::filesystem::exists(candidate)) return candidate.string();
+  }
+  return "taut-check";
 }
 
 }  // namespace taut

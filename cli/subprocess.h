@@ -26,4 +26,7 @@ struct FinishedProgram {
 /// Of the program that is running.
 [[nodiscard]] std::string own_program();
 
+/// taut-check: beside taut, where it was installed, else where it was built, else wherever PATH has it.
+[[nodiscard]] std::string checker_program();
+
 }  // namespace taut

@@ -15,8 +15,10 @@
 #include "cli/audit_command.h"
 #include "cli/certificate_file.h"
 #include "cli/console.h"
+#include "cli/doctor.h"
 #include "cli/files.h"
 #include "cli/illustration.h"
+#include "cli/init.h"
 #include "cli/path_csv.h"
 #include "cli/plan.h"
 #include "cli/regress_command.h"
@@ -211,6 +213,11 @@ int run(int argc, char** argv) {
   CLI::App* regress_command = app.add_subcommand("regress", "run every case of a folder against what it declares");
   add_regress_options(*regress_command, regress_arguments);
 
+  std::string new_path;
+  CLI::App* init_command = app.add_subcommand("init", "write a commented case to begin from");
+  init_command->add_option("FILE", new_path, "case file to write")->required();
+  CLI::App* doctor_command = app.add_subcommand("doctor", "look whether this machine can be trusted with proofs");
+
   std::string certificate_path;
   std::string report_out;
   CLI::App* report_command = app.add_subcommand("report", "write the report again from the certificate alone");
@@ -230,6 +237,8 @@ int run(int argc, char** argv) {
     rounding_self_test();
     return run_audit(audit_arguments);
   }
+  if (*init_command) return run_init(new_path);
+  if (*doctor_command) return run_doctor();
   if (*regress_command) return run_regress(regress_arguments);
   return run_report(certificate_path, report_out);
 }

@@ -24,6 +24,31 @@ def all_cases():
 
 
 class EndToEnd(InFolder):
+    def test_a_new_case_plans_as_it_stands_and_with_its_tolerances(self):
+        case = self.path("crane.yaml")
+        self.assertEqual(run(TAUT, "init", case).returncode, 0)
+        text = text_of(case)
+        self.assertIn("name: \"crane\"\n", text)
+        again = run(TAUT, "init", case)
+        self.assertEqual(again.returncode, 3)
+        self.assertIn("exists", again.stderr)
+        self.assertEqual(text_of(case), text)
+        planned = run(TAUT, "plan", case, "--out", self.out)
+        self.assertEqual(planned.returncode, 0, planned.stdout + planned.stderr)
+        tolerant, lines = re.subn(r"^# (tolerances:|  [a-z_]+: )", r"\1", text, flags=re.M)
+        self.assertEqual(lines, 7)
+        planned = run(TAUT, "plan", self.write("tolerant.yaml", tolerant), "--out", self.out)
+        self.assertEqual(planned.returncode, 0, planned.stdout + planned.stderr)
+        self.assertIn("base_anchors", planned.stdout)
+        self.assertEqual(run(TAUT, "init", self.path("a 'quoted' name.yaml")).returncode, 0)
+        self.assertIn("name: \"new-case\"\n", text_of(self.path("a 'quoted' name.yaml")))
+
+    def test_the_doctor_looks_at_this_machine(self):
+        said = run(TAUT, "doctor")
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertRegex(said.stdout, r"ok +directed rounding")
+        self.assertRegex(said.stdout, r"ok +taut-check +taut-check \d")
+
     def test_every_case_ends_as_it_declares_and_its_certificate_is_accepted(self):
         for number, case in enumerate(all_cases()):
             with self.subTest(case=case):
