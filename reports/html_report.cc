@@ -5,8 +5,8 @@
 
 #include "kinematics/input_error.h"
 #include "kinematics/shown.h"
-#include "reports/figures.h"
 #include "reports/first_page.h"
+#include "reports/plane.h"
 #include "reports/plot_sections.h"
 #include "reports/sections.h"
 #include "reports/style.h"
@@ -27,7 +27,7 @@ Html contents(const Scene& scene) {
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
-  link(is_plane(scene.view.problem.space), "slice", "Plane");
+  link(is_plane(scene.view.problem.space), "plane", "Plane");
   link(scene.view.boxes > 0, "margins", "Margins");
   link(true, "theorem", "Claim");
   link(scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
@@ -82,10 +82,9 @@ std::string html_report(const nlohmann::json& certificate, const ReportOptions& 
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      title.str(), kStyle, footer_style(summary.document), body.str());
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n{}{}</body>\n</html>\n",
+      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(), page_scripts(scene));
 }
 
 std::string text_summary(const nlohmann::json& certificate, const ReportOptions& options) {

@@ -1,71 +1,142 @@
 #include "reports/plot_sections.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
-#include "reports/figures.h"
-#include "reports/sections.h"
+#include "reports/page_script.h"
+#include "reports/plane.h"
+#include "reports/report_data.h"
+#include "reports/still_picture.h"
 
 namespace taut {
 
 namespace {
 
+/// Where the script draws.
+Html place(const char* name) { return html("<div data-plot=\"{}\"></div>\n", name); }
+
+/// Stands in for plots that no script draws.
+Html unscripted() {
+  return html(
+      "<p class=\"note unscripted\">The plots are drawn by a script in this page, which does not run here. The tables "
+      "have the "
+      "numbers.</p>\n");
+}
+
 /// What the marks on the plots along the path mean, where there are some.
 Html marks_text(const CertificateView& view) {
-  if (view.witness) return html(" Dashed red: {}.", view.witness->to ? "the two witness poses" : "the witness pose");
-  if (view.undecided && view.undecided->segment) return html(" Amber: what was left open.");
-  return {};
+  Html result;
+  if (view.witness) result += html(" Dashed red: {}.", view.witness->to ? "the two witness poses" : "the witness pose");
+  if (!view.stretches.empty()) {
+    result += html(" Shaded over the whole height: the stretches where the path is not proved.");
+  } else if (view.undecided && view.undecided->segment) {
+    result += html(" Amber: what was left open.");
+  }
+  return result;
+}
+
+bool has_bands(const Scene& scene) {
+  return std::ranges::any_of(scene.ranges.segments, [](const auto& segment) { return !segment.empty(); });
+}
+
+/// What the bands are, where there are some.
+Html bands_text(const Scene& scene) {
+  if (!has_bands(scene)) return html("Nothing of this path is proved, so that there are samples only.");
+  return html(
+      "Light bands are enclosures, computed by this program anew with interval arithmetic, box by box as the "
+      "certificate has them: "
+      "at no pose{} does a value leave its band.{} The darker band and the line are floating-point samples.",
+      scene.view.problem.tolerances ? " and no deviation within the tolerances" : "",
+      scene.ranges_are_whole ? "" : " Where there is none, nothing is proved.");
 }
 
 Html tensions(const Scene& scene) {
-  if (scene.samples.empty()) return {};
   return section(
       "tensions", "Tensions along the path",
-      html("<p>The band is f<sub>0</sub> ± v: all tensions that the loads in K can ask of a cable; the line is "
-           "f<sub>0</sub>, for the centre load. Shaded red: beyond the limits. Curves are floating-point samples; the "
-           "proof does not rest on them.{}</p>\n",
-           marks_text(scene.view)) +
-          tension_figure(scene));
+      html(
+          "<p>For each cable all tensions that the loads in K can ask of it. {} Shaded red: beyond the limits.{}</p>\n",
+          bands_text(scene), marks_text(scene.view)) +
+          unscripted() + place("tensions"));
 }
 
 Html lengths(const Scene& scene) {
-  if (scene.samples.empty()) return {};
-  return section(
-      "lengths", "Cable lengths along the path",
-      html("<p>Shaded red: beyond the limits. Floating-point samples again.{}</p>\n", marks_text(scene.view)) +
-          length_figure(scene));
+  return section("lengths", "Cable lengths along the path",
+                 html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.view)) +
+                     unscripted() + place("lengths"));
 }
 
-Html slice(const Scene& scene) {
-  const Html figure = slice_figure(scene);
-  if (figure.empty()) return {};
+Html margins_along(const Scene& scene) {
+  if (scene.view.segments.empty()) return {};
+  return section("margins-along", "Margins along the path",
+                 html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
+                      "of each segment; "
+                      "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between. The "
+                      "load ellipsoid may "
+                      "grow by wrench_scale before a tension reaches a limit.{}</p>\n",
+                      marks_text(scene.view)) +
+                     unscripted() + place("margins"));
+}
+
+Html poses() {
+  return section(
+      "pose", "Pose along the path",
+      html("<p>Position p of the platform’s origin in the world; tilt φ, θ and torsion σ, with R = R<sub>z</sub>(φ) "
+           "R<sub>y</sub>(θ) R<sub>z</sub>(σ − φ). Floating-point samples.</p>\n") +
+          unscripted() + place("pose"));
+}
+
+Html plane(const Scene& scene) {
+  if (!is_plane(scene.view.problem.space)) return {};
   Html stats;
   for (const auto& [key, value] : scene.view.stats)
     stats += html("{}{}: {}", stats.empty() ? Html() : html(" · "), key, value);
   return section(
-      "slice", "The plane of the two parameters",
+      "plane", "The plane of the two parameters",
       html("<p>C is the set of wrench-feasible poses. Colours and the line det J = 0 are floating-point samples on "
            "a grid, and the atlas is where the planner looked: neither proves anything. Periodic parameters are drawn "
-           "unwrapped, so that the path is "
-           "one line.{}</p>\n",
+           "unwrapped, so that the path is one line.{}</p>\n",
            scene.view.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
-          figure + (stats.empty() ? Html() : html("<p class=\"note\">Search: {}</p>\n", stats)));
+          unscripted() + place("plane") + (stats.empty() ? Html() : html("<p class=\"note\">Search: {}</p>\n", stats)));
 }
 
-Html poses(const Scene& scene) {
-  if (scene.samples.empty()) return {};
-  return section("pose", "Pose along the path", pose_figure(scene));
+Html biting_tolerances(const Scene& scene) {
+  if (scene.view.tolerance_limits.empty()) return {};
+  return section(
+      "tolerances-used", "Which tolerance bites",
+      html("<p>Each bar: how much of what this tolerance alone could be, all others as stated, is stated. The one "
+           "nearest to 100 % is the first to look after.</p>\n") +
+          unscripted() + place("tolerances"));
 }
 
 }  // namespace
 
 Html move_section(const Scene& scene) {
   if (scene.samples.empty()) return {};
-  return section("move", "The move",
-                 robot_figure(scene) +
-                     html("<p class=\"note\">Seen from the side, with the load pulling down; the dot is the load "
-                          "point. Numbers are cables.</p>\n"));
+  return section(
+      "move", "The move",
+      place("move") +
+          html("<div class=\"still\">{}<p class=\"note\">Seen from the side, with the load pulling down; the dot "
+               "is the load point. Numbers are cables.</p></div>\n",
+               still_picture(scene)));
 }
 
-Html plot_sections(const Scene& scene) { return tensions(scene) + lengths(scene) + poses(scene) + slice(scene); }
+Html plot_sections(const Scene& scene) {
+  if (scene.samples.empty()) return plane(scene);
+  return tensions(scene) + lengths(scene) + margins_along(scene) + poses() + plane(scene) +
+         biting_tolerances(scene);
+}
+
+std::string page_scripts(const Scene& scene) {
+  return fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n",
+                     script_safe(report_data(scene)), page_script());
+}
+
+std::string content_security_policy() {
+  return fmt::format(
+      "default-src 'none'; script-src 'sha256-{}'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+      "form-action 'none'",
+      page_script_sha256());
+}
 
 }  // namespace taut

@@ -1,14 +1,24 @@
 // The report's sections with pictures: the move, and plots of what happens along it.
+//
+// The page says in words what there is to see and has an empty place for each picture, a <div data-plot="…">, which the page's
+// script fills (reports/web/main.js). Without the script there are the words, the tables, and still_picture().
 #pragma once
+
+#include <string>
 
 #include "reports/markup.h"
 #include "reports/scene.h"
 
 namespace taut {
 
-/// The robot in its poses; nothing where there is no path.
+/// The robot on its way; nothing where there is no path.
 [[nodiscard]] Html move_section(const Scene& scene);
-/// Tensions, lengths and pose along the path, and the plane of two parameters; each where there is one.
+/// Tensions, lengths, margins and pose along the path, the plane of two parameters, tolerances; each where there is one.
 [[nodiscard]] Html plot_sections(const Scene& scene);
+
+/// The page's data and script, to stand at its end.
+[[nodiscard]] std::string page_scripts(const Scene& scene);
+/// The page's Content-Security-Policy: nothing is loaded from anywhere, and no script is run but that of page_scripts().
+[[nodiscard]] std::string content_security_policy();
 
 }  // namespace taut

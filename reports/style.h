@@ -101,7 +101,7 @@ figcaption { font-size: 13px; color: var(--soft); }
 figure > svg { display: block; overflow: visible; width: 100%; height: auto; }
 svg text { font-size: 11px; fill: var(--soft); }
 svg .bound { fill: var(--limit); }
-svg path { fill: none; vector-effect: non-scaling-stroke; }
+.still path, .key path, .plane path { fill: none; vector-effect: non-scaling-stroke; }
 svg svg { overflow: hidden; }
 .grid { stroke: var(--line); stroke-width: 0.7; }
 .frame { fill: none; stroke: var(--soft); stroke-width: 0.8; }

@@ -23,6 +23,7 @@ async function bundled(banner) {
     legalComments: "none", // the banner has them, in full
     banner: { js: banner },
     metafile: true,
+    loader: { ".css": "text" },
     write: false,
   });
   const [output] = Object.values(result.metafile.outputs);

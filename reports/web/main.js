@@ -1,5 +1,141 @@
-// What the report's page runs in the browser.
-import * as Plot from "@observablehq/plot";
-import { WebGLRenderer } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-window.x = [Plot.plot, Plot.lineY, Plot.areaY, WebGLRenderer, OrbitControls];
+// What the report's page runs in the reader's browser: it draws the plots and the robot into the places that the page has for
+// them. Without it the page has its words, its tables and a still picture of the robot.
+import { axes as usefulAxes } from "./axes.js";
+import { onThemeChange, tensionColour } from "./colours.js";
+import { Cursor } from "./cursor.js";
+import { isDrawable, readData } from "./data.js";
+import { planeFigure } from "./plane.js";
+import { Player } from "./player.js";
+import { connect, legend, lengthPanels, marginPanels, posePanels, tensionPanels } from "./plots.js";
+import style from "./style.css";
+import { toleranceFigure } from "./tolerances.js";
+import { element } from "./words.js";
+import { makeViewer } from "./viewer.js";
+
+const data = readData();
+const cursor = new Cursor(Math.max(data.segments, 0));
+const axes = usefulAxes(data);
+const root = document.documentElement;
+const place = (name) => document.querySelector(`[data-plot="${name}"]`);
+
+document.head.append(element("style", {}, style));
+root.classList.add("scripted");
+
+const marked = [
+  ...(data.stretches.some((s) => s.violated) ? [["fill violated-stretch", "violations are proved"]] : []),
+  ...(data.stretches.some((s) => !s.violated) ? [["fill open-stretch", "left open"]] : []),
+  ...(data.witness ? [["mark", data.witness.to === null ? "the witness" : "the two poses of the witness"]] : []),
+];
+const enclosed = data.bands && data.bands.from.length > 0;
+const envelopeKeys = [
+  ...(enclosed ? [["fill band", "proved enclosure"]] : []),
+  ["fill envelope", "f₀ ± v, all loads in K (sampled)"],
+  ["curve", "f₀, the centre load (sampled)"],
+];
+const limitKeys = [["limit", "limit"], ["fill forbidden", "beyond the limits"]];
+
+const panels = [];
+function panelsAt(name, make, keys) {
+  const holder = place(name);
+  if (!holder || data.samples.position.length === 0) return;
+  const made = make(data);
+  panels.push(...made);
+  holder.append(legend(...keys, ...marked), element("div", { class: "panels" }, ...made.map((panel) => panel.figure)));
+}
+
+function drawPlots() {
+  panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]);
+  panelsAt("lengths", lengthPanels,
+    [...(enclosed ? [["fill band", "proved enclosure"]] : []), ["curve", "length (sampled)"], ...limitKeys]);
+  if (data.margins.from.length > 0) {
+    panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]);
+  }
+  panelsAt("pose", posePanels, []);
+  if (data.plane && place("plane")) place("plane").append(planeFigure(data, cursor));
+  if (data.tolerances.length > 0 && place("tolerances")) {
+    place("tolerances").append(element("figure", { class: "tolerance-figure" }, toleranceFigure(data)));
+  }
+  if (panels.length === 0) return;
+  connect(panels, cursor, data.samples);
+  offerAxes();
+  redraw(axes[0]);
+}
+
+function redraw(axis) {
+  for (const panel of panels) panel.redraw(axis);
+  if (cursor.position !== undefined) cursor.position = cursor.position;
+}
+
+/// The choice of what the horizontal axes count, above the first of the plots.
+function offerAxes() {
+  if (axes.length < 2) return;
+  const words = { time: "time", distance: "distance", turned: "angle turned", segment: "segments" };
+  const choice = element("fieldset", { class: "axis-choice" }, element("legend", {}, "Plots along"));
+  axes.forEach((axis, k) => {
+    const input = element("input", { type: "radio", name: "axis", value: axis.name });
+    input.checked = k === 0;
+    input.addEventListener("change", () => redraw(axis));
+    choice.append(element("label", {}, input, ` ${words[axis.name]}`));
+  });
+  document.querySelector("[data-plot] .panels").closest("[data-plot]").prepend(choice);
+}
+
+function drawMove() {
+  const holder = place("move");
+  if (!holder || data.samples.position.length === 0) return;
+  const stage = element("div", {
+    class: "stage", tabindex: "0", role: "img",
+    "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to come " +
+      "nearer, space to play.",
+  });
+  holder.append(stage);
+  const viewer = isDrawable(data) ? makeViewer(stage, data) : undefined;
+  const player = new Player(data, cursor, axes, viewer && (() => viewer.resetView()));
+  if (viewer) {
+    root.classList.add("has-viewer");
+    cursor.onMove((position) => viewer.show(position));
+    onThemeChange(() => viewer.setTheme());
+    stage.addEventListener("keydown", (event) => {
+      const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], "+": [0, 0, 0.87],
+        "-": [0, 0, 1.15] }[event.key];
+      if (turn) viewer.orbit(...turn);
+      else if (event.key === " ") player.toggle();
+      else return;
+      event.preventDefault();
+    });
+    const bar = element("span", { class: "colour-scale", "aria-hidden": "true" });
+    bar.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map(tensionColour).join(", ")})`;
+    holder.append(
+      element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar, " upper limit; thick, ringed and ",
+        element("b", {}, "!"), ": out of its limits."),
+      legend(["proved-line", "path of the platform’s origin, proved"],
+        ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
+        ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
+        ["load-line", "path of the load point"],
+        ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])));
+    if (data.tube_m !== null) {
+      const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
+      holder.append(element("p", { class: "note" }, viewer.tubeIsThin
+        ? `The origin may be up to ${size} from the path: too little to be seen at this scale.`
+        : `The tube around the path, to scale: the origin may be up to ${size} from it.`));
+    }
+  } else {
+    stage.remove();
+    holder.append(element("p", { class: "note" }, "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."));
+  }
+  holder.append(player.element);
+}
+
+// One after the other, so that the page answers between them.
+const jobs = [drawMove, drawPlots];
+function next() {
+  const job = jobs.shift();
+  if (!job) {
+    root.classList.add("drawn");
+    performance.mark("drawn");
+    return;
+  }
+  job();
+  setTimeout(next);
+}
+next();

@@ -1,8 +1,12 @@
 #include "reports/html_report.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <openssl/evp.h>
+#include <openssl/sha.h>
 
+#include <array>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -55,12 +59,25 @@ std::string tags_only(const std::string& page) {
   return result;
 }
 
+/// The page without what stands in its script elements; there have to be two, the data and the script.
+std::string report(const nlohmann::json& certificate, const ReportOptions& options = {}) {
+  std::string page = html_report(certificate, options);
+  std::size_t scripts = 0;
+  for (std::size_t begin = page.find("<script"); begin != std::string::npos; begin = page.find("<script", begin + 1)) {
+    ++scripts;
+    const std::size_t inside = page.find('>', begin) + 1;
+    page.erase(inside, page.find("</script>", inside) - inside);
+  }
+  if (scripts != 2) throw std::logic_error(fmt::format("{} script elements", scripts));
+  return page;
+}
+
 /// {what it is, the page}
 const std::vector<std::pair<std::string, std::string>>& pages() {
   static const std::vector<std::pair<std::string, std::string>> kPages = {
-      {"proved", html_report(sample::proved())},     {"refuted", html_report(sample::refuted())},
-      {"singular", html_report(sample::singular())}, {"undecided", html_report(sample::undecided())},
-      {"no path", html_report(sample::no_path())},   {"hostile", html_report(sample::hostile())}};
+      {"proved", report(sample::proved())},     {"refuted", report(sample::refuted())},
+      {"singular", report(sample::singular())}, {"undecided", report(sample::undecided())},
+      {"no path", report(sample::no_path())},   {"hostile", report(sample::hostile())}};
   return kPages;
 }
 
@@ -104,22 +121,22 @@ TEST(HtmlReport, OpensWithASheetToSign) {
 }
 
 TEST(HtmlReport, PrintsWhatItIsToldOfTheDocument) {
-  const std::string page = html_report(sample::proved(), named("LP-17/4", "B", "2024-02-29"));
+  const std::string page = report(sample::proved(), named("LP-17/4", "B", "2024-02-29"));
   EXPECT_THAT(page, HasSubstr("<dd><bdi>LP-17/4</bdi></dd>"));
   EXPECT_THAT(page, HasSubstr("<dd><bdi>B</bdi></dd>"));
   EXPECT_THAT(page, HasSubstr("<dd><bdi>2024-02-29</bdi></dd>"));
   EXPECT_THAT(page, HasSubstr("@bottom-left { content: \"LP-17/4\"; }"));
   for (const std::string& bad : {std::string("\"; } body { display: none"), std::string("a\\b"), std::string("a\nb"),
                                  std::string(41, 'x'), std::string(sample::kAttack)}) {
-    EXPECT_THROW((void)html_report(sample::proved(), named(bad, "", "")), InputError) << bad;
-    EXPECT_THROW((void)html_report(sample::proved(), named("", bad, "")), InputError) << bad;
-    EXPECT_THROW((void)html_report(sample::proved(), named("", "", bad)), InputError) << bad;
+    EXPECT_THROW((void)report(sample::proved(), named(bad, "", "")), InputError) << bad;
+    EXPECT_THROW((void)report(sample::proved(), named("", bad, "")), InputError) << bad;
+    EXPECT_THROW((void)report(sample::proved(), named("", "", bad)), InputError) << bad;
   }
 }
 
 TEST(HtmlReport, SaysWhatTheCheckerFound) {
   const auto page = [](Recheck::Result result) {
-    return html_report(sample::proved(), {"", "", "", {result, "taut-check 9.9", "so <it> is"}});
+    return report(sample::proved(), {"", "", "", {result, "taut-check 9.9", "so <it> is"}});
   };
   EXPECT_THAT(page_of("proved"), HasSubstr("Not re-checked. Before relying on it run: taut-check certificate.json"));
   EXPECT_THAT(page(Recheck::Result::kConfirmed),
@@ -151,9 +168,7 @@ TEST(HtmlReport, PrintsExactNumbersOfRobotAndPath) {
 TEST(HtmlReport, NamesTheCableThatComesClosest) {
   // By a separate program: at q_s, cable 3 has 0.05167 N and cable 5 has 10.659 mm left, the least along this path.
   const std::string& page = page_of("proved");
-  EXPECT_THAT(
-      page,
-      HasSubstr("Cable 3 comes within 0.0517 N of its lower tension limit, after "));
+  EXPECT_THAT(page, HasSubstr("Cable 3 comes within 0.0517 N of its lower tension limit, after "));
   EXPECT_THAT(page, HasSubstr("it stays at or above 0.1016 N, the limit is 0.05 N."));
   EXPECT_THAT(page, HasSubstr("Cable 5 comes within 1.9"));
   EXPECT_THAT(page, HasSubstr("% of its upper length limit, "));
@@ -163,7 +178,7 @@ TEST(HtmlReport, NamesTheCableThatComesClosest) {
 TEST(HtmlReport, ClaimsNothingOfThePathWhereBoxesAreMissing) {
   nlohmann::json certificate = sample::proved();
   certificate["segments"][0]["boxes"].erase(0);
-  const std::string page = html_report(certificate);
+  const std::string page = report(certificate);
   EXPECT_THAT(page, HasSubstr("Cables over those parts of the move that are proved"));
   EXPECT_THAT(page, Not(HasSubstr("comes within")));
 }
@@ -190,7 +205,7 @@ TEST(HtmlReport, ListsTheStretchesOfAnAudit) {
                               {{"outer", {{{"segment", 1}, {"s", "0"}}, {{"segment", 1}, {"s", "1/2"}}}},
                                {"inner", nullptr},
                                {"reason", "nobody knows"}}};
-  const std::string page = html_report(certificate);
+  const std::string page = report(certificate);
   EXPECT_THAT(page, HasSubstr("(segment 0), s = 0.25"));
   EXPECT_THAT(page,
               HasSubstr("In all, 1 stretch of the path has proved violations, and 1 stretch could not be decided"));
@@ -211,7 +226,7 @@ TEST(HtmlReport, RefutesByALengthInMillimetres) {
   certificate["witness"]["kind"] = "length_min";
   certificate["witness"]["value"] = {"0.0991", "0.0992"};
   certificate["witness"]["limit"] = "0.1";
-  EXPECT_THAT(html_report(certificate),
+  EXPECT_THAT(report(certificate),
               HasSubstr("the length of cable 3 falls to at most 99.2 mm, not above its lower limit of 100 mm."));
 }
 
@@ -230,26 +245,36 @@ TEST(HtmlReport, IsBalancedMarkup) {
   EXPECT_NE(imbalance("<p>"), "");
 }
 
-TEST(HtmlReport, NeedsNeitherScriptsNorNetwork) {
+TEST(HtmlReport, NeedsNoNetwork) {
   for (const auto& [name, page] : pages()) {
     EXPECT_THAT(page, Not(HasSubstr("http://"))) << name;
     EXPECT_THAT(page, Not(HasSubstr("https://"))) << name;
     EXPECT_THAT(page, Not(HasSubstr("@import"))) << name;
     EXPECT_THAT(page, Not(HasSubstr("url("))) << name;
-    EXPECT_THAT(tags_only(page), Not(HasSubstr("script"))) << name;
     EXPECT_THAT(tags_only(page), Not(HasSubstr("src="))) << name;
   }
 }
 
 TEST(HtmlReport, EscapesEveryStringOfTheCertificate) {
   const std::string& page = page_of("hostile");
-  EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   EXPECT_THAT(page, Not(HasSubstr(sample::kAttack)));
   EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt;")) << "it is shown, not dropped";
   nlohmann::json undecided = sample::undecided();
   undecided["undecided"]["reason"] = sample::kAttack;
-  EXPECT_THAT(html_report(undecided), Not(HasSubstr("<script")));
+  EXPECT_THAT(report(undecided), Not(HasSubstr("<img")));
+}
+
+TEST(HtmlReport, AllowsItsOwnScriptAndNoOther) {
+  const std::string page = html_report(sample::hostile());
+  const std::size_t begin = page.rfind("<script>") + std::string("<script>").size();
+  const std::string script = page.substr(begin, page.rfind("</script>") - begin);
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  SHA256(reinterpret_cast<const unsigned char*>(script.data()), script.size(), digest.data());
+  std::array<unsigned char, 64> base64{};
+  EVP_EncodeBlock(base64.data(), digest.data(), digest.size());
+  EXPECT_THAT(report(sample::hostile()),
+              HasSubstr(fmt::format("script-src 'sha256-{}';", reinterpret_cast<const char*>(base64.data()))));
 }
 
 TEST(HtmlReport, RejectsAMalformedCertificate) {
@@ -259,34 +284,34 @@ TEST(HtmlReport, RejectsAMalformedCertificate) {
     return certificate;
   };
   for (const char* key : {"verdict", "claim", "problem", "path", "segments", "margins", "footer", "format"}) {
-    EXPECT_THROW((void)html_report(without(key)), InputError) << key;
+    EXPECT_THROW((void)report(without(key)), InputError) << key;
   }
   nlohmann::json certificate = sample::proved();
   certificate["path"]["waypoints"][0]["x"][0] = "nan";
-  EXPECT_THROW((void)html_report(certificate), InputError);
+  EXPECT_THROW((void)report(certificate), InputError);
   certificate = sample::proved();
   certificate["path"]["waypoints"][0]["x"].push_back("0");
-  EXPECT_THROW((void)html_report(certificate), InputError);
+  EXPECT_THROW((void)report(certificate), InputError);
   certificate = sample::refuted();
   certificate["witness"]["at"]["segment"] = 2;
-  EXPECT_THROW((void)html_report(certificate), InputError);
+  EXPECT_THROW((void)report(certificate), InputError);
   certificate = sample::refuted();
   certificate["witness"]["cable"] = 7;
-  EXPECT_THROW((void)html_report(certificate), InputError);
+  EXPECT_THROW((void)report(certificate), InputError);
   certificate = sample::proved();
   certificate["margins"]["tension_N"] = "much";
-  EXPECT_THROW((void)html_report(certificate), InputError);
-  EXPECT_THROW((void)html_report(nlohmann::json::array()), InputError);
+  EXPECT_THROW((void)report(certificate), InputError);
+  EXPECT_THROW((void)report(nlohmann::json::array()), InputError);
 }
 
 TEST(HtmlReport, DoesWithoutAnIllustration) {
   nlohmann::json certificate = sample::proved();
   certificate.erase("illustration");
-  EXPECT_THAT(html_report(certificate), HasSubstr("id=\"slice\""));
+  EXPECT_THAT(report(certificate), HasSubstr("id=\"plane\""));
   certificate["illustration"] = nlohmann::json::object();
-  EXPECT_THAT(html_report(certificate), HasSubstr("id=\"slice\""));
+  EXPECT_THAT(report(certificate), HasSubstr("id=\"plane\""));
   certificate["illustration"] = {{"charts", {{{"c", {"1", "2", "3"}}, {"p", nlohmann::json::array()}}}}};
-  EXPECT_THAT(html_report(certificate), Not(HasSubstr("charts of the atlas")));
+  EXPECT_NO_THROW((void)report(certificate));
 }
 
 TEST(HtmlReport, StaysSmallForLongPathsAndLargeAtlases) {
@@ -299,7 +324,7 @@ TEST(HtmlReport, StaysSmallForLongPathsAndLargeAtlases) {
   }
   const nlohmann::json chart = certificate["illustration"]["charts"][0];
   for (int k = 0; k < 500; ++k) certificate["illustration"]["charts"].push_back(chart);
-  EXPECT_LT(html_report(certificate).size(), 1'000'000u);
+  EXPECT_LT(html_report(certificate).size(), 2'000'000u);
 }
 
 TEST(HtmlReport, SurvivesAbsurdNumbers) {
@@ -307,7 +332,7 @@ TEST(HtmlReport, SurvivesAbsurdNumbers) {
   certificate["path"]["waypoints"][1]["x"] = {"0x1p+1023", "-0x1p+1023"};
   certificate["illustration"]["charts"][0]["c"] = {"1e300", "-1e300"};
   certificate["path"]["waypoints"][2]["half_turns"] = {2147483647, 0};
-  const std::string page = html_report(certificate);
+  const std::string page = report(certificate);
   EXPECT_EQ(imbalance(page), "");
   EXPECT_LT(page.size(), 1'000'000u);
 }
@@ -324,7 +349,7 @@ TEST(HtmlReport, ShowsLongPathsInBlocks) {
   }
   certificate["segments"][777]["margins"]["wrench_scale"] = "1.01e+00";
   certificate["margins"]["wrench_scale"] = "1.01e+00";
-  const std::string page = html_report(certificate);
+  const std::string page = report(certificate);
   EXPECT_THAT(page, HasSubstr("The certificate has all 1000 segments."));
   EXPECT_THAT(page, HasSubstr("770 – 779</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">777</td>")) << "among those with the least";
@@ -344,8 +369,8 @@ TEST(HtmlReport, DrawsNoPlaneForThreeParameters) {
     waypoint["x"].push_back("0x1.6666666666666p-2");
     waypoint["half_turns"].push_back(0);
   }
-  const std::string page = html_report(certificate);
-  EXPECT_THAT(page, Not(HasSubstr("id=\"slice\"")));
+  const std::string page = report(certificate);
+  EXPECT_THAT(page, Not(HasSubstr("id=\"plane\"")));
   EXPECT_THAT(page, HasSubstr("<code>z</code> [m]"));
   EXPECT_EQ(imbalance(page), "");
 }

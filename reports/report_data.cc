@@ -1,0 +1,362 @@
+#include "reports/report_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "kinematics/expression.h"
+#include "kinematics/pose_conversion.h"
+#include "reports/plane.h"
+
+namespace taut {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMostBins = 1500;  ///< of boxes and of segments; finer than the pixels of a wide plot
+
+/// Nearest with seven digits.
+double shortened(double x) { return std::strtod(fmt::format("{:.6e}", x).c_str(), nullptr); }
+
+json number(double x) { return std::isfinite(x) ? json(shortened(x)) : json(); }
+
+/// Not above x, with seven digits; not below, where `up`.
+json outward(double x, bool up) {
+  if (!std::isfinite(x)) return {};
+  double result = shortened(x);
+  const double step = 1e-6 * std::abs(x);
+  for (int i = 1; i <= 3 && (up ? result < x : result > x); ++i) result = shortened(up ? x + i * step : x - i * step);
+  return (up ? result < x : result > x) ? json(x) : json(result);
+}
+
+template <class Values>
+json numbers(const Values& values) {
+  json list = json::array();
+  for (const double x : values) list.push_back(number(x));
+  return list;
+}
+
+json point(const Vector3<double>& p) { return numbers(std::array{p(0), p(1), p(2)}); }
+
+json robot(const Model<double>& model) {
+  json base = json::array();
+  json platform = json::array();
+  json tension = json::array();
+  json length = json::array();
+  for (std::size_t i = 0; i < kCables; ++i) {
+    base.push_back(point(model.p_WA[i]));
+    platform.push_back(point(model.p_PB[i]));
+    tension.push_back(numbers(std::array{model.tension_lower[i], model.tension_upper[i]}));
+    length.push_back(numbers(std::array{model.length_lower[i], model.length_upper[i]}));
+  }
+  return {{"base", base},
+          {"platform", platform},
+          {"load_point", point(model.p_PM)},
+          {"force", point(Vector3<double>(model.wrench.head<3>()))},
+          {"tension", tension},
+          {"length", length}};
+}
+
+/// Columns, one entry a sample.
+json samples(const Scene& scene) {
+  const Model<double>& model = scene.sampler.model();
+  std::vector<double> position, distance, turned, scale, sign;
+  std::array<std::vector<double>, 3> p, angles;
+  std::array<std::vector<double>, 4> q;
+  std::array<std::vector<double>, kCables> tension, variation, length;
+  std::vector<std::vector<double>> parameters;
+  json time = json::array();
+  std::optional<TiltAndTorsion> tilt;
+  Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  for (const PathSample& sample : scene.samples) {
+    position.push_back(sample.position);
+    distance.push_back(scene.travel.distance_m(sample.position));
+    turned.push_back(scene.travel.turned_rad(sample.position));
+    if (const auto t = scene.travel.time_s(sample.position)) time.push_back(number(*t));
+    RigidPose pose = rigid_pose(sample.pose);
+    if (pose.q.dot(last) < 0) pose.q.coeffs() *= -1;
+    last = pose.q;
+    std::array<double, 3> shown = {sample.pose.phi, sample.pose.theta, sample.pose.sigma};
+    if (has_poses(scene.view.path.interpolation)) {  // its angles are wrapped
+      tilt = tilt_and_torsion(pose.q, tilt);
+      for (std::size_t c = 0; c < 3; ++c) shown[c] = tilt->value(c);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      p[c].push_back(pose.p(static_cast<Eigen::Index>(c)));
+      angles[c].push_back(shown[c]);
+    }
+    for (std::size_t c = 0; c < 4; ++c) q[c].push_back(pose.q.coeffs()(static_cast<Eigen::Index>(c)));
+    const Statics<double>& s = sample.statics;
+    sign.push_back(!s.regular ? 0 : s.determinant > 0 ? 1 : -1);
+    scale.push_back(s.regular ? wrench_scale_approx(model, s) : kUnknown);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      length[i].push_back(s.length[i]);
+      tension[i].push_back(s.regular ? s.tension[i] : kUnknown);
+      variation[i].push_back(s.regular ? s.variation[i] : kUnknown);
+    }
+    if (is_plane(scene.view.problem.space)) {
+      parameters.resize(2);
+      for (std::size_t j = 0; j < 2; ++j) parameters[j].push_back(sample.parameters[j]);
+    }
+  }
+  const auto columns = [](const auto& list) {
+    json result = json::array();
+    for (const std::vector<double>& column : list) result.push_back(numbers(column));
+    return result;
+  };
+  return {{"position", numbers(position)},
+          {"distance", numbers(distance)},
+          {"turned", numbers(turned)},
+          {"time", time},
+          {"p", columns(p)},
+          {"q", columns(q)},
+          {"angles", columns(angles)},
+          {"length", columns(length)},
+          {"tension", columns(tension)},
+          {"variation", columns(variation)},
+          {"wrench_scale", numbers(scale)},
+          {"sign", numbers(sign)},
+          {"parameters", columns(parameters)}};
+}
+
+/// Some boxes in a row, and what tensions and lengths do on them.
+struct Bin {
+  double from = 0;
+  double to = 0;
+  std::array<Range, kCables> tension;
+  std::array<Range, kCables> length;
+};
+
+/// Ranges of boxes, those of the same kMostBins-th of the path united. Gaps thinner than that are not seen in a picture, and bridged.
+std::vector<Bin> bins(const PathRanges& ranges) {
+  std::vector<Bin> result;
+  const auto segments = static_cast<double>(ranges.segments.size());
+  const double width = segments / kMostBins;
+  std::size_t pieces = 0;
+  for (const auto& segment : ranges.segments) pieces += segment.size();
+  const bool unite = pieces > kMostBins;
+  double bin_of_last = -1;
+  for (std::size_t k = 0; k < ranges.segments.size(); ++k) {
+    for (const BoxRanges& box : ranges.segments[k]) {
+      const double from = static_cast<double>(k) + box.box.lower().approx();
+      const double to = static_cast<double>(k) + box.box.upper().approx();
+      const double bin = std::floor(from / width);
+      if (unite && bin == bin_of_last && from - result.back().to < width) {
+        Bin& last = result.back();
+        last.to = to;
+        for (std::size_t i = 0; i < kCables; ++i) {
+          last.tension[i] = hull(last.tension[i], box.tension[i]);
+          last.length[i] = hull(last.length[i], box.length[i]);
+        }
+      } else {
+        result.push_back({from, to, box.tension, box.length});
+      }
+      bin_of_last = bin;
+    }
+  }
+  return result;
+}
+
+json bands(const std::vector<Bin>& bins) {
+  json from = json::array();
+  json to = json::array();
+  for (const Bin& bin : bins) {
+    from.push_back(number(bin.from));
+    to.push_back(number(bin.to));
+  }
+  const auto columns = [&](std::array<Range, kCables> Bin::*what) {
+    json result = json::array();
+    for (std::size_t i = 0; i < kCables; ++i) {
+      json lower = json::array();
+      json upper = json::array();
+      for (const Bin& bin : bins) {
+        lower.push_back(outward((bin.*what)[i].lower, false));
+        upper.push_back(outward((bin.*what)[i].upper, true));
+      }
+      result.push_back({{"lower", lower}, {"upper", upper}});
+    }
+    return result;
+  };
+  return {{"from", from}, {"to", to}, {"tension", columns(&Bin::tension)}, {"length", columns(&Bin::length)}};
+}
+
+/// The least margins of segments, so many in a row together that there are at most kMostBins; null where nothing is proved.
+json margins(const std::vector<SegmentView>& segments) {
+  const std::size_t together = (segments.size() + kMostBins - 1) / kMostBins;
+  json result = {{"from", json::array()}, {"to", json::array()}};
+  const auto column = [&](const char* key, std::string MarginsView::*margin) {
+    json list = json::array();
+    for (std::size_t k = 0; k < segments.size(); k += together) {
+      std::optional<double> least;
+      for (std::size_t i = k; i < std::min(k + together, segments.size()); ++i) {
+        const std::string& text = segments[i].margins.*margin;
+        if (text.empty()) continue;
+        const double value = std::strtod(text.c_str(), nullptr);
+        least = std::min(value, least.value_or(value));
+      }
+      list.push_back(least ? outward(*least, false) : json());
+    }
+    result[key] = list;
+  };
+  column("tension_N", &MarginsView::tension_N);
+  column("length_m", &MarginsView::length_m);
+  column("wrench_scale", &MarginsView::wrench_scale);
+  for (std::size_t k = 0; k < segments.size(); k += together) {
+    result["from"].push_back(k);
+    result["to"].push_back(std::min(k + together, segments.size()));
+  }
+  return result;
+}
+
+/// Where the path is not proved: {from, to, violated}. Those of one kind that a picture would not show apart are one.
+json stretches(const CertificateView& view) {
+  struct Stretch {
+    double from = 0;
+    double to = 0;
+    bool violated = false;
+  };
+  std::vector<Stretch> list;
+  const double thin = static_cast<double>(view.path.segments()) / kMostBins;
+  for (const StretchView& stretch : view.stretches) {
+    const Stretch next = {stretch.begin.position, stretch.end.position, stretch.first.has_value()};
+    if (view.stretches.size() > kMostBins && !list.empty() && list.back().violated == next.violated &&
+        next.from - list.back().to < thin) {
+      list.back().to = next.to;
+    } else {
+      list.push_back(next);
+    }
+  }
+  if (const auto& open = view.undecided; open && open->segment && list.empty()) {
+    list.push_back({*open->segment + open->lower, *open->segment + open->upper, false});
+  }
+  json result = json::array();
+  for (const Stretch& s : list) {
+    result.push_back({{"from", number(s.from)}, {"to", number(s.to)}, {"violated", s.violated}});
+  }
+  return result;
+}
+
+json witness(const CertificateView& view) {
+  if (!view.witness) return nullptr;
+  return {{"position", number(view.witness->at.position)},
+          {"to", view.witness->to ? number(view.witness->to->position) : json()},
+          {"kind", view.witness->kind},
+          {"cable", view.witness->cable}};
+}
+
+/// Radius of the tube around the path in which the platform's origin may be [m]; null where no tolerance of it is stated.
+json tube_radius(const Problem& problem) {
+  if (!problem.tolerances) return nullptr;
+  const double radius = evaluate_constant<double>(problem.tolerances->position_m);
+  return radius > 0 ? number(radius) : json();
+}
+
+/// Stated beside proved, of each tolerance whose limit the certificate tells.
+json tolerances(const CertificateView& view) {
+  json result = json::array();
+  if (!view.problem.tolerances) return result;
+  const TolerancesText& t = *view.problem.tolerances;
+  const auto greatest = [](const auto& texts) {
+    double most = 0;
+    for (const std::string& text : texts) most = std::max(most, std::abs(evaluate_constant<double>(text)));
+    return most;
+  };
+  const std::array<DecimalText, kCables> none{"0", "0", "0", "0", "0", "0"};
+  const std::map<std::string, double> stated = {{"base_anchors", greatest(t.base_anchor_m)},
+                                                {"platform_anchors", greatest(t.platform_anchor_m)},
+                                                {"load_point", greatest(std::array{t.load_point_m})},
+                                                {"load", greatest(t.wrench)},
+                                                {"position", greatest(std::array{t.position_m})},
+                                                {"orientation", greatest(std::array{t.orientation_rad})},
+                                                {"cable_length", greatest(t.cable_length_m.value_or(none))}};
+  for (const ToleranceLimitView& limit : view.tolerance_limits) {
+    const auto found = stated.find(limit.tolerance);
+    if (found == stated.end()) continue;
+    result.push_back({{"name", limit.tolerance},
+                      {"unit", limit.unit},
+                      {"stated", number(found->second)},
+                      {"proved", number(std::strtod(limit.proved.c_str(), nullptr))}});
+  }
+  return result;
+}
+
+json plane(const Scene& scene) {
+  const std::optional<Plane> plane = sample_plane(scene);
+  if (!plane) return nullptr;
+  const SpaceText& space = scene.view.problem.space;
+  json names = json::array();
+  json units = json::array();
+  json window = json::array();
+  for (std::size_t j = 0; j < 2; ++j) {
+    names.push_back(space.parameters[j].name);
+    units.push_back(unit(space, j));
+    window.push_back(numbers(std::array{plane->window[j].lower, plane->window[j].upper}));
+  }
+  // Thousands of points, for a picture: four digits will do, and keep the page small.
+  const auto drawn = [&](double x) { return json(std::strtod(fmt::format("{:.4g}", x).c_str(), nullptr)); };
+  json singular = json::array();
+  for (const auto& piece : plane->singular) {
+    for (const double x : piece) singular.push_back(drawn(x));
+  }
+  json charts = json::array();
+  for (const auto& polygon : plane->charts) {
+    json corners = json::array();
+    for (const auto& corner : polygon) {
+      for (const double x : corner) corners.push_back(drawn(x));
+    }
+    charts.push_back(std::move(corners));
+  }
+  json waypoints = json::array();
+  if (scene.view.path.waypoints.size() <= kMostBins) {
+    for (const Waypoint& waypoint : scene.view.path.waypoints) waypoints.push_back(numbers(resolved(waypoint)));
+  }
+  return {{"names", names},
+          {"units", units},
+          {"window", window},
+          {"rows", plane->rows},
+          {"columns", plane->columns},
+          {"cells", plane->cells},
+          {"singular", singular},
+          {"charts", charts},
+          {"all_charts", scene.view.charts.size()},
+          {"waypoints", waypoints}};
+}
+
+}  // namespace
+
+json report_data(const Scene& scene) {
+  const CertificateView& view = scene.view;
+  return {{"verdict", view.verdict},
+          {"segments", view.path.segments()},
+          {"is_spline", view.path.interpolation == Interpolation::kCubicBSpline},
+          {"robot", robot(scene.sampler.model())},
+          {"samples", samples(scene)},
+          {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
+          {"margins", margins(view.segments)},
+          {"stretches", stretches(view)},
+          {"witness", witness(view)},
+          {"tube_m", tube_radius(view.problem)},
+          {"tolerances", tolerances(view)},
+          {"plane", plane(scene)}};
+}
+
+std::string script_safe(const json& value) {
+  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string result;
+  result.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      result += "\\u003c";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace taut

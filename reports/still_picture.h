@@ -1,0 +1,13 @@
+// The robot in a few poses, drawn once and for all: for paper, and for browsers that draw no moving picture. Floating point.
+#pragma once
+
+#include "reports/markup.h"
+#include "reports/scene.h"
+
+namespace taut {
+
+/// The robot at the first and the last waypoint, and at the witness if there is one, seen from the side; nothing where there is no
+/// path.
+[[nodiscard]] Html still_picture(const Scene& scene);
+
+}  // namespace taut

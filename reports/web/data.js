@@ -1,0 +1,81 @@
+// What the certificate's report knows, as report_data.cc wrote it into the page. SI units and radians; columns of numbers, null
+// where there is none.
+//
+//   verdict, segments, is_spline
+//   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of limits
+//   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3), distance, turned,
+//               time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0), variation (6: v),
+//               wrench_scale, sign (of det J), parameters (2, where there is a plane)
+//   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
+//   margins     proved, of so many segments together: from, to, tension_N, length_m, wrench_scale
+//   stretches   where the path is not proved: from, to, violated (else open)
+//   witness     position, to, kind, cable; or null
+//   tube_m      how far the platform's origin may be from the path; or null
+//   tolerances  name, unit, stated, proved (how far this one alone may grow)
+//   plane       of two parameters, or null: names, units, window, rows, columns, cells, singular, charts, all_charts, waypoints
+
+export function readData() {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  data.lengthUnit = lengthUnit(data);
+  return data;
+}
+
+const finite = (x) => typeof x === "number" && Number.isFinite(x);
+
+/// Millimetres for machines of a table's or a room's size, metres for larger ones.
+function lengthUnit({ robot }) {
+  const sizes = [...robot.base.flat(), ...robot.length.map(([, upper]) => upper)].filter(finite).map(Math.abs);
+  return Math.max(0, ...sizes) < 20 ? { name: "mm", factor: 1000 } : { name: "m", factor: 1 };
+}
+
+/// Whether all that a picture of the robot needs is there.
+export function isDrawable({ robot, samples }) {
+  const numbers = [robot.base, robot.platform, [robot.load_point], samples.p, samples.q].flat(2);
+  return samples.position.length > 0 && numbers.every((x) => finite(x) && Math.abs(x) < 1e15);
+}
+
+/// Least and greatest of what is a number; nothing of none.
+export function extent(...lists) {
+  let least = Infinity;
+  let greatest = -Infinity;
+  for (const list of lists) {
+    for (const x of list) {
+      if (!finite(x)) continue;
+      if (x < least) least = x;
+      if (x > greatest) greatest = x;
+    }
+  }
+  return least <= greatest ? [least, greatest] : undefined;
+}
+
+/// Where `x` lies in a rising list: the index before it and how far towards the next.
+export function locate(list, x) {
+  let low = 0;
+  let high = list.length - 1;
+  if (!(x > list[0])) return [0, 0];
+  if (x >= list[high]) return [high, 0];
+  while (high - low > 1) {
+    const mid = (low + high) >> 1;
+    if (list[mid] <= x) low = mid;
+    else high = mid;
+  }
+  return [low, (x - list[low]) / (list[high] - list[low])];
+}
+
+/// A column between its entries; NaN beside an entry that is none.
+export function between(list, [k, t]) {
+  const a = list[k] ?? NaN;
+  return t === 0 ? a : a + t * ((list[k + 1] ?? NaN) - a);
+}
+
+/// What is proved at a position: "proved", "open", "violated", or "unknown" where nothing is said.
+export function status(data, position) {
+  for (const { from, to, violated } of data.stretches) {
+    if (position >= from && position <= to) return violated ? "violated" : "open";
+  }
+  if (data.verdict === "proved") return "proved";
+  const bands = data.bands;
+  if (!bands || bands.from.length === 0) return "unknown";
+  const [k] = locate(bands.from, position);
+  return position >= bands.from[k] && position <= bands.to[k] ? "proved" : "unknown";
+}

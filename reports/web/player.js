@@ -1,0 +1,176 @@
+// The controls below the robot: play, scrub, step through segments; and what is at the cursor, in numbers.
+import { between, locate, status } from "./data.js";
+import { decimalsFor, degrees, element, fixed, text } from "./words.js";
+
+const STATUS = {
+  proved: "proved here",
+  open: "left open here",
+  violated: "a violation is proved in this stretch",
+  unknown: "",
+};
+
+/// What playing goes by: seconds where the path has times, else how far the robot moves and turns, so that it neither races nor
+/// stands still.
+function pace(data) {
+  const { position, time, distance, turned } = data.samples;
+  if (time.length > 0) return { values: time, seconds: time[time.length - 1] - time[0] };
+  const reach = Math.max(...data.robot.platform.map((b) => Math.hypot(...b)), 1e-9);
+  const moved = position.map((_, k) => distance[k] / reach + turned[k]);
+  return { values: moved[moved.length - 1] > 0 ? moved : position, seconds: undefined };
+}
+
+/// A bar between two limits with a range on it.
+class Meter {
+  constructor() {
+    this.range = element("span", { class: "range" });
+    this.tick = element("span", { class: "tick" });
+    this.bar = element("span", { class: "meter", "aria-hidden": "true" }, this.range, this.tick);
+  }
+
+  show(low, at, high, [lower, upper]) {
+    const share = (x) => Math.min(Math.max(((x - lower) / (upper - lower)) * 100, 0), 100) || 0;
+    this.range.style.left = `${share(low)}%`;
+    this.range.style.width = `${Math.max(share(high) - share(low), 0)}%`;
+    this.tick.style.left = `${share(at)}%`;
+    const out = !(low > lower && high < upper);
+    this.bar.classList.toggle("out", out);
+    return out;
+  }
+}
+
+class Readout {
+  constructor(data) {
+    this.data = data;
+    const { name: unit } = data.lengthUnit;
+    this.where = element("p", { class: "where" });
+    this.pose = element("p", { class: "pose" });
+    this.rows = data.robot.tension.map((_, i) => {
+      const row = { tension: element("td", { class: "n" }), length: element("td", { class: "n" }), f: new Meter(), d: new Meter(),
+        flag: element("td", { class: "flag" }) };
+      row.element = element("tr", {}, element("th", { scope: "row" }, String(i + 1)), row.tension,
+        element("td", {}, row.f.bar), row.length, element("td", {}, row.d.bar), row.flag);
+      return row;
+    });
+    const head = (words, attributes = {}) => element("th", { scope: "col", ...attributes }, words);
+    this.element = element("div", { class: "readout-table" }, this.where, this.pose,
+      element("table", {},
+        element("caption", {}, "Cables at this place, between their limits (floating point)"),
+        element("thead", {}, element("tr", {}, head("Cable"), head("Tension [N]", { colspan: 2 }),
+          head(`Length [${unit}]`, { colspan: 2 }), element("td"))),
+        element("tbody", {}, ...this.rows.map((row) => row.element))));
+  }
+
+  show(position, axes) {
+    const { samples, robot, lengthUnit, segments } = this.data;
+    const where = locate(samples.position, position);
+    const segment = Math.min(Math.floor(position), Math.max(segments - 1, 0));
+    const says = axes.filter((axis) => axis.name !== "segment").map((axis) => axis.says(position));
+    const state = STATUS[status(this.data, position)];
+    this.where.textContent = [`Segment ${segment}, s = ${fixed(position - segment, 3)}`, ...says, state].filter(Boolean).join(" · ");
+    const p = samples.p.map((column) => fixed(between(column, where) * lengthUnit.factor, 1));
+    const angles = samples.angles.map((column) => fixed(degrees(between(column, where)), 2));
+    this.pose.textContent =
+      `p = (${p.join(", ")}) ${lengthUnit.name}; φ, θ, σ = ${angles.map((a) => `${a}°`).join(", ")}`;
+    this.rows.forEach((row, i) => {
+      const f = between(samples.tension[i], where);
+      const v = between(samples.variation[i], where);
+      const d = between(samples.length[i], where) * lengthUnit.factor;
+      const [lower, upper] = robot.tension[i];
+      const decimals = decimalsFor(upper - lower);
+      row.tension.textContent = `${fixed(f - v, decimals)} to ${fixed(f + v, decimals)}`;
+      row.length.textContent = fixed(d, decimalsFor((robot.length[i][1] - robot.length[i][0]) * lengthUnit.factor));
+      const limits = robot.length[i].map((x) => x * lengthUnit.factor);
+      const slackOrOver = row.f.show(f - v, f, f + v, robot.tension[i]);
+      const tooLong = row.d.show(d, d, d, limits);
+      row.flag.textContent = slackOrOver || tooLong ? "out of limits" : "";
+    });
+  }
+}
+
+export class Player {
+  /// onReset: what the button "Reset view" does; none without a picture.
+  constructor(data, cursor, axes, onReset) {
+    Object.assign(this, { data, cursor, axes });
+    this.pace = pace(data);
+    this.playing = false;
+    this.play = element("button", { type: "button", class: "play" }, "▶ Play");
+    this.previous = element("button", { type: "button", "aria-label": "Previous segment" }, "◀ Segment");
+    this.next = element("button", { type: "button", "aria-label": "Next segment" }, "Segment ▶");
+    this.slider = element("input", { type: "range", min: 0, max: 1000, step: 1, value: 0, "aria-label": "Place along the move" });
+    this.duration = element("select", { "aria-label": "Duration of the whole move when played" });
+    const offer = (seconds, words) => this.duration.append(element("option", { value: seconds }, words));
+    if (this.pace.seconds > 0) offer(this.pace.seconds, `as timed (${text(this.pace.seconds, 3)} s)`);
+    for (const seconds of [10, 5, 20, 60]) offer(seconds, `whole move in ${seconds} s`);
+    this.readout = new Readout(data);
+    const controls = element("div", { class: "controls", role: "group", "aria-label": "Playing the move" },
+      this.play, this.previous, this.slider, this.next, this.duration);
+    if (onReset) {
+      const reset = element("button", { type: "button" }, "Reset view");
+      reset.addEventListener("click", onReset);
+      controls.append(reset);
+    }
+    this.element = element("div", { class: "player" }, controls, this.readout.element);
+
+    this.play.addEventListener("click", () => this.toggle());
+    this.slider.addEventListener("input", () => {
+      this.stop();
+      this.goTo(Number(this.slider.value) / 1000);
+    });
+    this.previous.addEventListener("click", () => this.step(-1));
+    this.next.addEventListener("click", () => this.step(1));
+    cursor.onMove((position) => this.show(position));
+    this.show(cursor.position ?? 0);
+  }
+
+  /// 0 at the start of the move, 1 at its end.
+  get share() {
+    const { values } = this.pace;
+    const [first, last] = [values[0], values[values.length - 1]];
+    const at = between(values, locate(this.data.samples.position, this.cursor.position ?? 0));
+    return last > first ? (at - first) / (last - first) : 0;
+  }
+
+  goTo(share) {
+    const { values } = this.pace;
+    const value = values[0] + share * (values[values.length - 1] - values[0]);
+    this.cursor.position = share >= 1 ? this.cursor.last : between(this.data.samples.position, locate(values, value));
+  }
+
+  /// To the end of a segment before or behind.
+  step(direction) {
+    this.stop();
+    const position = this.cursor.position ?? 0;
+    this.cursor.position = direction > 0 ? Math.floor(position + 1e-9) + 1 : Math.ceil(position - 1e-9) - 1;
+  }
+
+  toggle() {
+    if (this.playing) {
+      this.stop();
+      return;
+    }
+    this.playing = true;
+    this.play.textContent = "❚❚ Pause";
+    if (this.share >= 1) this.goTo(0);
+    let last = performance.now();
+    const frame = (now) => {
+      if (!this.playing) return;
+      const share = this.share + (now - last) / 1000 / Number(this.duration.value);
+      last = now;
+      this.goTo(Math.min(share, 1));
+      if (share >= 1) this.stop();
+      else requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  stop() {
+    this.playing = false;
+    this.play.textContent = "▶ Play";
+  }
+
+  show(position) {
+    this.slider.value = String(Math.round(this.share * 1000));
+    this.slider.setAttribute("aria-valuetext", this.axes[0].says(position));
+    this.readout.show(position, this.axes);
+  }
+}

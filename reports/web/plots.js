@@ -1,0 +1,367 @@
+// Plots along the path: tensions, lengths, margins and pose, each a panel with one shared cursor.
+import * as Plot from "@observablehq/plot";
+import { between, extent, locate } from "./data.js";
+import { decimalsFor, degrees, element, fixed, text } from "./words.js";
+
+const NARROW = { width: 340, height: 210 };
+const WIDE = { width: 520, height: 230 };
+const MARGINS = { marginLeft: 46, marginRight: 42, marginTop: 10, marginBottom: 34 };
+
+/// Limits and a little beyond; up to half of their width beyond where the data go there.
+function limitedDomain([lower, upper], data) {
+  const width = upper - lower;
+  const [least, greatest] = data ?? [lower, upper];
+  return [
+    Math.max(Math.min(lower - 0.1 * width, least - 0.04 * width), lower - 0.5 * width),
+    Math.min(Math.max(upper + 0.1 * width, greatest + 0.04 * width), upper + 0.5 * width),
+  ];
+}
+
+function paddedDomain(data) {
+  const [least, greatest] = data ?? [0, 1];
+  const pad = Math.max(0.06 * (greatest - least), 1e-3 * Math.max(Math.abs(greatest), Math.abs(least)), 1e-9);
+  return [least - pad, greatest + pad];
+}
+
+/// Corners of steps that are `lower` to `upper` from one end of each box to the other, with gaps where there are gaps.
+function steps(from, to, lower, upper, x) {
+  const result = [];
+  for (let k = 0; k < from.length; ++k) {
+    if (k > 0 && from[k] > to[k - 1]) result.push({ x: x(to[k - 1]), lower: NaN, upper: NaN });
+    const low = lower ? lower[k] : null;
+    const high = upper ? upper[k] : null;
+    result.push({ x: x(from[k]), lower: low ?? NaN, upper: high ?? NaN });
+    result.push({ x: x(to[k]), lower: low ?? NaN, upper: high ?? NaN });
+  }
+  return result;
+}
+
+/// Rows of a curve, broken where det J changes sign: tensions have a pole there.
+function curve({ samples }, axis, ...columns) {
+  const rows = [];
+  samples.position.forEach((position, k) => {
+    const broken = k > 0 && samples.sign[k] !== samples.sign[k - 1];
+    if (broken) rows.push({ x: axis.values[k], y: columns.map(() => NaN) });
+    rows.push({ x: axis.values[k], y: columns.map((column) => column[k] ?? NaN) });
+  });
+  return rows;
+}
+
+/// Where the path is not proved, and the witness: behind and before everything else.
+function marks(data, axis, [bottom, top]) {
+  const at = (position) => axis.at(position);
+  const behind = Plot.rect(data.stretches, {
+    x1: (s) => at(s.from),
+    x2: (s) => at(s.to),
+    y1: bottom,
+    y2: top,
+    fill: (s) => (s.violated ? "var(--mark)" : "var(--undecided)"),
+    stroke: (s) => (s.violated ? "var(--mark)" : "var(--undecided)"),
+    fillOpacity: 0.22,
+    strokeOpacity: 0.6,
+    strokeWidth: 1,
+    clip: true,
+  });
+  const places = data.witness ? [data.witness.position, data.witness.to].filter((x) => x !== null) : [];
+  const before = Plot.ruleX(places.map(at), { stroke: "var(--mark)", strokeWidth: 1.6, strokeDasharray: "3 3" });
+  return { behind, before };
+}
+
+function beyondLimits([lower, upper], [bottom, top], [left, right], label) {
+  return [
+    Plot.rect([[bottom, lower], [upper, top]], {
+      x1: left, x2: right, y1: (d) => d[0], y2: (d) => d[1], fill: "var(--forbidden)", clip: true,
+    }),
+    Plot.ruleY([lower, upper], { stroke: "var(--limit)", strokeWidth: 1.2 }),
+    Plot.text([lower, upper], {
+      x: right, y: (d) => d, text: label, dx: 4, textAnchor: "start", fill: "var(--limit)", clip: false,
+    }),
+  ];
+}
+
+/// A figure with its plot and a line that says what is at the cursor.
+class Panel {
+  /// draw: (axis) → marks; says: (where in the samples, position) → text at the cursor; rest: the text before there is one.
+  constructor({ title, keys, description, rest, size = NARROW, domain, label, log = false, draw, says }) {
+    Object.assign(this, { rest, size, domain, label, log, draw, says, description });
+    this.readout = element("span", { class: "readout" }, rest);
+    this.holder = element("div", {
+      class: "drawing", tabindex: "0", role: "img", "aria-label": `${description} Arrow keys move the cursor.`,
+    });
+    this.figure = element("figure", { class: "panel" },
+      element("figcaption", {}, element("span", { class: "title" }, title), keys ?? "", this.readout), this.holder);
+  }
+
+  redraw(axis) {
+    this.axis = axis;
+    const across = extent(axis.values) ?? [0, 1];
+    const plot = Plot.plot({
+      ...this.size,
+      ...MARGINS,
+      style: "background: none; color: inherit;",
+      x: { domain: across[0] < across[1] ? across : [across[0], across[0] + 1], label: axis.label, labelArrow: "none",
+        labelAnchor: "center", ticks: 6, nice: false },
+      y: { domain: this.domain, label: null, ticks: 5, type: this.log ? "log" : "linear", tickFormat: (y) => text(y),
+        grid: true },
+      marks: [...this.draw(axis, across), Plot.frame({ stroke: "var(--soft)", strokeOpacity: 0.7 })],
+    });
+    plot.setAttribute("aria-hidden", "true"); // the holder says what it shows
+    this.scale = plot.scale("x");
+    this.line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+    this.line.setAttribute("class", "cursor");
+    this.line.setAttribute("y1", MARGINS.marginTop);
+    this.line.setAttribute("y2", this.size.height - MARGINS.marginBottom);
+    plot.append(this.line);
+    const unit = document.createElementNS("http://www.w3.org/2000/svg", "text");
+    unit.setAttribute("class", "unit");
+    unit.setAttribute("transform", `translate(11 ${this.size.height / 2 - 12}) rotate(-90)`);
+    unit.textContent = this.label;
+    plot.append(unit);
+    this.holder.replaceChildren(plot);
+    this.svg = plot;
+  }
+
+  /// The position under the pointer.
+  positionAt(event) {
+    const box = this.svg.getBoundingClientRect();
+    const x = ((event.clientX - box.left) / box.width) * this.size.width;
+    return this.axis.position(this.scale.invert(x));
+  }
+
+  show(position, where) {
+    const x = this.scale.apply(this.axis.at(position));
+    this.line.setAttribute("x1", x);
+    this.line.setAttribute("x2", x);
+    this.line.classList.add("shown");
+    this.readout.textContent = this.says(where, position);
+  }
+}
+
+/// "0.08 to 0.42 N"
+const span = (range, unit) => (range ? `${text(range[0], 3)} to ${text(range[1], 3)} ${unit}` : "");
+
+function bandAt(band, bands, position) {
+  if (!bands || bands.from.length === 0) return undefined;
+  const [k] = locate(bands.from, position);
+  return position <= bands.to[k] ? [band.lower[k], band.upper[k]] : undefined;
+}
+
+function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high, band }) {
+  const scaled = (list) => list.map((x) => (x === null ? NaN : x * factor));
+  const [bottom, top] = limits;
+  const proved = band && { lower: scaled(band.lower), upper: scaled(band.upper) };
+  const all = extent(low, high, ...(proved ? [proved.lower, proved.upper] : []));
+  const sampled = extent(low, high);
+  const domain = limitedDomain(limits, all);
+  const decimals = decimalsFor(top - bottom);
+  const isBand = low !== high;
+  const provedSpan = proved && extent(proved.lower, proved.upper);
+  const violated = data.witness && data.witness.cable === cable + 1 && data.witness.kind.startsWith(name);
+  return new Panel({
+    title: `Cable ${cable + 1}`,
+    rest: span(provedSpan ?? sampled, unit),
+    description:
+      `${name === "tension" ? "Tension" : "Length"} of cable ${cable + 1} along the move: ` +
+      (provedSpan && data.verdict === "proved"
+        ? `proved to stay between ${span(provedSpan, unit).replace("to", "and")}, `
+        : sampled ? `sampled between ${span(sampled, unit).replace("to", "and")}, ` : "") +
+      `limits ${text(bottom)} and ${text(top)} ${unit}.` + (violated ? " It is proved to be out of its limits." : ""),
+    domain,
+    label: `${name} [${unit}]`,
+    draw: (axis, across) => {
+      const { behind, before } = marks(data, axis, domain);
+      const rows = curve(data, axis, low, middle, high);
+      const drawn = [...beyondLimits(limits, domain, across, (d) => text(d))];
+      drawn.push(behind);
+      if (proved) {
+        drawn.push(Plot.areaY(steps(data.bands.from, data.bands.to, proved.lower, proved.upper, axis.at), {
+          x: "x", y1: "lower", y2: "upper", fill: "var(--band)", clip: true,
+        }));
+      }
+      if (isBand) {
+        drawn.push(Plot.areaY(rows, {
+          x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], fill: "var(--curve)", fillOpacity: 0.35, clip: true,
+        }));
+      }
+      drawn.push(Plot.lineY(rows, { x: "x", y: (d) => d.y[1], stroke: "var(--curve)", strokeWidth: 1.5, clip: true }));
+      drawn.push(before);
+      return drawn;
+    },
+    says: (where, position) => {
+      const at = fixed(between(middle, where), decimals);
+      const found = band && bandAt(proved, data.bands, position);
+      const range = found
+        ? ` (proved ${fixed(found[0], decimals)} to ${fixed(found[1], decimals)})`
+        : isBand ? ` (${fixed(between(low, where), decimals)} to ${fixed(between(high, where), decimals)})` : "";
+      return `${at}${range} ${unit}`;
+    },
+  });
+}
+
+export function tensionPanels(data) {
+  return data.robot.tension.map((limits, i) => {
+    const f0 = data.samples.tension[i].map((x) => x ?? NaN);
+    const v = data.samples.variation[i];
+    return cablePanel(data, i, {
+      name: "tension", unit: "N", factor: 1, limits,
+      low: f0.map((f, k) => f - v[k]), middle: f0, high: f0.map((f, k) => f + v[k]),
+      band: data.bands && data.bands.from.length ? data.bands.tension[i] : null,
+    });
+  });
+}
+
+export function lengthPanels(data) {
+  const { name: unit, factor } = data.lengthUnit;
+  return data.robot.length.map((limits, i) => {
+    const d = data.samples.length[i].map((x) => (x === null ? NaN : x * factor));
+    return cablePanel(data, i, {
+      name: "length", unit, factor, limits: limits.map((x) => x * factor), low: d, middle: d, high: d,
+      band: data.bands && data.bands.from.length ? data.bands.length[i] : null,
+    });
+  });
+}
+
+/// The least over all cables of what is left to the nearer limit, sampled.
+function leastReserve(data, low, high, limits) {
+  return data.samples.position.map((_, k) => {
+    let least = Infinity;
+    for (let i = 0; i < 6; ++i) {
+      const reserve = Math.min(low(i, k) - limits[i][0], limits[i][1] - high(i, k));
+      if (!(reserve >= least)) least = reserve;
+    }
+    return least;
+  });
+}
+
+export function marginPanels(data) {
+  const { samples, robot, margins, lengthUnit } = data;
+  const number = (x) => x ?? NaN;
+  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.variation[i][k]),
+    (i, k) => number(samples.tension[i][k]) + number(samples.variation[i][k]), robot.tension);
+  const length = leastReserve(data, (i, k) => number(samples.length[i][k]), (i, k) => number(samples.length[i][k]),
+    robot.length).map((x) => x * lengthUnit.factor);
+  const scaledLength = margins.length_m.map((x) => (x === null ? null : x * lengthUnit.factor));
+  return [
+    marginPanel(data, "Tension", "N", margins.tension_N, tension, 0),
+    marginPanel(data, "Length", lengthUnit.name, scaledLength, length, 0),
+    marginPanel(data, "Load ellipsoid (wrench_scale)", "×", margins.wrench_scale, samples.wrench_scale.map(number), 1),
+  ];
+}
+
+/// Proved lower bounds as steps, the sampled margin as a line; the claim needs more than `needed`.
+function marginPanel(data, title, unit, proved, sampled, needed) {
+  const all = extent(proved, sampled);
+  const provedSpan = extent(proved);
+  const positive = extent(proved, sampled.filter((x) => x > 0));
+  const log = Boolean(all && all[0] > 0 && positive[1] / positive[0] > 30);
+  const domain = log ? [positive[0] / 1.5, positive[1] * 1.5]
+    : [Math.min(needed, all ? Math.max(all[0], needed - (all[1] - needed)) : needed), all ? all[1] + 0.08 * (all[1] - needed) : 1];
+  if (!(domain[1] > domain[0])) domain[1] = domain[0] + 1;
+  return new Panel({
+    title,
+    rest: provedSpan ? `at least ${text(provedSpan[0], 3)} ${unit}` : "",
+    description: `${title} margin along the move: ` +
+      (provedSpan ? `proved to be at least ${text(provedSpan[0], 3)} ${unit}; it has to exceed ${needed}.` : "not proved."),
+    domain,
+    log,
+    label: `margin [${unit}]`,
+    draw: (axis, across) => {
+      const { behind, before } = marks(data, axis, domain);
+      const floor = domain[0];
+      const bounds = steps(data.margins.from, data.margins.to, proved.map((x) => (x === null ? null : floor)), proved, axis.at);
+      const drawn = [behind];
+      if (!log && floor < needed) {
+        drawn.push(Plot.rect([0], { x1: across[0], x2: across[1], y1: floor, y2: needed, fill: "var(--forbidden)" }));
+      }
+      drawn.push(
+        Plot.areaY(bounds, { x: "x", y1: "lower", y2: "upper", fill: "var(--band)", clip: true }),
+        Plot.lineY(bounds, { x: "x", y: "upper", stroke: "var(--curve)", strokeWidth: 1.6, clip: true }),
+        Plot.lineY(curve(data, axis, sampled), {
+          x: "x", y: (d) => (log && !(d.y[0] > 0) ? NaN : d.y[0]), stroke: "var(--c1)", strokeWidth: 1.2,
+          strokeDasharray: "5 3", clip: true,
+        }));
+      if (!log) drawn.push(Plot.ruleY([needed], { stroke: "var(--limit)", strokeWidth: 1.2 }));
+      return [...drawn, before];
+    },
+    says: (where, position) => {
+      const [k] = locate(data.margins.from, position);
+      const bound = proved[k];
+      return (bound === null || bound === undefined ? "" : `proved ≥ ${text(bound, 3)} ${unit}; `) +
+        `sampled ${text(between(sampled, where), 3)} ${unit}`;
+    },
+  });
+}
+
+export function posePanels(data) {
+  const { name: unit, factor } = data.lengthUnit;
+  const make = (title, names, label, columns) => {
+    const range = extent(...columns);
+    const decimals = decimalsFor(range ? range[1] - range[0] : 0);
+    const keys = element("span", { class: "keys" });
+    names.forEach((name, c) => keys.append(key(`curve c${c}`, name)));
+    return new Panel({
+      title,
+      keys,
+      rest: "",
+      size: WIDE,
+      description: `${title} along the move: ` +
+        names.map((name, c) => `${name} ${span(extent(columns[c]), label)}`).join(", ") + ".",
+      domain: paddedDomain(range),
+      label: `[${label}]`,
+      draw: (axis) => {
+        const { behind, before } = marks(data, axis, paddedDomain(range));
+        const rows = axis.values.map((x, k) => ({ x, y: columns.map((column) => column[k] ?? NaN) }));
+        const dashes = [undefined, "6 3", "2 2.5"];
+        return [behind, ...columns.map((_, c) => Plot.lineY(rows, {
+          x: "x", y: (d) => d.y[c], stroke: ["var(--curve)", "var(--c1)", "var(--c2)"][c], strokeWidth: 1.6,
+          strokeDasharray: dashes[c], clip: true,
+        })), before];
+      },
+      says: (where) => names.map((name, c) => `${name} ${fixed(between(columns[c], where), decimals)}`).join(", ") + ` ${label}`,
+    });
+  };
+  const scaled = (columns, f) => columns.map((column) => column.map((x) => (x === null ? NaN : f(x))));
+  return [
+    make("Position", ["px", "py", "pz"], unit, scaled(data.samples.p, (x) => x * factor)),
+    make("Orientation", ["φ", "θ", "σ"], "°", scaled(data.samples.angles, degrees)),
+  ];
+}
+
+/// A line of a legend.
+export function key(kind, words) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 24 10");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("class", kind);
+  path.setAttribute("d", kind.startsWith("fill ") ? "M0 0H24V10H0Z" : "M0 5H24");
+  svg.append(path);
+  return element("span", { class: "key" }, svg, words);
+}
+
+export function legend(...keys) {
+  return element("p", { class: "legend" }, ...keys.map(([kind, words]) => key(kind, words)));
+}
+
+/// Panels that share a cursor: pointing at one, or arrow keys on it, moves all of them.
+export function connect(panels, cursor, samples) {
+  for (const panel of panels) {
+    const point = (event) => {
+      cursor.position = panel.positionAt(event);
+    };
+    panel.holder.addEventListener("pointermove", point);
+    panel.holder.addEventListener("pointerdown", point);
+    panel.holder.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10 }[event.key];
+      if (step === undefined) return;
+      event.preventDefault();
+      const x = panel.axis.at(cursor.position ?? 0);
+      const [left, right] = extent(panel.axis.values) ?? [0, 0];
+      cursor.position = panel.axis.position(x + (step * (right - left)) / 100);
+    });
+  }
+  cursor.onMove((position) => {
+    const where = locate(samples.position, position);
+    for (const panel of panels) panel.show(position, where);
+  });
+}

@@ -1,0 +1,34 @@
+// Numbers as text.
+
+/// Four significant digits, no exponent where it can be read without, a real minus sign.
+export function text(x, digits = 4) {
+  if (typeof x !== "number" || !Number.isFinite(x)) return "–";
+  const size = Math.abs(x);
+  if (size !== 0 && (size < 1e-5 || size >= 1e7)) return x.toExponential(digits - 2).replace("-", "−");
+  const rounded = Number(x.toPrecision(digits));
+  return String(rounded).replace("-", "−");
+}
+
+/// With so many decimals that neighbours in a column don't jump: for what changes while one looks.
+export function fixed(x, decimals) {
+  if (!Number.isFinite(x)) return "–";
+  return (Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals).replace("-", "−");
+}
+
+/// Decimals that show a thousandth of `range`.
+export function decimalsFor(range) {
+  if (!(range > 0)) return 3;
+  return Math.min(9, Math.max(0, 3 - Math.ceil(Math.log10(range))));
+}
+
+export const degrees = (radians) => (radians * 180) / Math.PI;
+
+/// An element with attributes and children; text stays text.
+export function element(name, attributes = {}, ...children) {
+  const result = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value !== undefined && value !== null) result.setAttribute(key, value);
+  }
+  result.append(...children);
+  return result;
+}
