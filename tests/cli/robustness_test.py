@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""What the outside world does to taut: kill -9, full and read-only disks, no terminal, no memory, two at once.
+
+Whatever it is, a result that is there is whole, and what was there before is replaced by a whole one or not at all.
+
+Usage: robustness_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import json
+import os
+import random
+import shutil
+import subprocess
+import time
+import unittest
+
+from command_line import CASES, CHECK, InFolder, TAUT, main, run, text_of
+
+CASE = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
+AUDITED = os.path.join(CASES, "audits", "robot1-planned.yaml")
+RESULTS = ("certificate.json", "path.csv", "report.html")
+
+
+def may_mount():
+    return os.geteuid() == 0 and subprocess.run(["unshare", "--mount", "true"], capture_output=True, check=False).returncode == 0
+
+
+class Robustness(InFolder):
+    def assert_whole(self, folder):
+        """Every result that is there is whole."""
+        for name in RESULTS:
+            path = os.path.join(folder, name)
+            if not os.path.exists(path):
+                continue
+            text = text_of(path)
+            if name == "certificate.json":
+                self.assertIn("footer", json.loads(text))
+                self.assertEqual(run(CHECK, path).returncode, 0)
+            self.assertTrue(text.endswith("</html>\n") if name == "report.html" else text.endswith("\n"), name)
+
+    def test_a_kill_at_any_moment_leaves_whole_files(self):
+        begin = time.monotonic()
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("whole")).returncode, 0)
+        usual = time.monotonic() - begin
+        chance = random.Random(20261121)
+        ended = set()
+        for number in range(40):
+            command = [TAUT, "plan", CASE] if number % 2 else [TAUT, "audit", AUDITED]
+            with subprocess.Popen([*command, "--out", self.path("out")], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL) as process:
+                time.sleep(chance.uniform(0, 1.2 * usual))
+                process.kill()
+                ended.add(process.wait())
+            if os.path.exists(self.path("out")) and number % 8 == 7:
+                self.assert_whole(self.path("out"))
+        self.assertIn(-9, ended)
+        self.assert_whole(self.path("out"))
+        left = [name for name in os.listdir(self.path("out")) if not name.endswith(".part")]
+        self.assertLessEqual(set(left), set(RESULTS))
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("out")).returncode, 0)
+        self.assert_whole(self.path("out"))
+
+    def test_two_at_once_in_one_folder_leave_whole_files(self):
+        processes = [subprocess.Popen([TAUT, "plan", CASE, "--out", self.path("out")], stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL) for _ in range(6)]
+        self.assertEqual([process.wait(timeout=120) for process in processes], [0] * 6)
+        self.assertEqual(set(os.listdir(self.path("out"))), set(RESULTS))
+        self.assert_whole(self.path("out"))
+
+    @unittest.skipUnless(may_mount(), "takes the right to mount")
+    def test_a_full_disk_is_said_and_keeps_what_was_there(self):
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("before")).returncode, 0)
+        certificate = self.path("before", "certificate.json")
+        size = os.path.getsize(certificate)
+        # Room for one certificate and not for a second beside it.
+        script = ('mount -t tmpfs -o size="$4" tmpfs "$1" && cp "$2" "$1/" && "$3" plan "$5" --out "$1"; code=$?; '
+                  'cmp "$2" "$1/certificate.json" || exit 99; ls "$1"; exit $code')
+        os.mkdir(self.path("disk"))
+        ran = run("unshare", "--mount", "bash", "-c", script, "bash", self.path("disk"), certificate, TAUT,
+                  str(size + 40_000), CASE)
+        self.assertEqual(ran.returncode, 3, ran.stdout + ran.stderr)
+        self.assertIn("No space left on device", ran.stderr)
+        self.assertEqual(ran.stdout, "certificate.json\n")
+
+    @unittest.skipUnless(may_mount(), "takes the right to mount")
+    def test_a_read_only_folder_is_said(self):
+        script = 'mount -t tmpfs tmpfs "$1" && mkdir "$1/out" && mount -o remount,ro "$1" && shift && exec "$@"'
+        os.mkdir(self.path("disk"))
+        for command in (["plan", CASE], ["audit", AUDITED]):
+            ran = run("unshare", "--mount", "bash", "-c", script, "bash", self.path("disk"), TAUT, *command, "--out",
+                      self.path("disk", "out"))
+            self.assertEqual(ran.returncode, 3, ran.stdout + ran.stderr)
+            self.assertIn("Read-only file system", ran.stderr)
+
+    def test_a_file_where_the_folder_should_be_is_said(self):
+        self.write("out", "mine")
+        ran = run(TAUT, "plan", CASE, "--out", self.path("out"))
+        self.assertEqual(ran.returncode, 3)
+        self.assertIn(self.path("out") + ": could not make the directory", ran.stderr)
+        self.assertEqual(text_of(self.path("out")), "mine")
+
+    def test_closed_standard_streams_do_no_harm(self):
+        out = self.path("out")
+        ran = subprocess.run(["bash", "-c", '"$1" plan "$2" --out "$3" <&- 2>&-', "bash", TAUT, CASE, out],
+                             capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(ran.returncode, 0)
+        self.assert_whole(out)
+        # No standard output: the result can't be said, the files are whole and hold nothing but themselves.
+        shutil.rmtree(out)
+        ran = subprocess.run(["bash", "-c", '"$1" plan "$2" --out "$3" >&- 2>&-', "bash", TAUT, CASE, out],
+                             capture_output=True, timeout=120, check=False)
+        self.assertNotEqual(ran.returncode, 0)
+        self.assert_whole(out)
+
+    @unittest.skipIf("TAUT_SANITIZED" in os.environ, "sanitizers take terabytes of addresses")
+    def test_little_memory_is_a_failure_and_no_other_verdict(self):
+        codes = set()
+        for megabytes in range(24, 64, 4):
+            ran = subprocess.run(["bash", "-c", 'ulimit -v "$1"; shift; exec "$@"', "bash", str(megabytes << 10), TAUT,
+                                  "plan", CASE, "--out", self.path("out")], capture_output=True, timeout=120, check=False)
+            codes.add(ran.returncode)
+            self.assertNotIn(ran.returncode, (1, 2), ran.stdout)
+            if os.path.exists(self.path("out")):
+                self.assert_whole(self.path("out"))
+        self.assertGreater(len(codes), 1, "some were too little, and some enough")
+
+    def test_progress_is_for_terminals_only(self):
+        self.assertEqual(run(TAUT, "audit", AUDITED, "--out", self.path("out")).stderr, "")
+        said = subprocess.run(["script", "-qec", f"{TAUT} regress {os.path.join(CASES, 'tutorial')}", "/dev/null"],
+                              capture_output=True, timeout=120, check=True, stdin=subprocess.DEVNULL)
+        self.assertRegex(said.stdout, rb"\r\x1b\[K\d of \d cases")
+
+
+if __name__ == "__main__":
+    main()
