@@ -91,21 +91,14 @@ bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
 }  // namespace
 
 template <class I>
-HeldMotion<I> commanded_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
-                               const I& offset) {
+MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
+                                      const I& offset) {
   const MotionEnclosure<I> reference = enclose_motion(problem.motion, segment, s.range, s.mid, offset);
-  using Status = typename MotionEnclosure<I>::Status;
-  if (!is_held_by_lengths(problem, segment) || reference.status == Status::kUnproved) return {reference, {}};
-  const bool at_reference = segment.law != Interpolation::kCableLengths;
-  std::array<Centered<I>, kCables> lengths;
-  if (at_reference) {
-    const CableGeometry<Centered<I>> geometry = cable_geometry(problem.model, reference.p_WP, reference.r_WP);
-    for (std::size_t i = 0; i < kCables; ++i) lengths[i] = length(geometry.p_AB_W[i]);
-  } else {
-    lengths = commanded_lengths(segment, s.range, s.mid);
+  if (segment.law != Interpolation::kCableLengths || reference.status == MotionEnclosure<I>::Status::kUnproved) {
+    return reference;
   }
-  const ToleranceModel<I>* tolerance = problem.tolerance ? &*problem.tolerance : nullptr;
-  return hold_by_lengths(problem.model, reference, lengths, at_reference, segment.pose_tube, tolerance, offset);
+  return hold_by_lengths(problem.model, reference, commanded_lengths(segment, s.range, s.mid), segment.pose_tube,
+                         offset);
 }
 
 template <class I>
@@ -120,8 +113,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   result.offset = I(-radius, radius);
   const I& offset = result.offset;
 
-  const HeldMotion<I> commanded = commanded_motion(problem, segment, s, offset);
-  const MotionEnclosure<I>& motion = commanded.motion;
+  const MotionEnclosure<I> motion = undisturbed_motion(problem, segment, s, offset);
   result.motion = motion.status;
   if (motion.status == MotionEnclosure<I>::Status::kUnproved) return result;
   const CableGeometry<Centered<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
@@ -237,12 +229,15 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   result.regular = true;
   if (problem.tolerance) {
     const bool held = is_held_by_lengths(problem, segment);
-    result.disturbance = disturbance<I>({model, motion, geometry, result.length, c, n, commanded.displacement, held},
-                                        *problem.tolerance);
+    result.disturbance = disturbance<I>({model, motion, geometry, result.length, c, q, held}, *problem.tolerance);
   }
   return result;
 }
 
+template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<Interval>&, const Segment&,
+                                                      const EnclosedBox<Interval>&, const Interval&);
+template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInterval>&, const Segment&,
+                                                        const EnclosedBox<MpInterval>&, const MpInterval&);
 template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
 template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);
 
@@ -385,7 +380,7 @@ BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segme
 int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s) {
   Faults<MpInterval>::clear();
   const auto point = enclose<MpInterval>(s);
-  const MotionEnclosure<MpInterval> motion = commanded_motion(problem, segment, {point, point}, MpInterval(0.0)).motion;
+  const MotionEnclosure<MpInterval> motion = undisturbed_motion(problem, segment, {point, point}, MpInterval(0.0));
   if (motion.status == MotionEnclosure<MpInterval>::Status::kUnproved) return 0;
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
   const Vector3<MpInterval> p_WP = motion.p_WP.unaryExpr(at_mid);

@@ -42,10 +42,10 @@ struct ProofModel {
 /// In binary64 intervals. @throws InputError likewise.
 [[nodiscard]] ProofModel<Interval> make_proof_model(const Problem& problem);
 
-/// The commanded pose over a box, and how far deviations displace it. Conditions as for enclose_box.
+/// The commanded pose of the machine as typed, over a box. Conditions as for enclose_box.
 template <class I>
-[[nodiscard]] HeldMotion<I> commanded_motion(const ProofModel<I>& problem, const Segment& segment,
-                                             const EnclosedBox<I>& s, const I& offset);
+[[nodiscard]] MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment,
+                                                    const EnclosedBox<I>& s, const I& offset);
 
 /// What is known over one box.
 template <class I>
@@ -56,8 +56,8 @@ struct BoxEnclosure {
   std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
   std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]; only where regular
   I offset;                                    ///< contains t − m for all t in T
-  /// What deviations may change: only where the problem has tolerances, and J is proved to be non-singular for every deviation,
-  /// too. All of the above is about the undisturbed machine.
+  /// What deviations may change: only where the problem has tolerances, and for every deviation the commanded pose is proved to
+  /// exist, and J to be non-singular. All of the above is about the undisturbed machine.
   std::optional<Disturbance<I>> disturbance;
 };
 
@@ -128,6 +128,10 @@ struct BoxVerdict {
 /// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
 [[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s);
 
+extern template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<Interval>&, const Segment&,
+                                                             const EnclosedBox<Interval>&, const Interval&);
+extern template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInterval>&, const Segment&,
+                                                               const EnclosedBox<MpInterval>&, const MpInterval&);
 extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
 extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);
 

@@ -3,52 +3,33 @@
 #include <cmath>
 
 #include "certify/implied_zero.h"
+#include "kinematics/geometry.h"
 #include "kinematics/quaternion.h"
 
 namespace taut {
 namespace {
 
 constexpr std::size_t kUnknowns = 6;
-constexpr int kNarrowings = 3;  // of the poses of all deviations; more gain little
 
-/// g of the header, for the undisturbed machine, or for all deviations within a tolerance.
+/// g of the header.
 template <class I>
 class LengthSystem {
  public:
   using Vector = std::array<I, kUnknowns>;
 
   LengthSystem(const Model<I>& model, const MotionEnclosure<I>& reference,
-               const std::array<Centered<I>, kCables>& lengths, const PoseTube& tube,
-               const ToleranceModel<I>* tolerance)
-      : model_(model), reference_(reference), lengths_(lengths), tube_(tube), tolerance_(tolerance) {
-    for (std::size_t i = 0; i < kCables; ++i) {
-      const I base_room = tolerance == nullptr ? I(0.0) : Scalars<I>::symmetric(tolerance->base_anchor[i]);
-      const I platform_room = tolerance == nullptr ? I(0.0) : Scalars<I>::symmetric(tolerance->platform_anchor[i]);
-      for (int k = 0; k < 3; ++k) {
-        base_[i](k) = model.p_WA[i](k) + base_room;
-        platform_[i](k) = model.p_PB[i](k) + platform_room;
-      }
-    }
-  }
+               const std::array<Centered<I>, kCables>& lengths, const PoseTube& tube)
+      : model_(model), reference_(reference), lengths_(lengths), tube_(tube) {}
 
-  /// Of a deviation, | |d_i'| − |d_i| | <= δ_a + δ_b, tighter than its anchors' boxes.
   [[nodiscard]] Vector values(const Vector& z) const {
     const Vector3<I> p = position(z, &Centered<I>::at_mid);
     const Matrix3<I> r = orientation(z, &Centered<I>::at_mid);
     Vector result;
     for (std::size_t i = 0; i < kCables; ++i) {
+      const Vector3<I> reach = apply(r, model_.p_PB[i]);
       I square(0.0);
-      for (int k = 0; k < 3; ++k) {
-        const I reach = r(k, 0) * model_.p_PB[i](0) + r(k, 1) * model_.p_PB[i](1) + r(k, 2) * model_.p_PB[i](2);
-        square = square + sqr(I(p(k) + reach - model_.p_WA[i](k)));
-      }
-      I wanted = lengths_[i].at_mid;
-      if (tolerance_ != nullptr) {
-        const I room = Scalars<I>::symmetric(tolerance_->base_anchor[i] + tolerance_->platform_anchor[i]);
-        square = square + room * (I(2.0) * sqrt(square) + room);
-        wanted = wanted + Scalars<I>::symmetric(tolerance_->cable_length[i]);
-      }
-      result[i] = I(0.5) * (square - sqr(wanted));
+      for (int k = 0; k < 3; ++k) square = square + sqr(I(p(k) + reach(k) - model_.p_WA[i](k)));
+      result[i] = I(0.5) * (square - sqr(lengths_[i].at_mid));
     }
     return result;
   }
@@ -62,8 +43,9 @@ class LengthSystem {
     const I scale = I(2.0 * tube_.turn) / (I(1.0) + sqr(u(0)) + sqr(u(1)) + sqr(u(2)));
     EquationDerivatives<kUnknowns, I> result;
     for (std::size_t i = 0; i < kCables; ++i) {
-      const Vector3<I> reach = apply(r, platform_[i]);
-      const Vector3<I> from_base = {p(0) - base_[i](0), p(1) - base_[i](1), p(2) - base_[i](2)};
+      const Vector3<I> reach = apply(r, model_.p_PB[i]);
+      const Vector3<I>& base = model_.p_WA[i];
+      const Vector3<I> from_base = {p(0) - base(0), p(1) - base(1), p(2) - base(2)};
       const Vector3<I> d = {from_base(0) + reach(0), from_base(1) + reach(1), from_base(2) + reach(2)};
       const Vector3<I> moment = cross(reach, from_base);  // = R b_i × d_i, and tighter
       const Vector3<I> turned = moment + cross(moment, u);
@@ -73,12 +55,10 @@ class LengthSystem {
       }
       if (place == Place::kAtMid) continue;
       const Matrix3<I> r_slope = times(local, reference_.r_WP, &Centered<I>::slope);
-      const Vector3<I> reach_slope = apply(r_slope, platform_[i]);
+      const Vector3<I> reach_slope = apply(r_slope, model_.p_PB[i]);
       I slope(0.0);
       for (int k = 0; k < 3; ++k) slope = slope + d(k) * (reference_.p_WP(k).slope + reach_slope(k));
-      I length = lengths_[i].range;
-      if (tolerance_ != nullptr) length = length + Scalars<I>::symmetric(tolerance_->cable_length[i]);
-      result.by_t[i] = slope - lengths_[i].slope * length;
+      result.by_t[i] = slope - lengths_[i].slope * lengths_[i].range;
     }
     return result;
   }
@@ -121,69 +101,36 @@ class LengthSystem {
   const MotionEnclosure<I>& reference_;
   const std::array<Centered<I>, kCables>& lengths_;
   const PoseTube& tube_;
-  const ToleranceModel<I>* tolerance_;
-  std::array<Vector3<I>, kCables> base_, platform_;  ///< of every deviation
 };
-
-template <class I>
-using Zero = std::array<Centered<I>, kUnknowns>;
-
-template <class I>
-bool solve(const LengthSystem<I>& system, const I& offset, Zero<I>& z, int narrowings = 0) {
-  return ImpliedZero<kUnknowns, I, LengthSystem<I>>(system, offset, 1.0).enclose(z, narrowings);
-}
-
-/// |x' − x| of three unknowns over the box, x' and x known to some ranges.
-template <class I>
-UpperOf<I> distance(const Zero<I>& a, const Zero<I>& b, std::size_t first) {
-  UpperOf<I> sum(0.0);
-  for (std::size_t k = first; k < first + 3; ++k) {
-    const UpperOf<I> difference(magnitude(I(a[k].range - b[k].range)));
-    sum += difference * difference;
-  }
-  return Scalars<I>::root(sum);
-}
 
 }  // namespace
 
 template <class I>
-HeldMotion<I> hold_by_lengths(const Model<I>& model, const MotionEnclosure<I>& reference,
-                              const std::array<Centered<I>, kCables>& lengths, bool at_reference, const PoseTube& tube,
-                              const ToleranceModel<I>* tolerance, const I& offset) {
-  HeldMotion<I> result;
+MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const MotionEnclosure<I>& reference,
+                                   const std::array<Centered<I>, kCables>& lengths, const PoseTube& tube,
+                                   const I& offset) {
   const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
-  if (!is_size(tube.position) || !is_size(tube.turn)) return result;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    I shortest = lengths[i].range;
-    if (tolerance != nullptr) shortest = shortest + Scalars<I>::symmetric(tolerance->cable_length[i]);
-    if (!certainly_positive(shortest)) return result;
+  if (!is_size(tube.position) || !is_size(tube.turn)) return {};
+  for (const Centered<I>& length : lengths) {
+    if (!certainly_positive(length.range)) return {};
   }
+  using System = LengthSystem<I>;
+  const System system(model, reference, lengths, tube);
+  std::array<Centered<I>, kUnknowns> z;
+  if (!ImpliedZero<kUnknowns, I, System>(system, offset, 1.0).enclose(z)) return {};
 
-  Zero<I> z;
-  z.fill(Centered<I>(0.0));
-  if (!at_reference && !solve(LengthSystem<I>(model, reference, lengths, tube, nullptr), offset, z)) return result;
-  if (tolerance != nullptr) {
-    Zero<I> disturbed;
-    if (!solve(LengthSystem<I>(model, reference, lengths, tube, tolerance), offset, disturbed, kNarrowings)) {
-      return result;
-    }
-    result.displacement.position = UpperOf<I>(tube.position) * distance(disturbed, z, 0);
-    result.displacement.angle = UpperOf<I>(2.0) * UpperOf<I>(tube.turn) * distance(disturbed, z, 3);
-  }
-
-  result.motion = reference;
-  if (at_reference) return result;
+  MotionEnclosure<I> result = reference;
   using C = Centered<I>;
   const I turn(tube.turn);
   for (int k = 0; k < 3; ++k) {
-    C& p = result.motion.p_WP(k);
+    C& p = result.p_WP(k);
     p = p + z[static_cast<std::size_t>(k)] * I(tube.position);
     p.tighten(offset);
   }
   const Matrix3<C> local = rotation(Quaternion<C>{z[3] * turn, z[4] * turn, z[5] * turn, C(1.0)});
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      C& r = result.motion.r_WP(i, j);
+      C& r = result.r_WP(i, j);
       r = local(i, 0) * reference.r_WP(0, j) + local(i, 1) * reference.r_WP(1, j) + local(i, 2) * reference.r_WP(2, j);
       r.tighten(offset);
     }
@@ -191,11 +138,11 @@ HeldMotion<I> hold_by_lengths(const Model<I>& model, const MotionEnclosure<I>& r
   return result;
 }
 
-template HeldMotion<Interval> hold_by_lengths(const Model<Interval>&, const MotionEnclosure<Interval>&,
-                                              const std::array<Centered<Interval>, kCables>&, bool, const PoseTube&,
-                                              const ToleranceModel<Interval>*, const Interval&);
-template HeldMotion<MpInterval> hold_by_lengths(const Model<MpInterval>&, const MotionEnclosure<MpInterval>&,
-                                                const std::array<Centered<MpInterval>, kCables>&, bool, const PoseTube&,
-                                                const ToleranceModel<MpInterval>*, const MpInterval&);
+template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const MotionEnclosure<Interval>&,
+                                                   const std::array<Centered<Interval>, kCables>&, const PoseTube&,
+                                                   const Interval&);
+template MotionEnclosure<MpInterval> hold_by_lengths(const Model<MpInterval>&, const MotionEnclosure<MpInterval>&,
+                                                     const std::array<Centered<MpInterval>, kCables>&, const PoseTube&,
+                                                     const MpInterval&);
 
 }  // namespace taut

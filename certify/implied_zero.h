@@ -7,9 +7,6 @@
 //   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                              (c)
 // y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t, enclosed with the bound of neumann.h; at m alone a box of
 // the size of the residual encloses y(m) tightly. Proof: docs/theory.md, "A motion that is only implied".
-//
-// What is enclosed may depend on more than t (deviations within tolerances): then g, g_y and g_t enclose them for all of these,
-// and everything holds for each.
 #pragma once
 
 #include <Eigen/LU>
@@ -40,19 +37,14 @@ class ImpliedZero {
   ImpliedZero(const System& system, const I& offset, double radius)
       : system_(system), offset_(offset), radius_(radius) {}
 
-  /// y over T; false if (a) or (b) fails. What is enclosed for many deviations at once stays wide, and takes some `narrowings`: each
-  /// is (c) for the last box and ŷ.
-  [[nodiscard]] bool enclose(std::array<Centered<I>, K>& y, int narrowings = 0) {
+  /// y over T; false if (a) or (b) fails.
+  [[nodiscard]] bool enclose(std::array<Centered<I>, K>& y) {
     if (!(radius_ > 0) || !std::isfinite(radius_) || !start_newton()) return false;
     Vector whole;
     whole.fill(I(-radius_, radius_));
     Vector inside;
     if (!stay_inside(krawczyk(whole), inside)) return false;
-    Step second = krawczyk(inside);
-    for (int step = 0; step < narrowings; ++step) {
-      for (std::size_t i = 0; i < K; ++i) inside[i] = hull(intersect(second.image[i], inside[i]), centre_[i]);
-      second = krawczyk(inside);
-    }
+    const Step second = krawczyk(inside);
     Square<Upper, K> q;
     if (!neumann_bound<I>(magnitudes(second.rest), q)) return false;
     for (std::size_t i = 0; i < K; ++i) {

@@ -37,7 +37,7 @@ Segment Prover::segment(const Waypoint& a, const Waypoint& b) const { return pre
 
 Segment Prover::prepared(Segment segment) const {
   if (constraints_ && !has_poses(segment.law)) segment.tube = suitable_tube(segment);
-  if (is_held_by_lengths(segment.law)) segment.pose_tube = suitable_pose_tube(segment);
+  if (segment.law == Interpolation::kCableLengths) segment.pose_tube = suitable_pose_tube(segment);
   return segment;
 }
 
@@ -56,9 +56,9 @@ bool seems_provable(const ProofModel<Interval>& model, const Segment& segment) {
     const DyadicBox box{((std::uint64_t{1} << kDepth) - 1) * static_cast<std::uint64_t>(k) / kSamples, kDepth};
     const double radius = box.radius();
     const bool is_sound = run_upward([&] {
-      const HeldMotion<Interval> held =
-          commanded_motion(model, segment, enclose<Interval>(box), Interval(-radius, radius));
-      is_known = held.motion.status != MotionEnclosure<Interval>::Status::kUnproved;
+      const MotionEnclosure<Interval> motion =
+          undisturbed_motion(model, segment, enclose<Interval>(box), Interval(-radius, radius));
+      is_known = motion.status != MotionEnclosure<Interval>::Status::kUnproved;
     });
     is_known = is_known && is_sound;
   }
@@ -74,30 +74,13 @@ PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const Model<double>& model = sampler_->model();
   const double unit = std::exp2(std::ceil(std::log2(model.characteristic_length)));
-  std::array<double, kCables> errors{};
-  if (problem_.tolerances) {
-    const TolerancesText& text = *problem_.tolerances;
-    const auto number = [](const DecimalText& x) { return ScalarTraits<double>::from_decimal(x); };
-    for (std::size_t i = 0; i < kCables; ++i) {
-      errors[i] = number(text.base_anchor_m[i]) + number(text.platform_anchor_m[i]) +
-                  (text.cable_length_m ? number((*text.cable_length_m)[i]) : 0.0);
-    }
-  }
   double needed = 0;  // of positions over `unit`, and of half angles
   for (int k = 0; k <= kSamples; ++k) {
     const double s = static_cast<double>(k) / kSamples;
     const RigidPose pose = sampler_->rigid_pose(segment, s);
-    std::array<double, 6> away = displacement(model, pose, errors).value_or(std::array<double, 6>{});
-    if (segment.law == Interpolation::kCableLengths) {
-      const RigidPose reference = pose_between(segment, s);
-      const Vector3<double> offset = pose.p - reference.p;
-      const double angle = pose.q.angularDistance(reference.q);
-      for (std::size_t j = 0; j < 3; ++j) {
-        away[j] += std::abs(offset(static_cast<int>(j)));
-        away[j + 3] += angle;
-      }
-    }
-    for (std::size_t j = 0; j < 3; ++j) needed = std::max({needed, away[j] / unit, 0.5 * away[j + 3]});
+    const RigidPose reference = pose_between(segment, s);
+    const double angle = pose.q.angularDistance(reference.q);
+    needed = std::max({needed, (pose.p - reference.p).cwiseAbs().maxCoeff() / unit, 0.5 * angle});
   }
   needed = std::isfinite(needed) ? std::max(kRoom * needed, kLeast) : kLeast;
   // A wide tube lets boxes be large, by (b) of implied_zero.h; in a narrow one there is sooner one pose only.
@@ -500,13 +483,13 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
   const ProofModel<MpInterval>& model = fine(kDeviationRung);
   Faults<MpInterval>::clear();
   const auto mid = enclose<MpInterval>(box.mid());
-  const HeldMotion<MpInterval> commanded = commanded_motion(model, segment, {mid, mid}, MpInterval(0.0));
+  const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
   MpInterval quantity;
-  const bool is_known = commanded.motion.status == MotionEnclosure<MpInterval>::Status::kKnown;
+  const bool is_known = commanded.status == MotionEnclosure<MpInterval>::Status::kKnown;
   if (is_known) {
-    quantity = deviated_quantity(model.model, *problem_.tolerances, commanded.motion.p_WP.unaryExpr(at_mid),
-                                 commanded.motion.r_WP.unaryExpr(at_mid), deviation, margin);
+    quantity = deviated_quantity(model.model, *problem_.tolerances, commanded.p_WP.unaryExpr(at_mid),
+                                 commanded.r_WP.unaryExpr(at_mid), deviation, margin);
   }
   if (!is_known || Faults<MpInterval>::raised()) throw std::logic_error("a deviation has no enclosure");
   return quantity;

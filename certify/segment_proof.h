@@ -100,8 +100,8 @@ class Prover {
 
   /// Whether the machine is held by its cables' lengths along a path of this law.
   [[nodiscard]] bool is_held_by_lengths(Interpolation law) const;
-  /// For a machine held by lengths: room around the pose that floating point finds and what deviations may displace it. The ratio
-  /// of its two sizes is the problem's, so that of any two tubes one contains the other.
+  /// Under the law of cable lengths: room around the pose that floating point finds. The ratio of its two sizes is the problem's,
+  /// so that of any two tubes one contains the other.
   [[nodiscard]] PoseTube suitable_pose_tube(const Segment& segment) const;
   /// `segment` with the tubes that it needs.
   [[nodiscard]] Segment prepared(Segment segment) const;

@@ -1,6 +1,7 @@
 #include "certify/tolerance.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace taut {
 namespace {
@@ -27,50 +28,199 @@ Vector3<I> scaled(const I& k, const Vector3<I>& a) {
   return {k * a(0), k * a(1), k * a(2)};
 }
 
-/// a ± radius in each coordinate.
 template <class I>
-Vector3<I> widened(const Vector3<Centered<I>>& a, const UpperOf<I>& radius) {
-  const I room = Scalars<I>::symmetric(radius);
-  return {a(0).range + room, a(1).range + room, a(2).range + room};
+using Bounds3 = std::array<UpperOf<I>, 3>;
+
+/// a ± radius, by coordinates.
+template <class I>
+Vector3<I> widened(const Vector3<I>& a, const Bounds3<I>& radius) {
+  return {a(0) + Scalars<I>::symmetric(radius[0]), a(1) + Scalars<I>::symmetric(radius[1]),
+          a(2) + Scalars<I>::symmetric(radius[2])};
 }
 
 template <class I>
-Vector3<Centered<I>> rotated(const Matrix3<Centered<I>>& r, const Vector3<I>& x) {
-  Vector3<Centered<I>> result;
-  for (int i = 0; i < 3; ++i) result(i) = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
+Vector3<I> ranges(const Vector3<Centered<I>>& a) {
+  return {a(0).range, a(1).range, a(2).range};
+}
+
+template <class I>
+Vector3<I> rotated_range(const Matrix3<Centered<I>>& r, const Vector3<I>& x) {
+  Vector3<I> result;
+  for (int i = 0; i < 3; ++i) {
+    Centered<I> sum = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
+    result(i) = sum.range;
+  }
   return result;
 }
 
-/// Everything on X that (t) is made of.
+/// Bounds of how far a deviation moves what it does, or of the rates at which it does.
 template <class I>
-struct OnAll {
-  std::array<Vector3<I>, kCables> d;              ///< d_i
-  std::array<Vector3<I>, kCables> reach;          ///< R b_i
-  std::array<Vector3<I>, kCables> arm;            ///< R (b_i − p_m)
-  std::array<I, kCables> length;                  ///< |d_i|
-  std::array<Vector3<I>, kCables> force, moment;  ///< the rows of D^-1: y_r^f, y_r^m
-  std::array<I, kCables> density;                 ///< λ_r
-  std::array<std::array<I, 6>, kCables> root;     ///< the rows of D^-1 L
-};
+struct Change {
+  std::array<Bounds3<I>, kCables> d, reach, arm;
+  Bounds3<I> load_point;
+  Square<UpperOf<I>> s;  ///< |S − I|
 
-/// Rows of Y = P C on X, with |P − I| <= Q.
-template <class I>
-void set_rows(const Matrix6<typename Scalars<I>::Point>& c, const Square<UpperOf<I>>& q, OnAll<I>& x) {
-  using Upper = UpperOf<I>;
-  Square<Upper> magnitudes;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      magnitudes[i][j] = above(I(c(static_cast<int>(i), static_cast<int>(j))));
+  /// Calls visit(ours, theirs) for each number.
+  template <class Visit>
+  void pair_with(const Change& other, Visit visit) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < kCables; ++i) {
+        visit(d[i][k], other.d[i][k]);
+        visit(reach[i][k], other.reach[i][k]);
+        visit(arm[i][k], other.arm[i][k]);
+      }
+      visit(load_point[k], other.load_point[k]);
+    }
+    for (std::size_t i = 0; i < kCables; ++i) {
+      for (std::size_t k = 0; k < kCables; ++k) visit(s[i][k], other.s[i][k]);
     }
   }
-  const Square<Upper> error = upper_product(q, magnitudes);
+};
+
+/// What is known at τ = 0, and what is the same for every X.
+template <class I>
+struct Origin {
+  using Upper = UpperOf<I>;
+  std::array<Vector3<I>, kCables> d, reach, arm;
+  Vector3<I> load_point;                                  ///< R p_m
+  std::array<I, kCables> length;                          ///< |d_i| of every deviation
+  std::array<std::array<I, 6>, kCables> y;                ///< Y
+  std::array<std::array<Upper, 6>, kCables> y_magnitude;  ///< |Y|
+  std::array<Upper, kCables> reach_size, arm_size;        ///< |b_i|, |b_i − p_m| of every deviation
+  Upper load_point_size;                                  ///< |p_m|, likewise
+  std::array<Upper, kCables> pull;                        ///< >= |ρ_i|: 0 unless held by lengths
+};
+
+/// Everything on X that (g) and (t) are made of.
+template <class I>
+struct OnAll {
+  std::array<Vector3<I>, kCables> d;                           ///< d_i
+  std::array<Vector3<I>, kCables> reach;                       ///< R b_i
+  std::array<Vector3<I>, kCables> arm;                         ///< R (b_i − p_m)
+  Vector3<I> load_point;                                       ///< R p_m
+  std::array<Vector3<I>, kCables> force, moment;               ///< the rows of D^-1: y_r^f, y_r^m
+  std::array<std::array<Vector3<I>, kCables>, kCables> h;      ///< h_ri = y_r^f + y_r^m × arm_i
+  std::array<std::array<Vector3<I>, kCables>, kCables> twist;  ///< d_i × y_r^m
+  std::array<I, kCables> density;                              ///< λ_r
+  std::array<std::array<I, 6>, kCables> root;                  ///< the rows of D^-1 L
+};
+
+template <class I>
+Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance,
+                      const std::array<UpperOf<I>, kCables>& length_change) {
+  using Upper = UpperOf<I>;
+  const Model<I>& model = box.model;
+  Origin<I> origin;
+  Square<Upper> c;
   for (std::size_t i = 0; i < 6; ++i) {
-    const auto entry = [&](std::size_t j) {
-      return I(c(static_cast<int>(i), static_cast<int>(j))) + Scalars<I>::symmetric(error[i][j]);
-    };
+    for (std::size_t j = 0; j < 6; ++j) c[i][j] = above(I(box.c(static_cast<int>(i), static_cast<int>(j))));
+  }
+  const Square<Upper> error = upper_product(box.q, c);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      origin.y[i][j] = I(box.c(static_cast<int>(i), static_cast<int>(j))) + Scalars<I>::symmetric(error[i][j]);
+      origin.y_magnitude[i][j] = c[i][j] + error[i][j];
+    }
+    origin.d[i] = ranges(box.geometry.p_AB_W[i]);
+    origin.reach[i] = rotated_range(box.motion.r_WP, model.p_PB[i]);
+    origin.arm[i] = rotated_range(box.motion.r_WP, model.p_MB[i]);
+    origin.length[i] = box.length[i].range + Scalars<I>::symmetric(length_change[i]);
+    origin.reach_size[i] = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
+    origin.arm_size[i] = norm_above(model.p_MB[i]) + tolerance.platform_anchor[i] + tolerance.load_point;
+    origin.pull[i] = Upper(0.0);
+    if (!box.held_by_lengths) continue;
+    const Upper commanded = above(box.length[i].range) + tolerance.cable_length[i];
+    origin.pull[i] = commanded * (tolerance.cable_length[i] + tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
+  }
+  const Vector3<I> load_point = model.p_PB[0] - model.p_MB[0];
+  origin.load_point = rotated_range(box.motion.r_WP, load_point);
+  origin.load_point_size = norm_above(load_point) + tolerance.load_point;
+  return origin;
+}
+
+/// X for a guess, as far as (g) needs it; and bounds of all rates on it.
+template <class I>
+Change<I> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const Change<I>& guess, OnAll<I>& x) {
+  using Upper = UpperOf<I>;
+  const std::array<std::array<Upper, 6>, kCables> y_error = upper_product(guess.s, origin.y_magnitude);
+  Upper spin(0.0);  // >= |Ω_c|
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto entry = [&](std::size_t j) { return I(origin.y[i][j] + Scalars<I>::symmetric(y_error[i][j])); };
     x.force[i] = {entry(0), entry(1), entry(2)};
     x.moment[i] = {entry(3), entry(4), entry(5)};
+    x.d[i] = widened<I>(origin.d[i], guess.d[i]);
+    x.reach[i] = widened<I>(origin.reach[i], guess.reach[i]);
+    x.arm[i] = widened<I>(origin.arm[i], guess.arm[i]);
+    if (Upper(0.0) < origin.pull[i]) spin += origin.pull[i] * norm_above(x.moment[i]);
   }
+  x.load_point = widened<I>(origin.load_point, guess.load_point);
+
+  const Upper turn = tolerance.orientation + tolerance.orientation * spin;  // ω, and Ω_c turned by T
+  Change<I> rate;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Upper reach_rate = turn * origin.reach_size[i] + tolerance.platform_anchor[i];
+    rate.reach[i].fill(reach_rate);
+    rate.arm[i].fill(turn * origin.arm_size[i] + tolerance.platform_anchor[i] + tolerance.load_point);
+    rate.d[i].fill(reach_rate + tolerance.position + tolerance.base_anchor[i]);
+    for (std::size_t j = 0; j < kCables; ++j) {
+      const Vector3<I> swing = cross(x.moment[j], x.arm[i]);
+      x.h[j][i] = x.force[j] + swing;
+      x.twist[j][i] = cross(x.d[i], x.moment[j]);
+      const Upper& pull = origin.pull[j];
+      if (!(Upper(0.0) < pull)) continue;
+      const Vector3<I> sweep = cross(x.moment[j], x.reach[i]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int n = static_cast<int>(k);
+        rate.d[i][k] += pull * above(x.h[j][i](n));
+        rate.arm[i][k] += pull * above(swing(n));
+        rate.reach[i][k] += pull * above(sweep(n));
+      }
+    }
+  }
+  rate.load_point.fill((turn + spin) * origin.load_point_size + tolerance.load_point);
+
+  Square<Upper> b;
+  Square<Upper> s = guess.s;
+  for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      b[r][i] = Upper(0.0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int n = static_cast<int>(k);
+        b[r][i] += above(x.h[r][i](n)) * rate.d[i][k] + above(x.twist[r][i](n)) * rate.arm[i][k];
+      }
+    }
+    s[r][r] += Upper(1.0);
+  }
+  rate.s = upper_product(b, s);
+  return rate;
+}
+
+/// Whether no deviation leads out of X, which is found by guessing.
+template <class I>
+bool enclose_states(const Origin<I>& origin, const ToleranceModel<I>& tolerance, OnAll<I>& x) {
+  using Upper = UpperOf<I>;
+  constexpr int kMostGuesses = 12;
+  constexpr double kRoom = 1.25;  // over what moved on the last X
+  constexpr double kHopeless = 8;
+  constexpr double kLeast = 0x1p-200;  // so that every guess is positive
+  const Upper zero(0.0);
+  Change<I> guess;
+  guess.pair_with(guess, [&](Upper& ours, const Upper&) { ours = zero; });
+  for (int k = 0; k < kMostGuesses; ++k) {
+    Change<I> rate = rates(origin, tolerance, guess, x);
+    bool holds = true;
+    guess.pair_with(rate, [&](Upper& ours, const Upper& theirs) {
+      if (!(zero < ours) || ours < theirs || !(theirs < Upper(std::numeric_limits<double>::max()))) holds = false;
+    });
+    if (holds) return true;
+    for (const auto& row : rate.s) {
+      for (const Upper& entry : row) {
+        if (!(entry < Upper(kHopeless))) return false;  // also a NaN
+      }
+    }
+    guess.pair_with(rate, [&](Upper& ours, const Upper& theirs) { ours = Upper(kRoom) * theirs + Upper(kLeast); });
+  }
+  return false;
 }
 
 template <class I>
@@ -93,25 +243,24 @@ void set_loads(const Model<I>& model, const Vector6<I>& wrench, OnAll<I>& x) {
   }
 }
 
-/// (t) for the tension bound φ_r = λ_r + sign V_r of cable r.
+/// (t) for the tension bounds φ_r = λ_r ∓ V_r of cable r; `moved` of each cable i is arm_i × (h_ri + d_i × y_r^m).
 template <class I>
-UpperOf<I> rate(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t r,
-                const std::array<I, kCables>& kappa) {
+UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t r,
+                        const std::array<I, kCables>& kappa, const std::array<Vector3<I>, kCables>& moved) {
   using Upper = UpperOf<I>;
-  const I& length = x.length[r];
-  const I& phi = kappa[r];
-  const Vector3<I> pull = scaled(phi / length, x.d[r]);  // φ_r u_r
-  Vector3<I> by_position = pull;                         // P_r
-  Vector3<I> by_turn = cross(x.reach[r], pull);          // W_r
-  Vector3<I> by_load_point(I(0.0), I(0.0), I(0.0));      // M_r
-  std::array<Vector3<I>, kCables> by_base;               // A_ri
-  std::array<Vector3<I>, kCables> by_platform;           // B_ri
+  const I& length = origin.length[r];
+  const Vector3<I> pull = scaled(I(kappa[r] / length), x.d[r]);  // φ_r u_r
+  Vector3<I> by_position = pull;                                 // P_r
+  Vector3<I> by_turn = cross(x.arm[r], pull);                    // of the turn about P_m: W_r − R p_m × P_r
+  Vector3<I> by_load_point(I(0.0), I(0.0), I(0.0));              // M_r
+  std::array<Vector3<I>, kCables> by_base;                       // A_ri
+  std::array<Vector3<I>, kCables> by_platform;                   // B_ri
   for (std::size_t i = 0; i < kCables; ++i) {
     const I weight = length * kappa[i];
-    const Vector3<I> h = scaled(weight, Vector3<I>(x.force[r] + cross(x.moment[r], x.arm[i])));
-    const Vector3<I> twist = scaled(weight, cross(x.d[i], x.moment[r]));
+    const Vector3<I> h = scaled(weight, x.h[r][i]);
+    const Vector3<I> twist = scaled(weight, x.twist[r][i]);
     by_position = by_position - h;
-    by_turn = by_turn - cross(x.reach[i], h) - cross(x.arm[i], twist);
+    by_turn = by_turn - scaled(weight, moved[i]);
     by_load_point = by_load_point + twist;
     by_base[i] = h;
     by_platform[i] = -(h + twist);
@@ -123,17 +272,18 @@ UpperOf<I> rate(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance
   for (int k = 0; k < 3; ++k) {
     by_load = by_load + x.force[r](k) * tolerance.wrench(k) + x.moment[r](k) * tolerance.wrench(k + 3);
   }
+  const Upper by_position_size = norm_above(by_position);
+  const Upper by_turn_size = norm_above(Vector3<I>(by_turn + cross(x.load_point, by_position)));  // |W_r|
   Upper bound = tolerance.load_point * norm_above(by_load_point) + above(I(length * by_load)) +
-                tolerance.position * norm_above(by_position) + tolerance.orientation * norm_above(by_turn);
+                tolerance.position * by_position_size + tolerance.orientation * by_turn_size;
   for (std::size_t i = 0; i < kCables; ++i) {
-    if (box.held_by_lengths) {
-      // c_ri; R_c p_m = R_c b_i − arm_i.
-      const Vector3<I> load_point = x.reach[i] - x.arm[i];
-      const Vector3<I> velocity = x.force[i] - cross(x.moment[i], load_point);
-      const I turned = Scalars<I>::symmetric(tolerance.orientation * norm_above(by_turn) * norm_above(x.moment[i]));
-      const I c = dot(by_position, velocity) + dot(by_turn, x.moment[i]) + turned;
+    if (Upper(0.0) < origin.pull[i]) {
+      // c_ri; T turns Ω_c, and R_c p_m to R p_m.
+      const I turned = Scalars<I>::symmetric(tolerance.orientation * norm_above(x.moment[i]) *
+                                             (by_turn_size + origin.load_point_size * by_position_size));
+      const I c = dot(by_position, x.force[i]) + dot(by_turn, x.moment[i]) + turned;
       const Vector3<I> along = scaled(c, x.d[i]);
-      const Upper size = above(c) * above(x.length[i]);
+      const Upper size = above(c) * above(origin.length[i]);
       by_base[i] = by_base[i] + along;
       by_platform[i] = by_platform[i] - along;
       bound += tolerance.cable_length[i] * size + tolerance.platform_anchor[i] * tolerance.orientation * size;
@@ -169,48 +319,17 @@ template <class I>
 std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance) {
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
-  const Upper position = box.displacement.position + tolerance.position;  // π
-  const Upper angle = box.displacement.angle + tolerance.orientation;     // θ
-
-  // η_i, ζ_i and |C| ΔD.
-  OnAll<I> x;
   Disturbance<I> result;
-  std::array<Upper, kCables> force_change;
-  std::array<Upper, kCables> moment_change;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Upper reach = norm_above(model.p_PB[i]);
-    const Upper arm = norm_above(model.p_MB[i]);
-    const Upper reach_change = angle * reach + tolerance.platform_anchor[i];
-    const Upper arm_change = angle * arm + tolerance.platform_anchor[i] + tolerance.load_point;  // ζ_i
-    const Upper change = position + reach_change + tolerance.base_anchor[i];                     // η_i
-    const Upper length = above(box.length[i].range);
-    force_change[i] = change;
-    moment_change[i] = arm_change * length + arm * change + arm_change * change;
-    x.reach[i] = widened(rotated(box.motion.r_WP, model.p_PB[i]), reach_change);
-    x.arm[i] = widened(rotated(box.motion.r_WP, model.p_MB[i]), arm_change);
-    x.d[i] = widened(box.geometry.p_AB_W[i], change);
-
-    const Upper tracking = tolerance.position + tolerance.orientation * (reach + tolerance.platform_anchor[i]);
-    result.length[i] = tracking + (box.held_by_lengths ? tolerance.cable_length[i]
-                                                       : tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
-    x.length[i] = box.length[i].range + Scalars<I>::symmetric(result.length[i]);
-    if (!certainly_positive(x.length[i])) return std::nullopt;
+    const Upper reach = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
+    const Upper held =
+        box.held_by_lengths ? tolerance.cable_length[i] : tolerance.base_anchor[i] + tolerance.platform_anchor[i];
+    result.length[i] = tolerance.position + tolerance.orientation * reach + held;
+    if (!certainly_positive(I(box.length[i].range + Scalars<I>::symmetric(result.length[i])))) return std::nullopt;
   }
-  Square<Upper> n;
-  for (std::size_t i = 0; i < 6; ++i) {
-    Upper forces(0.0);
-    Upper moments(0.0);
-    for (int k = 0; k < 3; ++k) {
-      forces += above(I(box.c(static_cast<int>(i), k)));
-      moments += above(I(box.c(static_cast<int>(i), k + 3)));
-    }
-    for (std::size_t j = 0; j < 6; ++j) {
-      n[i][j] = box.n[i][j] + forces * force_change[j] + moments * moment_change[j];
-    }
-  }
-  Square<Upper> q;
-  if (!neumann_bound<I>(n, q)) return std::nullopt;
-  set_rows(box.c, q, x);
+  const Origin<I> origin = make_origin(box, tolerance, result.length);
+  OnAll<I> x;
+  if (!enclose_states(origin, tolerance, x)) return std::nullopt;
   Vector6<I> wrench;
   for (int k = 0; k < 6; ++k) {
     wrench(k) = model.wrench(k) + Scalars<I>::symmetric(above(tolerance.wrench(k)));
@@ -235,7 +354,10 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
       low[i] = x.density[i] - share;
       high[i] = x.density[i] + share;
     }
-    result.tension[r] = {rate(box, tolerance, x, r, low), rate(box, tolerance, x, r, high)};
+    std::array<Vector3<I>, kCables> moved;
+    for (std::size_t i = 0; i < kCables; ++i) moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
+    result.tension[r] = {tension_rate(origin, tolerance, x, r, low, moved),
+                         tension_rate(origin, tolerance, x, r, high, moved)};
   }
   return result;
 }

@@ -1,8 +1,11 @@
-// What deviations within the tolerances can do to a box: how far poses move, and how far lengths and tensions change.
+// What deviations within the tolerances can do to a box: how far lengths and tensions change.
 //
-// A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking error. Let X
-// be all t of a box T with all deviations. With Y = D^-1 = P C on X, the rates of tensions along any family τ ↦ τ deviation
-// are bounded, Euclidean norms, every symbol enclosed on X:
+// A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking error. It is
+// scaled by τ from 0 to 1; where the machine is held by lengths, its commanded pose follows. Bounds of how far things move are
+// guessed, which makes a set X of states; if everything that holds on X moves no farther than was guessed, no deviation leads
+// out of X. Changes are kept as |d_i' − d_i|, |arm_i' − arm_i| … by coordinates, and as |S − I| <= Q of S = D'^-1 D:
+//   |S'| <= B (I + Q),   B_ri >= |y_r·D_i'| on X.                                                                       (g)
+// That proves D non-singular, and that the commanded pose exists. Then the rates of tensions are bounded, Euclidean norms:
 //   |F_r'| <= Σ_i (δ_a,i |A_ri + c_ri d_i| + δ_b,i (|B_ri − c_ri d_i| + ε |c_ri d_i|) + δ_L,i |d_i| |c_ri|)
 //             + δ_m |M_r| + ℓ_r |y_r·ŵ| + δ_p |P_r| + ε |W_r|.                                                         (t)
 // So what is undisturbed, widened by (t), holds for every deviation.
@@ -34,13 +37,6 @@ struct ToleranceModel {
 template <class I>
 [[nodiscard]] std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem);
 
-/// How far the commanded pose may move by a deviation, at any t of the box.
-template <class I>
-struct Displacement {
-  UpperOf<I> position{0.0};  ///< π_c [m]
-  UpperOf<I> angle{0.0};     ///< θ_c [rad]
-};
-
 /// Bounds on X of how the quantities of a box change from undisturbed ones.
 template <class I>
 struct Disturbance {
@@ -59,12 +55,11 @@ struct UndisturbedBox {
   const CableGeometry<Centered<I>>& geometry;
   const std::array<Centered<I>, kCables>& length;
   const Matrix6<typename Scalars<I>::Point>& c;  ///< C
-  const Square<UpperOf<I>>& n;                   ///< N >= |I − C D| on T
-  Displacement<I> displacement;
+  const Square<UpperOf<I>>& q;                   ///< D^-1 = P C on T, |P − I| <= Q
   bool held_by_lengths;
 };
 
-/// Nothing unless D is proved to be non-singular on X. For Interval: only under run_upward().
+/// Nothing unless all commanded poses are proved to exist, and D to be non-singular, on X. For Interval: only under run_upward().
 template <class I>
 [[nodiscard]] std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box,
                                                         const ToleranceModel<I>& tolerance);

@@ -159,10 +159,10 @@ class BatchProver {
 /// Takes batches in order; keeps what a summary needs.
 class BatchWriter {
  public:
-  BatchWriter(const Prover& prover, const PathSource& source, CertificateStream& certificate, NewFile& csv)
+  BatchWriter(const PathSource& source, CertificateStream& certificate, NewFile& csv)
       : has_times_(source.has_times()),
         has_tubes_(!source.problem().space.constraints.empty()),
-        has_pose_tubes_(prover.is_held_by_lengths(source.law())),
+        has_pose_tubes_(source.law() == Interpolation::kCableLengths),
         certificate_(certificate),
         csv_(csv) {}
 
@@ -284,7 +284,7 @@ Audit audit(const Prover& prover, PathSource& source, CertificateStream& certifi
       std::clamp<std::size_t>(source.segments() / (kBatchesPerThread * threads), 1, kMostSegments);
   BatchReader reader(source, batch_segments);
   const BatchProver batch_prover(prover, source);
-  BatchWriter writer(prover, source, certificate, csv);
+  BatchWriter writer(source, certificate, csv);
   csv.write(batch_prover.csv_header());
   std::size_t done = 0;
   using BatchPointer = std::shared_ptr<Batch>;

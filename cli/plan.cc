@@ -75,16 +75,11 @@ bool project(const PoseSampler& sampler, Coordinates& q) {
   return reached.has_value();
 }
 
-/// Gives each segment, or the only waypoint, the tubes that it needs.
+/// Gives each segment, or the only waypoint, the tube that it needs.
 void set_tubes(Path& path, const Prover& prover) {
-  const bool needs_tubes = !prover.problem().space.constraints.empty() && path.tubes.empty();
-  const bool needs_pose_tubes = prover.is_held_by_lengths(path.interpolation) && path.pose_tubes.empty();
+  if (prover.problem().space.constraints.empty() || !path.tubes.empty()) return;
   const std::size_t count = std::max<std::size_t>(1, path.segments());
-  for (std::size_t k = 0; k < count; ++k) {
-    const Segment segment = path.segment(k);
-    if (needs_tubes) path.tubes.push_back(prover.suitable_tube(segment));
-    if (needs_pose_tubes) path.pose_tubes.push_back(prover.suitable_pose_tube(segment));
-  }
+  for (std::size_t k = 0; k < count; ++k) path.tubes.push_back(prover.suitable_tube(path.segment(k)));
 }
 
 std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) {

@@ -52,13 +52,9 @@ class Smoother {
   void judge() {
     std::vector<std::size_t> fresh;
     path_.tubes.clear();
-    path_.pose_tubes.clear();
     for (std::size_t k = 0; k < path_.segments(); ++k) {
       const Segment segment = path_.segment(k);
       if (!segment.control[0]->normals.empty()) path_.tubes.push_back(problem_.prover.suitable_tube(segment));
-      if (problem_.prover.is_held_by_lengths(path_.interpolation)) {
-        path_.pose_tubes.push_back(problem_.prover.suitable_pose_tube(segment));
-      }
       if (proofs_.try_emplace(key_of(segment)).second) fresh.push_back(k);
     }
     judged_ += static_cast<int>(fresh.size());

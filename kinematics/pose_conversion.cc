@@ -138,14 +138,4 @@ RigidPose pose_between(const Segment& segment, double s) {
   return result;
 }
 
-std::optional<std::array<double, 6>> displacement(const Model<double>& model, const RigidPose& pose,
-                                                  const std::array<double, kCables>& errors) {
-  const Matrix6<double> inverse = jacobian_of_lengths(model, pose).inverse();
-  if (!inverse.allFinite()) return std::nullopt;
-  const Lengths moved = inverse.cwiseAbs() * Lengths(errors.data());
-  std::array<double, 6> result{};
-  std::copy(moved.begin(), moved.end(), result.begin());
-  return result;
-}
-
 }  // namespace taut

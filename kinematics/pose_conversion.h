@@ -46,9 +46,4 @@ struct TiltAndTorsion {
 /// At s, under a law between poses; of cable lengths, the reference.
 [[nodiscard]] RigidPose pose_between(const Segment& segment, double s);
 
-/// How far (p [m], rotation vector [rad]) moves, coordinate by coordinate at most, where lengths may be wrong by `errors` [m];
-/// first order. Nothing where the pose is singular.
-[[nodiscard]] std::optional<std::array<double, 6>> displacement(const Model<double>& model, const RigidPose& pose,
-                                                                const std::array<double, kCables>& errors);
-
 }  // namespace taut

@@ -20,9 +20,8 @@
 //   cable lengths      the commanded lengths L(s) = (1−s) L_0 + s L_1 [m]; the pose is implied by |d_i| = L_i(s). It is sought
 //                      around the reference p(s) = (1−s) p_0 + s p_1, R(s) = R((1−s) q_0 + s q_1), that quaternion never 0
 //
-// Wherever the machine is held by its cables' lengths (that law, or TolerancesText::cable_length_m), the pose is
-//   p = p_ref + r_p z_p,  R = R(1, r_u z_u) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) = `pose_tube`,
-// with the only z that has the cables' lengths; again, that there is exactly one is for the proof to show.
+//                        p = p_ref + r_p z_p,  R = R(r_u z_u, 1) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) = `pose_tube`,
+//                      with the only z that has the lengths; again, that there is exactly one is for the proof to show
 #pragma once
 
 #include <array>
@@ -68,7 +67,7 @@ struct Segment {
   Interpolation law = Interpolation::kStraight;
   std::array<const Waypoint*, 4> control{};
   double tube = 0;          ///< bound of |y_i|; only in a space with constraints
-  PoseTube pose_tube = {};  ///< only where the machine is held by lengths
+  PoseTube pose_tube = {};  ///< only under the law of cable lengths
 
   [[nodiscard]] static Segment straight(const Waypoint& a, const Waypoint& b, double tube = 0) {
     return {Interpolation::kStraight, {&a, &b}, tube};
@@ -86,7 +85,7 @@ struct Path {
   std::vector<double> tubes = {};  ///< one a segment, in a space with constraints; else empty
   std::vector<std::string> times =
       {};  ///< decimals, one a waypoint [s]; empty where the path has none. No part of any claim
-  std::vector<PoseTube> pose_tubes = {};  ///< one a segment, where the machine is held by lengths; else empty
+  std::vector<PoseTube> pose_tubes = {};  ///< one a segment, under the law of cable lengths; else empty
 
   [[nodiscard]] std::size_t segments() const {
     const std::size_t controls = control_points(interpolation);

@@ -372,9 +372,8 @@ Path read_path(const Json& json, const Problem& problem, Verdict verdict) {
   for (std::size_t k = 0; k < path.tubes.size(); ++k) {
     if (!is_wide(path.tubes[k])) fail(at("path.tubes", k), "a positive width");
   }
-  const bool is_held =
-      path.interpolation == Interpolation::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
-  const Json& pose_tubes = array(json["pose_tubes"], "path.pose_tubes", is_held ? segments : 0);
+  const bool is_implied = path.interpolation == Interpolation::kCableLengths;
+  const Json& pose_tubes = array(json["pose_tubes"], "path.pose_tubes", is_implied ? segments : 0);
   for (std::size_t k = 0; k < pose_tubes.size(); ++k) {
     const std::string here = at("path.pose_tubes", k);
     const PoseTube tube = read_pose_tube(pose_tubes[k], here);
@@ -516,7 +515,7 @@ Witness read_witness(const Json& json, const std::string& here, const Problem& p
   if (json.contains("deviation")) {
     object(json, here, {"kind", "at", "cable", "value", "limit", "deviation"});
     if (!problem.tolerances) fail(here + ".deviation", "tolerances to be within");
-    witness.deviation = read_deviation(json["deviation"], here + ".deviation", !path.pose_tubes.empty());
+    witness.deviation = read_deviation(json["deviation"], here + ".deviation", is_held_by_lengths(problem, path));
   } else {
     object(json, here, {"kind", "at", "cable", "value", "limit"});
   }

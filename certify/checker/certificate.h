@@ -77,7 +77,7 @@ inline bool has_poses(Interpolation law) {
   return law == Interpolation::kGeodesic || law == Interpolation::kCableLengths;
 }
 
-/// The numbers r_p [m] and r_u that bound where the pose of a machine held by lengths is sought.
+/// The numbers r_p [m] and r_u that bound where the pose is sought that lengths imply.
 struct PoseTube {
   double position = 0;
   double turn = 0;
@@ -87,7 +87,7 @@ struct Path {
   Interpolation interpolation = Interpolation::kStraight;
   std::vector<Waypoint> waypoints;
   std::vector<double> tubes;           ///< one a segment where the space has constraints, else none
-  std::vector<PoseTube> pose_tubes{};  ///< one a segment where the machine is held by lengths, else none
+  std::vector<PoseTube> pose_tubes{};  ///< one a segment under the law of cable lengths, else none
 
   [[nodiscard]] std::size_t control_points() const { return interpolation == Interpolation::kCubicBSpline ? 4 : 2; }
   [[nodiscard]] std::size_t segments() const {
@@ -114,6 +114,11 @@ struct Segment {
   std::vector<Box> boxes;
   Margins margins;
 };
+
+/// Whether the cables' lengths are what a controller commands, not the pose.
+inline bool is_held_by_lengths(const Problem& problem, const Path& path) {
+  return path.interpolation == Interpolation::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
+}
 
 enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
 

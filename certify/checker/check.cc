@@ -23,8 +23,8 @@ constexpr int kMostHalvings = 60;
 constexpr int kMaxPieces = 2000;
 /// Pieces that all boxes together may need on the average, beyond those that one may: so the work is bounded by a file's size.
 constexpr std::size_t kMeanPieces = 50;
-/// Parts into which deviations are divided (deviation.h): 2^h after h halvings of a box, up to this.
-constexpr int kMostSteps = 8;
+/// Parts of the way to a deviation (deviation.h): 2^h after h halvings of a box, up to this.
+constexpr int kMostParts = 8;
 
 enum class Answer { kYes, kNo, kUnknown };
 
@@ -98,8 +98,8 @@ class Checker {
         const std::string where = "segment " + std::to_string(k) + ", box ";
         escalate([&](const Model& model) {
           cover(box, where, [&](const Box& piece, int halvings) {
-            const int steps = halvings < 3 ? 1 << halvings : kMostSteps;
-            if (const auto doubt = doubt_piece(model, k, piece, steps, where + show(piece))) throw Undefined(*doubt);
+            const int parts = halvings < 3 ? 1 << halvings : kMostParts;
+            if (const auto doubt = doubt_piece(model, k, piece, parts, where + show(piece))) throw Undefined(*doubt);
           });
         });
       }
@@ -145,9 +145,9 @@ class Checker {
 
   /// Nothing, where the segment's claim holds for every s of the box; else what could not be shown.
   /// @throws Rejected where the claim is certainly false at the middle of the box.
-  std::optional<std::string> doubt_piece(const Model& model, std::size_t k, const Box& box, int steps,
+  std::optional<std::string> doubt_piece(const Model& model, std::size_t k, const Box& box, int parts,
                                          const std::string& where) const {
-    const Situation at = situation(model, k, box, model.deviation());
+    const Situation at = situation(model, k, box);
     const Geometry& geometry = at.geometry;
     const Inverse inverse = checker::inverse(geometry.D);  // J is non-singular on the box
     const Tensions tensions = model.tensions(geometry, inverse.Y);
@@ -158,8 +158,8 @@ class Checker {
     const bool is_one_place = box.begin == box.end;
     Losses loss;
     if (model.deviation() != nullptr) {
-      loss = losses(model, geometry, inverse, at.commanded, !certificate_.path.pose_tubes.empty(),
-                    Interval(claimed.wrench_scale), steps);
+      const bool is_held = is_held_by_lengths(certificate_.problem, certificate_.path);
+      loss = losses(model, geometry, inverse, at.pose, is_held, Interval(claimed.wrench_scale), parts);
     }
     std::optional<std::string> doubt;
     const auto require = [&](const char* what, std::size_t i, const Form& left, const Form& right,
@@ -201,29 +201,22 @@ class Checker {
     return frame(coordinates(problem, at));
   }
 
-  /// A machine as it is stated, at the pose that is commanded.
+  /// The machine as it is stated, at the pose that is commanded.
   struct Situation {
-    Commanded commanded;
+    Frame pose;
     Geometry geometry;
   };
 
-  /// On a box of segment k; and, where `deviation` is not null, that every machine within it has its own one pose.
-  Situation situation(const Model& model, std::size_t k, const Box& box, const Deviation* deviation = nullptr) const {
+  /// On a box of segment k.
+  Situation situation(const Model& model, std::size_t k, const Box& box) const {
     const Path& path = certificate_.path;
     const Frame there = reference(k, box);
-    if (path.pose_tubes.empty()) return {{there, Interval(), Interval()}, model.geometry(there)};
+    if (path.interpolation != Interpolation::kCableLengths) return {there, model.geometry(there)};
     try {
-      if (path.interpolation == Interpolation::kCableLengths) {
-        const Vector6<Form> L = commanded_lengths(path, k, box);
-        Situation result{held_by_lengths(model, there, L, path.pose_tubes[k], deviation), {}};
-        result.geometry = model.geometry(result.commanded.pose);
-        result.geometry.length = L;
-        return result;
-      }
-      // The controller commands the lengths that the stated machine has on the path: there it is.
-      Situation result{{}, model.geometry(there)};
-      result.commanded = held_by_lengths(model, there, result.geometry.length, path.pose_tubes[k], deviation);
-      result.commanded.pose = there;
+      const Vector6<Form> L = commanded_lengths(path, k, box);
+      const Frame pose = held_by_lengths(model, there, L, path.pose_tubes[k]);
+      Situation result{pose, model.geometry(pose)};
+      result.geometry.length = L;
       return result;
     } catch (const Undefined& why) {
       throw Undefined(std::string("the pose held by the lengths: ") + why.what());
@@ -268,7 +261,7 @@ class Checker {
     require_within(by.load_point, within.load_point, "the load point");
     require_within({by.wrench, 0, 0}, 1, "the wrench");
     require_within(by.position, within.position, "the position");
-    Frame pose = stated.commanded.pose;
+    Frame pose = stated.pose;
     Vector3<Form> u;
     for (std::size_t c = 0; c < 3; ++c) {
       problem.load_point[c] += by.load_point[c];

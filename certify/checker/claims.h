@@ -10,10 +10,9 @@ inline constexpr const char* kProvedClaim =
     "force Jacobian J is non-singular, the unique f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < "
     "d_hi,i, for all six cables i = 1..6. The path is given by its exact waypoints and interpolation law; robot, load, "
     "limits and tolerances are the exact numbers of the problem. Where the pose is only implied, by constraints or by "
-    "the "
-    "lengths of the cables, it is the one in its tube; that there is exactly one, for every s and every machine within "
-    "the "
-    "tolerances, is part of the claim.";
+    "the lengths of the cables, it is the one in its tube, exactly one for every s. A machine that holds its cables' "
+    "lengths and deviates is at the pose to which its deviation leads as it grows from zero. That these poses exist is "
+    "part of the claim.";
 
 inline constexpr const char* kRefutedClaim =
     "The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension outside its "

@@ -5,11 +5,6 @@
 namespace taut::checker {
 namespace {
 
-Vector3<Interval> widened(Vector3<Interval> x, const Interval& by) {
-  for (Interval& component : x) component += by * Interval::plus_minus_one();
-  return x;
-}
-
 template <class Get>
 Vector3<Interval> parts(const Vector3<Form>& x, const Get& get) {
   return {get(x[0]), get(x[1]), get(x[2])};
@@ -41,14 +36,8 @@ Matrix3<Interval> turn_by(const Vector3<Interval>& v) {
 /// g of the header.
 class HeldByLengths : public Equations {
  public:
-  HeldByLengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube,
-                const Deviation* deviation)
-      : model_(model),
-        reference_(reference),
-        L_(L),
-        position_(mpq_class(tube.position)),
-        turn_(mpq_class(tube.turn)),
-        deviation_(deviation) {}
+  HeldByLengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube)
+      : model_(model), reference_(reference), L_(L), position_(mpq_class(tube.position)), turn_(mpq_class(tube.turn)) {}
 
   [[nodiscard]] std::size_t unknowns() const override { return 6; }
 
@@ -62,16 +51,9 @@ class HeldByLengths : public Equations {
     const Interval turning = turn_ * Interval(2) / (Interval(1) + squared_norm(v));
     Derivatives result;
     for (std::size_t i = 0; i < 6; ++i) {
-      Vector3<Interval> b = model_.platform_anchors()[i];
-      Vector3<Interval> Rb = multiply(R, b);
-      Vector3<Interval> from_a = p - model_.base_anchors()[i];
-      Interval length = L_[i].range;
-      if (deviation_ != nullptr) {
-        b = widened(b, deviation_->platform[i]);
-        Rb = widened(Rb, deviation_->platform[i]);
-        from_a = widened(from_a, deviation_->base[i]);
-        length += deviation_->length[i] * Interval::plus_minus_one();
-      }
+      const Vector3<Interval>& b = model_.platform_anchors()[i];
+      const Vector3<Interval> Rb = multiply(R, b);
+      const Vector3<Interval> from_a = p - model_.base_anchors()[i];
       const Vector3<Interval> d = from_a + Rb;
       const Vector3<Interval> x = cross(Rb, from_a);  // = cross(Rb, d)
       const Vector3<Interval> x_turned = x + cross(x, v);
@@ -79,7 +61,7 @@ class HeldByLengths : public Equations {
         result.by_y[i][c] = position_ * d[c];
         result.by_y[i][3 + c] = turning * x_turned[c];
       }
-      result.by_u[i] = dot(d, p_drift + multiply(R_drift, b)) - length * L_[i].slope;
+      result.by_u[i] = dot(d, p_drift + multiply(R_drift, b)) - L_[i].range * L_[i].slope;
     }
     return result;
   }
@@ -90,20 +72,9 @@ class HeldByLengths : public Equations {
     Vector6<Interval> result;
     for (std::size_t i = 0; i < 6; ++i) {
       const Vector3<Interval> d = p + multiply(R, model_.platform_anchors()[i]) - model_.base_anchors()[i];
-      const Interval squared = squared_norm(d);
-      result[i] = (squared - sqr(L_[i].mid)) / Interval(2);
-      if (deviation_ != nullptr)
-        result[i] += difference_of_machines(*deviation_, i, sqrt(squared), L_[i].mid) * Interval::plus_minus_one();
+      result[i] = (squared_norm(d) - sqr(L_[i].mid)) / Interval(2);
     }
     return result;
-  }
-
-  /// By how much g_i of two machines in the same pose may differ, |d_i| being that of one of them.
-  [[nodiscard]] static Interval difference_of_machines(const Deviation& deviation, std::size_t i, const Interval& d,
-                                                       const Interval& L) {
-    const Interval two(2);
-    const Interval anchors = deviation.base[i] + deviation.platform[i];
-    return d * anchors + sqr(anchors) / two + L * deviation.length[i] + sqr(deviation.length[i]) / two;
   }
 
   [[nodiscard]] Frame pose(const Vector6<Form>& z) const {
@@ -126,7 +97,6 @@ class HeldByLengths : public Equations {
   const Vector6<Form>& L_;
   Interval position_;
   Interval turn_;
-  const Deviation* deviation_;
 };
 
 Vector6<Form> at_middle(const Vector6<Form>& x) {
@@ -146,36 +116,21 @@ Frame at_middle(const Frame& x) {
 
 }  // namespace
 
-Commanded held_by_lengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube,
-                          const Deviation* deviation) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Interval least = deviation == nullptr ? L[i].range : L[i].range - deviation->length[i];
-    if (!certainly_positive(least)) throw Undefined("a cable may have no length");
+Frame held_by_lengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube) {
+  for (const Form& length : L) {
+    if (!certainly_positive(length.range)) throw Undefined("a cable may have no length");
   }
   const Interval whole(1);
   const Frame reference_mid = at_middle(reference);
   const Vector6<Form> L_mid = at_middle(L);
-  const HeldByLengths stated_mid(model, reference_mid, L_mid, tube, nullptr);
-  const HeldByLengths stated(model, reference, L, tube, nullptr);
-  const Vector6<Interval> near = approximate_zero(stated_mid);
-  const Zero mid = only_zero(stated_mid, whole, near);
-  const Zero range = only_zero(stated, whole, near);
+  const HeldByLengths at_mid(model, reference_mid, L_mid, tube);
+  const HeldByLengths over_box(model, reference, L, tube);
+  const Vector6<Interval> near = approximate_zero(at_mid);
+  const Zero mid = only_zero(at_mid, whole, near);
+  const Zero range = only_zero(over_box, whole, near);
   Vector6<Form> z;
   for (std::size_t i = 0; i < 6; ++i) z[i] = Form::enclose(mid.y[i], range.slope[i], range.y[i]);
-  Commanded result{stated.pose(z), Interval(), Interval()};
-  if (deviation == nullptr) return result;
-
-  const Zero family = only_zero(HeldByLengths(model, reference, L, tube, deviation), whole, near);
-  Vector6<Interval> e;
-  for (std::size_t i = 0; i < 6; ++i) {
-    // Of a deviating machine at its own zero |d_i'| is L_i + e_i.
-    e[i] = HeldByLengths::difference_of_machines(*deviation, i, L[i].range + deviation->length[i], L[i].range) *
-           Interval::plus_minus_one();
-  }
-  const Vector6<Interval> dz = difference(family, e);
-  result.moved = sqrt(squared_norm(stated.position(dz)));
-  result.turned = Interval(2) * sqrt(squared_norm(stated.turn(dz)));
-  return result;
+  return over_box.pose(z);
 }
 
 }  // namespace taut::checker

@@ -30,15 +30,15 @@ Zero krawczyk(const Equations& equations, const Vector6<Interval>& Y) {
   Equations::Derivatives g = equations.derivatives(Y);
   for (std::size_t i = k; i < 6; ++i) g.by_y[i][i] = Interval(1);
   Zero result;
-  result.A = middle(inverse(middle(g.by_y)));
-  const Matrix6<Interval> AG = multiply(result.A, g.by_y);
-  result.M = identity();
+  const Matrix6<Interval> A = middle(inverse(middle(g.by_y)));
+  const Matrix6<Interval> AG = multiply(A, g.by_y);
+  Matrix6<Interval> M = identity();
   for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) result.M[i][j] -= AG[i][j];
+    for (std::size_t j = 0; j < 6; ++j) M[i][j] -= AG[i][j];
   }
-  Vector6<Interval> drift = multiply(result.A, g.by_u);
+  Vector6<Interval> drift = multiply(A, g.by_u);
   for (Interval& x : drift) x = -x;
-  result.slope = contract(result.M, drift);
+  result.slope = contract(M, drift);
 
   Vector6<Interval> c;
   Vector6<Interval> offset;
@@ -46,8 +46,8 @@ Zero krawczyk(const Equations& equations, const Vector6<Interval>& Y) {
     c[i] = middle(Y[i]);
     offset[i] = Y[i] - c[i];
   }
-  const Vector6<Interval> Ag = multiply(result.A, equations.at_middle(c));
-  const Vector6<Interval> M_offset = multiply(result.M, offset);
+  const Vector6<Interval> Ag = multiply(A, equations.at_middle(c));
+  const Vector6<Interval> M_offset = multiply(M, offset);
   for (std::size_t i = 0; i < k; ++i) {
     result.y[i] = c[i] - Ag[i] + drift[i] * Interval::plus_minus_one() + M_offset[i];
   }
@@ -104,12 +104,6 @@ Vector6<Interval> approximate_zero(const Equations& equations) {
     last = moved;
   }
   return y;
-}
-
-Vector6<Interval> difference(const Zero& zero, const Vector6<Interval>& e) {
-  Vector6<Interval> Ae = multiply(zero.A, e);
-  for (Interval& x : Ae) x = abs(x) * Interval::plus_minus_one();
-  return contract(zero.M, Ae);
 }
 
 }  // namespace taut::checker

@@ -13,17 +13,13 @@
 // by which Y is narrowed about y(u). By (1) between two zeros, y is continuous in u, hence differentiable by the
 // implicit function theorem, with G' y' = -h', that is y' = -A h' + M' y':
 //     |y'_i| <= max_k |(A h)_k| / (1 - rho),   and y' in -A h + M y'.                                                (4)
-//
-// All of this holds of each member of a family of equations, where G, h and g(c, 0) enclose those of every member. Where
-// a member g and another, g*, differ by no more than e on Y, their zeros y and y* for one u have G'(y* - y) = -e', and so
-//     |y*_i - y_i| <= max_k |(A e)_k| / (1 - rho),   and y* - y in -A e + M (y* - y).                                (5)
 #pragma once
 
 #include "certify/checker/linear.h"
 
 namespace taut::checker {
 
-/// g = 0, or a family of such equations, in k <= 6 unknowns. Vectors and matrices of six are used; what is beyond k is that
+/// g = 0, in k <= 6 unknowns. Vectors and matrices of six are used; what is beyond k is that
 /// of the equations y_i = 0.
 class Equations {
  public:
@@ -46,8 +42,6 @@ class Equations {
 struct Zero {
   Vector6<Interval> y;
   Vector6<Interval> slope;  ///< y'
-  Matrix6<Interval> A;      ///< of the box that y was found in: with M, for (5)
-  Matrix6<Interval> M;
 };
 
 /// From an approximation of y at u = 0. @throws Undefined unless there is exactly one zero with |y_i| <= tube, for every u.
@@ -55,9 +49,5 @@ struct Zero {
 
 /// About where y(0) is, by Newton's method; nothing is proved.
 [[nodiscard]] Vector6<Interval> approximate_zero(const Equations& equations);
-
-/// (5): of a zero that only_zero() found, for every u, by how much another member's may differ, e being the bounds of how
-/// the two differ on the box that holds both.
-[[nodiscard]] Vector6<Interval> difference(const Zero& zero, const Vector6<Interval>& e);
 
 }  // namespace taut::checker

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kinematics/problem.h"
@@ -240,6 +241,20 @@ struct Deviation {
   double wrench = 0;
   Six<double> length{};
 };
+
+/// The blocks of a deviation, each of which is to stay in its unit ball.
+template <class F>
+void for_each_block(Deviation& x, F visit) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    visit(std::span<double>(x.a[i]));
+    visit(std::span<double>(x.b[i]));
+    visit(std::span<double>(&x.length[i], 1));
+  }
+  visit(std::span<double>(x.load_point));
+  visit(std::span<double>(x.position));
+  visit(std::span<double>(x.turn));
+  visit(std::span<double>(&x.wrench, 1));
+}
 
 /// The sizes of the tolerances, and what stands for none.
 template <class S>

@@ -96,20 +96,6 @@ struct LimitsOf {
 
 // ---- Deviations ------------------------------------------------------------------------------------------------------
 
-/// The blocks of a deviation, each of which is to stay in its unit ball.
-template <class F>
-void for_each_block(Deviation& x, F visit) {
-  for (std::size_t i = 0; i < kCables; ++i) {
-    visit(std::span<double>(x.a[i]));
-    visit(std::span<double>(x.b[i]));
-    visit(std::span<double>(&x.length[i], 1));
-  }
-  visit(std::span<double>(x.load_point));
-  visit(std::span<double>(x.position));
-  visit(std::span<double>(x.turn));
-  visit(std::span<double>(&x.wrench, 1));
-}
-
 constexpr double kWithin = 1 - 1e-12;  ///< so that rounding leaves no ball
 
 void scale_to(std::span<double> block, double size) {
@@ -207,7 +193,7 @@ class Judge {
     const Prover prover(trial_.problem);
     const PoseTube own = trial_.pose_tube;
     Segment segment = prover.prepared(trial_.curve());
-    if (one_in(random_, 4)) segment.pose_tube = own;
+    if (trial_.law == Law::kCableLengths && one_in(random_, 4)) segment.pose_tube = own;
     trial_.pose_tube = segment.pose_tube;
     const SegmentProof proof = prover.prove(segment);
     counts.boxes += proof.boxes_judged;
@@ -330,19 +316,17 @@ class Judge {
     return violated_ || exact_limits_->feasible(*at);
   }
 
-  /// A tube that holds the poses of sampled deviations, with room.
+  /// Whether sampled deviations have poses; and a tube that holds those of the machine as typed, with room.
   bool choose_tube() {
     if (!trial_.is_held()) return true;
     constexpr int kSamples = 16;
     PoseTube largest;
     for (int k = 0; k <= kSamples; ++k) {
       const double s = static_cast<double>(k) / kSamples;
-      for (const Deviation& x : {Deviation(), worst_, random_deviation(random_)}) {
-        const auto pose = approx_->commanded(s, x);
-        if (!pose) return false;
-        const PoseTube away = distance(approx_->reference(s), *pose);
-        largest = {std::max(largest.position, away.position), std::max(largest.turn, away.turn)};
-      }
+      const auto pose = approx_->commanded(s, Deviation());
+      if (!pose || !approx_->commanded(s, worst_) || !approx_->commanded(s, random_deviation(random_))) return false;
+      const PoseTube away = distance(approx_->reference(s), *pose);
+      largest = {std::max(largest.position, away.position), std::max(largest.turn, away.turn)};
     }
     trial_.pose_tube = {2 * largest.position + trial_.size * std::pow(10.0, uniform(random_, -8, -3)),
                         2 * largest.turn + std::pow(10.0, uniform(random_, -8, -3))};
@@ -426,13 +410,13 @@ class Judge {
       least_s = golden_section(value, std::max(0.0, least_s - 0.1), std::min(1.0, least_s + 0.1));
     }
     require_feasible(least_s, x, "where a search ended");
-    if (trial_.is_held()) require_one_pose(least_s, x);
+    if (trial_.law == Law::kCableLengths) require_one_pose(least_s);
   }
 
   /// Newton's method, started anywhere in the tube, ends at one and the same pose if it ends in the tube.
-  void require_one_pose(double s, const Deviation& x) {
+  void require_one_pose(double s) {
     const RigidPose<double> reference = approx_->reference(s);
-    const auto expected = approx_->commanded(s, x);
+    const auto expected = approx_->commanded(s, Deviation());
     if (!expected) return;
     const auto is_inside = [&](const RigidPose<double>& pose, double room) {
       const PoseTube away = distance(reference, pose);
@@ -448,7 +432,7 @@ class Judge {
       const Vec<double> u = in_tube(trial_.pose_tube.turn);
       const RigidPose<double> start{reference.p + in_tube(trial_.pose_tube.position),
                                     rotation(Quaternion<double>{u[0], u[1], u[2], 1.0}) * reference.r};
-      const auto found = hold(approx_->machine(x), start, approx_->commanded_lengths(s, x), 25);
+      const auto found = hold(approx_->machine(Deviation()), start, approx_->commanded_lengths(s, Deviation()), 25);
       if (!found || !is_inside(*found, 1 - 1e-6)) continue;
       const PoseTube apart = distance(*expected, *found);
       if (apart.position > 1e-3 * trial_.pose_tube.position && apart.position > 1e-6 * trial_.size) {

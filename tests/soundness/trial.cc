@@ -428,7 +428,21 @@ std::optional<RigidPose<S>> Motion<S>::commanded(const S& s, const Deviation& de
   constexpr int kNewtonSteps = 25;
   const RigidPose<S> start = reference(s);
   if (!trial_.is_held()) return start;
-  return hold(machine(deviation), start, commanded_lengths(s, deviation), kNewtonSteps);
+  // The machine as typed is in its tube; from there the pose follows the deviation as it grows.
+  std::optional<RigidPose<S>> pose = start;
+  if (trial_.law == Law::kCableLengths) {
+    pose = hold(machine_, start, commanded_lengths(s, Deviation()), kNewtonSteps);
+  }
+  if (!trial_.problem.tolerances) return pose;
+  constexpr int kParts = 2;
+  for (int part = 1; part <= kParts && pose; ++part) {
+    Deviation scaled = deviation;
+    for_each_block(scaled, [&](std::span<double> block) {
+      for (double& x : block) x *= static_cast<double>(part) / kParts;
+    });
+    pose = hold(machine(scaled), *pose, commanded_lengths(s, scaled), kNewtonSteps);
+  }
+  return pose;
 }
 
 template <class S>
