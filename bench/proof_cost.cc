@@ -2,8 +2,9 @@
 //
 // Proves 2,000 random feasible segments of 0.15 rad of each robot's slice and sphere, and divides the time by that of one
 // floating-point evaluation of lengths, f0, v and margins at a pose (what a sampled validity check does once a sample).
-// Both are timed in the same run, alternately, and the medians are compared. Also: one interval product of ours, and
-// of Boost.Interval with each operation directed by MPFR, which is why Interval exists.
+// Both are timed in the same run, alternately, and the medians are compared. The same with tolerances of all kinds, on such
+// segments as are proved with them; and between the same poses under the law of cable lengths. Also: one interval product of
+// ours, and of Boost.Interval with each operation directed by MPFR, which is why Interval exists.
 //
 // Usage: proof_cost [JSON_FILE]; Markdown on stdout.
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include <random>
 
 #include "certify/segment_proof.h"
+#include "kinematics/pose_conversion.h"
+#include "kinematics/pose_sampler.h"
 #include "kinematics/statics.h"
 #include "tests/support/robots.h"
 
@@ -59,16 +62,54 @@ struct Row {
   int proved = 0, total = 0;
 };
 
-Row measure(const std::string& name, const Problem& problem, std::array<double, 2> low, std::array<double, 2> high) {
+/// What a segment is proved with besides.
+enum class Kind { kPlain, kTolerances, kCableLengths };
+
+/// Small ones of every kind.
+TolerancesText all_tolerances() {
+  TolerancesText t;
+  t.base_anchor_m.fill("1e-5");
+  t.platform_anchor_m.fill("1e-5");
+  t.load_point_m = "1e-5";
+  t.wrench[2] = "1e-3";
+  t.position_m = "1e-5";
+  t.orientation_rad = "1e-4";
+  t.cable_length_m.emplace().fill("1e-5");
+  return t;
+}
+
+/// The pose, and the lengths there.
+Waypoint on_lengths(const Model<double>& model, const RigidPose& pose) {
+  Waypoint result;
+  for (int k = 0; k < 3; ++k) result.x.push_back(pose.p(k));
+  for (int k = 0; k < 4; ++k) result.x.push_back(pose.q.coeffs()(k));
+  for (const double length : cable_lengths(model, pose)) result.x.push_back(length);
+  result.half_turns.assign(result.x.size(), 0);
+  return result;
+}
+
+Row measure(const std::string& name, Problem problem, Kind kind, std::array<double, 2> low,
+            std::array<double, 2> high) {
   constexpr int kSegments = 2000;
   constexpr int kChecks = 200;
   constexpr int kRounds = 15;
   constexpr double kLength = 0.15;  // [rad]
   const Sampler sampler(problem);
+  const PoseSampler poses(problem);
+  if (kind == Kind::kTolerances) problem.tolerances = all_tolerances();
+  if (kind == Kind::kCableLengths) {
+    problem.space = coordinate_space();
+    problem.query.clear();
+  }
   const Prover prover(problem);
   std::mt19937_64 random(1);
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   std::vector<std::pair<Waypoint, Waypoint>> segments;
+  std::vector<std::array<double, 2>> samples;
+  const auto law = kind == Kind::kCableLengths ? Interpolation::kCableLengths : Interpolation::kStraight;
+  const auto prove = [&](const std::pair<Waypoint, Waypoint>& ends) {
+    return prover.prove(prover.prepared(Segment::between(law, ends.first, ends.second)));
+  };
   while (segments.size() < kSegments) {
     const std::array<double, 2> from{uniform(low[0], high[0]), uniform(low[1], high[1])};
     const double direction = uniform(0, 6.2831853);
@@ -78,7 +119,18 @@ Row measure(const std::string& name, const Problem& problem, std::array<double, 
       const double s = static_cast<double>(k) / kChecks;
       feasible = sampler.margin({from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])}) > 0;
     }
-    if (feasible) segments.push_back({{{from[0], from[1]}, {0, 0}}, {{to[0], to[1]}, {0, 0}}});
+    if (!feasible) continue;
+    std::pair<Waypoint, Waypoint> ends{{{from[0], from[1]}, {0, 0}}, {{to[0], to[1]}, {0, 0}}};
+    if (kind == Kind::kCableLengths) {
+      const Segment straight = Segment::straight(ends.first, ends.second);
+      const RigidPose first = poses.rigid_pose(straight, 0);
+      RigidPose last = poses.rigid_pose(straight, 1);
+      if (first.q.dot(last.q) < 0) last.q.coeffs() = -last.q.coeffs();
+      ends = {on_lengths(poses.model(), first), on_lengths(poses.model(), last)};
+    }
+    if (kind != Kind::kPlain && prove(ends).verdict != Verdict::kProved) continue;
+    segments.push_back(std::move(ends));
+    samples.push_back(from);
   }
   Row row{name};
   row.total = kSegments;
@@ -88,15 +140,15 @@ Row measure(const std::string& name, const Problem& problem, std::array<double, 
   for (int round = 0; round < kRounds; ++round) {
     auto start = Clock::now();
     for (int repeat = 0; repeat < 10; ++repeat) {
-      for (const auto& [a, b] : segments) sink += sampler.margin({a.x[0], a.x[1]});
+      for (const std::array<double, 2>& q : samples) sink += sampler.margin(q);
     }
     pose_times.push_back(1e6 * seconds(start) / (10 * kSegments));
     start = Clock::now();
     long boxes = 0;
     long judged = 0;
     row.proved = 0;
-    for (const auto& [a, b] : segments) {
-      const SegmentProof proof = prover.prove(a, b);
+    for (const auto& ends : segments) {
+      const SegmentProof proof = prove(ends);
       row.proved += proof.verdict == Verdict::kProved ? 1 : 0;
       boxes += static_cast<long>(proof.boxes.size());
       judged += proof.boxes_judged;
@@ -129,9 +181,19 @@ double product_ns() {
 
 int run(int argc, char** argv) {
   rounding_self_test();
+  const auto robot1 = [](const std::string& name, Kind kind) {
+    return measure(name, testing::robot1_slice(), kind, {-3.14, 0.0}, {3.14, 2.0});
+  };
+  const auto robot2 = [](const std::string& name, Kind kind) {
+    return measure(name, testing::robot2_sphere(), kind, {-3.14, 0.0}, {3.14, 1.4});
+  };
   const std::vector<Row> rows = {
-      measure("robot1-slice", testing::robot1_slice(), {-3.14, 0.0}, {3.14, 2.0}),
-      measure("robot2-sphere", testing::robot2_sphere(), {-3.14, 0.0}, {3.14, 1.4}),
+      robot1("robot1-slice", Kind::kPlain),
+      robot2("robot2-sphere", Kind::kPlain),
+      robot1("robot1-slice, all tolerances", Kind::kTolerances),
+      robot2("robot2-sphere, all tolerances", Kind::kTolerances),
+      robot1("robot1-slice, cable lengths", Kind::kCableLengths),
+      robot2("robot2-sphere, cable lengths", Kind::kCableLengths),
   };
   double ours = 0;
   const bool sound = run_upward([&] { ours = product_ns<Interval>(); });
