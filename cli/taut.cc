@@ -13,7 +13,6 @@
 #include "certify/certificate.h"
 #include "certify/signature.h"
 #include "cli/audit_command.h"
-#include "cli/certificate_file.h"
 #include "cli/console.h"
 #include "cli/doctor.h"
 #include "cli/files.h"
@@ -21,6 +20,8 @@
 #include "cli/init.h"
 #include "cli/path_csv.h"
 #include "cli/plan.h"
+#include "cli/recheck.h"
+#include "cli/report_command.h"
 #include "cli/regress_command.h"
 #include "cli/tolerance_table.h"
 #include "kinematics/input_error.h"
@@ -40,6 +41,7 @@ struct PlanArguments {
   bool grow = false;
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
+  std::optional<bool> check;  ///< nothing: where it takes a few seconds at most
 };
 
 std::string sentence(const Plan& plan) {
@@ -114,9 +116,13 @@ int run_plan(const PlanArguments& arguments) {
   }
   nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof, std::move(illustration));
   if (key) key->sign(certificate);
-  std::vector<FileContent> files = {{out / "path.csv", path_csv(case_.problem, result.path)},
-                                    {out / "certificate.json", certificate.dump(1, ' ', true) + "\n"},
-                                    {out / "report.html", html_report(certificate)}};
+  const std::string certificate_text = certificate.dump(1, ' ', true) + "\n";
+  const Recheck rechecked = recheck(certificate_text, static_cast<std::size_t>(result.proof.boxes),
+                                    case_.problem.tolerances.has_value(), arguments.check, interruption.token());
+  std::vector<FileContent> files = {
+      {out / "path.csv", path_csv(case_.problem, result.path)},
+      {out / "certificate.json", certificate_text},
+      {out / "report.html", html_report(certificate, {"", "", report_date(), rechecked})}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
   write_whole(files);
@@ -146,6 +152,7 @@ int run_plan(const PlanArguments& arguments) {
                                     {"margins", certificate["margins"]},
                                     {"witness", certificate["witness"]},
                                     {"undecided", certificate["undecided"]},
+                                    {"recheck", to_json(rechecked)},
                                     {"out", out.string()}};
     fmt::print("{}\n", summary.dump(1));
   } else {
@@ -160,24 +167,14 @@ int run_plan(const PlanArguments& arguments) {
       if (is_proved) fmt::print("{}.\n", length_sentence(s));
       fmt::print("{}", tolerance_table(limits));
     }
-    fmt::print("Written to {}: path.csv, certificate.json, report.html\n", out.string());
+    fmt::print("{}\nWritten to {}: path.csv, certificate.json, report.html\n", sentence(rechecked), out.string());
     if (saves_atlas) {
       fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
                  whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
     }
   }
+  require_confirmed(rechecked);
   return exit_code(result.proof.verdict);
-}
-
-// ---- taut report -----------------------------------------------------------------------------------------------------
-
-int run_report(const std::string& certificate_path, const std::string& out) {
-  const nlohmann::json certificate = read_certificate(certificate_path);
-  const std::filesystem::path target =
-      out.empty() ? std::filesystem::path(certificate_path).parent_path() / "report.html" : std::filesystem::path(out);
-  write_whole({{target, html_report(certificate)}});
-  fmt::print("Written: {}\n", target.string());
-  return kProvedExit;
 }
 
 int run(int argc, char** argv) {
@@ -204,6 +201,7 @@ int run(int argc, char** argv) {
       });
   plan_command->add_option("--sign", plan_arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
+  add_check_option(*plan_command, plan_arguments.check);
 
   AuditArguments audit_arguments;
   CLI::App* audit_command = app.add_subcommand("audit", "prove or refute a path that something else made");
@@ -218,11 +216,9 @@ int run(int argc, char** argv) {
   init_command->add_option("FILE", new_path, "case file to write")->required();
   CLI::App* doctor_command = app.add_subcommand("doctor", "look whether this machine can be trusted with proofs");
 
-  std::string certificate_path;
-  std::string report_out;
-  CLI::App* report_command = app.add_subcommand("report", "write the report again from the certificate alone");
-  report_command->add_option("CERTIFICATE", certificate_path, "certificate.json")->required();
-  report_command->add_option("--out", report_out, "file to write (default: report.html beside the certificate)");
+  ReportArguments report_arguments;
+  CLI::App* report_command = app.add_subcommand("report", "write the report from the certificate alone: page, PDF or summary");
+  add_report_options(*report_command, report_arguments);
 
   try {
     app.parse(argc, argv);
@@ -240,7 +236,8 @@ int run(int argc, char** argv) {
   if (*init_command) return run_init(new_path);
   if (*doctor_command) return run_doctor();
   if (*regress_command) return run_regress(regress_arguments);
-  return run_report(certificate_path, report_out);
+  rounding_self_test();
+  return run_report(report_arguments);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ std::string show(const Box& box) { return std::string("[") + box.begin.get_str()
 
 class Checker {
  public:
-  Checker(const Certificate& certificate, CheckResult& result) : certificate_(certificate), result_(result) {}
+  Checker(const Certificate& certificate, CheckResult& result, const std::stop_token& stop)
+      : certificate_(certificate), result_(result), stop_(stop) {}
 
   void confirm_proved() {
     require_waypoints_in_range();
@@ -118,6 +119,7 @@ class Checker {
     std::vector<Piece> open = {{box, 0}};
     int pieces = 0;
     while (!open.empty()) {
+      if (stop_.stop_requested()) throw Interrupted("interrupted");
       const Piece piece = open.back();
       open.pop_back();
       try {
@@ -457,6 +459,7 @@ class Checker {
 
   const Certificate& certificate_;
   CheckResult& result_;
+  const std::stop_token& stop_;
   std::array<std::unique_ptr<Model>, kPrecisions.size()> models_;
 };
 
@@ -509,7 +512,7 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
 }  // namespace
 
 CheckResult check_certificate(const std::string& text, const nlohmann::json* problem,
-                              std::span<const std::string> trusted) {
+                              std::span<const std::string> trusted, const std::stop_token& stop) {
   CheckResult result;
   try {
     nlohmann::json json = parse_json(text);
@@ -523,7 +526,7 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
       throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
     }
     if (problem != nullptr) require_problem(json["problem"], *problem);
-    Checker checker(certificate, result);
+    Checker checker(certificate, result, stop);
     switch (certificate.verdict) {
       case Verdict::kUndecided:
         result.outcome = Outcome::kUndecided;

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
+#include <stop_token>
 #include <string>
 
 namespace taut::checker {
@@ -32,12 +34,19 @@ struct CheckResult {
   int bits = 0;            ///< the highest precision that was needed
 };
 
+/// Thrown where somebody asked to stop.
+struct Interrupted : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// @param text     the whole file.
 /// @param problem  where not null: what the certificate's `problem` must equal.
 /// @param trusted  unless empty: public keys (signature.h), one of which must have signed.
-/// Never throws because of what the text says. @throws std::exception only where this program or machine fails.
+/// @param stop     asks to stop: looked at before each piece.
+/// Never throws because of what the text says. @throws Interrupted; any other std::exception only where this program or machine
+/// fails.
 /// Cost: about a millisecond a box. Thread-safe.
 [[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr,
-                                            std::span<const std::string> trusted = {});
+                                            std::span<const std::string> trusted = {}, const std::stop_token& stop = {});
 
 }  // namespace taut::checker

@@ -1,0 +1,23 @@
+// A page as PDF, printed by a Chromium that the user has: it knows the page's style sheet and script as no library does.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+
+namespace taut {
+
+/// The browser is there and failed; exit code 4.
+class BrowserFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Prints a page, without network, in a directory of its own that vanishes. The browser is $TAUT_BROWSER where that is set, else the
+/// first of chromium, chromium-browser, google-chrome-stable and google-chrome that is found.
+/// @returns the PDF's bytes, whole.
+/// @throws InputError where there is no browser; BrowserFailed where it fails, takes too long or was interrupted.
+[[nodiscard]] std::string print_to_pdf(const std::string& page, const std::stop_token& stop);
+
+}  // namespace taut

@@ -1,0 +1,88 @@
+#include "cli/report_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "certify/rounding.h"
+#include "cli/certificate_file.h"
+#include "cli/console.h"
+#include "cli/files.h"
+#include "cli/pdf.h"
+#include "cli/recheck.h"
+#include "reports/html_report.h"
+
+namespace taut {
+namespace {
+
+/// What is asked for, and the name of the file that it goes to if nobody says.
+struct Rendered {
+  std::string content;
+  const char* file_name;  ///< null: standard output
+};
+
+Rendered render(const ReportArguments& arguments, const nlohmann::json& certificate, const ReportOptions& options,
+                const std::stop_token& stop) {
+  if (arguments.text) return {text_summary(certificate, options), nullptr};
+  if (arguments.markdown) return {markdown_summary(certificate, options), nullptr};
+  if (arguments.json) {
+    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+    return {json_summary(certificate, options).dump(1, ' ', true, kReplace) + "\n", nullptr};
+  }
+  std::string page = html_report(certificate, options);
+  if (arguments.pdf) return {print_to_pdf(page, stop), "report.pdf"};
+  return {std::move(page), "report.html"};
+}
+
+}  // namespace
+
+void add_check_option(CLI::App& command, std::optional<bool>& check) {
+  command.add_flag("--check,!--no-check", check,
+                   "have taut-check's checker prove the certificate again, or not (default: if it takes seconds)");
+}
+
+void add_report_options(CLI::App& command, ReportArguments& arguments) {
+  command.add_option("CERTIFICATE", arguments.certificate_path, "certificate.json")->required();
+  command.add_option("--out", arguments.out,
+                     "file to write (default: report.html or report.pdf beside the certificate; summaries: standard output)");
+  CLI::Option_group* form = command.add_option_group("form", "One of these; none: an HTML page");
+  form->add_flag("--pdf", arguments.pdf, "the page as PDF, printed by an installed Chromium");
+  form->add_flag("--text", arguments.text, "its first page as plain text");
+  form->add_flag("--markdown", arguments.markdown, "its first page as Markdown");
+  form->add_flag("--json", arguments.json, "its first page as JSON");
+  form->require_option(0, 1);
+  add_check_option(command, arguments.check);
+  command.add_option("--document", arguments.document, "number of the document (default: from the certificate's digest)");
+  command.add_option("--revision", arguments.revision, "its revision (default: a line to write on)");
+  command.add_option("--date", arguments.date, "its date (default: today in UTC, or of SOURCE_DATE_EPOCH)");
+}
+
+int run_report(const ReportArguments& arguments) {
+  const nlohmann::json certificate = read_certificate(arguments.certificate_path);
+  const Interruption interruption;
+  ReportOptions options{arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
+  const auto at = [&](const char* pointer) {
+    const nlohmann::json::json_pointer place(pointer);
+    return certificate.contains(place) ? certificate.at(place) : nlohmann::json();
+  };
+  const nlohmann::json boxes = at("/footer/boxes");
+  options.recheck =
+      recheck(read_whole(arguments.certificate_path), boxes.is_number_unsigned() ? boxes.get<std::size_t>() : 0,
+              !at("/problem/tolerances").is_null(), arguments.check, interruption.token());
+  const Rendered rendered = render(arguments, certificate, options, interruption.token());
+  if (arguments.out.empty() && rendered.file_name == nullptr) {
+    fmt::print("{}", rendered.content);
+  } else {
+    const std::filesystem::path target =
+        arguments.out.empty() ? std::filesystem::path(arguments.certificate_path).parent_path() / rendered.file_name
+                              : std::filesystem::path(arguments.out);
+    write_whole({{target, rendered.content}});
+    fmt::print("{}\nWritten: {}\n", sentence(options.recheck), target.string());
+  }
+  if (options.recheck.result != Recheck::Result::kRejected) return kProvedExit;
+  fmt::print(stderr, "taut: {}: {}\n", arguments.certificate_path, sentence(options.recheck));
+  return kRefutedExit;
+}
+
+}  // namespace taut
