@@ -14,6 +14,8 @@
 #include "cli/console.h"
 #include "cli/files.h"
 #include "cli/path_source.h"
+#include "cli/recheck.h"
+#include "cli/report_command.h"
 #include "cli/tolerance_table.h"
 #include "kinematics/case_file.h"
 #include "kinematics/input_error.h"
@@ -22,8 +24,10 @@
 namespace taut {
 namespace {
 
-/// A report draws every segment; beyond, it would be megabytes of pictures.
-constexpr std::size_t kMostReported = 5'000;
+/// An audit's memory does not grow with the path, and a report's does: longer ones are for `taut report`.
+constexpr std::size_t kMostReported = 50'000;
+/// How far tolerances could grow takes some tens of proofs of the whole path.
+constexpr std::size_t kMostForToleranceLimits = 5'000;
 constexpr std::size_t kShownStretches = 20;
 
 const std::map<std::string, Interpolation>& laws() {
@@ -194,6 +198,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_flag("--allow-repeats", arguments.allow_repeats, "drop rows that repeat the pose of the row before");
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_check_option(command, arguments.check);
 }
 
 int run_audit(AuditArguments arguments) {
@@ -237,7 +242,7 @@ int run_audit(AuditArguments arguments) {
 
   std::vector<ToleranceLimit> limits;
   CertificateStream::Ending ending;
-  if (result.verdict == Verdict::kProved && source.problem().tolerances && result.segments <= kMostReported) {
+  if (result.verdict == Verdict::kProved && source.problem().tolerances && result.segments <= kMostForToleranceLimits) {
     const Interruption interruption;
     PathSource again(case_.problem, arguments.path, law, {arguments.allow_repeats});
     limits = tolerance_limits(source.problem(), whole_path(again), interruption.token());
@@ -257,9 +262,15 @@ int run_audit(AuditArguments arguments) {
   std::vector<NewFile*> files = {&certificate, &csv};
   const std::filesystem::path report_path = out / "report.html";
   std::optional<NewFile> report;
+  Recheck rechecked;
   if (result.segments <= kMostReported) {
+    const Interruption interruption;
+    const std::string written = certificate.temporary().string();
+    const std::size_t witnesses = 2 * (result.stretches_violated + result.stretches_open);
+    rechecked = recheck(read_whole(written), result.boxes + witnesses, source.problem().tolerances.has_value(),
+                        arguments.check, interruption.token());
     report.emplace(report_path);
-    report->write(html_report(read_certificate(certificate.temporary().string())));
+    report->write(html_report(read_certificate(written), {"", "", report_date(), rechecked}));
     report->finish();
     files.push_back(&*report);
   }
@@ -270,13 +281,21 @@ int run_audit(AuditArguments arguments) {
     nlohmann::json object = summary(result, source, ending.witness);
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(limits);
+    object["recheck"] = to_json(rechecked);
     fmt::print("{}\n", object.dump(1));
   } else {
     print(result, source);
     fmt::print("{}", tolerance_table(limits));
-    fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(),
-               report ? ", report.html" : fmt::format("; no report.html beyond {} segments", kMostReported));
+    if (report) fmt::print("{}\n", sentence(rechecked));
+    fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(), report ? ", report.html" : "");
+    if (!report) {
+      fmt::print(
+          "Of more than {} segments no report is made, nor are they re-checked, unless you ask for it:\n"
+          "  taut report {}\n",
+          kMostReported, (out / "certificate.json").string());
+    }
   }
+  require_confirmed(rechecked);
   return exit_code(result.verdict);
 }
 

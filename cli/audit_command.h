@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 namespace taut {
@@ -15,6 +16,7 @@ struct AuditArguments {
   long bits = 4096;  ///< of the prover's last rung
   bool allow_repeats = false;
   bool json = false;
+  std::optional<bool> check;  ///< by the independent checker; nothing: where it takes a few seconds at most
 };
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments);

@@ -14,11 +14,16 @@
 
 namespace taut {
 
+namespace {
+
+/// About.
 double recheck_seconds(std::size_t boxes, bool has_tolerances) {
   constexpr double kPerBox = 0.002;            // [s]: a piece takes a millisecond, and a box is two pieces or so
   constexpr double kPerBoxTolerances = 0.050;  // deviations are taken in up to eight parts
   return static_cast<double>(boxes) * (has_tolerances ? kPerBoxTolerances : kPerBox);
 }
+
+}  // namespace
 
 Recheck recheck(const std::string& text, std::size_t boxes, bool has_tolerances, std::optional<bool> wanted,
                 const std::stop_token& stop) {
@@ -49,7 +54,8 @@ std::string sentence(const Recheck& recheck) {
   switch (recheck.result) {
     case Recheck::Result::kNotRun: break;
     case Recheck::Result::kConfirmed: return fmt::format("Re-checked by {}: accepted.", recheck.checker);
-    case Recheck::Result::kNoClaim: return fmt::format("Re-checked by {}: well formed, claims nothing.", recheck.checker);
+    case Recheck::Result::kNoClaim:
+      return fmt::format("Re-checked by {}: well formed, claims nothing.", recheck.checker);
     case Recheck::Result::kRejected: return fmt::format("REJECTED by {}: {}", recheck.checker, recheck.message);
   }
   return fmt::format("Not re-checked ({}): run taut-check.", recheck.message);
@@ -70,7 +76,8 @@ nlohmann::json to_json(const Recheck& recheck) {
 
 void require_confirmed(const Recheck& recheck) {
   if (recheck.result == Recheck::Result::kRejected) {
-    throw std::logic_error(fmt::format("the certificate just written is rejected by {}: {}", recheck.checker, recheck.message));
+    throw std::logic_error(
+        fmt::format("the certificate just written is rejected by {}: {}", recheck.checker, recheck.message));
   }
 }
 

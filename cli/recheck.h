@@ -10,13 +10,11 @@
 
 namespace taut {
 
-/// Seconds that checking takes, about: it is a matter of the number of boxes.
-[[nodiscard]] double recheck_seconds(std::size_t boxes, bool has_tolerances);
-
+/// @param boxes   boxes and witnesses: checking takes a time in proportion
 /// @param wanted  whether to check; nothing: where it takes a few seconds at most.
 /// Stopped, it was not run, and says so. @throws std::exception where the checker itself fails.
-[[nodiscard]] Recheck recheck(const std::string& text, std::size_t boxes, bool has_tolerances, std::optional<bool> wanted,
-                              const std::stop_token& stop);
+[[nodiscard]] Recheck recheck(const std::string& text, std::size_t boxes, bool has_tolerances,
+                              std::optional<bool> wanted, const std::stop_token& stop);
 
 /// One line for the terminal.
 [[nodiscard]] std::string sentence(const Recheck& recheck);

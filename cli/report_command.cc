@@ -38,14 +38,18 @@ Rendered render(const ReportArguments& arguments, const nlohmann::json& certific
 }  // namespace
 
 void add_check_option(CLI::App& command, std::optional<bool>& check) {
-  command.add_flag("--check,!--no-check", check,
-                   "have taut-check's checker prove the certificate again, or not (default: if it takes seconds)");
+  CLI::Option* yes = command.add_flag_callback(
+      "--check", [&check] { check = true; }, "have taut-check's checker prove the certificate again");
+  CLI::Option* no = command.add_flag_callback(
+      "--no-check", [&check] { check = false; }, "don't (default: it does where that takes a few seconds)");
+  yes->excludes(no);
 }
 
 void add_report_options(CLI::App& command, ReportArguments& arguments) {
   command.add_option("CERTIFICATE", arguments.certificate_path, "certificate.json")->required();
-  command.add_option("--out", arguments.out,
-                     "file to write (default: report.html or report.pdf beside the certificate; summaries: standard output)");
+  command.add_option(
+      "--out", arguments.out,
+      "file to write (default: report.html or report.pdf beside the certificate; summaries: standard output)");
   CLI::Option_group* form = command.add_option_group("form", "One of these; none: an HTML page");
   form->add_flag("--pdf", arguments.pdf, "the page as PDF, printed by an installed Chromium");
   form->add_flag("--text", arguments.text, "its first page as plain text");
@@ -53,7 +57,8 @@ void add_report_options(CLI::App& command, ReportArguments& arguments) {
   form->add_flag("--json", arguments.json, "its first page as JSON");
   form->require_option(0, 1);
   add_check_option(command, arguments.check);
-  command.add_option("--document", arguments.document, "number of the document (default: from the certificate's digest)");
+  command.add_option("--document", arguments.document,
+                     "number of the document (default: from the certificate's digest)");
   command.add_option("--revision", arguments.revision, "its revision (default: a line to write on)");
   command.add_option("--date", arguments.date, "its date (default: today in UTC, or of SOURCE_DATE_EPOCH)");
 }
@@ -61,15 +66,17 @@ void add_report_options(CLI::App& command, ReportArguments& arguments) {
 int run_report(const ReportArguments& arguments) {
   const nlohmann::json certificate = read_certificate(arguments.certificate_path);
   const Interruption interruption;
-  ReportOptions options{arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
+  ReportOptions options{
+      arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
   const auto at = [&](const char* pointer) {
     const nlohmann::json::json_pointer place(pointer);
     return certificate.contains(place) ? certificate.at(place) : nlohmann::json();
   };
   const nlohmann::json boxes = at("/footer/boxes");
-  options.recheck =
-      recheck(read_whole(arguments.certificate_path), boxes.is_number_unsigned() ? boxes.get<std::size_t>() : 0,
-              !at("/problem/tolerances").is_null(), arguments.check, interruption.token());
+  const std::size_t statements =
+      (boxes.is_number_unsigned() ? boxes.get<std::size_t>() : 0) + 2 * at("/stretches").size();
+  options.recheck = recheck(read_whole(arguments.certificate_path), statements, !at("/problem/tolerances").is_null(),
+                            arguments.check, interruption.token());
   const Rendered rendered = render(arguments, certificate, options, interruption.token());
   if (arguments.out.empty() && rendered.file_name == nullptr) {
     fmt::print("{}", rendered.content);

@@ -21,8 +21,8 @@
 #include "cli/path_csv.h"
 #include "cli/plan.h"
 #include "cli/recheck.h"
-#include "cli/report_command.h"
 #include "cli/regress_command.h"
+#include "cli/report_command.h"
 #include "cli/tolerance_table.h"
 #include "kinematics/input_error.h"
 #include "reports/html_report.h"
@@ -217,7 +217,8 @@ int run(int argc, char** argv) {
   CLI::App* doctor_command = app.add_subcommand("doctor", "look whether this machine can be trusted with proofs");
 
   ReportArguments report_arguments;
-  CLI::App* report_command = app.add_subcommand("report", "write the report from the certificate alone: page, PDF or summary");
+  CLI::App* report_command =
+      app.add_subcommand("report", "write the report from the certificate alone: page, PDF or summary");
   add_report_options(*report_command, report_arguments);
 
   try {

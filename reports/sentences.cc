@@ -34,14 +34,18 @@ std::string quantity(const DecimalText& value, bool length) {
   return length ? millimetres(value) + " mm" : plain(value) + " N";
 }
 
-/// A number of a witness, which has as many digits as its proof took: four of them, in the direction that keeps the sentence true.
-std::string shortened(const DecimalText& value, bool length, bool up) {
+/// A number of a witness, which has as many digits as its proof took: as many as it takes to tell it from the limit, in the direction
+/// that keeps the sentence true.
+std::string shortened(const WitnessView& witness, const DecimalText& value, bool up) {
   const double x = number(value);
-  const std::string text = up ? rounded_up(x) : rounded_down(x);
-  // Rounded once more by binary64, it might say what is not: then all digits.
-  const bool is_true =
-      up ? Decimal::parse(text) >= Decimal::parse(value) : Decimal::parse(text) <= Decimal::parse(value);
-  return quantity(is_true ? text : value, length);
+  for (const int digits : {4, 6, 9, 12, 15}) {
+    const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
+    const Decimal rounded = Decimal::parse(text);
+    // `x` was rounded to nearest: a last check.
+    const bool is_true = up ? rounded >= Decimal::parse(value) : rounded <= Decimal::parse(value);
+    if (is_true && rounded != Decimal::parse(witness.limit)) return quantity(text, is_length(witness));
+  }
+  return quantity(value, is_length(witness));
 }
 
 /// By how much a witness breaks its limit, at least.
@@ -335,7 +339,7 @@ std::string violation_text(const WitnessView& witness) {
   const bool upper = is_upper(witness);
   const DecimalText& value = upper ? witness.value_lower : witness.value_upper;
   return fmt::format("{} of cable {} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
-                     witness.cable, upper ? "reaches at least" : "falls to at most", shortened(value, length, !upper),
+                     witness.cable, upper ? "reaches at least" : "falls to at most", shortened(witness, value, !upper),
                      upper ? "not below" : "not above", upper ? "upper" : "lower", quantity(witness.limit, length));
 }
 

@@ -32,14 +32,17 @@ std::vector<CableRow> cable_rows(const CableUse& use) {
   return rows;
 }
 
-/// Markdown in which no character of `text` is markup: each that could be is escaped. On one line.
+/// Markdown that shows `text` and is no markup of its own: what could be is escaped. On one line.
 std::string markdown(const std::string& text) {
+  const std::string plain = without_control_characters(text);
   std::string result;
-  for (const char c : without_control_characters(text)) {
-    if (std::string_view(R"(\\`*_{}[]()<>#|!~&$@:)").find(c) != std::string_view::npos) {
-      result += fmt::format("&#{};", static_cast<int>(c));
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const std::string_view rest = std::string_view(plain).substr(i);
+    const bool is_link = rest.starts_with("://") || rest.starts_with("www.");
+    if (is_link || std::string_view(R"(\`*_[]<>&|#~$!)").find(plain[i]) != std::string_view::npos) {
+      result += is_link ? fmt::format("&#{};", static_cast<int>(plain[i])) : std::string{'\\', plain[i]};
     } else {
-      result += c;
+      result += plain[i];
     }
   }
   return result;

@@ -47,6 +47,7 @@ struct Interrupted : std::runtime_error {
 /// fails.
 /// Cost: about a millisecond a box. Thread-safe.
 [[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr,
-                                            std::span<const std::string> trusted = {}, const std::stop_token& stop = {});
+                                            std::span<const std::string> trusted = {},
+                                            const std::stop_token& stop = {});
 
 }  // namespace taut::checker
