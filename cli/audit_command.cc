@@ -25,7 +25,7 @@ namespace taut {
 namespace {
 
 /// An audit's memory does not grow with the path, and a report's does: longer ones are for `taut report`.
-constexpr std::size_t kMostReported = 50'000;
+constexpr std::size_t kMostReported = 20'000;
 /// How far tolerances could grow takes some tens of proofs of the whole path.
 constexpr std::size_t kMostForToleranceLimits = 5'000;
 constexpr std::size_t kShownStretches = 20;

@@ -23,14 +23,6 @@ Html masthead(const Summary& s) {
       or_blank(s.document), or_blank(s.revision), or_blank(s.date));
 }
 
-Html rejection(const Recheck& recheck) {
-  if (recheck.result != Recheck::Result::kRejected) return {};
-  return html(
-      "<div class=\"rejected\" role=\"alert\"><p>This certificate is REJECTED. Nothing on these pages may be relied "
-      "on.</p><p>{}: {}.</p></div>\n",
-      recheck.checker, recheck.message);
-}
-
 Html verdict(const Summary& s) {
   Html body = html("<p>{}</p>\n", s.headline);
   for (const std::string& sentence : s.details) body += html("<p>{}</p>\n", sentence);
@@ -123,9 +115,8 @@ Html signatures() {
 }  // namespace
 
 Html first_page(const Scene& scene, const Summary& summary) {
-  return html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}{}{}{}</header>\n", masthead(summary),
-              summary.name, rejection(summary.recheck), verdict(summary), facts(summary), cables(scene, summary.use),
-              signatures());
+  return html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}{}{}</header>\n", masthead(summary),
+              summary.name, verdict(summary), facts(summary), cables(scene, summary.use), signatures());
 }
 
 }  // namespace taut

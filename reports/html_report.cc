@@ -77,7 +77,7 @@ std::string html_report(const nlohmann::json& certificate, const ReportOptions& 
                     plot_sections(scene) + margins(scene) + theorem(scene.view) + tolerances(scene.view) +
                     assumptions(scene.view.problem) + robot(scene) + path_section(scene) + inputs(scene.view) +
                     recheck(scene.view);
-  const Html title = html("{}: {}", scene.view.problem.name, scene.view.verdict);
+  const Html title = html("{}: {}", scene.view.problem.name, summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -49,15 +49,13 @@ pre { background: var(--tile); padding: 12px 14px; border-radius: 6px; white-spa
 .masthead dl > div { display: flex; gap: 8px; }
 .masthead dd { margin: 0; color: var(--ink); font-weight: 600; }
 .blank { display: inline-block; min-width: 70px; border-bottom: 1px solid var(--soft); }
-.rejected { background: var(--refuted); color: var(--paper); padding: 10px 18px; margin: 14px 0; border-radius: 6px; }
-.rejected p { max-width: none; }
-.rejected p:first-child { font-size: 21px; font-weight: 650; }
 .verdict { border-left: 6px solid; padding: 2px 0 2px 20px; margin: 14px 0 18px; }
 .verdict p, .verdict ul { max-width: 92ch; }
 .verdict p:first-child { font-size: 20px; line-height: 1.35; font-weight: 650; margin-top: 0; }
 .verdict ul { padding-left: 20px; }
 .verdict.proved { border-color: var(--proved); } .verdict.proved p:first-child { color: var(--proved); }
 .verdict.refuted { border-color: var(--refuted); } .verdict.refuted p:first-child { color: var(--refuted); }
+.verdict.rejected { background: var(--refuted); color: var(--paper); padding: 10px 18px; border: 0; border-radius: 6px; }
 .verdict.undecided { border-color: var(--undecided); } .verdict.undecided p:first-child { color: var(--undecided); }
 .facts { margin: 14px 0; font-size: 14.5px; line-height: 1.45; }
 .facts > div { display: grid; grid-template-columns: 110px 1fr; gap: 16px; padding: 5px 0; border-top: 1px solid var(--line); }
@@ -165,14 +163,14 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .masthead { font-size: 8.6pt; }
   .verdict { margin: 6pt 0; padding-left: 10pt; }
   .verdict p, .verdict ul { max-width: none; margin: 3pt 0; }
-  .verdict p:first-child { font-size: 12pt; } .rejected p:first-child { font-size: 14pt; }
+  .verdict p:first-child { font-size: 12pt; }
   .facts { font-size: 8.4pt; line-height: 1.34; margin: 6pt 0; }
   .facts > div { grid-template-columns: 58pt 1fr; gap: 8pt; padding: 2.2pt 0; }
   .panels { grid-template-columns: repeat(3, 1fr); gap: 10px; } .panels.two { grid-template-columns: repeat(2, 1fr); }
   table { font-size: 7.5pt; max-width: 100%; } th, td { padding-right: 7pt; } td.n { white-space: normal; }
   .cables td.n { white-space: nowrap; } caption { font-size: 8.4pt; }
   .first .cables td, .first .cables th { padding: 1.6pt 6pt 1.6pt 0; }
-  .first .note { font-size: 7.5pt; line-height: 1.3; }
+  .first .note { font-size: 7.5pt; line-height: 1.3; max-width: none; }
   .sign { margin-top: 8pt; } .sign td, .sign th { padding: 6pt 6pt; font-size: 8.4pt; }
   .sign th:first-child, .sign td:first-child { width: 76pt; }
   td code, th code, td.digest, td .digest { font-size: inherit; } .scroll { overflow: visible; }

@@ -38,20 +38,15 @@ std::string markdown(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < plain.size(); ++i) {
     const std::string_view rest = std::string_view(plain).substr(i);
-    const bool is_link = rest.starts_with("://") || rest.starts_with("www.");
-    if (is_link || std::string_view(R"(\`*_[]<>&|#~$!)").find(plain[i]) != std::string_view::npos) {
-      result += is_link ? fmt::format("&#{};", static_cast<int>(plain[i])) : std::string{'\\', plain[i]};
+    const char c = plain[i];
+    if (c == '<' || c == '>' || c == '&' || rest.starts_with("://") || rest.starts_with("www.")) {
+      result += fmt::format("&#{};", static_cast<int>(c));
     } else {
-      result += plain[i];
+      if (std::string_view(R"(\`*_[]|#~$!)").find(c) != std::string_view::npos) result += '\\';
+      result += c;
     }
   }
   return result;
-}
-
-std::string rejection(const Recheck& recheck) {
-  return recheck.result == Recheck::Result::kRejected
-             ? fmt::format("REJECTED by {}: {}. Nothing below may be relied on.", recheck.checker, recheck.message)
-             : "";
 }
 
 const char* name(Recheck::Result result) {
@@ -91,6 +86,16 @@ Summary::Summary(const Scene& scene, const ReportOptions& options)
       path_sha256(scene.view.path_sha256),
       footer_sha256(scene.view.footer_sha256) {
   closest = closest_text(scene, use);
+  if (recheck.result != Recheck::Result::kRejected) return;
+  verdict = "rejected";
+  headline = fmt::format(
+      "REJECTED: {} could not confirm this certificate, which says \u201C{}\u201D. Nothing in this report may be "
+      "relied "
+      "on.",
+      recheck.checker, scene.view.verdict);
+  details = {fmt::format("What it found: {}.", recheck.message)};
+  closest.clear();
+  use.source = CableUse::Source::kNone;
 }
 
 std::string document_number(const std::string& footer_sha256) {
@@ -112,7 +117,6 @@ std::string to_text(const Summary& s) {
   const auto line = [&](const std::string& content) { text += without_control_characters(content) + "\n"; };
   line(fmt::format("{}{}{}: {}", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
                    s.date.empty() ? "" : ", " + s.date, s.name));
-  if (const std::string rejected = rejection(s.recheck); !rejected.empty()) line(rejected);
   line(s.headline);
   for (const std::string& sentence : s.details) line(sentence);
   for (const std::string& sentence : s.closest) line(sentence);
@@ -138,9 +142,6 @@ std::string to_markdown(const Summary& s) {
   if (!s.revision.empty()) head += ", revision " + s.revision;
   if (!s.date.empty()) head += ", " + s.date;
   if (!head.empty()) text += markdown(head) + "\n\n";
-  if (const std::string rejected = rejection(s.recheck); !rejected.empty()) {
-    text += fmt::format("**{}**\n\n", markdown(rejected));
-  }
   text += fmt::format("**{}**\n\n", markdown(s.headline));
   for (const std::string& sentence : s.details) text += markdown(sentence) + "\n\n";
   for (const std::string& sentence : s.closest) text += fmt::format("- {}\n", markdown(sentence));

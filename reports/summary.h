@@ -16,8 +16,8 @@ struct Summary {
   std::string revision;  ///< may be empty, as the date
   std::string date;
   std::string name;     ///< the case's
-  std::string verdict;  ///< "proved", "refuted" or "undecided"
-  std::string headline;
+  std::string verdict;  ///< "proved", "refuted" or "undecided"; "rejected" where the checker rejects the certificate,
+  std::string headline;  ///< and then nothing of what it says is repeated here
   std::vector<std::string> details;
   std::vector<std::string> closest;
   std::vector<Statement> statements;

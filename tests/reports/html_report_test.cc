@@ -144,7 +144,12 @@ TEST(HtmlReport, SaysWhatTheCheckerFound) {
   EXPECT_THAT(page(Recheck::Result::kConfirmed), HasSubstr("so &lt;it&gt; is"));
   EXPECT_THAT(page(Recheck::Result::kConfirmed), Not(HasSubstr("REJECTED")));
   EXPECT_THAT(page(Recheck::Result::kNoClaim), HasSubstr("it claims nothing"));
-  EXPECT_THAT(page(Recheck::Result::kRejected), HasSubstr("This certificate is REJECTED."));
+  const std::string rejected = page(Recheck::Result::kRejected);
+  EXPECT_THAT(rejected, HasSubstr("REJECTED: taut-check 9.9 could not confirm this certificate"));
+  EXPECT_THAT(rejected, HasSubstr("What it found: so &lt;it&gt; is."));
+  EXPECT_THAT(rejected, Not(HasSubstr("Proved: at every pose")));
+  EXPECT_THAT(rejected, Not(HasSubstr("comes within")));
+  EXPECT_THAT(rejected, HasSubstr("<title>robot1-slice: rejected</title>"));
 }
 
 TEST(HtmlReport, PrintsClaimAndDigestsAsTheCertificateStatesThem) {

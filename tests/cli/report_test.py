@@ -1,0 +1,130 @@
+"""taut report: pages, PDF and summaries of certificates, re-checked.
+
+    report_test.py TAUT TAUT_CHECK SOURCE_DIRECTORY
+"""
+
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TAUT, CHECK, SOURCE = sys.argv[1:4]
+CASE = os.path.join(SOURCE, "cases", "robot1-slice-qs-qg.yaml")
+
+
+def run(*command, **environment):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          env={**os.environ, **environment})
+
+
+def digest(value):
+    return hashlib.sha256(json.dumps(value, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.certificate = os.path.join(cls.folder, "certificate.json")
+        cls.planned = run(TAUT, "plan", CASE, "--out", cls.folder, SOURCE_DATE_EPOCH="86400")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def forged(self):
+        """A certificate that claims too much, with digests that fit."""
+        with open(self.certificate, encoding="utf-8") as file:
+            certificate = json.load(file)
+        for segment in certificate["segments"]:
+            segment["margins"]["tension_N"] = "1e-1"
+        certificate["margins"]["tension_N"] = "1e-1"
+        footer = certificate.pop("footer")
+        footer["sha256"] = digest(certificate)
+        certificate["footer"] = footer
+        with open(self.path("forged.json"), "w", encoding="utf-8") as file:
+            json.dump(certificate, file)
+        return self.path("forged.json")
+
+    def test_plan_checks_its_certificate_again_unless_told_not_to(self):
+        self.assertIn("Re-checked by taut-check", self.planned.stdout)
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn("an independent program with other arithmetic, proved the certificate", page)
+        self.assertIn("1970-01-02", page)
+        said = run(TAUT, "plan", CASE, "--out", self.path("out"), "--no-check")
+        self.assertIn("Not re-checked", said.stdout)
+        said = run(TAUT, "plan", CASE, "--out", self.path("out"), "--json")
+        self.assertEqual(json.loads(said.stdout)["recheck"]["result"], "confirmed")
+
+    def test_summaries_go_to_standard_output(self):
+        text = run(TAUT, "report", self.certificate, "--text", "--no-check")
+        self.assertEqual(text.returncode, 0, text.stderr)
+        self.assertRegex(text.stdout, r"^TAUT-[0-9A-F]{4}-[0-9A-F]{4}-[0-9A-F]{4}, \d{4}-\d\d-\d\d: robot1-slice-qs-qg\n")
+        self.assertIn("\nProved: at every pose of this move", text.stdout)
+        markdown = run(TAUT, "report", self.certificate, "--markdown", "--check")
+        self.assertTrue(markdown.stdout.startswith("## robot1-slice-qs-qg\n"))
+        summary = json.loads(run(TAUT, "report", self.certificate, "--json", "--document", "LP-1").stdout)
+        self.assertEqual((summary["verdict"], summary["document"], len(summary["cables"])), ("proved", "LP-1", 6))
+        self.assertEqual(summary["recheck"]["result"], "confirmed")
+        for cable in summary["cables"]:
+            self.assertLess(cable["tension_N"]["greatest"], cable["tension_N"]["upper_limit"])
+            self.assertGreater(cable["length_m"]["least"], cable["length_m"]["lower_limit"])
+        said = run(TAUT, "report", self.certificate, "--text", "--out", self.path("summary.txt"))
+        self.assertIn("Written: ", said.stdout)
+        self.assertTrue(os.path.exists(self.path("summary.txt")))
+
+    def test_a_rejected_certificate_is_shouted_about(self):
+        said = run(TAUT, "report", self.forged(), "--out", self.path("forged.html"))
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("REJECTED by taut-check", said.stderr)
+        with open(self.path("forged.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn('<div class="verdict rejected">', page)
+        self.assertNotIn("Proved: at every pose", page)
+        said = run(TAUT, "report", self.forged(), "--json")
+        self.assertEqual((said.returncode, json.loads(said.stdout)["verdict"]), (1, "rejected"))
+
+    def test_wrong_use_is_refused(self):
+        for extra in (["--pdf", "--text"], ["--check", "--no-check"], ["--document", 'a"b'], ["--revision", "x" * 41],
+                      ["--date", "<b>"]):
+            self.assertEqual(run(TAUT, "report", self.certificate, *extra).returncode, 3, extra)
+        self.assertEqual(run(TAUT, "report", self.certificate, "--text", SOURCE_DATE_EPOCH="soon").returncode, 3)
+
+    def test_without_a_browser_it_says_what_to_install(self):
+        said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", TAUT_BROWSER="/no/such/browser")
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("install Debian's package chromium", said.stderr)
+        self.assertFalse(os.path.exists(self.path("report.pdf")))
+
+    def test_a_browser_that_fails_leaves_nothing(self):
+        for browser in ("/bin/false", "/bin/true"):
+            said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", "--out", self.path("none.pdf"),
+                       TAUT_BROWSER=browser)
+            self.assertEqual(said.returncode, 4, browser)
+            self.assertIn("no PDF", said.stderr)
+            self.assertFalse(os.path.exists(self.path("none.pdf")))
+
+    @unittest.skipUnless(shutil.which("chromium"), "needs chromium")
+    def test_a_pdf_has_pages_and_nothing_of_it_stays_behind(self):
+        scratch = self.path("scratch")
+        os.mkdir(scratch)
+        said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", "--out", self.path("page.pdf"), TMPDIR=scratch)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        with open(self.path("page.pdf"), "rb") as file:
+            pdf = file.read()
+        self.assertTrue(pdf.startswith(b"%PDF-"))
+        self.assertGreater(len(re.findall(rb"/Type\s*/Page\b", pdf)), 2)
+        self.assertEqual([name for name in os.listdir(scratch) if name.startswith("taut-")], [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

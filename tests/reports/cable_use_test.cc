@@ -1,0 +1,53 @@
+#include "reports/cable_use.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/sample_certificates.h"
+
+namespace taut {
+namespace {
+
+TEST(CableUse, ContainsEverySampleOfAProvedPath) {
+  const Scene scene(sample::proved());
+  const CableUse use = cable_use(scene);
+  EXPECT_EQ(use.source, CableUse::Source::kProved);
+  for (const PathSample& sample : scene.samples) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      EXPECT_LE(use.tension[i].range.lower, sample.statics.tension[i] - sample.statics.variation[i]);
+      EXPECT_GE(use.tension[i].range.upper, sample.statics.tension[i] + sample.statics.variation[i]);
+      EXPECT_LE(use.length[i].range.lower, sample.statics.length[i]);
+      EXPECT_GE(use.length[i].range.upper, sample.statics.length[i]);
+    }
+  }
+}
+
+TEST(CableUse, SaysWhatItRestsOn) {
+  nlohmann::json certificate = sample::proved();
+  certificate["segments"][1]["boxes"] = nlohmann::json::array();
+  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kProvedParts);
+  certificate = sample::proved();
+  certificate["segments"].erase(1);
+  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kProvedParts) << "a segment is missing";
+  EXPECT_EQ(cable_use(Scene(sample::refuted())).source, CableUse::Source::kSamples);
+  EXPECT_EQ(cable_use(Scene(sample::no_path())).source, CableUse::Source::kNone);
+}
+
+TEST(Closest, IsTheCableNextToALimitByTheWidthBetweenThem) {
+  std::array<Use, kCables> uses;
+  uses.fill({{4, 6}, 0, 10, 1, 2});
+  EXPECT_EQ(closest(uses).cable, 0);
+  uses[3].range = {4, 9};
+  EXPECT_EQ(closest(uses).cable, 3);
+  EXPECT_TRUE(closest(uses).is_upper);
+  EXPECT_EQ(closest(uses).value, 9);
+  EXPECT_EQ(closest(uses).at, 2);
+  uses[5] = {{50, 500}, 0, 1000, 7, 8};
+  EXPECT_EQ(closest(uses).cable, 5);
+  EXPECT_FALSE(closest(uses).is_upper);
+  EXPECT_EQ(closest(uses).at, 7);
+}
+
+}  // namespace
+}  // namespace taut

@@ -1,0 +1,84 @@
+#include "reports/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/sample_certificates.h"
+
+namespace taut {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+Summary summary_of(const nlohmann::json& certificate, const ReportOptions& options = {}) {
+  return {Scene(certificate), options};
+}
+
+const ReportOptions kRejected = {"", "", "", {Recheck::Result::kRejected, "taut-check 9.9", "box 3 is not proved"}};
+
+TEST(Summary, SaysTheSameAsTextMarkdownAndJson) {
+  for (const nlohmann::json& certificate :
+       {sample::proved(), sample::refuted(), sample::singular(), sample::undecided(), sample::no_path()}) {
+    const Summary summary = summary_of(certificate, {"LP-17", "C", "2024-02-29", {}});
+    const std::string text = to_text(summary);
+    const nlohmann::json json = to_json(summary);
+    EXPECT_THAT(text, StartsWith("LP-17, revision C, 2024-02-29: robot1-slice\n"));
+    EXPECT_THAT(text, HasSubstr(summary.headline + "\n"));
+    EXPECT_EQ(json["headline"], summary.headline);
+    EXPECT_EQ(json["verdict"], certificate["verdict"]);
+    EXPECT_EQ(json["document"], "LP-17");
+    for (const Statement& statement : summary.statements) {
+      EXPECT_THAT(text, HasSubstr(statement.text));
+      EXPECT_EQ(json["statements"][statement.key], statement.text);
+    }
+    EXPECT_THAT(to_markdown(summary),
+                HasSubstr("| Not covered | Collisions of cables, platform, load and surroundings."));
+  }
+}
+
+TEST(Summary, RoundsProvedRangesOutward) {
+  const nlohmann::json json = to_json(summary_of(sample::proved()));
+  EXPECT_EQ(json["cables_source"], "proved");
+  const nlohmann::json& tension = json["cables"][2]["tension_N"];
+  EXPECT_THAT(to_text(summary_of(sample::proved())), HasSubstr("      3           0.1016     0.1201"));
+  EXPECT_GE(tension["least"], 0.1016);
+  EXPECT_LE(tension["greatest"], 0.1201);
+  EXPECT_EQ(tension["upper_limit"], 0.5);
+}
+
+TEST(Summary, RepeatsNothingOfARejectedCertificate) {
+  const Summary summary = summary_of(sample::proved(), kRejected);
+  EXPECT_EQ(summary.verdict, "rejected");
+  EXPECT_THAT(to_text(summary), HasSubstr("REJECTED: taut-check 9.9 could not confirm this certificate"));
+  EXPECT_THAT(to_text(summary), HasSubstr("box 3 is not proved"));
+  EXPECT_THAT(to_text(summary), Not(HasSubstr("Proved:")));
+  EXPECT_THAT(to_text(summary), Not(HasSubstr("Tension from")));
+  EXPECT_EQ(to_json(summary)["verdict"], "rejected");
+  EXPECT_EQ(to_json(summary)["recheck"]["result"], "rejected");
+}
+
+TEST(Summary, MakesNoMarkupOfWhatACertificateSays) {
+  nlohmann::json certificate = sample::undecided();
+  certificate["problem"]["name"] = "a\n# b [x](http://c) <img src=x> | **d** `e` www.f.g";
+  certificate["undecided"]["reason"] = sample::kAttack;
+  const std::string markdown = to_markdown(summary_of(certificate));
+  EXPECT_THAT(markdown, StartsWith("## a"));
+  EXPECT_THAT(markdown, HasSubstr(R"(\# b \[x\](http&#58;//c) &#60;img src=x&#62; \| \*\*d\*\* \`e\` &#119;ww.f.g)"));
+  EXPECT_THAT(markdown, Not(HasSubstr("<script")));
+  EXPECT_THAT(markdown, Not(HasSubstr("\n# b")));
+  EXPECT_THAT(to_text(summary_of(certificate)), Not(HasSubstr("\n# b"))) << "names have no lines of their own";
+}
+
+TEST(DocumentNumber, IsMadeFromADigestOnly) {
+  EXPECT_EQ(document_number("0123456789ab" + std::string(52, 'c')), "TAUT-0123-4567-89AB");
+  EXPECT_EQ(document_number(std::string(63, 'a')), "");
+  EXPECT_EQ(document_number(std::string(64, 'g')), "");
+  EXPECT_EQ(document_number(sample::kAttack), "");
+}
+
+}  // namespace
+}  // namespace taut
