@@ -76,7 +76,7 @@ blockquote { margin: 12px 0; padding: 12px 18px; background: var(--tile); border
 .formulas p { max-width: none; margin: 10px 0; padding-left: 18px; }
 .formulas .up, .formulas sub, .formulas sup { font-style: normal; }
 sub, sup { font-size: 70%; line-height: 0; }
-.scroll { overflow-x: auto; margin: 10px 0; }
+.scroll { position: relative; overflow-x: auto; margin: 10px 0; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: 5px 18px 5px 0; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--soft); white-space: nowrap; }

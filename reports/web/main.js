@@ -53,7 +53,7 @@ function drawPlots() {
   panelsAt("pose", posePanels, []);
   if (data.plane && place("plane")) place("plane").append(planeFigure(data, cursor));
   if (data.tolerances.length > 0 && place("tolerances")) {
-    place("tolerances").append(element("figure", { class: "tolerance-figure" }, toleranceFigure(data)));
+    place("tolerances").append(toleranceFigure(data));
   }
   if (panels.length === 0) return;
   connect(panels, cursor, data.samples);

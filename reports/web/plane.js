@@ -111,11 +111,10 @@ export function planeFigure(data, cursor) {
     y: { domain: [bottom, top], label: label(1), labelArrow: "none", labelAnchor: "center", ticks: 7 },
     marks: [drawing, Plot.frame({ stroke: "var(--soft)" })],
   });
-  plot.setAttribute("role", "img");
+  plot.setAttribute("aria-hidden", "true"); // the figure says what it shows
   const shares = KINDS.map((_, kind) => plane.cells.split(String(kind)).length - 1);
-  plot.setAttribute("aria-label",
-    `The plane of ${plane.names[0]} and ${plane.names[1]}: ${text((100 * shares[0]) / plane.cells.length, 2)} % of what is ` +
-    `shown keeps all limits${hasPath ? "; the path leads through it from S to G" : ""}.`);
+  const description = `The plane of ${plane.names[0]} and ${plane.names[1]}: ${text((100 * shares[0]) / plane.cells.length, 2)} % of what is ` +
+    `shown keeps all limits${hasPath ? "; the path leads through it from S to G" : ""}.`;
   const marker = svg("circle", { class: "here", r: 6 });
   plot.append(marker);
   cursor.onMove((position) => {
@@ -162,6 +161,6 @@ export function planeFigure(data, cursor) {
   if (witness) keys.push(key("witness", "witness"));
   if (stretches.some((s) => s.violated)) keys.push(key("violated", "violated"));
   if (stretches.some((s) => !s.violated)) keys.push(key("opening", "left open"));
-  return element("figure", { class: "plane-figure" }, plot,
+  return element("figure", { class: "plane-figure" }, element("div", { role: "img", "aria-label": description }, plot),
     element("figcaption", {}, element("span", { class: "legend" }, ...keys), readout));
 }

@@ -5,7 +5,7 @@ import { decimalsFor, degrees, element, fixed, text } from "./words.js";
 
 const NARROW = { width: 340, height: 210 };
 const WIDE = { width: 520, height: 230 };
-const MARGINS = { marginLeft: 46, marginRight: 42, marginTop: 10, marginBottom: 34 };
+const MARGINS = { marginLeft: 54, marginRight: 42, marginTop: 10, marginBottom: 34 };
 
 /// Limits and a little beyond; up to half of their width beyond where the data go there.
 function limitedDomain([lower, upper], data) {
@@ -244,7 +244,7 @@ export function marginPanels(data) {
   return [
     marginPanel(data, "Tension", "N", margins.tension_N, tension, 0),
     marginPanel(data, "Length", lengthUnit.name, scaledLength, length, 0),
-    marginPanel(data, "Load ellipsoid (wrench_scale)", "×", margins.wrench_scale, samples.wrench_scale.map(number), 1),
+    marginPanel(data, "Load: wrench_scale", "×", margins.wrench_scale, samples.wrench_scale.map(number), 1),
   ];
 }
 
@@ -259,16 +259,16 @@ function marginPanel(data, title, unit, proved, sampled, needed) {
   if (!(domain[1] > domain[0])) domain[1] = domain[0] + 1;
   return new Panel({
     title,
-    rest: provedSpan ? `at least ${text(provedSpan[0], 3)} ${unit}` : "",
+    rest: provedSpan ? `${data.verdict === "proved" ? "" : "where proved, "}at least ${text(provedSpan[0], 3)} ${unit}` : "",
     description: `${title} margin along the move: ` +
       (provedSpan ? `proved to be at least ${text(provedSpan[0], 3)} ${unit}; it has to exceed ${needed}.` : "not proved."),
     domain,
     log,
-    label: `margin [${unit}]`,
+    label: unit === "×" ? "factor" : `margin [${unit}]`,
     draw: (axis, across) => {
       const { behind, before } = marks(data, axis, domain);
       const floor = domain[0];
-      const bounds = steps(data.margins.from, data.margins.to, proved.map((x) => (x === null ? null : floor)), proved, axis.at);
+      const bounds = steps(data.margins.from, data.margins.to, proved.map((x) => (x === null ? null : log ? floor : needed)), proved, axis.at);
       const drawn = [behind];
       if (!log && floor < needed) {
         drawn.push(Plot.rect([0], { x1: across[0], x2: across[1], y1: floor, y2: needed, fill: "var(--forbidden)" }));

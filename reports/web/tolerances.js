@@ -1,6 +1,6 @@
 // Which tolerance bites: how much of what each alone could be is used up by what is stated.
 import * as Plot from "@observablehq/plot";
-import { degrees, text } from "./words.js";
+import { degrees, element, text } from "./words.js";
 
 const NAMES = {
   base_anchors: "base anchors",
@@ -41,7 +41,7 @@ export function toleranceFigure(data) {
       Plot.text(rows, { x: 100, y: "label", text: words, dx: 6, textAnchor: "start", fill: "currentColor" }),
     ],
   });
-  plot.setAttribute("role", "img");
-  plot.setAttribute("aria-label", "Tolerances, the tightest first: " + rows.map((t) => `${t.label} ${words(t)}`).join("; ") + ".");
-  return plot;
+  plot.setAttribute("aria-hidden", "true"); // the figure says what it shows
+  const description = "Tolerances, the tightest first: " + rows.map((t) => `${t.label} ${words(t)}`).join("; ") + ".";
+  return element("figure", { class: "tolerance-figure" }, element("div", { role: "img", "aria-label": description }, plot));
 }

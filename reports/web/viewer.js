@@ -121,7 +121,7 @@ class Viewer {
       platform: new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.85 }),
       load: new MeshLambertMaterial(),
       tube: new MeshBasicMaterial({ transparent: true, opacity: 0.25, depthWrite: false, side: DoubleSide }),
-      ghost: new MeshBasicMaterial({ transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false }),
+      ghost: new MeshBasicMaterial({ transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false, depthTest: false }),
       out: new MeshBasicMaterial(),
     };
     const base = robot.base.map(vector);

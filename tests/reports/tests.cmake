@@ -4,3 +4,8 @@ endforeach()
 
 add_executable(reports_write_samples reports/write_samples.cc)
 target_link_libraries(reports_write_samples PRIVATE taut_common taut::reports)
+# In a browser; with a directory as a last argument it leaves screenshots there.
+add_test(NAME reports.browser
+  COMMAND "${TAUT_NODE}" "${CMAKE_CURRENT_SOURCE_DIR}/reports/browser_test.mjs" $<TARGET_FILE:taut>
+    $<TARGET_FILE:reports_write_samples> "${PROJECT_SOURCE_DIR}/cases")
+set_tests_properties(reports.browser PROPERTIES LABELS slow TIMEOUT 600)
