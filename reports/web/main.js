@@ -40,7 +40,7 @@ function panelsAt(name, make, keys) {
   if (!holder || data.samples.position.length === 0) return;
   const made = make(data);
   panels.push(...made);
-  holder.append(legend(...keys, ...marked), element("div", { class: "panels" }, ...made.map((panel) => panel.figure)));
+  holder.append(legend(...keys, ...marked), element("div", { class: made.length === 2 ? "panels two" : "panels" }, ...made.map((panel) => panel.figure)));
 }
 
 function drawPlots() {
@@ -88,9 +88,12 @@ function drawMove() {
     "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to come " +
       "nearer, space to play.",
   });
-  holder.append(stage);
+  const scene = element("div", { class: "scene" }, stage); // and beside it, what is in it in numbers
+  holder.append(scene);
   const viewer = isDrawable(data) ? makeViewer(stage, data) : undefined;
   const player = new Player(data, cursor, axes, viewer && (() => viewer.resetView()));
+  scene.append(player.readout.element);
+  holder.append(player.controls);
   if (viewer) {
     root.classList.add("has-viewer");
     cursor.onMove((position) => viewer.show(position));
@@ -123,7 +126,6 @@ function drawMove() {
     stage.remove();
     holder.append(element("p", { class: "note" }, "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."));
   }
-  holder.append(player.element);
 }
 
 // One after the other, so that the page answers between them.

@@ -54,7 +54,7 @@ class Readout {
     const head = (words, attributes = {}) => element("th", { scope: "col", ...attributes }, words);
     this.element = element("div", { class: "readout-table" }, this.where, this.pose,
       element("table", {},
-        element("caption", {}, "Cables at this place, between their limits (floating point)"),
+        element("caption", {}, "Cables at this place, and where that is between their limits (floating point)"),
         element("thead", {}, element("tr", {}, head("Cable"), head("Tension [N]", { colspan: 2 }),
           head(`Length [${unit}]`, { colspan: 2 }), element("td"))),
         element("tbody", {}, ...this.rows.map((row) => row.element))));
@@ -82,7 +82,7 @@ class Readout {
       const limits = robot.length[i].map((x) => x * lengthUnit.factor);
       const slackOrOver = row.f.show(f - v, f, f + v, robot.tension[i]);
       const tooLong = row.d.show(d, d, d, limits);
-      row.flag.textContent = slackOrOver || tooLong ? "out of limits" : "";
+      row.flag.textContent = slackOrOver || tooLong ? "out" : "";
     });
   }
 }
@@ -102,14 +102,14 @@ export class Player {
     if (this.pace.seconds > 0) offer(this.pace.seconds, `as timed (${text(this.pace.seconds, 3)} s)`);
     for (const seconds of [10, 5, 20, 60]) offer(seconds, `whole move in ${seconds} s`);
     this.readout = new Readout(data);
-    const controls = element("div", { class: "controls", role: "group", "aria-label": "Playing the move" },
+    const controls = element("div", { class: "player controls", role: "group", "aria-label": "Playing the move" },
       this.play, this.previous, this.slider, this.next, this.duration);
     if (onReset) {
       const reset = element("button", { type: "button" }, "Reset view");
       reset.addEventListener("click", onReset);
       controls.append(reset);
     }
-    this.element = element("div", { class: "player" }, controls, this.readout.element);
+    this.controls = controls;
 
     this.play.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => {

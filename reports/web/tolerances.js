@@ -15,7 +15,7 @@ const NAMES = {
 function shown(x, unit) {
   if (unit === "m") return `${text(x * 1000, 3)} mm`;
   if (unit === "rad") return `${text(degrees(x), 3)}°`;
-  return `${text(x, 3)} ${unit}`;
+  return `${text(x, 3)} ${unit === "N, N m" ? "N or N·m" : unit}`;
 }
 
 export function toleranceFigure(data) {

@@ -212,9 +212,11 @@ class Viewer {
       const kept = points.filter((p, k) => k === 0 || p.distanceTo(points[k - 1]) > 1e-7 / this.scale);
       if (kept.length < 2) return;
       const geometry = new LineGeometry().setPositions(kept.flatMap((p) => [p.x, p.y, p.z]));
-      const material = new LineMaterial({ linewidth: width, dashed, dashSize: 0.02 / this.scale, gapSize: 0.015 / this.scale });
+      // In front of the platform, which would hide it.
+      const material = new LineMaterial({ linewidth: width, depthTest: false, transparent: true, dashed, dashSize: 0.02 / this.scale, gapSize: 0.015 / this.scale });
       const mesh = new Line2(geometry, material);
       mesh.computeLineDistances();
+      mesh.renderOrder = 1;
       this.world.add(mesh);
       this.lines.push({ material, name });
     };

@@ -156,7 +156,7 @@ for (const [name, expected] of Object.entries(PAGES)) {
 test("no path: words and the plane, nothing to play", async () => {
   const page = await open("no_path.html");
   for (const id of SECTIONS) assert.ok(await has(page, `section#${id}`), id);
-  assert.equal(await has(page, ".player"), false);
+  assert.equal(await has(page, ".controls"), false);
   assert.ok(await has(page, ".plane-figure svg"));
   await close(page);
 });
@@ -167,12 +167,12 @@ test("playing moves the robot and the plots' cursor, and ends", async () => {
   assert.equal(start.length, 6);
   await page.selectOption(".controls select", "5");
   await page.click(".controls .play");
-  await page.waitForTimeout(700);
-  const [later, first] = [await labels(page), await cursors(page)];
-  assert.notDeepEqual(later, start);
-  assert.ok(first[0] > 54, "the cursor has left the axis");
-  await page.waitForTimeout(300);
-  assert.ok((await cursors(page))[0] > first[0], "and goes on");
+  // These wait until it is so: a slow machine may take a while for a frame.
+  await page.waitForFunction((was) => document.querySelector(".labels span").style.transform !== was, start[0]);
+  const cursorIsBeyond = (x) => page.waitForFunction(
+    (least) => Number(document.querySelector(".cursor").getAttribute("x1")) > least, x);
+  await cursorIsBeyond(54); // the axis
+  await cursorIsBeyond((await cursors(page))[0]);
   await page.click(".controls .play");
   await frames(page);
   const stopped = await cursors(page);
