@@ -1,4 +1,5 @@
-// Proves a path segment by segment, on all cores, and gathers the margins of the whole.
+// Proves a path segment by segment, on all cores, and gathers the margins of the whole. Boxes that state the path's least margins
+// are then halved, up to 64 times, until half of what there is is stated.
 #pragma once
 
 #include <functional>

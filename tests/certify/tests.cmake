@@ -1,4 +1,5 @@
 taut_add_test(certify segment_proof LABELS unit LIBS taut::certify)
+taut_add_test(certify path_proof LABELS unit LIBS taut::certify)
 taut_add_test(certify certificate LABELS unit LIBS taut::certify)
 taut_add_test(certify certificate_stream LABELS unit LIBS taut::certify)
 taut_add_test(certify grazing LABELS unit LIBS taut::certify)
