@@ -24,10 +24,9 @@
 namespace taut {
 namespace {
 
-/// An audit's memory does not grow with the path, and a report's does: longer ones are for `taut report`.
-constexpr std::size_t kMostReported = 20'000;
-/// How far tolerances could grow takes some tens of proofs of the whole path.
-constexpr std::size_t kMostForToleranceLimits = 5'000;
+/// An audit's memory does not grow with the path, and a report's does: longer ones are for `taut report`. Nor is it tried how far
+/// tolerances could grow, which takes some tens of proofs of the whole path.
+constexpr std::size_t kMostReported = 5'000;
 constexpr std::size_t kShownStretches = 20;
 
 const std::map<std::string, Interpolation>& laws() {
@@ -242,7 +241,7 @@ int run_audit(AuditArguments arguments) {
 
   std::vector<ToleranceLimit> limits;
   CertificateStream::Ending ending;
-  if (result.verdict == Verdict::kProved && source.problem().tolerances && result.segments <= kMostForToleranceLimits) {
+  if (result.verdict == Verdict::kProved && source.problem().tolerances && result.segments <= kMostReported) {
     const Interruption interruption;
     PathSource again(case_.problem, arguments.path, law, {arguments.allow_repeats});
     limits = tolerance_limits(source.problem(), whole_path(again), interruption.token());

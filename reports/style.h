@@ -136,7 +136,10 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
 .sign td, .sign th { border: 1px solid var(--line); padding: 8px 10px; }
 .sign thead td { border: 0; } .sign thead th { border-width: 0 0 1px; padding: 2px 10px; }
 .sign th:first-child, .sign td:first-child { width: 110px; }
-@media (max-width: 760px) { .panels, .panels.two { grid-template-columns: 1fr; } }
+@media (max-width: 760px) {
+  .panels, .panels.two { grid-template-columns: 1fr; }
+  .facts > div { grid-template-columns: 1fr; gap: 0; }
+}
 @media print {
   @page {
     size: A4; margin: 15mm 15mm 17mm;
@@ -175,7 +178,8 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .sign th:first-child, .sign td:first-child { width: 76pt; }
   td code, th code, td.digest, td .digest { font-size: inherit; } .scroll { overflow: visible; }
   details::details-content { content-visibility: visible; block-size: auto; }
-  summary { list-style: none; color: inherit; } summary::marker { content: ""; }
+  summary { display: none; }
+  .panels.robots { grid-template-columns: repeat(3, 1fr) !important; }
   a { color: inherit; text-decoration: none; }
 }
 )css";

@@ -140,7 +140,7 @@ TEST(HtmlReport, SaysWhatTheCheckerFound) {
   };
   EXPECT_THAT(page_of("proved"), HasSubstr("Not re-checked. Before relying on it run: taut-check certificate.json"));
   EXPECT_THAT(page(Recheck::Result::kConfirmed),
-              HasSubstr("taut-check 9.9, an independent program with other arithmetic, proved"));
+              HasSubstr("taut-check 9.9, an independent program with other arithmetic, accepted"));
   EXPECT_THAT(page(Recheck::Result::kConfirmed), HasSubstr("so &lt;it&gt; is"));
   EXPECT_THAT(page(Recheck::Result::kConfirmed), Not(HasSubstr("REJECTED")));
   EXPECT_THAT(page(Recheck::Result::kNoClaim), HasSubstr("it claims nothing"));
