@@ -91,7 +91,7 @@ struct Origin {
   std::array<Upper, kCables> pull;                        ///< >= |ρ_i|: 0 unless held by lengths
 };
 
-/// Everything on X that (g) and (t) are made of.
+/// Everything on X that (i) and (t) are made of.
 template <class I>
 struct OnAll {
   std::array<Vector3<I>, kCables> d;                           ///< d_i
@@ -138,7 +138,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
   return origin;
 }
 
-/// X for a guess, as far as (g) needs it; and bounds of all rates on it.
+/// X for a guess, as far as (i) needs it; and bounds of all rates on it.
 template <class I>
 Change<I> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const Change<I>& guess, OnAll<I>& x) {
   using Upper = UpperOf<I>;

@@ -4,7 +4,7 @@
 // scaled by τ from 0 to 1; where the machine is held by lengths, its commanded pose follows. Bounds of how far things move are
 // guessed, which makes a set X of states; if everything that holds on X moves no farther than was guessed, no deviation leads
 // out of X. Changes are kept as |d_i' − d_i|, |arm_i' − arm_i| … by coordinates, and as |S − I| <= Q of S = D'^-1 D:
-//   |S'| <= B (I + Q),   B_ri >= |y_r·D_i'| on X.                                                                       (g)
+//   |S'| <= B (I + Q),   B_ri >= |y_r·D_i'| on X.                                                                       (i)
 // That proves D non-singular, and that the commanded pose exists. Then the rates of tensions are bounded, Euclidean norms:
 //   |F_r'| <= Σ_i (δ_a,i |A_ri + c_ri d_i| + δ_b,i (|B_ri − c_ri d_i| + ε |c_ri d_i|) + δ_L,i |d_i| |c_ri|)
 //             + δ_m |M_r| + ℓ_r |y_r·ŵ| + δ_p |P_r| + ε |W_r|.                                                         (t)
