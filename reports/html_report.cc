@@ -73,8 +73,9 @@ std::string html_report(const nlohmann::json& certificate, const ReportOptions& 
   require_plain(options);
   const Scene scene(certificate);
   const Summary summary(scene, options);
+  const bool is_rejected = options.recheck.result == Recheck::Result::kRejected;
   const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
-                    plot_sections(scene) + margins(scene) + theorem(scene.view) + tolerances(scene.view) +
+                    plot_sections(scene, is_rejected) + margins(scene) + theorem(scene.view) + tolerances(scene.view) +
                     assumptions(scene.view.problem) + robot(scene) + path_section(scene) + inputs(scene.view) +
                     recheck(scene.view);
   const Html title = html("{}: {}", scene.view.problem.name, summary.verdict);
@@ -85,7 +86,8 @@ std::string html_report(const nlohmann::json& certificate, const ReportOptions& 
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
       "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(),
+      page_scripts(scene, is_rejected));
 }
 
 std::string text_summary(const nlohmann::json& certificate, const ReportOptions& options) {

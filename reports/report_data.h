@@ -14,7 +14,9 @@
 namespace taut {
 
 /// The object; its keys are told where it is read, in reports/web/data.js.
-[[nodiscard]] nlohmann::json report_data(const Scene& scene);
+/// @param is_rejected  by the checker: then nothing is repeated of what the certificate claims, only what is computed from its
+///                     problem and path.
+[[nodiscard]] nlohmann::json report_data(const Scene& scene, bool is_rejected = false);
 
 /// `value` as it may stand in a page, between <script type="application/json"> and </script>: no '<' in it.
 [[nodiscard]] std::string script_safe(const nlohmann::json& value);

@@ -15,8 +15,8 @@ struct Summary {
   std::string document;  ///< its number
   std::string revision;  ///< may be empty, as the date
   std::string date;
-  std::string name;     ///< the case's
-  std::string verdict;  ///< "proved", "refuted" or "undecided"; "rejected" where the checker rejects the certificate,
+  std::string name;      ///< the case's
+  std::string verdict;   ///< "proved", "refuted" or "undecided"; "rejected" where the checker rejects the certificate,
   std::string headline;  ///< and then nothing of what it says is repeated here
   std::vector<std::string> details;
   std::vector<std::string> closest;

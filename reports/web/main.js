@@ -27,12 +27,20 @@ const marked = [
   ...(data.witness ? [["mark", data.witness.to === null ? "the witness" : "the two poses of the witness"]] : []),
 ];
 const enclosed = data.bands && data.bands.from.length > 0;
+const enclosure = ["fill band", data.verdict === "rejected" ? "enclosure" : "proved enclosure"];
 const envelopeKeys = [
-  ...(enclosed ? [["fill band", "proved enclosure"]] : []),
+  ...(enclosed ? [enclosure] : []),
   ["fill envelope", "f₀ ± v, all loads in K (sampled)"],
   ["curve", "f₀, the centre load (sampled)"],
 ];
 const limitKeys = [["limit", "limit"], ["fill forbidden", "beyond the limits"]];
+
+const PATH_KEYS = {
+  proved: [["proved-line", "path of the platform’s origin, proved"]],
+  refuted: [["proved-line", "path of the platform’s origin, where it is proved"], ["unknown-line", "where nothing is said of it"]],
+  undecided: [["unknown-line", "path of the platform’s origin"]],
+  rejected: [["unknown-line", "path of the platform’s origin"]],
+};
 
 const panels = [];
 function panelsAt(name, make, keys) {
@@ -46,7 +54,7 @@ function panelsAt(name, make, keys) {
 function drawPlots() {
   panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]);
   panelsAt("lengths", lengthPanels,
-    [...(enclosed ? [["fill band", "proved enclosure"]] : []), ["curve", "length (sampled)"], ...limitKeys]);
+    [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]);
   if (data.margins.from.length > 0) {
     panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]);
   }
@@ -111,7 +119,7 @@ function drawMove() {
     holder.append(
       element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar, " upper limit; thick, ringed and ",
         element("b", {}, "!"), ": out of its limits."),
-      legend(["proved-line", "path of the platform’s origin, proved"],
+      legend(...PATH_KEYS[data.verdict],
         ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
         ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
         ["load-line", "path of the load point"],

@@ -191,7 +191,7 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
       const at = fixed(between(middle, where), decimals);
       const found = band && bandAt(proved, data.bands, position);
       const range = found
-        ? ` (proved ${fixed(found[0], decimals)} to ${fixed(found[1], decimals)})`
+        ? ` (${data.verdict === "rejected" ? "enclosed" : "proved"} ${fixed(found[0], decimals)} to ${fixed(found[1], decimals)})`
         : isBand ? ` (${fixed(between(low, where), decimals)} to ${fixed(between(high, where), decimals)})` : "";
       return `${at}${range} ${unit}`;
     },

@@ -325,6 +325,14 @@ test("a hostile certificate runs nothing", async () => {
   await page.context().close();
 });
 
+test("of a certificate that the checker rejects, nothing is drawn as proved", async () => {
+  const page = await open("rejected.html");
+  assert.ok(await shown(page, ".stage canvas"));
+  assert.equal(await page.locator(".panel .drawing svg").count(), 14, "no margins");
+  for (const place of ["#move", "#tensions"]) assert.doesNotMatch(await page.locator(`${place} > [data-plot]`).innerText(), /proved/);
+  await close(page);
+});
+
 test("axe finds nothing to complain about", async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   for (const options of [{}, { colorScheme: "dark" }]) {

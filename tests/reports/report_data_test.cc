@@ -124,6 +124,15 @@ TEST(ReportData, SetsWhatIsStatedBesideWhatIsProvedOfATolerance) {
       {"name": "load", "unit": "N, N m", "stated": 0.005, "proved": 0.0841}])"));
 }
 
+TEST(ReportData, RepeatsNoClaimOfARejectedCertificate) {
+  const json data = report_data(Scene(sample::proved()), true);
+  EXPECT_EQ(data["verdict"], "rejected");
+  EXPECT_TRUE(data["margins"]["tension_N"].empty());
+  EXPECT_EQ(data["samples"], report_data(Scene(sample::proved()))["samples"]) << "what is computed is there";
+  EXPECT_TRUE(report_data(Scene(sample::refuted()), true)["witness"].is_null());
+  EXPECT_TRUE(report_data(Scene(sample::undecided()), true)["stretches"].empty());
+}
+
 TEST(ReportData, HasOnlyFiniteNumbers) {
   json certificate = sample::proved();
   certificate["path"]["waypoints"][1]["x"] = {"0x1p+1023", "-0x1p+1023"};

@@ -17,4 +17,7 @@ int main(int argc, char** argv) {
   write("undecided.html", taut::sample::undecided());
   write("no_path.html", taut::sample::no_path());
   write("hostile.html", taut::sample::hostile());
+  taut::ReportOptions rejected;
+  rejected.recheck.result = taut::Recheck::Result::kRejected;
+  std::ofstream(directory / "rejected.html") << taut::html_report(taut::sample::proved(), rejected);
 }
