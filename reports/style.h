@@ -92,17 +92,12 @@ figcaption { font-size: 13px; color: var(--soft); }
 .panels.two { grid-template-columns: repeat(2, 1fr); }
 .panel figcaption { font-weight: 600; color: var(--ink); margin: 0 0 2px 4px; }
 .panel figcaption > span { font-weight: 400; color: var(--soft); margin-left: 8px; }
-.slice { margin: 16px 0; }
-.slice figcaption { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 6px 0 0 52px; }
 .key { white-space: nowrap; display: inline-flex; align-items: center; gap: 7px; font-weight: 400; }
 .key svg { width: 24px; height: 10px; flex: none; }
 figure > svg { display: block; overflow: visible; width: 100%; height: auto; }
 svg text { font-size: 11px; fill: var(--soft); }
-svg .bound { fill: var(--limit); }
 .still path, .key path, .plane path { fill: none; vector-effect: non-scaling-stroke; }
 svg svg { overflow: hidden; }
-.grid { stroke: var(--line); stroke-width: 0.7; }
-.frame { fill: none; stroke: var(--soft); stroke-width: 0.8; }
 .forbidden { fill: var(--forbidden); }
 .limit { stroke: var(--limit); stroke-width: 1.2; }
 svg .band { fill: var(--band); stroke: var(--band); stroke-width: 0.6; }
@@ -110,7 +105,6 @@ svg .band { fill: var(--band); stroke: var(--band); stroke-width: 0.6; }
 .curve.c1 { stroke: var(--c1); stroke-dasharray: 6 3; }
 .curve.c2 { stroke: var(--c2); stroke-dasharray: 2 2.5; }
 .mark { stroke: var(--mark); stroke-width: 1.5; stroke-dasharray: 3 3; }
-.open { fill: var(--undecided); opacity: 0.45; }
 .raster { shape-rendering: crispEdges; }
 svg .inside { fill: var(--inside); } svg .tension { fill: var(--tension); }
 svg .length { fill: var(--length); } svg .both { fill: var(--both); }
@@ -122,7 +116,6 @@ svg .length { fill: var(--length); } svg .both { fill: var(--both); }
 .start { fill: var(--start); stroke: var(--path); stroke-width: 1.6; }
 .goal { fill: var(--goal); stroke: var(--casing); stroke-width: 1.2; }
 svg .letter { font-weight: 700; font-size: 10px; text-anchor: middle; fill: var(--path); }
-svg .goal + .letter { fill: var(--casing); }
 svg .letter.dark { fill: var(--ink); }
 .witness { stroke: var(--mark); stroke-width: 3; }
 .opening { stroke: var(--undecided); stroke-width: 6; stroke-linecap: round; }
