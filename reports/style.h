@@ -154,6 +154,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   h2, h3, caption, summary { break-after: avoid; }
   figure, tr, blockquote, .sign, .formulas, .verdict, pre { break-inside: avoid; }
   thead { display: table-header-group; }
+  .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }
   .first { break-after: page; font-size: 8.6pt; line-height: 1.36; }
   .first p { margin: 3pt 0; }
   .masthead { font-size: 8.6pt; }
