@@ -11,7 +11,7 @@ import signal
 import subprocess
 import time
 
-from command_line import CHECK, EXIT, InFolder, SOURCE, TAUT, main, run, text_of
+from command_line import CHECK, EXIT, InFolder, SOURCE, TAUT, expected, main, run, text_of
 
 AUDITS = os.path.join(SOURCE, "cases", "audits")
 ROBOT1 = os.path.join(SOURCE, "cases", "robot1-slice-qs-qg.yaml")
@@ -62,10 +62,9 @@ class Audit(InFolder):
                 continue
             case = os.path.join(AUDITS, name)
             with self.subTest(case=name):
-                path, *options = re.search(r"^# audit: (.*)$", text_of(case), re.M).group(1).split()
-                verdict = re.search(r"^expect: (\w+)$", text_of(case), re.M).group(1)
-                summary = self.audit(case, os.path.join(AUDITS, path), *options, out=name)
-                self.assertEqual(summary["verdict"], verdict)
+                path = re.search(r"^audit: \{path: (.*)\}$", text_of(case), re.M).group(1)
+                summary = self.audit(case, os.path.join(AUDITS, path), out=name)
+                self.assertEqual(summary["verdict"], expected(case))
                 laws.add((summary["verdict"], summary["interpolation"]))
                 self.cover(self.certificate(name), summary["segments"])
                 self.assertGreater(os.path.getsize(self.path(name, "report.html")), 10000)

@@ -23,7 +23,7 @@ def text_of(path):
 
 def expected(case):
     """The verdict that a case declares."""
-    return re.search(r"^expect:\s*(\w+)", text_of(case), re.M).group(1)
+    return re.search(r"^expect:\s*(?:\{verdict:\s*)?(\w+)", text_of(case), re.M).group(1)
 
 
 class InFolder(unittest.TestCase):
