@@ -67,7 +67,7 @@ CableUse cable_use(const Scene& scene) {
   CableUse use{CableUse::Source::kNone, empty_uses(robot.tension_N), empty_uses(robot.length_m)};
   if (add_proved(scene, use)) {
     use.source = scene.ranges_are_whole ? CableUse::Source::kProved : CableUse::Source::kProvedParts;
-  } else if (add_samples(scene, use)) {
+  } else if (!found_no_path(scene.view) && add_samples(scene, use)) {
     use.source = CableUse::Source::kSamples;
   }
   return use;

@@ -99,6 +99,11 @@ struct CertificateView {
   std::map<std::string, std::string> stats;  ///< of the search, as printed
 };
 
+/// Whether a planner found no path: then the certificate's path is the query's waypoints alone.
+[[nodiscard]] inline bool found_no_path(const CertificateView& view) {
+  return view.undecided && !view.undecided->segment && view.stretches.empty();
+}
+
 /// @throws InputError for a missing key or a wrong type. Does not compare digests: that is taut-check's.
 [[nodiscard]] CertificateView read_certificate(const nlohmann::json& certificate);
 

@@ -166,6 +166,9 @@ std::string law_text(const CertificateView& view) {
 std::string motion_text(const Scene& scene) {
   const Path& path = scene.view.path;
   if (path.waypoints.empty()) return "The certificate contains no path.";
+  if (found_no_path(scene.view)) {
+    return "No path was found. What is shown of one joins the waypoints asked for by straight lines, and is not a plan.";
+  }
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) { return pose_text(scene.sampler.at(path, position).pose); };
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));

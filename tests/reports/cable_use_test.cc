@@ -32,6 +32,10 @@ TEST(CableUse, SaysWhatItRestsOn) {
   EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kProvedParts) << "a segment is missing";
   EXPECT_EQ(cable_use(Scene(sample::refuted())).source, CableUse::Source::kSamples);
   EXPECT_EQ(cable_use(Scene(sample::no_path())).source, CableUse::Source::kNone);
+  certificate = sample::undecided();
+  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kSamples);
+  certificate["undecided"] = {{"reason", "no path was found"}, {"segment", nullptr}, {"box", nullptr}};
+  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kNone) << "its waypoints are the query's alone";
 }
 
 TEST(Closest, IsTheCableNextToALimitByTheWidthBetweenThem) {
