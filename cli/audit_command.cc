@@ -281,7 +281,7 @@ int run_audit(AuditArguments arguments) {
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(limits);
     object["recheck"] = to_json(rechecked);
-    fmt::print("{}\n", object.dump(1));
+    fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print(result, source);
     fmt::print("{}", tolerance_table(limits));

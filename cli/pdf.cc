@@ -66,6 +66,18 @@ std::string last_words(const std::string& text) {
   return shown(text.size() > kMost ? text.substr(text.size() - kMost) : text);
 }
 
+/// The address of a file, whatever the names on the way to it contain.
+std::string address(const std::filesystem::path& file) {
+  std::string result = "file://";
+  for (const char c : std::filesystem::absolute(file).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          std::string_view("/-_.~").find(c) != std::string_view::npos;
+    result += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return result;
+}
+
 bool is_whole_pdf(const std::string& bytes) {
   constexpr std::size_t kTail = 32;
   return bytes.starts_with("%PDF-") &&
@@ -95,7 +107,7 @@ std::string print_to_pdf(const std::string& page, const std::stop_token& stop) {
                                       fmt::format("--user-data-dir={}", (scratch.path() / "profile").string()),
                                       fmt::format("--print-to-pdf={}", pdf.string())};
   if (::geteuid() == 0) options.emplace_back("--no-sandbox");  // which Chromium refuses to set up for root
-  options.push_back("file://" + html.string());
+  options.push_back(address(html));
 
   const std::vector<std::string> candidates = browsers();
   const auto browser = std::ranges::find_if(candidates, can_be_found);

@@ -216,20 +216,37 @@ bool is_margin(const std::string& quantity) { return quantity.ends_with("_margin
 
 }  // namespace
 
+namespace {
+
+/// Appends the cases of a folder and of those below it, links to folders too. No folder is looked through twice.
+void collect_cases(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::path>& cases) {
+  if (!seen.insert(fs::canonical(folder)).second) return;
+  std::vector<fs::directory_entry> entries(fs::directory_iterator(folder), {});
+  std::ranges::sort(entries);
+  for (const fs::directory_entry& entry : entries) {
+    if (entry.path().filename().string().starts_with(".")) continue;
+    if (entry.is_directory()) {
+      collect_cases(entry.path(), seen, cases);
+    } else if (entry.path().extension() == ".yaml" && (entry.is_regular_file() || !entry.exists())) {
+      cases.push_back(entry.path());  // a link to nothing is bad input, not nothing
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<fs::path> find_cases(const fs::path& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) throw InputError(folder.string() + ": got nothing, expected a folder of cases");
   if (!fs::is_directory(status)) return {folder};
   std::vector<fs::path> result;
-  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().filename().string().starts_with(".")) {
-      it.disable_recursion_pending();
-      continue;
-    }
-    if (it->is_regular_file() && it->path().extension() == ".yaml") result.push_back(it->path());
+  std::set<fs::path> seen;
+  try {
+    collect_cases(folder, seen, result);
+  } catch (const fs::filesystem_error& failure) {
+    throw InputError(fmt::format("{}: {}", failure.path1().string(), failure.code().message()));
   }
-  if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
   if (result.empty()) throw InputError(folder.string() + ": got no *.yaml, expected a folder of cases");
   std::ranges::sort(result);
   return result;

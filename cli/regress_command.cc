@@ -122,7 +122,7 @@ int run_regress(RegressArguments arguments) {
                                       {"as_declared", as_declared},
                                       {"seconds", seconds.count()},
                                       {"exit_code", code}}
-                           .dump(1, ' ', true));
+                           .dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
     return code;
   }
   print_table(cases);

@@ -154,7 +154,7 @@ int run_plan(const PlanArguments& arguments) {
                                     {"undecided", certificate["undecided"]},
                                     {"recheck", to_json(rechecked)},
                                     {"out", out.string()}};
-    fmt::print("{}\n", summary.dump(1));
+    fmt::print("{}\n", summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}\n", sentence(result));
     if (s.charts > 0) {

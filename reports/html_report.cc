@@ -16,26 +16,26 @@ namespace taut {
 
 namespace {
 
-Html contents(const Scene& scene) {
+Html contents(const Scene& scene, bool is_rejected) {
   Html links;
   const auto link = [&](bool present, const char* id, const char* title) {
     if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
   };
   const bool has_path = !scene.samples.empty();
   link(has_path, "move", "The move");
-  link(!scene.view.stretches.empty(), "stretches", "Stretches");
+  link(!is_rejected && !scene.view.stretches.empty(), "stretches", "Stretches");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
   link(is_plane(scene.view.problem.space), "plane", "Plane");
-  link(scene.view.boxes > 0, "margins", "Margins");
-  link(true, "theorem", "Claim");
-  link(scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
+  link(!is_rejected && scene.view.boxes > 0, "margins", "Margins");
+  link(!is_rejected, "theorem", "Claim");
+  link(!is_rejected && scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");
   link(true, "robot", "Robot");
   link(true, "path", "Path");
   link(true, "inputs", "Digests");
-  link(true, "recheck", "Check again");
+  link(!is_rejected, "recheck", "Check again");
   return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
 }
 
@@ -73,11 +73,14 @@ std::string html_report(const nlohmann::json& certificate, const ReportOptions& 
   require_plain(options);
   const Scene scene(certificate);
   const Summary summary(scene, options);
+  // Nothing that a rejected certificate claims is repeated.
   const bool is_rejected = options.recheck.result == Recheck::Result::kRejected;
-  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
-                    plot_sections(scene, is_rejected) + margins(scene) + theorem(scene.view) + tolerances(scene.view) +
+  const auto claimed = [&](const auto& part) { return is_rejected ? Html() : part(); };
+  const Html body = first_page(scene, summary) + contents(scene, is_rejected) + move_section(scene) +
+                    claimed([&] { return stretches(scene); }) + plot_sections(scene, is_rejected) +
+                    claimed([&] { return margins(scene) + theorem(scene.view) + tolerances(scene.view); }) +
                     assumptions(scene.view.problem) + robot(scene) + path_section(scene) + inputs(scene.view) +
-                    recheck(scene.view);
+                    claimed([&] { return recheck(scene.view); });
   const Html title = html("{}: {}", scene.view.problem.name, summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(

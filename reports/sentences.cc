@@ -48,14 +48,19 @@ std::string shortened(const WitnessView& witness, const DecimalText& value, bool
   return quantity(value, is_length(witness));
 }
 
+using Rational = boost::multiprecision::cpp_rational;
+
+/// A number that is not above x, for x >= 0.
+double below(const Rational& x) {
+  constexpr double kBelow = 1 - 1e-15;  // of the nearest number
+  return x.convert_to<double>() * kBelow;
+}
+
 /// By how much a witness breaks its limit, at least.
 double violation(const WitnessView& witness) {
   const auto value = Decimal::parse(is_upper(witness) ? witness.value_lower : witness.value_upper).rational();
   const auto limit = Decimal::parse(witness.limit).rational();
-  using Rational = boost::multiprecision::cpp_rational;
-  const Rational beyond = is_upper(witness) ? Rational(value - limit) : Rational(limit - value);
-  constexpr double kBelow = 1 - 1e-15;  // of the nearest number
-  return beyond.convert_to<double>() * kBelow;
+  return below(is_upper(witness) ? Rational(value - limit) : Rational(limit - value));
 }
 
 /// The segment that a margin of the whole path comes from.
@@ -295,7 +300,8 @@ std::string not_covered_text(const Problem& problem) {
       "Strength of anchors, fittings and structure. Failure or loss of a cable, drive, sensor or power. Vibration, "
       "wind and "
       "impact beyond the set of loads. {}Whether the numbers stated are those of the machine that is used.",
-      problem.tolerances ? "" : "Errors of manufacture, measurement and control. ");
+      problem.tolerances ? "Errors of manufacture, measurement and control beyond the tolerances stated. "
+                         : "Errors of manufacture, measurement and control. ");
 }
 
 std::string recheck_text(const Recheck& recheck) {
@@ -331,7 +337,9 @@ std::string headline(const Scene& scene) {
   const WitnessView& witness = *view.witness;
   const bool by_load = !witness.to && !is_length(witness);
   return fmt::format("Refuted: on this move {}{}.", violation_text(witness),
-                     by_load ? ", under a load of the set stated below" : "");
+                     !by_load           ? ""
+                     : witness.deviates ? ", under a load that is covered"
+                                        : ", under a load of the set stated below");
 }
 
 std::string violation_text(const WitnessView& witness) {
@@ -339,8 +347,9 @@ std::string violation_text(const WitnessView& witness) {
   const bool length = is_length(witness);
   const bool upper = is_upper(witness);
   const DecimalText& value = upper ? witness.value_lower : witness.value_upper;
-  return fmt::format("{} of cable {} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
-                     witness.cable, upper ? "reaches at least" : "falls to at most", shortened(witness, value, !upper),
+  return fmt::format("{} of cable {}{} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
+                     witness.cable, witness.deviates ? ", on a machine that deviates within the tolerances," : "",
+                     upper ? "reaches at least" : "falls to at most", shortened(witness, value, !upper),
                      upper ? "not below" : "not above", upper ? "upper" : "lower", quantity(witness.limit, length));
 }
 
@@ -354,15 +363,24 @@ std::vector<std::string> closest_text(const Scene& scene, const CableUse& use) {
   const RobotText& robot = scene.view.problem.robot;
   const auto sentence = [&](const std::array<Use, kCables>& uses, bool length) {
     const ClosestUse c = closest(uses);
-    const double beside = c.is_upper ? c.limit - c.value : c.value - c.limit;
     const Limits& limits = (length ? robot.length_m : robot.tension_N).at(static_cast<std::size_t>(c.cable));
-    const std::string within =
-        c.is_upper ? rounded_up(100 * beside / c.limit, 3) + " %" : quantity(rounded_up(beside, 3), length);
-    return fmt::format("Cable {} comes within {} of its {} {} limit, {}: it stays at or {} {}, the limit is {}.",
-                       c.cable + 1, within, c.is_upper ? "upper" : "lower", length ? "length" : "tension",
-                       place_text(scene, c.at), c.is_upper ? "below" : "above",
-                       quantity(c.is_upper ? rounded_up(c.value) : rounded_down(c.value), length),
-                       quantity(c.is_upper ? limits.upper : limits.lower, length));
+    const DecimalText& limit = c.is_upper ? limits.upper : limits.lower;
+    const std::string which =
+        fmt::format("By the ranges below, cable {} comes closest to a limit of {}, the {} one, {}: ", c.cable + 1,
+                    length ? "length" : "tension", c.is_upper ? "upper" : "lower", place_text(scene, c.at));
+    const Rational exact_limit = Decimal::parse(limit).rational();
+    const Rational beside =
+        c.is_upper ? Rational(exact_limit - Rational(c.value)) : Rational(Rational(c.value) - exact_limit);
+    for (const int digits : {4, 6, 9, 12, 15}) {
+      const std::string value = c.is_upper ? rounded_up(c.value, digits) : rounded_down(c.value, digits);
+      const Rational shown = Decimal::parse(value).rational();
+      if (c.is_upper ? shown >= exact_limit : shown <= exact_limit) continue;
+      const std::string room = c.is_upper ? rounded_down(below(beside * 100 / exact_limit), 3) + " % below"
+                                          : quantity(rounded_down(below(beside), 3), length) + " above";
+      return fmt::format("{}it stays at or {} {}, at least {} the limit of {}.", which, c.is_upper ? "below" : "above",
+                         quantity(value, length), room, quantity(limit, length));
+    }
+    return fmt::format("{}nearer than these ranges tell. The limit is {}.", which, quantity(limit, length));
   };
   return {sentence(use.tension, false), sentence(use.length, true)};
 }

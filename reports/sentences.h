@@ -21,7 +21,7 @@ namespace taut {
 /// proved one its reserves.
 [[nodiscard]] std::vector<std::string> verdict_details(const Scene& scene);
 
-/// How close the move comes to limits of tension and of length: "Cable 3 comes within 12 % of …". Nothing unless all of the move is
+/// How close the move comes to limits of tension and of length: "Cable 3 comes closest to a limit of tension …". Nothing unless all of the move is
 /// proved.
 [[nodiscard]] std::vector<std::string> closest_text(const Scene& scene, const CableUse& use);
 

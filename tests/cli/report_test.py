@@ -93,6 +93,16 @@ class Report(unittest.TestCase):
         said = run(TAUT, "report", self.forged(), "--json")
         self.assertEqual((said.returncode, json.loads(said.stdout)["verdict"]), (1, "rejected"))
 
+    def test_a_footer_that_counts_many_boxes_does_not_keep_the_checker_away(self):
+        with open(self.forged(), encoding="utf-8") as file:
+            forged = json.load(file)
+        forged["footer"]["boxes"] = 10**12  # no digest covers this
+        with open(self.path("many.json"), "w", encoding="utf-8") as file:
+            json.dump(forged, file)
+        said = run(TAUT, "report", self.path("many.json"), "--text")
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("REJECTED by taut-check", said.stderr)
+
     def test_wrong_use_is_refused(self):
         for extra in (["--pdf", "--text"], ["--check", "--no-check"], ["--document", 'a"b'], ["--revision", "x" * 41],
                       ["--date", "<b>"]):
