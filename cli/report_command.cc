@@ -11,6 +11,8 @@
 #include "cli/files.h"
 #include "cli/pdf.h"
 #include "cli/recheck.h"
+#include "kinematics/input_error.h"
+#include "kinematics/shown.h"
 #include "reports/html_report.h"
 
 namespace taut {
@@ -86,6 +88,11 @@ int run_report(const ReportArguments& arguments) {
     const std::filesystem::path target =
         arguments.out.empty() ? std::filesystem::path(arguments.certificate_path).parent_path() / rendered.file_name
                               : std::filesystem::path(arguments.out);
+    std::error_code not_there;
+    if (std::filesystem::equivalent(target, arguments.certificate_path, not_there)) {
+      throw InputError(
+          fmt::format("--out: got '{}', which is the certificate, expected another file", shown(target.string())));
+    }
     write_whole({{target, rendered.content}});
     fmt::print("{}\nWritten: {}\n", sentence(options.recheck), target.string());
   }

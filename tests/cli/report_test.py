@@ -103,6 +103,11 @@ class Report(unittest.TestCase):
         self.assertEqual(said.returncode, 1)
         self.assertIn("REJECTED by taut-check", said.stderr)
 
+    def test_a_report_never_replaces_its_certificate(self):
+        said = run(TAUT, "report", self.certificate, "--no-check", "--out", self.certificate)
+        self.assertEqual(said.returncode, 3)
+        self.assertEqual(run(TAUT, "report", self.certificate, "--no-check", "--text").returncode, 0)
+
     def test_wrong_use_is_refused(self):
         for extra in (["--pdf", "--text"], ["--check", "--no-check"], ["--document", 'a"b'], ["--revision", "x" * 41],
                       ["--date", "<b>"]):
