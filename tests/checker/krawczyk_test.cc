@@ -118,22 +118,5 @@ TEST(Krawczyk, RefusesWhereTheDerivativeMayVanish) {
   EXPECT_THROW((void)only_zero(line(slope, ratio(1, 10)), kOne, {}), Undefined);
 }
 
-TEST(Krawczyk, BoundsTheDifferenceOfAMemberOfTheFamily) {
-  // y1 is the same for all; the second equation differs by up to 1/64.
-  const Interval most = ratio(1, 64);
-  const Rooted family(most * all_u());
-  const Zero zero = only_zero(family, ratio(3, 8), approximate_zero(Rooted()));
-  const Vector6<Interval> change = difference(zero, {Interval(0), most * all_u()});
-  for (int k = -20; k <= 20; ++k) {
-    const Interval root = sqrt(kOne + ratio(k, 20) / Interval(8));
-    for (const int sign : {-1, 1}) {
-      const Interval moved = Interval(sign) * most / root;
-      EXPECT_TRUE(contains(change[1], moved)) << k;
-      EXPECT_TRUE(contains(zero.y[1], (ratio(k, 20) / Interval(16)) / root + moved)) << "the family's zeros are held";
-    }
-  }
-  EXPECT_LT(width(change[1]), 0.05) << "moved by at most 0.018 either way";
-}
-
 }  // namespace
 }  // namespace taut::checker

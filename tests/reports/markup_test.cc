@@ -23,8 +23,9 @@ TEST(Markup, ReplacesControlCharactersThatHtmlForbids) {
 }
 
 TEST(Markup, MakesTablesWithOneCellAColumn) {
-  EXPECT_EQ(table({{html("k")}, {html("v"), true}}, {{html("a"), html("1")}}).str(),
-            "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">k</th><th scope=\"col\" class=\"n\">v</th></tr>"
+  EXPECT_EQ(table(html("A & B"), {{html("k")}, {html("v"), true}}, {{html("a"), html("1")}}).str(),
+            "<div class=\"scroll\"><table><caption>A & B</caption><thead><tr><th scope=\"col\">k</th><th scope=\"col\" "
+            "class=\"n\">v</th></tr>"
             "</thead>\n<tbody><tr><td>a</td><td class=\"n\">1</td></tr>\n</tbody></table></div>\n");
 }
 
