@@ -407,7 +407,7 @@ Html tolerances(const CertificateView& view) {
   for (const DecimalText& x : t.wrench) wrench += html("{}{}", wrench.empty() ? "± (" : ", ", x);
   row("load", html("wrench w<sub>0</sub>: force [N], moment [N·m]"), wrench + html(")"));
   row("position", html("tracking: position of the platform's origin"), html("{} mm", millimetres(t.position_m)));
-  row("orientation", html("tracking: angle that the platform is turned by"), html("{} rad", t.orientation_rad));
+  row("orientation", html("tracking: angle that the platform is turned by"), html("{}", angle_text(t.orientation_rad)));
   if (t.cable_length_m)
     row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m));
   const Html note =

@@ -172,7 +172,8 @@ std::string motion_text(const Scene& scene) {
   const Path& path = scene.view.path;
   if (path.waypoints.empty()) return "The certificate contains no path.";
   if (found_no_path(scene.view)) {
-    return "No path was found. What is shown of one joins the waypoints asked for by straight lines, and is not a plan.";
+    return "No path was found. What is shown of one joins the waypoints asked for by straight lines, and is not a "
+           "plan.";
   }
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) { return pose_text(scene.sampler.at(path, position).pose); };
@@ -275,7 +276,7 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
     items.push_back(fmt::format("centre load ± ({}) N, N·m", wrench));
   }
   add(!is_zero(t.position_m), fmt::format("position of the platform {} mm", millimetres(t.position_m)));
-  add(t.orientation_rad != "0", fmt::format("its orientation {} rad", t.orientation_rad));
+  add(t.orientation_rad != "0", "its orientation " + angle_text(t.orientation_rad));
   if (t.cable_length_m) {
     items.push_back(std::ranges::all_of(*t.cable_length_m, is_zero)
                         ? "the winches hold the cables' lengths exactly"

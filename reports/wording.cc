@@ -42,6 +42,16 @@ std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metr
 std::string rounded_down(double x, int digits) { return rounded(x, digits, MPFR_RNDD); }
 std::string rounded_up(double x, int digits) { return rounded(x, digits, MPFR_RNDU); }
 
+std::string angle_text(const ExpressionText& radians) {
+  constexpr std::string_view kOpen = "(";
+  constexpr std::string_view kDegrees = ")*pi/180";  // as decimal_to_si() writes them
+  if (radians.starts_with(kOpen) && radians.ends_with(kDegrees)) {
+    const std::string inner = radians.substr(kOpen.size(), radians.size() - kOpen.size() - kDegrees.size());
+    if (inner.find_first_not_of("+-.0123456789eE") == std::string::npos) return plain(inner) + "°";
+  }
+  return radians + " rad";
+}
+
 std::string plural(std::size_t count, const std::string& noun) {
   const std::string ending = noun.ends_with('x') || noun.ends_with('h') ? "es" : "s";
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);

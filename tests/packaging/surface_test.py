@@ -20,7 +20,7 @@ def text_of(*parts):
 
 def options_of(*command):
     said = subprocess.run([*command, "--help"], capture_output=True, text=True, check=True, timeout=60).stdout
-    return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", said, re.M))
+    return set(re.findall(r"^ +(?:-\w,)?(--[\w-]+)", said, re.M))
 
 
 def commands():
