@@ -12,6 +12,7 @@
 #include "certify/certificate.h"
 #include "certify/sha256.h"
 #include "cli/certificate_file.h"
+#include "kinematics/shown.h"
 
 namespace taut {
 namespace {
@@ -213,7 +214,7 @@ std::string PathSource::remarks() const {
 }
 
 nlohmann::json PathSource::source() const {
-  return {{"file", std::filesystem::path(path_).filename().string()}, {"sha256", sha256_}};
+  return {{"file", shown(std::filesystem::path(path_).filename().string())}, {"sha256", sha256_}};
 }
 
 }  // namespace taut

@@ -68,17 +68,33 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
+class SpawnAttributes {
+ public:
+  SpawnAttributes() { ::posix_spawnattr_init(&attributes_); }
+  ~SpawnAttributes() { ::posix_spawnattr_destroy(&attributes_); }
+  SpawnAttributes(const SpawnAttributes&) = delete;
+  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+  [[nodiscard]] posix_spawnattr_t* get() { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_{};
+};
+
 pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
   FileActions actions;
   ::posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_adddup2(actions.get(), out.write.get(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(actions.get(), err.write.get(), STDERR_FILENO);
+  SpawnAttributes attributes;
+  // A group of its own: a terminal's Ctrl-C reaches it through us, and what it has started ends with it.
+  ::posix_spawnattr_setflags(attributes.get(), POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(attributes.get(), 0);
   std::vector<std::string> words = command;  // argv's strings are not constant
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t pid = 0;
-  const int error = ::posix_spawnp(&pid, argv[0], actions.get(), nullptr, argv.data(), ::environ);
+  const int error = ::posix_spawnp(&pid, argv[0], actions.get(), attributes.get(), argv.data(), ::environ);
   if (error != 0) {
     throw InputError(fmt::format("{}: {}, expected a program that can be started", command[0], std::strerror(error)));
   }
@@ -128,13 +144,14 @@ FinishedProgram run_program(const std::vector<std::string>& command, const std::
     if (!has_ended && !asked && (stop.stop_requested() || is_late)) {
       (stop.stop_requested() ? result.interrupted : result.timed_out) = true;
       asked = now;
-      ::kill(pid, SIGTERM);
+      ::kill(-pid, SIGTERM);
     }
     if (!has_ended && asked && !killed && now - *asked > kGrace) {
       killed = true;
-      ::kill(pid, SIGKILL);
+      ::kill(-pid, SIGKILL);
     }
   }
+  if (asked) ::kill(-pid, SIGKILL);  // what it leaves behind
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return result;

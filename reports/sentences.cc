@@ -287,11 +287,12 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
 }
 
 std::string assumptions_text(const Problem& problem) {
+  const bool is_held = problem.tolerances && problem.tolerances->cable_length_m;
   return fmt::format(
       "Cables are massless, straight and inextensible and end in points. The motion is slow: inertia counts only as "
-      "far as the "
-      "set of loads contains it. The machine is as stated{}; its controller follows the path between waypoints too.",
-      problem.tolerances ? ", within the tolerances" : "");
+      "far as the set of loads contains it. The machine is as stated{}; {}, between waypoints too.",
+      problem.tolerances ? ", within the tolerances" : "",
+      is_held ? "its winches hold the lengths that the path asks for" : "its controller follows the path");
 }
 
 std::string not_covered_text(const Problem& problem) {

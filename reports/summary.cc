@@ -86,6 +86,9 @@ Summary::Summary(const Scene& scene, const ReportOptions& options)
       path_sha256(scene.view.path_sha256),
       footer_sha256(scene.view.footer_sha256) {
   closest = closest_text(scene, use);
+  if (recheck.result == Recheck::Result::kNotRun && verdict != "undecided") {
+    details.push_back("Not re-checked: this page repeats what the certificate says.");
+  }
   if (recheck.result != Recheck::Result::kRejected) return;
   verdict = "rejected";
   headline = fmt::format(

@@ -8,9 +8,11 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TAUT, CHECK, SOURCE = sys.argv[1:4]
@@ -129,6 +131,20 @@ class Report(unittest.TestCase):
             self.assertFalse(os.path.exists(self.path("none.pdf")))
 
     @unittest.skipUnless(shutil.which("chromium"), "needs chromium")
+    def test_an_interrupt_ends_the_browser_and_what_it_has_started(self):
+        mark = f"{os.getpid()}.25"  # seconds: tells our sleep from others
+        browser = self.path("browser")
+        with open(browser, "w", encoding="utf-8") as file:
+            file.write(f"#!/bin/sh\nsleep {mark} &\nwait\n")
+        os.chmod(browser, 0o755)
+        with subprocess.Popen([TAUT, "report", self.certificate, "--pdf", "--no-check"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, env={**os.environ, "TAUT_BROWSER": browser}) as process:
+            time.sleep(1)
+            process.send_signal(signal.SIGINT)
+            _, said = process.communicate(timeout=30)
+        self.assertIn("interrupted", said)
+        self.assertEqual(subprocess.run(["pgrep", "-f", f"sleep {mark}"], capture_output=True, check=False).stdout, b"")
+
     def test_a_pdf_has_pages_and_nothing_of_it_stays_behind(self):
         scratch = self.path("scratch")
         os.mkdir(scratch)
