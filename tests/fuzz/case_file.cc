@@ -1,9 +1,10 @@
 // A case file is refused with an InputError, or it is a problem that can be written down and modelled.
+#include "kinematics/case_file.h"
+
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "kinematics/case_file.h"
 #include "kinematics/input_error.h"
 #include "kinematics/pose_sampler.h"
 #include "kinematics/problem.h"

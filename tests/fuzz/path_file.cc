@@ -1,4 +1,6 @@
 // A path file is refused with an InputError, or its rows are finite numbers, with times that rise.
+#include "kinematics/path_file.h"
+
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -7,7 +9,6 @@
 #include <string>
 
 #include "kinematics/input_error.h"
-#include "kinematics/path_file.h"
 #include "kinematics/waypoint_maker.h"
 #include "tests/support/robots.h"
 
@@ -15,8 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace taut;
   static const Problem problem = testing::robot1_slice();
   try {
-    PathFile file(std::make_unique<std::istringstream>(std::string(reinterpret_cast<const char*>(data), size)), "fuzz.csv",
-                  problem.space, {size % 2 == 0});
+    PathFile file(std::make_unique<std::istringstream>(std::string(reinterpret_cast<const char*>(data), size)),
+                  "fuzz.csv", problem.space, {size % 2 == 0});
     WaypointMaker maker(problem, file.header(), usual_law(file.header()), "fuzz.csv");
     std::optional<Decimal> last;
     for (PathRow row; file.next(row);) {
