@@ -78,7 +78,8 @@ double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   // and over single ones. A double piece is at most this long in the parameters.
   constexpr double kDoublePiece = 0.4;
   constexpr int kMostPieces = 1000;
-  const int pieces = 2 * std::clamp(static_cast<int>(std::ceil((b - a).norm() / kDoublePiece)), 1, kMostPieces);
+  const double wanted = std::ceil((b - a).norm() / kDoublePiece);  // not finite where an atlas file says so
+  const int pieces = 2 * (wanted < kMostPieces ? std::max(1, static_cast<int>(wanted)) : kMostPieces);
   double coarse = 0;
   double fine = 0;
   const EdgeMotion motion(sampler_, a, b);

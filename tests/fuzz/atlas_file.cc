@@ -1,6 +1,7 @@
 // An atlas file is refused, or the query is planned and proved all the same: a file only says where to look. Its header is sealed
 // again, so that what the tables hold is looked at.
 #include <unistd.h>
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <array>
