@@ -30,6 +30,13 @@ TEST(PathLength, OfALevelTurnOfPhiAloneIsZeroAtTheta0) {
   EXPECT_NEAR(length.along(coordinates({-2, 0}), coordinates({1, 0})), 0.0, 1e-7);
 }
 
+TEST(PathLength, OfAnEdgeOfInfiniteLengthComesToAnEnd) {
+  const PoseSampler sampler(testing::robot1_slice());
+  const PathLength length(sampler, Cost::kRotation, {coordinates({0, 0})});
+  // As a damaged atlas file may have it: its length in the parameters overflows. Under UBSan a conversion to int would show.
+  EXPECT_GE(length.along(coordinates({-1e308, 1e308}), coordinates({1e308, -1e308})), 0);
+}
+
 TEST(PathLength, AlongIsTheSumOfManySmallDistances) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
