@@ -159,8 +159,9 @@ FinishedProgram run_program(const std::vector<std::string>& command, const std::
 
 std::string own_program() {
   // The name that it was started by, which the kernel tells, also where /proc is not mounted.
-  return reinterpret_cast<const char*>(
-      ::getauxval(AT_EXECFN));  // NOLINT(performance-no-int-to-ptr): the kernel's interface
+  const unsigned long name = ::getauxval(AT_EXECFN);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the kernel's interface
+  return reinterpret_cast<const char*>(name);
 }
 
 std::string checker_program() {
