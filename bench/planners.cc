@@ -32,9 +32,9 @@
 #include <optional>
 #include <thread>
 
-#include "cli/plan.h"
 #include "kinematics/geometry.h"
 #include "kinematics/statics.h"
+#include "library/plan.h"
 
 namespace taut {
 namespace {

@@ -22,7 +22,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "cli/plan.h"
+#include "library/plan.h"
 
 namespace taut {
 namespace {

@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <stop_token>
 
-#include "cli/audit.h"
-#include "cli/certificate_file.h"
 #include "cli/console.h"
-#include "cli/files.h"
-#include "cli/path_source.h"
-#include "cli/recheck.h"
 #include "cli/report_command.h"
-#include "cli/tolerance_table.h"
 #include "kinematics/case_file.h"
 #include "kinematics/input_error.h"
+#include "library/audit.h"
+#include "library/certificate_file.h"
+#include "library/files.h"
+#include "library/path_source.h"
+#include "library/recheck.h"
+#include "library/tolerance_table.h"
 #include "reports/html_report.h"
 
 namespace taut {

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include "cli/files.h"
+#include "library/files.h"
 
 namespace taut {
 namespace {

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "cli/console.h"
-#include "cli/files.h"
 #include "cli/new_case_text.h"
 #include "kinematics/input_error.h"
+#include "library/files.h"
 
 namespace taut {
 

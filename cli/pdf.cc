@@ -10,10 +10,10 @@
 #include <sstream>
 #include <vector>
 
-#include "cli/files.h"
 #include "cli/subprocess.h"
 #include "kinematics/input_error.h"
 #include "kinematics/shown.h"
+#include "library/files.h"
 
 namespace taut {
 namespace {

@@ -15,11 +15,11 @@
 #include <thread>
 
 #include "cli/console.h"
-#include "cli/files.h"
 #include "cli/subprocess.h"
 #include "kinematics/case_file.h"
 #include "kinematics/input_error.h"
 #include "kinematics/shown.h"
+#include "library/files.h"
 
 namespace taut {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/console.h"
-#include "cli/files.h"
 #include "kinematics/input_error.h"
 #include "kinematics/shown.h"
+#include "library/files.h"
 
 namespace taut {
 namespace {

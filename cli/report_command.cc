@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "certify/rounding.h"
-#include "cli/certificate_file.h"
 #include "cli/console.h"
-#include "cli/files.h"
 #include "cli/pdf.h"
-#include "cli/recheck.h"
 #include "kinematics/input_error.h"
 #include "kinematics/shown.h"
+#include "library/certificate_file.h"
+#include "library/files.h"
+#include "library/recheck.h"
 #include "reports/html_report.h"
 
 namespace taut {

@@ -13,7 +13,7 @@ is_current() {
   local built_from newer
   [[ -x $build/cli/taut && -x $build/certify/checker/taut-check && -r $stamp ]] || return
   read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
-  newer=$(find "$root"/{kinematics,atlas,certify,reports,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} \
+  newer=$(find "$root"/{kinematics,atlas,certify,reports,library,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} \
     "$root/package-lock.json" -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
 }

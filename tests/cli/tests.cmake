@@ -1,7 +1,3 @@
-find_package(Threads REQUIRED)
-taut_add_test(cli time_budget LABELS unit LIBS Threads::Threads)
-
-taut_add_test(cli smooth LABELS unit LIBS taut_plan)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME cli.end_to_end COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
@@ -9,8 +5,6 @@ set_tests_properties(cli.end_to_end PROPERTIES LABELS "unit" TIMEOUT 900)
 add_test(NAME cli.signature COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/signature_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.signature PROPERTIES LABELS "unit" TIMEOUT 900)
-taut_add_test(cli plan LABELS unit LIBS taut_plan fmt::fmt)
-taut_add_test(cli any_anchors LABELS unit LIBS taut_plan taut::reports fmt::fmt)
 add_test(NAME cli.audit COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/audit_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.audit PROPERTIES LABELS "unit" TIMEOUT 900)

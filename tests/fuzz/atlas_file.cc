@@ -11,8 +11,8 @@
 #include <fstream>
 #include <string>
 
-#include "cli/plan.h"
 #include "kinematics/input_error.h"
+#include "library/plan.h"
 
 namespace {
 

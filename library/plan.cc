@@ -1,4 +1,4 @@
-#include "cli/plan.h"
+#include "library/plan.h"
 
 #include <fmt/format.h>
 
@@ -15,10 +15,10 @@
 #include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
 #include "certify/certificate.h"
-#include "cli/smooth.h"
-#include "cli/time_budget.h"
 #include "kinematics/geometry.h"
 #include "kinematics/motion_length.h"
+#include "library/smooth.h"
+#include "library/time_budget.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/audit.h"
+#include "library/audit.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "certify/gaps.h"
-#include "cli/path_csv.h"
+#include "library/path_csv.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/plan.h"
+#include "library/plan.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cli/recheck.h"
+#include "library/recheck.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "cli/smooth.h"
+#include "library/smooth.h"
 
 #include <gtest/gtest.h>
 

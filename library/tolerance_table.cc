@@ -1,4 +1,4 @@
-#include "cli/tolerance_table.h"
+#include "library/tolerance_table.h"
 
 #include <fmt/format.h>
 

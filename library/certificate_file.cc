@@ -1,10 +1,10 @@
-#include "cli/certificate_file.h"
+#include "library/certificate_file.h"
 
 #include <fmt/format.h>
 
 #include "certify/certificate.h"
-#include "cli/files.h"
 #include "kinematics/input_error.h"
+#include "library/files.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/illustration.h"
+#include "library/illustration.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/path_csv.h"
+#include "library/path_csv.h"
 
 #include <fmt/format.h>
 

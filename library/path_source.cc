@@ -1,4 +1,4 @@
-#include "cli/path_source.h"
+#include "library/path_source.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 
 #include "certify/certificate.h"
 #include "certify/sha256.h"
-#include "cli/certificate_file.h"
 #include "kinematics/shown.h"
+#include "library/certificate_file.h"
 
 namespace taut {
 namespace {

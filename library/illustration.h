@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/plan.h"
+#include "library/plan.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "cli/time_budget.h"
+#include "library/time_budget.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "certify/certificate.h"
-#include "cli/plan.h"
+#include "library/plan.h"
 #include "reports/html_report.h"
 
 namespace taut {

@@ -1,4 +1,4 @@
-#include "cli/smooth.h"
+#include "library/smooth.h"
 
 #include <tbb/parallel_for.h>
 

@@ -14,8 +14,8 @@
 
 #include "certify/certificate_stream.h"
 #include "certify/path_proof.h"
-#include "cli/files.h"
-#include "cli/path_source.h"
+#include "library/files.h"
+#include "library/path_source.h"
 
 namespace taut {
 
