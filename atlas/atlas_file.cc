@@ -156,7 +156,9 @@ AtlasFile::AtlasFile(std::filesystem::path path, const AtlasKey& key) : path_(st
   require_sound_tables(header.radius);
 }
 
-void AtlasFile::refuse(const std::string& why) const { throw InputError(fmt::format("{}: {}", path_.string(), why)); }
+void AtlasFile::refuse(const std::string& why) const {
+  throw InputError(fmt::format("{}: {}", path_.string(), why), {path_.string()});
+}
 
 void AtlasFile::fail_at(int chart, const std::string& what) const {
   refuse(fmt::format("the atlas is damaged: chart {}: {}", chart, what));

@@ -3,20 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <stop_token>
 
 #include "cli/console.h"
 #include "cli/report_command.h"
 #include "kinematics/case_file.h"
-#include "kinematics/input_error.h"
-#include "library/audit.h"
 #include "library/certificate_file.h"
 #include "library/files.h"
-#include "library/path_source.h"
+#include "library/path_audit.h"
 #include "library/recheck.h"
 #include "library/tolerance_table.h"
 #include "reports/html_report.h"
@@ -24,17 +19,7 @@
 namespace taut {
 namespace {
 
-/// An audit's memory does not grow with the path, and a report's does: longer ones are for `taut report`. Nor is it tried how far
-/// tolerances could grow, which takes some tens of proofs of the whole path.
-constexpr std::size_t kMostReported = 5'000;
 constexpr std::size_t kShownStretches = 20;
-
-const std::map<std::string, Interpolation>& laws() {
-  static const std::map<std::string, Interpolation> all = {{"straight", Interpolation::kStraight},
-                                                           {"geodesic", Interpolation::kGeodesic},
-                                                           {"cable-lengths", Interpolation::kCableLengths}};
-  return all;
-}
 
 // --- What is said --------------------------------------------------------------------------------------------------
 
@@ -151,33 +136,6 @@ std::string progress_text(std::size_t done, std::size_t all, double seconds) {
                      static_cast<double>(all - done) / rate);
 }
 
-/// The first violation; what a refuted certificate has as its witness.
-nlohmann::json witness_json(const Audit& audit) {
-  for (const AuditStretch& stretch : audit.stretches) {
-    if (stretch.inner) return to_json(stretch.inner->first);
-  }
-  return nullptr;
-}
-
-/// All waypoints at once: for paths of which a report is made.
-Path whole_path(PathSource& source) {
-  Path path;
-  path.interpolation = source.law();
-  for (SourceWaypoint waypoint; source.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
-  return path;
-}
-
-/// The path that the case names, where the command line names none; and with that path, how to read it.
-void take_what_the_case_says(const Case& case_, AuditArguments& arguments) {
-  if (!arguments.path.empty()) return;
-  if (!case_.audit) {
-    throw InputError(arguments.case_path + ": got no PATH and no key 'audit', expected a path to audit");
-  }
-  arguments.path = (std::filesystem::path(arguments.case_path).parent_path() / case_.audit->file).string();
-  if (arguments.law.empty()) arguments.law = case_.audit->interpolation;
-  arguments.allow_repeats = arguments.allow_repeats || case_.audit->allow_repeats;
-}
-
 }  // namespace
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments) {
@@ -185,7 +143,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_option("PATH", arguments.path,
                      "path file, or a certificate.json (docs/audits.md; default: what the case's 'audit' names)");
   std::vector<std::string> names;
-  for (const auto& [law, ignored] : laws()) names.push_back(law);
+  for (const auto& [law, ignored] : audit_laws()) names.push_back(law);
   command
       .add_option("--interpolation", arguments.law, "what happens between waypoints (default: as the file suggests)")
       ->check(CLI::IsMember(names));
@@ -200,30 +158,23 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   add_check_option(command, arguments.check);
 }
 
-int run_audit(AuditArguments arguments) {
+int run_audit(const AuditArguments& arguments) {
   const Case case_ = load_case(arguments.case_path);
-  take_what_the_case_says(case_, arguments);
-  const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::optional<Interpolation> law =
-      arguments.law.empty() ? std::nullopt : std::optional(laws().at(arguments.law));
-  PathSource source(case_.problem, arguments.path, law, {arguments.allow_repeats});
+      arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
+  const AuditRequest request = resolved({arguments.path, law, arguments.allow_repeats}, case_, arguments.case_path);
+  const std::optional<SigningKey> key = load_signing_key(arguments.key);
+  PathSource source(case_.problem, request.path, request.law, {request.allow_repeats});
   if (!arguments.json) fmt::print("{}", source.description());
   std::fflush(stdout);
 
-  ProofOptions options;
-  options.max_bits = arguments.bits;
-  Prover prover(source.problem(), options);
-  std::atomic<bool> interrupted = false;
-  prover.interrupt = &interrupted;
-  const std::filesystem::path out = out_folder(arguments.out, arguments.path);
+  const std::filesystem::path out = out_folder(arguments.out, request.path.name);
   make_directories(out);
   NewFile certificate(out / "certificate.json");
   NewFile csv(out / "path.csv");
-  CertificateStream stream(out, source.problem(), source.law());
-  Audit result;
+  PathAudit audited;
   {
     const Interruption interruption;
-    const std::stop_callback interrupt(interruption.token(), [&] { interrupted = true; });
     ProgressLine line(!arguments.json);
     const auto begin = std::chrono::steady_clock::now();
     const auto progress = [&](std::size_t done) {
@@ -232,30 +183,15 @@ int run_audit(AuditArguments arguments) {
         return progress_text(done, source.segments(), spent.count());
       });
     };
-    result = audit(prover, source, stream, csv, progress, interruption.token());
+    audited = audit_path(
+        source, {arguments.bits, out, key ? &*key : nullptr}, [&](std::string_view text) { certificate.write(text); },
+        [&](std::string_view text) { csv.write(text); }, progress, interruption.token());
   }
+  const Audit& result = audited.audit;
   if (result.interrupted) {
     fmt::print(stderr, "taut: interrupted: nothing was written\n");
     return kUndecidedExit;
   }
-
-  std::vector<ToleranceLimit> limits;
-  CertificateStream::Ending ending;
-  if (result.verdict == Verdict::kProved && source.problem().tolerances && result.segments <= kMostReported) {
-    const Interruption interruption;
-    PathSource again(case_.problem, arguments.path, law, {arguments.allow_repeats});
-    limits = tolerance_limits(source.problem(), whole_path(again), interruption.token());
-    ending.illustration = {{"kind", "audit"}, {"tolerance_limits", to_json(limits)}};
-  }
-  ending.verdict = result.verdict;
-  ending.margins = result.margins;
-  ending.witness = witness_json(result);
-  ending.undecided = undecided_json(result);
-  ending.source = source.source();
-  CertificateStream::Sign sign;
-  if (key) sign = [&](const std::string& digest) { return key->signature(digest); };
-  stream.finish(
-      ending, [&](std::string_view text) { certificate.write(text); }, sign);
   certificate.finish();
   csv.finish();
   std::vector<NewFile*> files = {&certificate, &csv};
@@ -277,14 +213,14 @@ int run_audit(AuditArguments arguments) {
   if (!report) std::filesystem::remove(report_path);  // of an earlier audit
 
   if (arguments.json) {
-    nlohmann::json object = summary(result, source, ending.witness);
+    nlohmann::json object = summary(result, source, audited.witness);
     object["out"] = out.string();
-    object["tolerance_limits"] = to_json(limits);
+    object["tolerance_limits"] = to_json(audited.tolerance_limits);
     object["recheck"] = to_json(rechecked);
     fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print(result, source);
-    fmt::print("{}", tolerance_table(limits));
+    fmt::print("{}", tolerance_table(audited.tolerance_limits));
     if (report) fmt::print("{}\n", sentence(rechecked));
     fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(), report ? ", report.html" : "");
     if (!report) {

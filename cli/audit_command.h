@@ -22,6 +22,6 @@ struct AuditArguments {
 void add_audit_options(CLI::App& command, AuditArguments& arguments);
 
 /// @returns the exit code. @throws InputError
-[[nodiscard]] int run_audit(AuditArguments arguments);
+[[nodiscard]] int run_audit(const AuditArguments& arguments);
 
 }  // namespace taut

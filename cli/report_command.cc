@@ -70,17 +70,7 @@ int run_report(const ReportArguments& arguments) {
   const Interruption interruption;
   ReportOptions options{
       arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
-  const auto at = [&](const char* pointer) {
-    const nlohmann::json::json_pointer place(pointer);
-    return certificate.contains(place) ? certificate.at(place) : nlohmann::json();
-  };
-  // Counted: what the footer says of them is the one thing that no digest covers.
-  std::size_t statements = 2 * at("/stretches").size();
-  for (const nlohmann::json& segment : at("/segments")) {
-    if (segment.is_object() && segment.contains("boxes")) statements += segment["boxes"].size();
-  }
-  options.recheck = recheck(read_whole(arguments.certificate_path), statements, !at("/problem/tolerances").is_null(),
-                            arguments.check, interruption.token());
+  options.recheck = recheck(read_whole(arguments.certificate_path), certificate, arguments.check, interruption.token());
   const Rendered rendered = render(arguments, certificate, options, interruption.token());
   if (arguments.out.empty() && rendered.file_name == nullptr) {
     fmt::print("{}", rendered.content);

@@ -20,9 +20,8 @@
 #include "cli/report_command.h"
 #include "kinematics/input_error.h"
 #include "library/files.h"
-#include "library/illustration.h"
 #include "library/path_csv.h"
-#include "library/plan.h"
+#include "library/planned_case.h"
 #include "library/recheck.h"
 #include "library/tolerance_table.h"
 #include "reports/html_report.h"
@@ -78,13 +77,6 @@ std::string length_sentence(const PlanStatistics& s) {
                      spent);
 }
 
-void require_plannable(const Case& case_) {
-  if (case_.problem.query.empty()) {
-    throw FieldError("query", "", "expected the key 'query': what to plan (a case without is for taut audit)");
-  }
-  require_query_on_constraints(case_);
-}
-
 int run_plan(const PlanArguments& arguments) {
   Case case_ = load_case(arguments.case_path, require_plannable);
   if (arguments.budget_seconds > 0) {
@@ -98,30 +90,23 @@ int run_plan(const PlanArguments& arguments) {
   make_directories(out);
 
   const Interruption interruption;
-  Plan result;
-  bool whole_atlas = false;
+  PlannedCase planned;
   {
     ProgressLine line(!arguments.json);
     const auto progress = [&](const PlanProgress& at) {
       line.show([&] { return fmt::format("planning: {} charts", at.charts); });
     };
-    result = planner.plan(progress, interruption.token());
-    if (arguments.grow) whole_atlas = planner.grow_atlas(progress, interruption.token());
+    planned = plan_case(case_, planner, {arguments.grow, key ? &*key : nullptr}, progress, interruption.token());
   }
-  nlohmann::json illustration = illustrate(case_.problem, planner.atlas(), result.statistics);
-  std::vector<ToleranceLimit> limits;
-  if (result.proof.verdict == Verdict::kProved && case_.problem.tolerances) {
-    limits = tolerance_limits(case_.problem, result.path, interruption.token());
-    illustration["tolerance_limits"] = to_json(limits);
-  }
-  nlohmann::json certificate = make_certificate(case_.problem, result.path, result.proof, std::move(illustration));
-  if (key) key->sign(certificate);
-  const std::string certificate_text = certificate.dump(1, ' ', true) + "\n";
-  const Recheck rechecked = recheck(certificate_text, static_cast<std::size_t>(result.proof.boxes),
+  const Plan& result = planned.plan;
+  const std::vector<ToleranceLimit>& limits = planned.tolerance_limits;
+  const nlohmann::json& certificate = planned.certificate;
+  const std::string text = certificate_text(certificate);
+  const Recheck rechecked = recheck(text, static_cast<std::size_t>(result.proof.boxes),
                                     case_.problem.tolerances.has_value(), arguments.check, interruption.token());
   std::vector<FileContent> files = {
       {out / "path.csv", path_csv(case_.problem, result.path)},
-      {out / "certificate.json", certificate_text},
+      {out / "certificate.json", text},
       {out / "report.html", html_report(certificate, {"", "", report_date(), rechecked})}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
@@ -170,7 +155,7 @@ int run_plan(const PlanArguments& arguments) {
     fmt::print("{}\nWritten to {}: path.csv, certificate.json, report.html\n", sentence(rechecked), out.string());
     if (saves_atlas) {
       fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
-                 whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
+                 planned.whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
     }
   }
   require_confirmed(rechecked);

@@ -56,7 +56,8 @@ class Places {
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& path, const std::string& message) const {
     const std::string place = mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
     throw InputError(without_control_characters(path.empty() ? fmt::format("{}: {}", place, message)
-                                                             : fmt::format("{}: {}: {}", place, path, message)));
+                                                             : fmt::format("{}: {}: {}", place, path, message)),
+                     {file_, mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1, path});
   }
 
   /// Says where in the file the problem's field is, or the closest thing around it.
@@ -826,8 +827,8 @@ YAML::Node only_document(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
   Deaf deaf;
-  if (!parser.HandleNextDocument(deaf)) throw InputError(name + ": got no YAML document, expected one");
-  if (parser.HandleNextDocument(deaf)) throw InputError(name + ": got several YAML documents, expected one");
+  if (!parser.HandleNextDocument(deaf)) throw InputError(name + ": got no YAML document, expected one", {name});
+  if (parser.HandleNextDocument(deaf)) throw InputError(name + ": got several YAML documents, expected one", {name});
   return YAML::Load(text);
 }
 
@@ -847,7 +848,7 @@ std::string leading_comment(const std::string& text) {
 Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check) {
   Places places(name);
   if (text.size() > kMaxFileBytes) {
-    throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes));
+    throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes), {name});
   }
   require_utf8(text, places);
   try {
@@ -867,7 +868,7 @@ Case load_case(const std::string& path, const CaseCheck& check) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxFileBytes + 1, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && !file.eof()) {
-    throw InputError(fmt::format("{}: got no readable file, expected a case file", path));
+    throw InputError(fmt::format("{}: got no readable file, expected a case file", path), {path});
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parse_case(text, path, check);

@@ -1,16 +1,30 @@
 // The outside world is wrong: a case file, a path, a flag, a certificate. Caught once, in main; exit code 3.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace taut {
+
+/// Where the outside world is wrong, as far as it is known; the message says it, too.
+struct InputPlace {
+  std::string file = {};
+  std::size_t line = 0;    ///< from 1; 0: unknown, or the file as a whole
+  std::string field = {};  ///< of a case, "load.mass"; of a table, the column
+};
 
 /// Names the place, the value seen and what was expected: "robot.yaml:12: load.mass: got 'NaN', expected a
 /// positive decimal".
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  explicit InputError(const std::string& message, InputPlace place = {})
+      : std::runtime_error(message), place_(std::move(place)) {}
+  [[nodiscard]] const InputPlace& place() const { return place_; }
+
+ private:
+  InputPlace place_;
 };
 
 }  // namespace taut

@@ -47,10 +47,13 @@ class Lines {
  public:
   Lines(std::unique_ptr<std::istream> text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}
 
-  [[noreturn]] void fail(std::size_t line, const std::string& message) const {
-    throw InputError(fmt::format("{}:{}: {}", file_, line, message));
+  [[noreturn]] void fail(std::size_t line, const std::string& message, const std::string& column = {}) const {
+    throw InputError(fmt::format("{}:{}: {}{}{}", file_, line, column, column.empty() ? "" : ": ", message),
+                     {file_, line, column});
   }
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(fmt::format("{}: {}", file_, message)); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(fmt::format("{}: {}", file_, message), {file_});
+  }
 
   /// The next line that is neither blank nor a comment, without its end; valid until the next call. False behind the last.
   bool next(std::string_view& line) {
@@ -251,7 +254,7 @@ class PathFile::Implementation {
  private:
   /// About the current line.
   [[noreturn]] void fail(const std::string& column, const std::string& message) const {
-    lines_.fail(lines_.number(), column.empty() ? message : fmt::format("{}: {}", column, message));
+    lines_.fail(lines_.number(), message, column);
   }
 
   // --- Headers -------------------------------------------------------------------------------------------------------
@@ -627,9 +630,9 @@ std::unique_ptr<std::istream> open(const std::string& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(fmt::format("{}: got a directory, expected a path file", path));
+    throw InputError(fmt::format("{}: got a directory, expected a path file", path), {path});
   }
-  if (!*file) throw InputError(fmt::format("{}: could not read: {}", path, std::strerror(errno)));
+  if (!*file) throw InputError(fmt::format("{}: could not read: {}", path, std::strerror(errno)), {path});
   return file;
 }
 

@@ -444,7 +444,7 @@ SpaceText coordinate_space() {
 }
 
 FieldError::FieldError(std::string field, std::string seen, std::string expected)
-    : InputError(fmt::format("{}: {}{}", field, seen.empty() ? "" : "got " + seen + ", ", expected)),
+    : InputError(fmt::format("{}: {}{}", field, seen.empty() ? "" : "got " + seen + ", ", expected), {"", 0, field}),
       field_(std::move(field)),
       seen_(std::move(seen)),
       expected_(std::move(expected)) {}

@@ -28,18 +28,20 @@ WaypointMaker::WaypointMaker(const Problem& problem, const PathHeader& header, I
   if (is_spline != (law == Interpolation::kCubicBSpline)) {
     throw InputError(fmt::format("{}: got {}", file,
                                  is_spline ? "a spline's control points, expected no other law for them"
-                                           : "waypoints, expected a spline's control points"));
+                                           : "waypoints, expected a spline's control points"),
+                     {file});
   }
   const bool has_lengths = header.form == PathForm::kCableLengths;
   if (has_lengths && law != Interpolation::kCableLengths) {
-    throw InputError(fmt::format("{}: got cable lengths, expected the law cable-lengths for them", file));
+    throw InputError(fmt::format("{}: got cable lengths, expected the law cable-lengths for them", file), {file});
   }
   if (has_lengths && !header.start) {
     if (problem.query.empty()) {
       throw InputError(
           fmt::format("{}: got cable lengths and no pose, expected the pose to start from in the columns of the "
                       "first row, or a query in the case",
-                      file));
+                      file),
+          {file});
     }
     std::vector<double> parameters;
     for (const ExpressionText& value : problem.query.front()) parameters.push_back(evaluate_constant<double>(value));

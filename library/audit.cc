@@ -159,7 +159,7 @@ class BatchProver {
 /// Takes batches in order; keeps what a summary needs.
 class BatchWriter {
  public:
-  BatchWriter(const PathSource& source, CertificateStream& certificate, NewFile& csv)
+  BatchWriter(const PathSource& source, CertificateStream& certificate, const WriteText& csv)
       : has_times_(source.has_times()),
         has_tubes_(!source.problem().space.constraints.empty()),
         has_pose_tubes_(source.law() == Interpolation::kCableLengths),
@@ -171,7 +171,7 @@ class BatchWriter {
     for (std::size_t i = batch.old_waypoints; has_times_ && i < batch.waypoints.size(); ++i) {
       certificate_.add_time(time_text(batch.waypoints[i]));
     }
-    csv_.write(batch.csv);
+    csv_(batch.csv);
     for (std::size_t i = 0; i < batch.segments.size(); ++i) {
       const SegmentResult& segment = batch.segments[i];
       if (has_tubes_) certificate_.add_tube(segment.tube);
@@ -264,7 +264,7 @@ class BatchWriter {
 
   bool has_times_, has_tubes_, has_pose_tubes_;
   CertificateStream& certificate_;
-  NewFile& csv_;
+  const WriteText& csv_;
   Audit result_;
   double tension_N_ = std::numeric_limits<double>::infinity();
   double length_m_ = std::numeric_limits<double>::infinity();
@@ -274,7 +274,7 @@ class BatchWriter {
 
 }  // namespace
 
-Audit audit(const Prover& prover, PathSource& source, CertificateStream& certificate, NewFile& csv,
+Audit audit(const Prover& prover, PathSource& source, CertificateStream& certificate, const WriteText& csv,
             const AuditProgress& progress, const std::stop_token& stop) {
   const auto begin = std::chrono::steady_clock::now();
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -285,7 +285,7 @@ Audit audit(const Prover& prover, PathSource& source, CertificateStream& certifi
   BatchReader reader(source, batch_segments);
   const BatchProver batch_prover(prover, source);
   BatchWriter writer(source, certificate, csv);
-  csv.write(batch_prover.csv_header());
+  csv(batch_prover.csv_header());
   std::size_t done = 0;
   using BatchPointer = std::shared_ptr<Batch>;
   const auto read = [&](tbb::flow_control& control) {

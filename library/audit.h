@@ -14,7 +14,6 @@
 
 #include "certify/certificate_stream.h"
 #include "certify/path_proof.h"
-#include "library/files.h"
 #include "library/path_source.h"
 
 namespace taut {
@@ -51,14 +50,16 @@ struct Audit {
   double seconds = 0;
 };
 
+/// Receives a file, piece by piece.
+using WriteText = CertificateStream::Write;
 using AuditProgress = std::function<void(std::size_t segments_done)>;
 
-/// Audits all of `source` and writes path.csv and certificate.json; the files are complete when this returns, and still have to be
-/// renamed into place. Nothing is to be renamed if it was interrupted.
-/// @param certificate, csv  take the files' contents
+/// Audits all of `source`; what was written is of no use if it was interrupted.
+/// @param certificate  takes the path and its segments, and still has to be finished
+/// @param csv          takes all of path.csv
 /// @throws InputError as PathSource::next(), and where a file can't be written.
-[[nodiscard]] Audit audit(const Prover& prover, PathSource& source, CertificateStream& certificate, NewFile& csv,
-                          const AuditProgress& progress, const std::stop_token& stop);
+[[nodiscard]] Audit audit(const Prover& prover, PathSource& source, CertificateStream& certificate,
+                          const WriteText& csv, const AuditProgress& progress, const std::stop_token& stop);
 
 /// What a certificate's `undecided` says; null unless the audit is undecided.
 [[nodiscard]] nlohmann::json undecided_json(const Audit& audit);

@@ -19,24 +19,26 @@ void require_unaltered(const nlohmann::json& certificate, const std::string& pat
     body.erase("signature");
   }
   if (digest != sha256(body)) {
-    throw InputError(
-        fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
-                    "or was cut or altered",
-                    path, digest.dump()));
+    throw InputError(fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
+                                 "or was cut or altered",
+                                 path, digest.dump()),
+                     {path});
   }
 }
 
 }  // namespace
 
-nlohmann::json read_certificate(const std::string& path) {
+nlohmann::json parse_certificate(const std::string& text, const std::string& name) {
   nlohmann::json certificate;
   try {
-    certificate = nlohmann::json::parse(read_whole(path));
-    require_unaltered(certificate, path);
+    certificate = nlohmann::json::parse(text);
+    require_unaltered(certificate, name);
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", path, error.what()));
+    throw InputError(fmt::format("{}: {}", name, error.what()), {name});
   }
   return certificate;
 }
+
+nlohmann::json read_certificate(const std::string& path) { return parse_certificate(read_whole(path), path); }
 
 }  // namespace taut

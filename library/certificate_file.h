@@ -9,5 +9,7 @@ namespace taut {
 /// A whole certificate, as it was written: whether it is true is taut-check's to say.
 /// @throws InputError where it can't be read, or was cut or altered.
 [[nodiscard]] nlohmann::json read_certificate(const std::string& path);
+/// From the text of such a file; `name` stands for it in messages.
+[[nodiscard]] nlohmann::json parse_certificate(const std::string& text, const std::string& name);
 
 }  // namespace taut

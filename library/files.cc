@@ -16,7 +16,7 @@ namespace taut {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* action, int error) {
-  throw InputError(fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)));
+  throw InputError(fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)), {path.string()});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <utility>
 
 #include "certify/certificate.h"
@@ -34,9 +35,13 @@ void require_poses(const Path& path, const std::string& file) {
   }
 }
 
-std::string sha256_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+std::string sha256_of(const PathInput& input) {
   Sha256 digest;
+  if (input.text) {
+    digest.update(*input.text);
+    return digest.hex();
+  }
+  std::ifstream file(input.name, std::ios::binary);
   std::vector<char> buffer(std::size_t{1} << 18U);
   while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0) {
     digest.update(std::string_view(buffer.data(), static_cast<std::size_t>(file.gcount())));
@@ -72,18 +77,18 @@ std::string meaning(Interpolation law, const Problem& problem) {
 
 }  // namespace
 
-PathSource::PathSource(const Problem& problem, const std::string& path, std::optional<Interpolation> law,
+PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law,
                        PathFileOptions options)
-    : path_(path), case_problem_(problem), options_(options) {
-  if (is_certificate_name(path)) {
+    : input_(std::move(input)), case_problem_(problem), options_(options) {
+  if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();
     description_ = fmt::format("a certificate's path, {} waypoint{}\n", waypoints_, waypoints_ == 1 ? "" : "s");
   } else {
-    PathFile file(path, problem.space, options);
+    PathFile file = open_file();
     header_ = file.header();
     law_ = law.value_or(usual_law(*header_));
-    WaypointMaker maker(problem, *header_, law_, path);
+    WaypointMaker maker(problem, *header_, law_, path_);
     problem_ = maker.problem();
     PathSummary summary(problem, *header_);
     for (PathRow row; file.next(row);) summary.add(row);
@@ -94,11 +99,12 @@ PathSource::PathSource(const Problem& problem, const std::string& path, std::opt
   }
   if (waypoints_ < control_points(law_) && (waypoints_ != 1 || law_ == Interpolation::kCubicBSpline)) {
     throw InputError(
-        fmt::format("{}: got {} waypoints, expected at least {} of a spline", path, waypoints_, control_points(law_)));
+        fmt::format("{}: got {} waypoints, expected at least {} of a spline", path_, waypoints_, control_points(law_)),
+        {path_});
   }
   if (waypoints_ == 1) description_ += "  one pose only: the platform stays there\n";
   waypoints_ = std::max<std::size_t>(waypoints_, 2);
-  sha256_ = sha256_of_file(path);
+  sha256_ = sha256_of(input_);
   open();
 }
 
@@ -108,26 +114,27 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const nlohmann::json certificate = read_certificate(path_);
   const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
-  if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate");
+  if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate", {path_});
   try {
     certificate_ = path_from_json(certificate["path"]);
   } catch (const InputError& error) {
-    throw InputError(path_ + ": " + error.what());
+    throw InputError(path_ + ": " + error.what(), {path_});
   }
   require_poses(*certificate_, path_);
   law_ = certificate_->interpolation;
   if (law && *law != law_) {
-    throw InputError(path_ + ": got a certificate, expected no other law than its own");
+    throw InputError(path_ + ": got a certificate, expected no other law than its own", {path_});
   }
-  if (certificate_->waypoints.empty()) throw InputError(path_ + ": path: got no waypoints, expected at least one");
+  if (certificate_->waypoints.empty())
+    throw InputError(path_ + ": path: got no waypoints, expected at least one", {path_});
   problem_ = case_problem_;
   problem_.query.clear();
   const nlohmann::json& space = certificate["problem"]["space"];
   if (space != to_json(problem_).at("space")) {
     problem_.space = coordinate_space();
     if (space != to_json(problem_).at("space")) {
-      throw InputError(path_ +
-                       ": problem.space: got another than the case's, expected a path in the space of the case");
+      throw InputError(path_ + ": problem.space: got another than the case's, expected a path in the space of the case",
+                       {path_});
     }
   }
   const std::size_t parameters = problem_.space.parameters.size();
@@ -136,13 +143,27 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
     return has_poses(law_) || (waypoint.x.size() == parameters && waypoint.normals.size() == normals);
   });
   if (!fits || (has_times() && certificate_->times.size() != certificate_->waypoints.size())) {
-    throw InputError(path_ + ": path: got waypoints or times of another size, expected those of the space");
+    throw InputError(path_ + ": path: got waypoints or times of another size, expected those of the space", {path_});
   }
+}
+
+PathFile PathSource::open_file() const {
+  if (!input_.text) return {path_, case_problem_.space, options_};
+  return {std::make_unique<std::istringstream>(*input_.text), path_, case_problem_.space, options_};
+}
+
+Path PathSource::whole_path() const {
+  PathSource again(case_problem_, input_, law_, options_);
+  if (again.sha256_ != sha256_) throw InputError(path_ + ": the file was changed while it was read", {path_});
+  Path path;
+  path.interpolation = law_;
+  for (SourceWaypoint waypoint; again.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
+  return path;
 }
 
 void PathSource::open() {
   if (certificate_) return;
-  file_ = std::make_unique<PathFile>(path_, case_problem_.space, options_);
+  file_ = std::make_unique<PathFile>(open_file());
   maker_ = std::make_unique<WaypointMaker>(case_problem_, *header_, law_, path_);
 }
 
@@ -150,7 +171,7 @@ bool PathSource::has_times() const { return certificate_ ? !certificate_->times.
 
 bool PathSource::next(SourceWaypoint& result) {
   if (next_ == waypoints_) {
-    if (sha256_of_file(path_) != sha256_) throw InputError(path_ + ": the file was changed while it was read");
+    if (sha256_of(input_) != sha256_) throw InputError(path_ + ": the file was changed while it was read", {path_});
     return false;
   }
   const std::size_t k = next_++;
@@ -165,7 +186,7 @@ bool PathSource::next(SourceWaypoint& result) {
   }
   PathRow row;
   if (!file_->next(row)) {
-    if (k != 1) throw InputError(path_ + ": the file was changed while it was read");
+    if (k != 1) throw InputError(path_ + ": the file was changed while it was read", {path_});
     result.is_copy = true;
     return true;
   }
@@ -181,10 +202,12 @@ void PathSource::require_start(std::size_t line) const {
   const double size = make_model<double>(case_problem_).characteristic_length;
   const double off = maker_->start_error_m();
   if (off <= kMostOff * size) return;
-  throw InputError(fmt::format(
-      "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row, expected "
-      "the pose that has them, to within {:.4g} m",
-      path_, line, off, kMostOff * size));
+  throw InputError(
+      fmt::format(
+          "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row, expected "
+          "the pose that has them, to within {:.4g} m",
+          path_, line, off, kMostOff * size),
+      {path_, line});
 }
 
 std::string PathSource::description() const {

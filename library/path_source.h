@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kinematics/path_file.h"
@@ -14,6 +15,16 @@
 #include "kinematics/waypoint_maker.h"
 
 namespace taut {
+
+/// A path file, or the text of one that is in no file.
+struct PathInput {
+  PathInput(std::string file) : name(std::move(file)) {}  // NOLINT(google-explicit-constructor): files are named
+  PathInput(std::string called, std::shared_ptr<const std::string> content)
+      : name(std::move(called)), text(std::move(content)) {}
+
+  std::string name;                         ///< also in messages
+  std::shared_ptr<const std::string> text;  ///< of a table; null: the file's
+};
 
 struct SourceWaypoint {
   Waypoint waypoint;
@@ -27,11 +38,13 @@ class PathSource {
   /// Reads all of the file once, so that whatever is wrong with it is said at once, and stands before its first waypoint.
   /// @param law  how to join the waypoints; nothing for the file's usual way.
   /// @throws InputError
-  PathSource(const Problem& problem, const std::string& path, std::optional<Interpolation> law,
-             PathFileOptions options);
+  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law, PathFileOptions options);
   ~PathSource();
   PathSource(const PathSource&) = delete;
   PathSource& operator=(const PathSource&) = delete;
+
+  /// All of it once more, as a path. @throws InputError where the file changed meanwhile.
+  [[nodiscard]] Path whole_path() const;
 
   /// Without a query; in the case's space, or that of all poses.
   [[nodiscard]] const Problem& problem() const { return problem_; }
@@ -53,12 +66,14 @@ class PathSource {
   [[nodiscard]] nlohmann::json source() const;
 
  private:
+  [[nodiscard]] PathFile open_file() const;
   void open();
   /// @throws InputError where the start pose is plainly not one with the first row's lengths.
   void require_start(std::size_t line) const;
   void read_certificate_path(std::optional<Interpolation> law);
 
-  std::string path_;
+  PathInput input_;
+  const std::string& path_ = input_.name;
   Problem case_problem_;
   Problem problem_;
   PathFileOptions options_;

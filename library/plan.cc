@@ -376,6 +376,7 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   Plan result;
   if (auto answer = judge_query()) {
     result = std::move(*answer);
+    if (result.proof.verdict == Verdict::kUndecided && stop.stop_requested()) result.proof.reason = "interrupted";
     result.statistics.prove_seconds = seconds_since(start);
   } else {
     result.statistics.prove_seconds = seconds_since(start);

@@ -50,6 +50,20 @@ Recheck recheck(const std::string& text, std::size_t boxes, bool has_tolerances,
   return result;
 }
 
+Recheck recheck(const std::string& text, const nlohmann::json& certificate, std::optional<bool> wanted,
+                const std::stop_token& stop) {
+  const auto at = [&](const char* pointer) {
+    const nlohmann::json::json_pointer place(pointer);
+    return certificate.contains(place) ? certificate.at(place) : nlohmann::json();
+  };
+  // Counted: what the footer says of them is the one thing that no digest covers.
+  std::size_t statements = 2 * at("/stretches").size();
+  for (const nlohmann::json& segment : at("/segments")) {
+    if (segment.is_object() && segment.contains("boxes")) statements += segment["boxes"].size();
+  }
+  return recheck(text, statements, !at("/problem/tolerances").is_null(), wanted, stop);
+}
+
 std::string sentence(const Recheck& recheck) {
   switch (recheck.result) {
     case Recheck::Result::kNotRun: break;

@@ -16,6 +16,10 @@ namespace taut {
 [[nodiscard]] Recheck recheck(const std::string& text, std::size_t boxes, bool has_tolerances,
                               std::optional<bool> wanted, const std::stop_token& stop);
 
+/// The same, of a certificate of unknown make: what it takes is told by what is in it.
+[[nodiscard]] Recheck recheck(const std::string& text, const nlohmann::json& certificate, std::optional<bool> wanted,
+                              const std::stop_token& stop);
+
 /// One line for the terminal.
 [[nodiscard]] std::string sentence(const Recheck& recheck);
 [[nodiscard]] nlohmann::json to_json(const Recheck& recheck);

@@ -1,0 +1,35 @@
+#include "library/planned_case.h"
+
+#include "certify/certificate.h"
+#include "kinematics/navigation_manifold.h"
+#include "library/illustration.h"
+#include "library/tolerance_table.h"
+
+namespace taut {
+
+void require_plannable(const Case& the_case) {
+  if (the_case.problem.query.empty()) {
+    throw FieldError("query", "", "expected the key 'query': what to plan (a case without is for taut audit)");
+  }
+  require_query_on_constraints(the_case);
+}
+
+std::string certificate_text(const nlohmann::json& certificate) { return certificate.dump(1, ' ', true) + "\n"; }
+
+PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
+                      const Progress& progress, const std::stop_token& stop) {
+  PlannedCase result;
+  result.plan = planner.plan(progress, stop);
+  if (options.grow) result.whole_atlas = planner.grow_atlas(progress, stop);
+  const Plan& plan = result.plan;
+  nlohmann::json illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
+  if (plan.proof.verdict == Verdict::kProved && the_case.problem.tolerances) {
+    result.tolerance_limits = tolerance_limits(the_case.problem, plan.path, stop);
+    illustration["tolerance_limits"] = to_json(result.tolerance_limits);
+  }
+  result.certificate = make_certificate(the_case.problem, plan.path, plan.proof, std::move(illustration));
+  if (options.key != nullptr) options.key->sign(result.certificate);
+  return result;
+}
+
+}  // namespace taut

@@ -1,0 +1,113 @@
+#include "library/proved_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "certify/certificate.h"
+#include "certify/path_proof.h"
+#include "kinematics/decimal.h"
+
+namespace taut {
+namespace {
+
+constexpr int kMostHalfTurns = 1'000'000;  // far within what certificates may say
+constexpr long kLeastBits = 128;
+constexpr long kMostBits = 1 << 20;
+
+[[noreturn]] void fail(const std::string& field, const std::string& message) {
+  throw InputError(fmt::format("{}: {}", field, message), {"", 0, field});
+}
+
+void require_fit(const Waypoint& waypoint, Interpolation law, const SpaceText& space, const std::string& where) {
+  const std::size_t numbers = has_poses(law) ? pose_numbers(law) : space.parameters.size();
+  if (waypoint.x.size() != numbers) {
+    fail(where + ".x", fmt::format("got {} numbers, expected {}", waypoint.x.size(), numbers));
+  }
+  for (std::size_t j = 0; j < numbers; ++j) {
+    if (!std::isfinite(waypoint.x[j])) {
+      fail(fmt::format("{}.x[{}]", where, j), fmt::format("got {}, expected a finite number", waypoint.x[j]));
+    }
+  }
+  if (waypoint.half_turns.size() != (has_poses(law) ? 0 : numbers)) {
+    fail(where + ".half_turns",
+         fmt::format("got {} numbers, expected {}", waypoint.half_turns.size(), has_poses(law) ? 0 : numbers));
+  }
+  for (std::size_t j = 0; j < waypoint.half_turns.size(); ++j) {
+    const int most = space.parameters[j].kind == ParameterKind::kPeriodic ? kMostHalfTurns : 0;
+    if (std::abs(waypoint.half_turns[j]) > most) {
+      fail(fmt::format("{}.half_turns[{}]", where, j),
+           fmt::format("got {}, expected {}", waypoint.half_turns[j],
+                       most == 0 ? "0, of a parameter that is not periodic" : fmt::format("{} at most", most)));
+    }
+  }
+  if (!has_poses(law)) return;
+  constexpr double kMostOff = 1e-2;
+  const double norm = std::hypot(std::hypot(waypoint.x[3], waypoint.x[4]), std::hypot(waypoint.x[5], waypoint.x[6]));
+  if (!(std::abs(norm - 1) <= kMostOff)) {
+    fail(where + ".x", fmt::format("got a quaternion of length {:.6g}, expected 1 within {}", norm, kMostOff));
+  }
+  if (!std::all_of(waypoint.x.begin() + 7, waypoint.x.end(), [](double length) { return length > 0; })) {
+    fail(where + ".x", "got a length that is not above 0");
+  }
+}
+
+void require_times(const Path& path) {
+  if (path.times.empty()) return;
+  if (path.times.size() != path.waypoints.size()) {
+    fail("times", fmt::format("got {}, expected one a waypoint, or none", path.times.size()));
+  }
+  std::optional<Decimal> last;
+  for (std::size_t k = 0; k < path.times.size(); ++k) {
+    const Decimal time = Decimal::parse(path.times[k]);
+    if (last && !(time > *last)) fail(fmt::format("times[{}]", k), "got a time that is not later than the one before");
+    last = time;
+  }
+}
+
+}  // namespace
+
+nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits, const std::stop_token& stop) {
+  const Interpolation law = path.interpolation;
+  if (max_bits < kLeastBits || max_bits > kMostBits) {
+    fail("max_bits", fmt::format("got {}, expected {} to {}", max_bits, kLeastBits, kMostBits));
+  }
+  if (path.waypoints.size() == 1 && law != Interpolation::kCubicBSpline && path.times.empty()) {
+    path.waypoints.push_back(path.waypoints.front());
+  }
+  if (path.segments() == 0) {
+    fail("waypoints", fmt::format("got {}, expected at least {}", path.waypoints.size(), control_points(law)));
+  }
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    require_fit(path.waypoints[k], law, problem.space, fmt::format("waypoints[{}]", k));
+  }
+  require_times(path);
+
+  Problem audited = problem;
+  audited.query.clear();
+  if (has_poses(law)) audited.space = coordinate_space();
+  if (!has_poses(law) && !problem.space.constraints.empty()) {
+    const PoseSampler sampler(problem);
+    for (Waypoint& waypoint : path.waypoints) waypoint.normals = sampler.constraints()->normals(waypoint);
+  }
+  ProofOptions options;
+  options.max_bits = max_bits;
+  Prover prover(audited, options);
+  path.tubes.clear();
+  path.pose_tubes.clear();
+  for (std::size_t k = 0; k < path.segments(); ++k) {
+    const Segment prepared = prover.prepared(path.segment(k));
+    if (!audited.space.constraints.empty()) path.tubes.push_back(prepared.tube);
+    if (law == Interpolation::kCableLengths) path.pose_tubes.push_back(prepared.pose_tube);
+  }
+  std::atomic<bool> interrupted = false;
+  prover.interrupt = &interrupted;
+  const std::stop_callback on_stop(stop, [&] { interrupted = true; });
+  return make_certificate(audited, path, prove_path(prover, path), nullptr);
+}
+
+}  // namespace taut

@@ -1,0 +1,515 @@
+#include "library/taut/taut.h"
+
+#include <fmt/format.h>
+#include <immintrin.h>
+#include <tbb/task_arena.h>
+
+#include <cfenv>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <new>
+
+#include "certify/certificate.h"
+#include "certify/checker/check.h"
+#include "certify/checker/errors.h"
+#include "certify/checker/signature.h"
+#include "certify/interval.h"
+#include "certify/rounding.h"
+#include "kinematics/case_file.h"
+#include "kinematics/pose_conversion.h"
+#include "library/certificate_file.h"
+#include "library/files.h"
+#include "library/path_audit.h"
+#include "library/path_csv.h"
+#include "library/planned_case.h"
+#include "library/proved_path.h"
+#include "library/recheck.h"
+#include "reports/certificate_view.h"
+#include "reports/html_report.h"
+#include "reports/samples.h"
+
+namespace taut::v0 {
+
+struct Case::Content {
+  taut::Case the_case;
+  std::string file;  ///< or what stands for it
+};
+
+struct Certificate::Content {
+  std::string text;
+  nlohmann::json json;
+  CertificateView view;
+};
+
+namespace {
+
+// --- Into taut and out of it -----------------------------------------------------------------------------------------
+
+/// Round to nearest, no traps, no flushing to zero while in scope; then what was before.
+class DefaultFloatingPoint {
+ public:
+  DefaultFloatingPoint() : mxcsr_(_mm_getcsr()) {
+    std::fegetenv(&environment_);
+    std::fesetenv(FE_DFL_ENV);
+    _mm_setcsr(rounding_detail::kNearest);
+  }
+  ~DefaultFloatingPoint() {
+    std::fesetenv(&environment_);
+    _mm_setcsr(mxcsr_);
+  }
+  DefaultFloatingPoint(const DefaultFloatingPoint&) = delete;
+  DefaultFloatingPoint& operator=(const DefaultFloatingPoint&) = delete;
+
+ private:
+  unsigned mxcsr_;
+  std::fenv_t environment_{};
+};
+
+void test_rounding_once() {
+  static std::once_flag tested;
+  std::call_once(tested, rounding_self_test);
+}
+
+/// Carries what a progress callback throws around taut, which is asked to stop meanwhile.
+class Relay {
+ public:
+  Relay(const ProgressCallback& callback, const std::stop_token& stop)
+      : callback_(callback), on_stop_(stop, [this] { source_.request_stop(); }) {}
+
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+  void report(const Progress& progress) {
+    if (!callback_ || thrown_) return;
+    try {
+      callback_(progress);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      source_.request_stop();
+    }
+  }
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  const ProgressCallback& callback_;
+  std::stop_source source_;
+  std::exception_ptr thrown_;
+  std::stop_callback<std::function<void()>> on_stop_;
+};
+
+/// Calls `work` in a floating-point environment and with threads of its own, and turns taut's exceptions into those of the interface.
+template <class Work>
+auto within(const Work& work) {
+  const DefaultFloatingPoint environment;
+  try {
+    tbb::task_arena threads;  // begins with this thread's environment, whatever that of the caller's own tasks is
+    return threads.execute(work);
+  } catch (const taut::InputError& error) {
+    throw InputError(error.what(), error.place().file, error.place().line, error.place().field);
+  } catch (const checker::Malformed& error) {  // of keys
+    throw InputError(error.what(), "", 0, "");
+  } catch (const checker::Interrupted& error) {
+    throw Interrupted(error.what());
+  } catch (const taut::UntrustworthyMachine& error) {
+    throw UntrustworthyMachine(error.what());
+  } catch (const InputError&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InternalError(error.what());
+  }
+}
+
+/// The same, for what proves: on a machine that rounds as told.
+template <class Work>
+auto prove_within(const Work& work) {
+  return within([&] {
+    test_rounding_once();
+    return work();
+  });
+}
+
+std::optional<SigningKey> signing_key(const std::string& pem) {
+  return pem.empty() ? std::nullopt : std::optional<SigningKey>(std::in_place, pem, "signing_key_pem");
+}
+
+// --- Types from one side to the other --------------------------------------------------------------------------------
+
+taut::Interpolation inner(Interpolation law) {
+  switch (law) {
+    case Interpolation::kStraight: return taut::Interpolation::kStraight;
+    case Interpolation::kSpline: return taut::Interpolation::kCubicBSpline;
+    case Interpolation::kGeodesic: return taut::Interpolation::kGeodesic;
+    case Interpolation::kCableLengths: return taut::Interpolation::kCableLengths;
+  }
+  throw taut::InputError("interpolation: got an unknown one", {"", 0, "interpolation"});
+}
+
+Interpolation outer(taut::Interpolation law) {
+  switch (law) {
+    case taut::Interpolation::kStraight: break;
+    case taut::Interpolation::kCubicBSpline: return Interpolation::kSpline;
+    case taut::Interpolation::kGeodesic: return Interpolation::kGeodesic;
+    case taut::Interpolation::kCableLengths: return Interpolation::kCableLengths;
+  }
+  return Interpolation::kStraight;
+}
+
+taut::Path inner(const Path& path) {
+  taut::Path result;
+  result.interpolation = inner(path.interpolation);
+  result.times = path.times;
+  for (const Waypoint& waypoint : path.waypoints) {
+    taut::Waypoint& copy = result.waypoints.emplace_back(taut::Waypoint{waypoint.x, waypoint.half_turns});
+    if (copy.half_turns.empty() && !has_poses(result.interpolation)) copy.half_turns.assign(copy.x.size(), 0);
+  }
+  return result;
+}
+
+double below(const std::string& decimal) { return ScalarTraits<Interval>::from_decimal(decimal).lower(); }
+double above(const std::string& decimal) { return ScalarTraits<Interval>::from_decimal(decimal).upper(); }
+
+Place outer(const PathPointView& point) {
+  Place place;
+  place.index = static_cast<std::size_t>(point.index);
+  if (point.s) place.s = point.position - point.index;
+  return place;
+}
+
+Witness outer(const WitnessView& witness) {
+  Witness result;
+  result.kind = witness.kind;
+  result.at = outer(witness.at);
+  if (witness.to) {
+    result.to = outer(*witness.to);
+    return result;
+  }
+  result.cable = witness.cable;
+  result.value_lower = below(witness.value_lower);
+  result.value_upper = above(witness.value_upper);
+  result.limit = ScalarTraits<double>::from_decimal(witness.limit);
+  result.deviates = witness.deviates;
+  return result;
+}
+
+std::array<std::array<double, 2>, 6> outer(const std::array<Limits, kCables>& limits) {
+  std::array<std::array<double, 2>, 6> result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = {ScalarTraits<double>::from_decimal(limits[i].lower),
+                 ScalarTraits<double>::from_decimal(limits[i].upper)};
+  }
+  return result;
+}
+
+Certificate certificate_of(std::string text, nlohmann::json json) {
+  CertificateView view = read_certificate(json);
+  return Certificate(std::make_shared<const Certificate::Content>(
+      Certificate::Content{std::move(text), std::move(json), std::move(view)}));
+}
+
+/// The table as the text of a path file; its decimals read back as the same binary64.
+std::shared_ptr<const std::string> text_of(const Table& table) {
+  const std::size_t columns = table.columns.size();
+  if (columns == 0 || table.values.size() % columns != 0) {
+    throw taut::InputError(
+        fmt::format("values: got {} numbers, expected {} for each row", table.values.size(), columns),
+        {"", 0, "values"});
+  }
+  for (const std::string& column : table.columns) {
+    if (column.find_first_of(",;\t\r\n#\"") != std::string::npos) {
+      throw taut::InputError(fmt::format("columns: got '{}', expected NAME or NAME[UNIT]", column), {"", 0, "columns"});
+    }
+  }
+  std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
+  for (auto row = table.values.begin(); row != table.values.end(); row += static_cast<std::ptrdiff_t>(columns)) {
+    text += fmt::format("{}\n", fmt::join(row, row + static_cast<std::ptrdiff_t>(columns), ","));
+  }
+  return std::make_shared<const std::string>(std::move(text));
+}
+
+}  // namespace
+
+// --- Errors ----------------------------------------------------------------------------------------------------------
+
+const char* version() noexcept { return TAUT_VERSION; }
+
+InputError::InputError(const std::string& message, std::string file, std::size_t line, std::string field)
+    : std::runtime_error(message), file_(std::move(file)), line_(line), field_(std::move(field)) {}
+InputError::InputError(const InputError&) = default;
+InputError::~InputError() = default;
+Interrupted::~Interrupted() = default;
+UntrustworthyMachine::~UntrustworthyMachine() = default;
+InternalError::~InternalError() = default;
+
+// --- Cases -----------------------------------------------------------------------------------------------------------
+
+Case::Case(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+Case Case::load(const std::string& file) {
+  return within([&] { return Case(std::make_shared<const Content>(Content{load_case(file), file})); });
+}
+
+Case Case::parse(const std::string& yaml, const std::string& name) {
+  return within([&] { return Case(std::make_shared<const Content>(Content{parse_case(yaml, name), name})); });
+}
+
+const std::string& Case::name() const { return content_->the_case.problem.name; }
+const std::string& Case::description() const { return content_->the_case.description; }
+
+std::vector<std::string> Case::parameters() const {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : content_->the_case.problem.space.parameters) names.push_back(parameter.name);
+  return names;
+}
+
+std::size_t Case::query_waypoints() const { return content_->the_case.problem.query.size(); }
+
+std::array<std::array<double, 2>, 6> Case::tension_limits_N() const {
+  return within([&] { return outer(content_->the_case.problem.robot.tension_N); });
+}
+
+std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
+  return within([&] { return outer(content_->the_case.problem.robot.length_m); });
+}
+
+// --- Certificates ----------------------------------------------------------------------------------------------------
+
+Certificate::Certificate(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+Certificate Certificate::load(const std::string& file) {
+  return parse(within([&] { return read_whole(file); }), file);
+}
+
+Certificate Certificate::parse(const std::string& text, const std::string& name) {
+  return within([&] { return certificate_of(text, parse_certificate(text, name)); });
+}
+
+void Certificate::save(const std::string& file) const {
+  within([&] { write_whole({{file, content_->text}}); });
+}
+
+const std::string& Certificate::text() const { return content_->text; }
+
+Verdict Certificate::verdict() const {
+  const std::string& verdict = content_->view.verdict;
+  return verdict == "proved" ? Verdict::kProved : verdict == "refuted" ? Verdict::kRefuted : Verdict::kUndecided;
+}
+
+const std::string& Certificate::claim() const { return content_->view.claim; }
+const std::string& Certificate::case_name() const { return content_->view.problem.name; }
+
+std::optional<Margins> Certificate::margins() const {
+  const std::optional<MarginsView>& margins = content_->view.margins;
+  if (!margins) return std::nullopt;
+  return within([&] {
+    return Margins{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale)};
+  });
+}
+
+std::optional<Witness> Certificate::witness() const {
+  if (!content_->view.witness) return std::nullopt;
+  return within([&] { return outer(*content_->view.witness); });
+}
+
+std::vector<Stretch> Certificate::stretches() const {
+  return within([&] {
+    std::vector<Stretch> result;
+    for (const StretchView& stretch : content_->view.stretches) {
+      Stretch& copy = result.emplace_back();
+      copy.begin = outer(stretch.begin);
+      copy.end = outer(stretch.end);
+      if (stretch.first) copy.violations = {outer(*stretch.first), outer(*stretch.last)};
+      copy.reason = stretch.reason;
+    }
+    return result;
+  });
+}
+
+const std::string& Certificate::reason() const {
+  static const std::string none;
+  return content_->view.undecided ? content_->view.undecided->reason : none;
+}
+
+Path Certificate::path() const {
+  const taut::Path& path = content_->view.path;
+  Path result;
+  result.interpolation = outer(path.interpolation);
+  for (const taut::Waypoint& waypoint : path.waypoints) result.waypoints.push_back({waypoint.x, waypoint.half_turns});
+  result.times = path.times;
+  return result;
+}
+
+std::string Certificate::path_csv() const {
+  return within([&] { return taut::path_csv(content_->view.problem, content_->view.path); });
+}
+
+std::size_t Certificate::segments() const { return content_->view.path.segments(); }
+std::size_t Certificate::boxes() const { return content_->view.boxes; }
+
+std::vector<Sample> Certificate::samples(std::size_t about) const {
+  return within([&] {
+    const Sampler sampler(content_->view.problem);
+    std::vector<Sample> result;
+    for (const PathSample& sample : sampler.along(content_->view.path, about)) {
+      Sample& copy = result.emplace_back();
+      copy.position = sample.position;
+      const RigidPose pose = rigid_pose(sample.pose);
+      copy.p_m = {pose.p(0), pose.p(1), pose.p(2)};
+      copy.quaternion = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
+      copy.is_singular = !sample.statics.regular;
+      copy.length_m = sample.statics.length;
+      for (std::size_t i = 0; i < copy.length_m.size() && !copy.is_singular; ++i) {
+        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.variation[i];
+        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.variation[i];
+      }
+    }
+    return result;
+  });
+}
+
+// --- What taut does --------------------------------------------------------------------------------------------------
+
+Certificate plan(const Case& the_case, const PlanOptions& options) {
+  Relay relay(options.progress, options.stop);
+  Certificate result = prove_within([&] {
+    taut::Case planned = the_case.content().the_case;
+    try {
+      require_plannable(planned);
+    } catch (const FieldError& error) {
+      const std::string& file = the_case.content().file;
+      throw taut::InputError(fmt::format("{}: {}", file, error.what()), {file, 0, error.field()});
+    }
+    if (!(options.budget_seconds >= 0) || !std::isfinite(options.budget_seconds)) {
+      throw taut::InputError(
+          fmt::format("budget_seconds: got {}, expected a number of seconds", options.budget_seconds),
+          {"", 0, "budget_seconds"});
+    }
+    if (options.budget_seconds > 0) {
+      planned.planner.max_seconds = options.budget_seconds;
+      planned.planner.has_budget = true;
+    }
+    const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
+    if (!options.save_atlas.empty()) require_writable(options.save_atlas);
+    Planner planner(planned, options.atlas);
+    const auto progress = [&](const PlanProgress& at) {
+      relay.report({"planning", static_cast<std::size_t>(at.charts), 0});
+    };
+    PlannedCase made = plan_case(planned, planner, {options.grow, key ? &*key : nullptr}, progress, relay.token());
+    if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
+      write_whole({{options.save_atlas, planner.atlas_bytes()}});
+    }
+    std::string text = certificate_text(made.certificate);
+    return certificate_of(std::move(text), std::move(made.certificate));
+  });
+  relay.rethrow();
+  return result;
+}
+
+Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options) {
+  return prove_within([&] {
+    const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
+    nlohmann::json certificate =
+        prove_waypoints(the_case.content().the_case.problem, inner(path), options.max_bits, options.stop);
+    if (options.stop.stop_requested()) throw Interrupted("interrupted");
+    if (key) key->sign(certificate);
+    std::string text = certificate_text(certificate);
+    return certificate_of(std::move(text), std::move(certificate));
+  });
+}
+
+namespace {
+
+Certificate audit_input(const Case& the_case, const PathInput& path, const AuditOptions& options) {
+  Relay relay(options.progress, options.stop);
+  const auto work = [&] {
+    const Case::Content& content = the_case.content();
+    AuditRequest request{path, std::nullopt, options.allow_repeats};
+    if (options.interpolation) request.law = inner(*options.interpolation);
+    request = resolved(request, content.the_case, content.file);
+    const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
+    PathSource source(content.the_case.problem, request.path, request.law, {request.allow_repeats});
+    std::string text;
+    const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
+    const PathAudit audited = audit_path(
+        source, {options.max_bits, std::filesystem::temp_directory_path(), key ? &*key : nullptr},
+        [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
+    if (audited.audit.interrupted) throw Interrupted("interrupted");
+    nlohmann::json json = nlohmann::json::parse(text);
+    return certificate_of(std::move(text), std::move(json));
+  };
+  try {
+    return prove_within(work);
+  } catch (const Interrupted&) {
+    relay.rethrow();
+    throw;
+  }
+}
+
+}  // namespace
+
+Certificate audit(const Case& the_case, const std::string& path_file, const AuditOptions& options) {
+  return audit_input(the_case, PathInput(path_file), options);
+}
+
+Certificate audit(const Case& the_case, const Table& table, const AuditOptions& options, const std::string& name) {
+  return audit_input(the_case, PathInput(name, within([&] { return text_of(table); })), options);
+}
+
+Certificate audit(const Case& the_case, const AuditOptions& options) {
+  return audit_input(the_case, PathInput(std::string()), options);
+}
+
+CheckResult check(const std::string& certificate_text, const CheckOptions& options) {
+  return within([&] {
+    std::vector<std::string> trusted;
+    for (const std::string& pem : options.trusted_keys_pem) {
+      trusted.push_back(checker::read_public_key(pem, "trusted_keys_pem"));
+    }
+    nlohmann::json problem;
+    if (options.the_case) problem = to_json(options.the_case->content().the_case.problem);
+    const checker::CheckResult checked =
+        checker::check_certificate(certificate_text, options.the_case ? &problem : nullptr, trusted, options.stop);
+    CheckResult result;
+    switch (checked.outcome) {
+      case checker::Outcome::kAccepted: result.outcome = Outcome::kAccepted; break;
+      case checker::Outcome::kRejected: result.outcome = Outcome::kRejected; break;
+      case checker::Outcome::kUndecided: result.outcome = Outcome::kUndecided; break;
+      case checker::Outcome::kMalformed: result.outcome = Outcome::kMalformed; break;
+    }
+    result.message = checked.message;
+    result.verdict = checked.verdict;
+    result.signer = checked.signer;
+    result.is_trusted = checked.is_trusted;
+    result.segments = checked.segments;
+    result.boxes = checked.boxes;
+    return result;
+  });
+}
+
+CheckResult check(const Certificate& certificate, const CheckOptions& options) {
+  return check(certificate.text(), options);
+}
+
+std::string report(const Certificate& certificate, const ReportOptions& options) {
+  return prove_within([&]() -> std::string {
+    const auto& [text, json, view] = certificate.content();
+    taut::ReportOptions request{
+        options.document, options.revision, options.date.empty() ? report_date() : options.date, {}};
+    request.recheck = recheck(text, json, options.check, options.stop);
+    switch (options.format) {
+      case ReportFormat::kHtml: break;
+      case ReportFormat::kText: return text_summary(json, request);
+      case ReportFormat::kMarkdown: return markdown_summary(json, request);
+      case ReportFormat::kJson:
+        return json_summary(json, request).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+    }
+    return html_report(json, request);
+  });
+}
+
+}  // namespace taut::v0

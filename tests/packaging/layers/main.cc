@@ -1,0 +1,26 @@
+// layers CASE.yaml: a query's waypoints judged by the prover itself, and a plan by the library.
+#include <taut/taut.h>
+
+#include <iostream>
+
+#include "atlas/atlas.h"
+#include "certify/checker/check.h"
+#include "certify/path_proof.h"
+#include "certify/rounding.h"
+#include "kinematics/case_file.h"
+#include "reports/html_report.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 3;
+  taut::rounding_self_test();
+  const taut::Case robot = taut::load_case(argv[1]);
+  const taut::Prover prover(robot.problem);
+  for (const taut::Waypoint& waypoint : taut::query_waypoints(robot.problem)) {
+    std::string undecided;
+    if (taut::refute_waypoint(prover, waypoint, 0, undecided) || !undecided.empty()) return 1;
+  }
+  const taut::v0::Certificate certificate = taut::v0::plan(taut::v0::Case::load(argv[1]));
+  const taut::checker::CheckResult checked = taut::checker::check_certificate(certificate.text());
+  std::cout << checked.message << "\n";
+  return checked.outcome == taut::checker::Outcome::kAccepted ? 0 : 1;
+}
