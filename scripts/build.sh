@@ -64,7 +64,7 @@ build_programs() {
 }
 
 build_all() {
-  install_for build test && build_release_now -DTAUT_TESTS=ON --
+  install_for build test python && build_release_now -DTAUT_TESTS=ON -DTAUT_PYTHON=ON --
 }
 
 # or_exit_4 COMMAND…

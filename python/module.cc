@@ -1,0 +1,402 @@
+// taut._taut: the library's interface as Python sees it. What people use is in taut/__init__.py.
+//
+// Work is done in a thread of its own, with the interpreter released; the calling thread wakes up now and then, calls `progress`
+// and looks for signals, so that Ctrl-C stops the work.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <taut/taut.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace {
+
+using Array = py::array_t<double, py::array::c_style>;
+using IntArray = py::array_t<int, py::array::c_style>;
+
+// --- Running ---------------------------------------------------------------------------------------------------------
+
+/// What the worker tells the caller.
+class Desk {
+ public:
+  void report(const taut::Progress& progress) {
+    const std::lock_guard lock(mutex_);
+    latest_ = progress;
+  }
+  void finish() {
+    const std::lock_guard lock(mutex_);
+    finished_ = true;
+    wake_.notify_all();
+  }
+  /// Waits a little; whether all is done.
+  bool wait() {
+    constexpr auto kWhile = std::chrono::milliseconds(50);
+    std::unique_lock lock(mutex_);
+    return wake_.wait_for(lock, kWhile, [&] { return finished_; });
+  }
+  std::optional<taut::Progress> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(latest_, std::nullopt);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<taut::Progress> latest_;
+  bool finished_ = false;
+};
+
+/// Calls `work(stop, progress)` and returns what it does. @param progress  a callable (stage, done, total), or None
+template <class Work>
+auto run(const py::object& progress, const Work& work) {
+  using Result = decltype(work(std::stop_token(), taut::ProgressCallback()));
+  std::optional<Result> result;
+  std::exception_ptr failure;
+  std::optional<py::error_already_set> raised;  // by the callback, or by a signal
+  Desk desk;
+  {
+    std::jthread worker([&](const std::stop_token& stop) {
+      try {
+        result.emplace(work(stop, [&](const taut::Progress& at) { desk.report(at); }));
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      desk.finish();
+    });
+    for (bool finished = false; !finished;) {
+      {
+        const py::gil_scoped_release released;
+        finished = desk.wait();
+      }
+      if (raised) continue;
+      try {
+        if (const auto at = desk.take(); at && !progress.is_none()) progress(at->stage, at->done, at->total);
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      } catch (py::error_already_set& error) {
+        raised.emplace(std::move(error));
+        worker.request_stop();
+      }
+    }
+  }
+  if (raised) throw std::move(*raised);
+  if (failure) std::rethrow_exception(failure);
+  return *std::move(result);
+}
+
+/// Of work without progress.
+template <class Work>
+auto run(const Work& work) {
+  return run(py::none(), [&](const std::stop_token& stop, const taut::ProgressCallback&) { return work(stop); });
+}
+
+// --- Values ----------------------------------------------------------------------------------------------------------
+
+taut::Interpolation interpolation_of(const std::string& name) {
+  if (name == "straight") return taut::Interpolation::kStraight;
+  if (name == "spline") return taut::Interpolation::kSpline;
+  if (name == "geodesic") return taut::Interpolation::kGeodesic;
+  if (name == "cable-lengths") return taut::Interpolation::kCableLengths;
+  throw taut::InputError("interpolation: got '" + name + "', expected straight, spline, geodesic or cable-lengths", "",
+                         0, "interpolation");
+}
+
+const char* name_of(taut::Interpolation law) {
+  switch (law) {
+    case taut::Interpolation::kStraight: break;
+    case taut::Interpolation::kSpline: return "spline";
+    case taut::Interpolation::kGeodesic: return "geodesic";
+    case taut::Interpolation::kCableLengths: return "cable-lengths";
+  }
+  return "straight";
+}
+
+const char* name_of(taut::Verdict verdict) {
+  switch (verdict) {
+    case taut::Verdict::kProved: return "proved";
+    case taut::Verdict::kRefuted: return "refuted";
+    case taut::Verdict::kUndecided: break;
+  }
+  return "undecided";
+}
+
+const char* name_of(taut::Outcome outcome) {
+  switch (outcome) {
+    case taut::Outcome::kAccepted: return "accepted";
+    case taut::Outcome::kRejected: return "rejected";
+    case taut::Outcome::kUndecided: return "undecided";
+    case taut::Outcome::kMalformed: break;
+  }
+  return "malformed";
+}
+
+taut::Path path_of(const std::string& interpolation, const Array& x, const std::optional<IntArray>& half_turns,
+                   std::vector<std::string> times) {
+  taut::Path path = {interpolation_of(interpolation), {}, std::move(times)};
+  const auto rows = static_cast<std::size_t>(x.shape(0));
+  const auto columns = static_cast<std::size_t>(x.shape(1));
+  for (std::size_t k = 0; k < rows; ++k) {
+    taut::Waypoint& waypoint = path.waypoints.emplace_back();
+    waypoint.x.assign(x.data() + k * columns, x.data() + (k + 1) * columns);
+    if (half_turns)
+      waypoint.half_turns.assign(half_turns->data() + k * columns, half_turns->data() + (k + 1) * columns);
+  }
+  return path;
+}
+
+template <class T, class Row>
+py::array_t<T> array_of(const std::vector<Row>& rows, std::size_t columns) {
+  py::array_t<T> array({rows.size(), columns});
+  T* into = array.mutable_data();
+  for (const Row& row : rows) into = std::copy(row.begin(), row.end(), into);
+  return array;
+}
+
+/// interpolation, waypoints, half turns or None, times
+py::tuple path_tuple(const taut::Path& path) {
+  std::vector<std::vector<double>> x;
+  std::vector<std::vector<int>> half_turns;
+  for (const taut::Waypoint& waypoint : path.waypoints) {
+    x.push_back(waypoint.x);
+    half_turns.push_back(waypoint.half_turns);
+  }
+  const std::size_t columns = x.empty() ? 0 : x.front().size();
+  const bool has_turns = !half_turns.empty() && !half_turns.front().empty();
+  return py::make_tuple(name_of(path.interpolation), array_of<double>(x, columns),
+                        has_turns ? py::object(array_of<int>(half_turns, columns)) : py::none(), path.times);
+}
+
+py::tuple place_tuple(const taut::Place& place) { return py::make_tuple(place.index, place.s); }
+
+py::dict witness_dict(const taut::Witness& witness) {
+  const bool singular = witness.to.has_value();
+  const auto unless_singular = [&](auto value) { return singular ? py::object(py::none()) : py::cast(value); };
+  py::dict dict;
+  dict["kind"] = witness.kind;
+  dict["at"] = place_tuple(witness.at);
+  dict["to"] = singular ? py::object(place_tuple(*witness.to)) : py::none();
+  dict["cable"] = unless_singular(witness.cable);
+  dict["value"] = unless_singular(std::make_pair(witness.value_lower, witness.value_upper));
+  dict["limit"] = unless_singular(witness.limit);
+  dict["deviates"] = witness.deviates;
+  return dict;
+}
+
+py::list stretch_list(const std::vector<taut::Stretch>& stretches) {
+  py::list list;
+  for (const taut::Stretch& stretch : stretches) {
+    py::object violations = py::none();
+    if (stretch.violations) {
+      violations = py::make_tuple(witness_dict(stretch.violations->first), witness_dict(stretch.violations->second));
+    }
+    list.append(py::make_tuple(place_tuple(stretch.begin), place_tuple(stretch.end), violations, stretch.reason));
+  }
+  return list;
+}
+
+py::dict samples_dict(const std::vector<taut::Sample>& samples) {
+  std::vector<std::array<double, 1>> positions;
+  std::vector<std::array<double, 3>> p;
+  std::vector<std::array<double, 4>> q;
+  std::vector<std::array<double, 6>> lower, upper, lengths;
+  for (const taut::Sample& sample : samples) {
+    positions.push_back({sample.position});
+    p.push_back(sample.p_m);
+    q.push_back(sample.quaternion);
+    lengths.push_back(sample.length_m);
+    std::array<double, 6> nothing{};
+    nothing.fill(std::numeric_limits<double>::quiet_NaN());
+    lower.push_back(sample.is_singular ? nothing : sample.tension_lower_N);
+    upper.push_back(sample.is_singular ? nothing : sample.tension_upper_N);
+  }
+  py::dict dict;
+  dict["position"] = array_of<double>(positions, 1).attr("ravel")();
+  dict["p_m"] = array_of<double>(p, 3);
+  dict["quaternion"] = array_of<double>(q, 4);
+  dict["tension_lower_N"] = array_of<double>(lower, 6);
+  dict["tension_upper_N"] = array_of<double>(upper, 6);
+  dict["length_m"] = array_of<double>(lengths, 6);
+  return dict;
+}
+
+py::array_t<double> limits_array(const std::array<std::array<double, 2>, 6>& limits) {
+  return array_of<double>(std::vector<std::array<double, 2>>(limits.begin(), limits.end()), 2);
+}
+
+// --- Errors ----------------------------------------------------------------------------------------------------------
+
+py::object error_type(const char* name) { return py::module_::import("taut._errors").attr(name); }
+
+void translate(std::exception_ptr failure) {
+  const auto raise = [](const char* type, const char* message) { PyErr_SetString(error_type(type).ptr(), message); };
+  try {
+    if (failure) std::rethrow_exception(failure);
+  } catch (const taut::InputError& error) {
+    const py::object type = error_type("InputError");
+    PyErr_SetObject(type.ptr(), type(error.what(), error.file(), error.line(), error.field()).ptr());
+  } catch (const taut::Interrupted& error) {
+    raise("Interrupted", error.what());
+  } catch (const taut::UntrustworthyMachine& error) {
+    raise("UntrustworthyMachine", error.what());
+  } catch (const taut::InternalError& error) {
+    raise("InternalError", error.what());
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_taut, module) {
+  using namespace py::literals;
+  module.doc() = "What the package taut is made of.";
+  module.attr("version") = taut::version();
+  py::register_exception_translator(translate);
+
+  py::class_<taut::Case>(module, "Case")
+      .def_static("load", &taut::Case::load, py::call_guard<py::gil_scoped_release>())
+      .def_static("parse", &taut::Case::parse, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("name", &taut::Case::name)
+      .def_property_readonly("description", &taut::Case::description)
+      .def_property_readonly("parameters", &taut::Case::parameters)
+      .def_property_readonly("query_waypoints", &taut::Case::query_waypoints)
+      .def_property_readonly("tension_limits_N", [](const taut::Case& c) { return limits_array(c.tension_limits_N()); })
+      .def_property_readonly("length_limits_m", [](const taut::Case& c) { return limits_array(c.length_limits_m()); });
+
+  py::class_<taut::Certificate>(module, "Certificate")
+      .def_static("load", &taut::Certificate::load, py::call_guard<py::gil_scoped_release>())
+      .def_static("parse", &taut::Certificate::parse, py::call_guard<py::gil_scoped_release>())
+      .def("save", &taut::Certificate::save, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("text", &taut::Certificate::text)
+      .def_property_readonly("verdict", [](const taut::Certificate& c) { return name_of(c.verdict()); })
+      .def_property_readonly("claim", &taut::Certificate::claim)
+      .def_property_readonly("case_name", &taut::Certificate::case_name)
+      .def_property_readonly("margins",
+                             [](const taut::Certificate& c) -> py::object {
+                               const auto margins = c.margins();
+                               if (!margins) return py::none();
+                               return py::make_tuple(margins->tension_N, margins->length_m, margins->wrench_scale);
+                             })
+      .def_property_readonly("witness",
+                             [](const taut::Certificate& c) -> py::object {
+                               const auto witness = c.witness();
+                               return witness ? py::object(witness_dict(*witness)) : py::none();
+                             })
+      .def_property_readonly("stretches", [](const taut::Certificate& c) { return stretch_list(c.stretches()); })
+      .def_property_readonly("reason", &taut::Certificate::reason)
+      .def_property_readonly("path", [](const taut::Certificate& c) { return path_tuple(c.path()); })
+      .def_property_readonly("path_csv", &taut::Certificate::path_csv)
+      .def_property_readonly("segments", &taut::Certificate::segments)
+      .def_property_readonly("boxes", &taut::Certificate::boxes)
+      .def("samples", [](const taut::Certificate& c, std::size_t about) {
+        return samples_dict(run([&](const std::stop_token&) { return c.samples(about); }));
+      });
+
+  module.def(
+      "plan",
+      [](const taut::Case& the_case, double budget_seconds, const std::string& atlas, const std::string& save_atlas,
+         bool grow, const std::string& signing_key, const py::object& progress) {
+        return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
+          return taut::plan(the_case, {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop});
+        });
+      },
+      "case"_a, "budget_seconds"_a, "atlas"_a, "save_atlas"_a, "grow"_a, "signing_key"_a, "progress"_a);
+
+  module.def(
+      "prove",
+      [](const taut::Case& the_case, const std::string& interpolation, const Array& waypoints,
+         const std::optional<IntArray>& half_turns, std::vector<std::string> times, long max_bits,
+         const std::string& signing_key) {
+        const taut::Path path = path_of(interpolation, waypoints, half_turns, std::move(times));
+        return run([&](const std::stop_token& stop) {
+          return taut::prove(the_case, path, {max_bits, signing_key, stop});
+        });
+      },
+      "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "max_bits"_a, "signing_key"_a);
+
+  const auto audit_options = [](const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
+                                const std::string& signing_key) {
+    taut::AuditOptions options;
+    if (interpolation) options.interpolation = interpolation_of(*interpolation);
+    options.allow_repeats = allow_repeats;
+    options.max_bits = max_bits;
+    options.signing_key_pem = signing_key;
+    return options;
+  };
+  module.def(
+      "audit_file",
+      [=](const taut::Case& the_case, const std::optional<std::string>& file,
+          const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
+          const std::string& signing_key, const py::object& progress) {
+        taut::AuditOptions options = audit_options(interpolation, allow_repeats, max_bits, signing_key);
+        return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
+          options.stop = stop;
+          options.progress = callback;
+          return file ? taut::audit(the_case, *file, options) : taut::audit(the_case, options);
+        });
+      },
+      "case"_a, "file"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a, "progress"_a);
+  module.def(
+      "audit_table",
+      [=](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
+          const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
+          const std::string& signing_key, const py::object& progress) {
+        const taut::Table table = {std::move(columns), {values.data(), values.data() + values.size()}};
+        taut::AuditOptions options = audit_options(interpolation, allow_repeats, max_bits, signing_key);
+        return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
+          options.stop = stop;
+          options.progress = callback;
+          return taut::audit(the_case, table, options, name);
+        });
+      },
+      "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a,
+      "progress"_a);
+
+  module.def(
+      "check",
+      [](const py::bytes& certificate, const std::optional<taut::Case>& the_case,
+         const std::vector<std::string>& trusted_keys) {
+        const std::string text = certificate;
+        const taut::CheckResult result = run([&](const std::stop_token& stop) {
+          return taut::check(text, {the_case, trusted_keys, stop});
+        });
+        return py::make_tuple(name_of(result.outcome), result.message, result.verdict, result.signer, result.is_trusted,
+                              result.segments, result.boxes);
+      },
+      "certificate"_a, "case"_a, "trusted_keys"_a);
+
+  module.def(
+      "report",
+      [](const taut::Certificate& certificate, const std::string& format, const std::string& document,
+         const std::string& revision, const std::string& date, const std::optional<bool>& check) {
+        taut::ReportOptions options;
+        if (format == "html") {
+          options.format = taut::ReportFormat::kHtml;
+        } else if (format == "text") {
+          options.format = taut::ReportFormat::kText;
+        } else if (format == "markdown") {
+          options.format = taut::ReportFormat::kMarkdown;
+        } else if (format == "json") {
+          options.format = taut::ReportFormat::kJson;
+        } else {
+          throw taut::InputError("format: got '" + format + "', expected html, text, markdown or json", "", 0,
+                                 "format");
+        }
+        options.document = document;
+        options.revision = revision;
+        options.date = date;
+        options.check = check;
+        return run([&](const std::stop_token& stop) {
+          options.stop = stop;
+          return taut::report(certificate, options);
+        });
+      },
+      "certificate"_a, "format"_a, "document"_a, "revision"_a, "date"_a, "check"_a);
+}

@@ -1,0 +1,414 @@
+"""Plans motions of cable-driven hexapods, and proves them.
+
+    import taut
+
+    case = taut.Case.load("crane.yaml")
+    certificate = taut.plan(case)
+    print(certificate.verdict, certificate.margins)
+    certificate.save("certificate.json")
+
+SI and radians everywhere. Certificates are those of the commands `taut plan` and `taut audit`, byte for byte. All work releases the
+interpreter and is stopped by Ctrl-C. docs/library.md has the whole.
+"""
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _taut
+from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachine
+
+__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path", "Place",
+           "Samples", "Stretch", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove", "report"]
+__version__: str = _taut.version
+
+Floats = NDArray[np.float64]
+#: Called now and then, in the calling thread, with a stage ("planning" or "auditing"), what is done (charts or segments), and of
+#: how many (0: nobody knows). What it raises ends the work and comes through.
+Progress = Callable[[str, int, int], Any]
+FileName = Union[str, "os.PathLike[str]"]
+
+
+# --- Cases and paths ---------------------------------------------------------------------------------------------------
+
+class Case:
+    """A robot, its load, the space of its poses, and maybe a query (docs/case-format.md).
+
+    :param source: the text of a case file (YAML), or a dict of the same form, with NumPy arrays where it has lists
+    :param name: stands for the file in messages
+    """
+
+    def __init__(self, source: Union[str, Mapping[str, Any]], name: str = "case") -> None:
+        text = source if isinstance(source, str) else json.dumps(source, default=_plain, ensure_ascii=False, indent=1)
+        self._case = _taut.Case.parse(text, name)
+
+    @classmethod
+    def load(cls, file: FileName) -> Case:
+        """Reads a case file."""
+        case = cls.__new__(cls)
+        case._case = _taut.Case.load(os.fspath(file))
+        return case
+
+    @property
+    def name(self) -> str:
+        return self._case.name
+
+    @property
+    def description(self) -> str:
+        """The file's leading comment."""
+        return self._case.description
+
+    @property
+    def parameters(self) -> list[str]:
+        """Their names, in the order of waypoints."""
+        return self._case.parameters
+
+    @property
+    def query_waypoints(self) -> int:
+        """How many the query has; 0: there is nothing to plan."""
+        return self._case.query_waypoints
+
+    @property
+    def tension_limits_N(self) -> Floats:
+        """Lower and upper limit of each cable, (6, 2), rounded: for plots."""
+        return self._case.tension_limits_N
+
+    @property
+    def length_limits_m(self) -> Floats:
+        """Lower and upper limit of each cable, (6, 2), rounded: for plots."""
+        return self._case.length_limits_m
+
+    def __repr__(self) -> str:
+        return f"<taut.Case {self.name!r}, parameters {', '.join(self.parameters)}>"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Path:
+    """Waypoints, bit for bit, and what happens between them: "straight", "spline", "geodesic" or "cable-lengths"."""
+    interpolation: str
+    waypoints: Floats                      #: (n, columns), see prove()
+    half_turns: Optional[NDArray[np.intc]] #: likewise: parameters are waypoints + π half_turns; None under a law of poses
+    times: tuple[str, ...]                 #: decimals [s], or none
+
+    @property
+    def parameters(self) -> Floats:
+        """waypoints + π half_turns, rounded."""
+        return self.waypoints if self.half_turns is None else self.waypoints + np.pi * self.half_turns
+
+
+# --- Certificates ------------------------------------------------------------------------------------------------------
+
+@dataclasses.dataclass(frozen=True)
+class Margins:
+    """Proved lower bounds, rounded down."""
+    tension_N: float     #: every tension stays so far inside its limits, for every wrench
+    length_m: float      #: and every length
+    wrench_scale: float  #: the ellipsoid of wrenches could be larger by this factor
+
+
+@dataclasses.dataclass(frozen=True)
+class Place:
+    """The point s of a segment, or a waypoint."""
+    index: int
+    s: Optional[float]  #: from 0 to 1; None: a waypoint
+
+    @property
+    def position(self) -> float:
+        """index + s: where on the axis of Samples.position."""
+        return self.index + (self.s or 0.0)
+
+
+@dataclasses.dataclass(frozen=True)
+class Witness:
+    """A proved violation."""
+    kind: str                              #: "tension_min", "tension_max", "length_min", "length_max" or "singular"
+    at: Place
+    to: Optional[Place]                    #: singular: somewhere from `at` to here; the next three are None then
+    cable: Optional[int]                   #: 1 to 6
+    value: Optional[tuple[float, float]]   #: the tension [N] or length [m] lies between these two
+    limit: Optional[float]
+    deviates: bool                         #: the machine is not the stated one, but within the case's tolerances
+
+
+@dataclasses.dataclass(frozen=True)
+class Stretch:
+    """A stretch of an audited path that is not proved."""
+    begin: Place                                     #: outside of these two the path is proved
+    end: Place
+    violations: Optional[tuple[Witness, Witness]]    #: the first and the last proved one
+    reason: str                                      #: why it is open; empty where there are violations
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Samples:
+    """Poses of a path in floating point. For plots: nothing here is proved."""
+    position: Floats         #: (n,) k + s: the point s of segment k
+    p_m: Floats              #: (n, 3)
+    quaternion: Floats       #: (n, 4): x, y, z, w
+    tension_lower_N: Floats  #: (n, 6) over all wrenches of the ellipsoid; NaN where the pose is singular
+    tension_upper_N: Floats  #: (n, 6)
+    length_m: Floats         #: (n, 6)
+
+
+class Certificate:
+    """A claim with all that is needed to prove it again (docs/certificate-format.md).
+
+    One that was loaded or parsed is one whose digest fits, no more: whether it is true is check()'s to say.
+    """
+
+    def __init__(self, text: Union[str, bytes], name: str = "certificate") -> None:
+        self._certificate = _taut.Certificate.parse(text, name)
+
+    @classmethod
+    def _of(cls, certificate: Any) -> Certificate:
+        result = cls.__new__(cls)
+        result._certificate = certificate
+        return result
+
+    @classmethod
+    def load(cls, file: FileName) -> Certificate:
+        """Reads certificate.json. Raises InputError where it is none, or was cut or altered."""
+        return cls._of(_taut.Certificate.load(os.fspath(file)))
+
+    def save(self, file: FileName) -> None:
+        """Writes the file as a whole, or not at all."""
+        self._certificate.save(os.fspath(file))
+
+    @property
+    def text(self) -> str:
+        """What a file of it holds, byte for byte: JSON."""
+        return self._certificate.text
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The same as Python's types."""
+        return json.loads(self.text)
+
+    @property
+    def verdict(self) -> str:
+        """"proved", "refuted" or "undecided"; undecided is not unsafe."""
+        return self._certificate.verdict
+
+    @property
+    def is_proved(self) -> bool:
+        return self.verdict == "proved"
+
+    @property
+    def claim(self) -> str:
+        """The theorem, in words."""
+        return self._certificate.claim
+
+    @property
+    def case_name(self) -> str:
+        return self._certificate.case_name
+
+    @property
+    def margins(self) -> Optional[Margins]:
+        """Only if proved."""
+        margins = self._certificate.margins
+        return None if margins is None else Margins(*margins)
+
+    @property
+    def witness(self) -> Optional[Witness]:
+        """Only if refuted."""
+        return _witness(self._certificate.witness)
+
+    @property
+    def stretches(self) -> list[Stretch]:
+        """Of an audit that is not proved."""
+        return [Stretch(Place(*begin), Place(*end), violations and tuple(map(_witness, violations)), reason)
+                for begin, end, violations, reason in self._certificate.stretches]
+
+    @property
+    def reason(self) -> str:
+        """Only if undecided."""
+        return self._certificate.reason
+
+    @property
+    def path(self) -> Path:
+        interpolation, waypoints, half_turns, times = self._certificate.path
+        return Path(interpolation, waypoints, half_turns, tuple(times))
+
+    @property
+    def path_csv(self) -> str:
+        """As `taut plan` writes it: for the machine that is to follow it."""
+        return self._certificate.path_csv
+
+    @property
+    def segments(self) -> int:
+        return self._certificate.segments
+
+    @property
+    def boxes(self) -> int:
+        """Pieces of the proof."""
+        return self._certificate.boxes
+
+    def samples(self, about: int = 200) -> Samples:
+        """About so many poses along the path, in order, with both ends."""
+        return Samples(**self._certificate.samples(about))
+
+    def __reduce__(self):
+        return Certificate, (self.text,)
+
+    def __repr__(self) -> str:
+        return f"<taut.Certificate {self.verdict}, of {self.case_name!r}, {self.segments} segments>"
+
+
+# --- What taut does ----------------------------------------------------------------------------------------------------
+
+def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
+         save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
+         progress: Optional[Progress] = None) -> Certificate:
+    """Plans through the case's query and proves the path: `taut plan`.
+
+    :param budget_seconds: for planning and proving; 0: the case's own
+    :param atlas: begin with the charts of this file (docs/atlas-file.md)
+    :param save_atlas: write all charts into this file
+    :param grow: make all charts that can be reached before they are saved
+    :param signing_key: PEM of an Ed25519 private key that signs the certificate
+    """
+    return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key, progress))
+
+
+def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,
+          half_turns: Optional[ArrayLike] = None, times: Sequence[Union[float, str]] = (), max_bits: int = 4096,
+          signing_key: str = "") -> Certificate:
+    """Proves a path of yours, bit for bit. One that is not proved is refuted at the first violation found, or undecided at the first
+    piece that is: audit() tells of all.
+
+    :param waypoints: a Path, or (n, columns); the columns are
+        "straight" (the default)  the case's parameters: they go from value to value at constant rates
+        "spline"         the same, as control points of a cubic B-spline
+        "geodesic"       px, py, pz [m], qx, qy, qz, qw: straight, and about one axis
+        "cable-lengths"  these, and l1 … l6 [m]: the pose is where to look for the one that has these lengths
+    :param half_turns: (n, columns): parameters are waypoints + π half_turns, exactly; of periodic ones only
+    :param times: [s], ascending; no part of any claim
+    """
+    if isinstance(waypoints, Path):
+        if interpolation is not None or half_turns is not None or len(times) > 0:
+            raise TypeError("a Path has its interpolation, half_turns and times itself")
+        interpolation, half_turns, times = waypoints.interpolation, waypoints.half_turns, waypoints.times
+        waypoints = waypoints.waypoints
+    x = _floats(waypoints, "waypoints")
+    turns = None
+    if half_turns is not None:
+        turns = np.ascontiguousarray(np.asarray(half_turns).astype(np.intc, casting="same_kind"))
+        if turns.shape != x.shape:
+            raise InputError(f"half_turns: got the shape {turns.shape}, expected that of the waypoints, {x.shape}",
+                             field="half_turns")
+    return Certificate._of(_taut.prove(case._case, interpolation or "straight", x, turns, [_decimal(t) for t in times],
+                                       max_bits, signing_key))
+
+
+def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], ArrayLike] = None, *,
+          columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None, allow_repeats: bool = False,
+          max_bits: int = 4096, signing_key: str = "", name: str = "table",
+          progress: Optional[Progress] = None) -> Certificate:
+    """Proves a path, or says of every stretch that is not proved where it is and why: `taut audit`.
+
+    :param path: a path file, or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from columns to
+        arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
+    :param columns: of an array: their names and units, "phi[deg]", "px[m]", "qw" (docs/audits.md)
+    :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
+    :param allow_repeats: drop rows that repeat the pose of the row before
+    :param name: of a table, for messages and the certificate
+    """
+    if path is None or isinstance(path, (str, os.PathLike)):
+        if columns is not None:
+            raise TypeError("columns are an array's: a file has its own")
+        file = None if path is None else os.fspath(path)
+        return Certificate._of(_taut.audit_file(case._case, file, interpolation, allow_repeats, max_bits, signing_key,
+                                                progress))
+    if isinstance(path, Mapping):
+        if columns is not None:
+            raise TypeError("columns are an array's: a mapping has its own")
+        columns = list(path)
+        path = np.column_stack([np.asarray(values) for values in path.values()]) if columns else np.empty((0, 0))
+    if columns is None:
+        raise TypeError("columns are missing: what the array's columns mean")
+    values = _floats(path, "values")
+    if values.shape[1] != len(columns):
+        raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
+    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats, max_bits,
+                                             signing_key, progress))
+
+
+@dataclasses.dataclass(frozen=True)
+class CheckResult:
+    outcome: str      #: "accepted", "rejected", "undecided" (the certificate claims nothing) or "malformed"
+    message: str      #: one line
+    verdict: str      #: the certificate's
+    signer: str       #: public key whose signature was verified, 64 hex digits, or empty
+    is_trusted: bool  #: whether the signer is one of those asked for
+    segments: int
+    boxes: int
+
+    @property
+    def is_accepted(self) -> bool:
+        """A refuted certificate is accepted too when its refutation holds: look at its verdict."""
+        return self.outcome == "accepted"
+
+
+def check(certificate: Union[Certificate, bytes, FileName], case: Optional[Case] = None, *,
+          trusted_keys: Sequence[str] = ()) -> CheckResult:
+    """Proves a certificate again, by the independent checker: what `taut-check` says.
+
+    :param certificate: a Certificate, the bytes of one, or a file
+    :param case: that the certificate must be about, to the last digit
+    :param trusted_keys: PEMs of Ed25519 public keys, one of which must have signed
+    """
+    if isinstance(certificate, Certificate):
+        text = certificate.text.encode()
+    elif isinstance(certificate, bytes):
+        text = certificate
+    else:
+        with open(certificate, "rb") as file:
+            text = file.read()
+    return CheckResult(*_taut.check(text, case and case._case, list(trusted_keys)))
+
+
+def report(certificate: Certificate, format: str = "html", *, document: str = "", revision: str = "", date: str = "",
+           check: Optional[bool] = None) -> str:
+    """A page for people, made from the certificate alone: `taut report`.
+
+    :param format: "html", "text", "markdown" or "json"
+    :param check: whether the independent checker is asked; None: where that takes a few seconds at most
+    """
+    return _taut.report(certificate._certificate, format, document, revision, date, check)
+
+
+# --- Inside ------------------------------------------------------------------------------------------------------------
+
+def _plain(value: Any) -> Any:
+    """NumPy's arrays and scalars as JSON has them."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"a case can't hold a {type(value).__name__}")
+
+
+def _floats(values: Any, what: str) -> Floats:
+    array = np.asarray(values)
+    if array.ndim != 2:
+        raise InputError(f"{what}: got the shape {array.shape}, expected a row for each waypoint", field=what)
+    return np.ascontiguousarray(array.astype(np.float64, casting="safe"))  # nothing that would round
+
+
+def _decimal(time: Union[float, str]) -> str:
+    return time if isinstance(time, str) else repr(float(time))
+
+
+def _file(name: Optional[FileName]) -> str:
+    return "" if name is None else os.fspath(name)
+
+
+def _witness(witness: Optional[dict[str, Any]]) -> Optional[Witness]:
+    if witness is None:
+        return None
+    places = {"at": Place(*witness["at"]), "to": witness["to"] and Place(*witness["to"])}
+    return Witness(**{**witness, **places})

@@ -1,0 +1,27 @@
+"""What goes wrong. That something is not proved is a verdict, no error."""
+
+
+class InputError(ValueError):
+    """A case, path, certificate, key or option is wrong in some way. The message has the place, what was seen and what was
+    expected: "crane.yaml:12:9: load.mass: got 'NaN', expected …"."""
+
+    def __init__(self, message: str, file: str = "", line: int = 0, field: str = "") -> None:
+        super().__init__(message)
+        self.file = file    #: may be empty
+        self.line = line    #: from 1; 0: unknown, or the file as a whole
+        self.field = field  #: "load.mass", or a column; may be empty
+
+    def __reduce__(self):
+        return InputError, (str(self), self.file, self.line, self.field)
+
+
+class Interrupted(RuntimeError):
+    """The work was asked to stop."""
+
+
+class UntrustworthyMachine(RuntimeError):
+    """This machine does not round as told: nothing can be proved on it."""
+
+
+class InternalError(RuntimeError):
+    """Something failed in taut itself."""

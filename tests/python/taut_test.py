@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+"""The Python module. Usage: taut_test.py TAUT SOURCE_DIR, with the module in PYTHONPATH."""
+import copy
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import taut
+
+TAUT, SOURCE = sys.argv[1:3]
+CASES = os.path.join(SOURCE, "cases")
+ROBOT1 = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
+BRIDGING = os.path.join(CASES, "audits", "robot1-bridging.yaml")
+
+# The same robot as ROBOT1, in numbers.
+ROBOT = {
+    "taut": 1,
+    "name": "robot1",
+    "units": {"length": "mm", "force": "N", "moment": "N*m", "mass": "kg", "angle": "rad"},
+    "robot": {
+        "base_anchors": np.array([[0, 220, 0], [0, 220, 0], [-190.5256, -110, 0], [-190.5256, -110, 0],
+                                  [190.5256, -110, 0], [190.5256, -110, 0]]),
+        "platform_anchors": [[-112.5833, 65, 0], [112.5833, 65, 0], [0, -130, 0]] * 2,
+        "tension": np.array([0.05, 0.5]),
+        "length": [100, 550],
+    },
+    "load": {"point": [30, 14, -21], "wrench": [0, 0, 1, 0, 0, 0],
+             "ellipsoid": {"diagonal": np.array([1e4, 1e4, 1e4, 1e6, 1e6, 1e6])}},
+    "space": {"slice": {"px": 0, "py": 0, "pz": 350, "sigma": "34 deg"}},
+    "query": {"waypoints": [{"phi": -2.3, "theta": 1.6}, {"phi": np.float64(1.7), "theta": 1.7}]},
+}
+
+
+def command(*arguments):
+    """The certificate that a command of taut writes."""
+    with tempfile.TemporaryDirectory() as out:
+        subprocess.run([TAUT, *arguments, "--no-check", "--out", out], capture_output=True, check=False, timeout=300)
+        with open(os.path.join(out, "certificate.json"), encoding="utf-8") as file:
+            return file.read()
+
+
+class Cases(unittest.TestCase):
+    def test_of_a_file(self):
+        case = taut.Case.load(ROBOT1)
+        self.assertEqual((case.name, case.parameters, case.query_waypoints), ("robot1-slice-qs-qg", ["phi", "theta"], 2))
+        self.assertEqual(case.tension_limits_N.tolist(), [[0.05, 0.5]] * 6)
+        self.assertEqual(case.length_limits_m.shape, (6, 2))
+
+    def test_of_a_dict_with_arrays(self):
+        case = taut.Case(ROBOT)
+        planned = taut.plan(case)
+        reference = taut.plan(taut.Case.load(ROBOT1))
+        self.assertEqual(planned.path.waypoints.tolist(), reference.path.waypoints.tolist())
+        self.assertEqual(planned.margins, reference.margins)
+
+    def test_of_text(self):
+        with open(ROBOT1, encoding="utf-8") as file:
+            self.assertEqual(taut.Case(file.read()).name, "robot1-slice-qs-qg")
+
+    def test_that_is_wrong_says_where(self):
+        wrong = copy.deepcopy(ROBOT)
+        wrong["robot"]["tension"] = [0.5, 0.05]
+        with self.assertRaisesRegex(taut.InputError, r"crane:\d+:\d+: robot\.tension\[0\]: got \[0\.5, 0\.05\], expected") as caught:
+            taut.Case(wrong, "crane")
+        self.assertEqual((caught.exception.file, caught.exception.field), ("crane", "robot.tension[0]"))
+        self.assertGreater(caught.exception.line, 20)
+        self.assertIsInstance(caught.exception, ValueError)
+        again = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(again), again.line), (str(caught.exception), caught.exception.line))
+        wrong["robot"]["tension"] = object()
+        self.assertRaises(TypeError, taut.Case, wrong)
+        self.assertRaises(taut.InputError, taut.Case.load, "/no/such/file")
+
+
+class Certificates(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = taut.Case.load(ROBOT1)
+        cls.planned = taut.plan(cls.case)
+
+    def test_are_those_of_the_commands(self):
+        self.assertEqual(self.planned.text, command("plan", ROBOT1))
+        self.assertEqual(taut.audit(taut.Case.load(BRIDGING)).text, command("audit", BRIDGING))
+
+    def test_say_what_is_proved(self):
+        self.assertTrue(self.planned.is_proved)
+        self.assertEqual(self.planned.case_name, "robot1-slice-qs-qg")
+        self.assertGreater(self.planned.margins.tension_N, 0)
+        self.assertIsNone(self.planned.witness)
+        self.assertEqual(self.planned.stretches, [])
+        self.assertEqual(self.planned.data["verdict"], "proved")
+        self.assertEqual(len(self.planned.path.waypoints), self.planned.segments + 1)
+        self.assertIn("proved", repr(self.planned))
+
+    def test_are_saved_loaded_and_pickled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "certificate.json")
+            self.planned.save(file)
+            self.assertEqual(taut.Certificate.load(file).text, self.planned.text)
+            self.assertTrue(taut.check(file, self.case).is_accepted)
+        self.assertEqual(pickle.loads(pickle.dumps(self.planned)).text, self.planned.text)
+        altered = self.planned.text.replace('"0.05"', '"0.04"', 1)
+        self.assertRaises(taut.InputError, taut.Certificate, altered)
+        self.assertEqual(taut.check(altered.encode()).outcome, "malformed")
+
+    def test_are_checked_against_the_case(self):
+        self.assertEqual(taut.check(self.planned, self.case).outcome, "accepted")
+        other = taut.Case.load(os.path.join(CASES, "robot1-slice-qs1-qg.yaml"))
+        result = taut.check(self.planned, other)
+        self.assertEqual((result.outcome, result.is_accepted), ("rejected", False))
+        self.assertRaises(taut.InputError, taut.check, self.planned, trusted_keys=["no key"])
+
+    def test_have_samples(self):
+        samples = self.planned.samples(100)
+        n = len(samples.position)
+        self.assertEqual([samples.p_m.shape, samples.quaternion.shape, samples.tension_lower_N.shape], [(n, 3), (n, 4), (n, 6)])
+        self.assertTrue((samples.tension_lower_N > 0.05).all() and (samples.tension_upper_N < 0.5).all())
+        self.assertTrue(np.allclose(np.linalg.norm(samples.quaternion, axis=1), 1))
+
+    def test_are_reported(self):
+        self.assertTrue(taut.report(self.planned, document="LIFT-1").startswith("<!DOCTYPE html>"))
+        self.assertIn("confirmed", taut.report(self.planned, "json", check=True))
+        self.assertRaises(taut.InputError, taut.report, self.planned, "pdf")
+
+
+class Proofs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = taut.Case.load(ROBOT1)
+        cls.path = taut.plan(cls.case).path
+
+    def test_of_arrays_bit_for_bit(self):
+        waypoints = self.path.waypoints[:4] + np.array([[0, 0], [1e-16, 0], [0, np.spacing(1.0)], [0, 0]])
+        proved = taut.prove(self.case, waypoints, half_turns=self.path.half_turns[:4], times=[0, 0.1, "0.25", np.float64(1) / 3])
+        self.assertEqual(proved.path.waypoints.tobytes(), waypoints.tobytes())
+        self.assertEqual(proved.path.times, ("0.0", "0.1", "0.25", repr(1 / 3)))
+        self.assertTrue(proved.is_proved)
+        self.assertTrue(taut.check(proved).is_accepted)
+
+    def test_of_paths_and_views(self):
+        self.assertTrue(taut.prove(self.case, self.path).is_proved)
+        backwards = taut.prove(self.case, self.path.waypoints[::-1], half_turns=self.path.half_turns[::-1])
+        self.assertTrue(backwards.is_proved)
+        fortran = np.asfortranarray(self.path.waypoints)
+        self.assertEqual(taut.prove(self.case, fortran, half_turns=self.path.half_turns).text,
+                         taut.prove(self.case, self.path.waypoints, half_turns=self.path.half_turns).text)
+
+    def test_of_poses(self):
+        audited = taut.audit(taut.Case.load(os.path.join(CASES, "audits", "robot1-geodesic.yaml")))
+        proved = taut.prove(self.case, audited.path.waypoints, interpolation="geodesic")
+        self.assertEqual(proved.path.interpolation, "geodesic")
+        self.assertIsNone(proved.path.half_turns)
+        self.assertEqual(proved.verdict, audited.verdict)
+
+    def test_that_refute(self):
+        refuted = taut.prove(self.case, [[-2.3, 1.6], [1.7, 1.7]])
+        self.assertEqual(refuted.verdict, "refuted")
+        witness = refuted.witness
+        self.assertIn(witness.kind, ("tension_min", "tension_max"))
+        self.assertTrue(witness.value[1] <= witness.limit or witness.value[0] >= witness.limit)
+        self.assertIsNone(refuted.margins)
+
+    def test_of_what_does_not_fit(self):
+        for waypoints, message in (([1.0, 2.0], "shape"), ([[1.0, 2.0, 3.0]] * 2, "got 3 numbers, expected 2"),
+                                   ([[1.0, np.nan]] * 2, "finite")):
+            with self.assertRaisesRegex(taut.InputError, message):
+                taut.prove(self.case, waypoints)
+        with self.assertRaises(TypeError):
+            taut.prove(self.case, np.ones((2, 2), dtype=np.longdouble))
+        with self.assertRaises(TypeError):
+            taut.prove(self.case, self.path, interpolation="straight")
+        with self.assertRaisesRegex(taut.InputError, "interpolation"):
+            taut.prove(self.case, [[1.0, 1.0]] * 2, interpolation="crooked")
+
+
+class Audits(unittest.TestCase):
+    case = taut.Case.load(ROBOT1)
+
+    def test_of_tables(self):
+        phi, theta = np.linspace(-114.9, 0, 20), np.linspace(72, 85, 20)
+        of_mapping = taut.audit(self.case, {"phi[deg]": phi, "theta[deg]": theta})
+        of_array = taut.audit(self.case, np.column_stack([phi, theta]), columns=["phi[deg]", "theta[deg]"])
+        self.assertEqual(of_mapping.text, of_array.text)
+        self.assertEqual(of_mapping.verdict, "refuted")
+        stretch = of_mapping.stretches[0]
+        self.assertLess(stretch.begin.position, stretch.end.position)
+        self.assertEqual(stretch.violations[0].kind[:7], "tension")
+
+    def test_of_radians_keep_the_bits(self):
+        values = np.random.default_rng(1).uniform(-2, 2, (10, 2))
+        audited = taut.audit(self.case, values, columns=["phi[rad]", "theta[rad]"])
+        self.assertEqual(audited.path.waypoints.tobytes(), values.tobytes())
+
+    def test_of_what_is_wrong_says_where(self):
+        with self.assertRaisesRegex(taut.InputError, "arc:3: theta") as caught:
+            taut.audit(self.case, {"phi[rad]": [0.1, 0.2], "theta[rad]": [0.1, np.inf]}, name="arc")
+        self.assertEqual((caught.exception.line, caught.exception.field), (3, "theta"))
+        with self.assertRaises(TypeError):
+            taut.audit(self.case, np.ones((2, 2)))
+        with self.assertRaises(taut.InputError):
+            taut.audit(self.case, np.ones((2, 2)), columns=["phi[rad]"])
+        with self.assertRaises(taut.InputError):
+            taut.audit(self.case)  # which names no path
+
+
+class Running(unittest.TestCase):
+    def test_progress_comes_and_may_raise(self):
+        values = np.repeat([[-2.3, 1.6], [-2.29, 1.61]], 2000, axis=0)[::1] + np.linspace(0, 1e-3, 4000)[:, np.newaxis]
+        seen = []
+        case = taut.Case.load(ROBOT1)
+        taut.audit(case, values, columns=["phi[rad]", "theta[rad]"], progress=lambda *at: seen.append((threading.get_ident(), *at)))
+        self.assertTrue(seen)
+        for thread, stage, done, total in seen:
+            self.assertEqual((thread, stage, total), (threading.get_ident(), "auditing", 3999))
+            self.assertLessEqual(done, total)
+
+        def fail(*_):
+            raise KeyError("mine")
+        with self.assertRaises(KeyError):
+            taut.audit(case, values, columns=["phi[rad]", "theta[rad]"], progress=fail)
+
+    def test_the_interpreter_is_released(self):
+        case = taut.Case.load(os.path.join(CASES, "robot2-free-q2-q3-astar.yaml"))
+        counted = 0
+        finished = threading.Event()
+
+        def count():
+            nonlocal counted
+            while not finished.is_set():
+                counted += 1
+                time.sleep(0.001)
+        thread = threading.Thread(target=count)
+        thread.start()
+        taut.plan(case, budget_seconds=1)
+        finished.set()
+        thread.join()
+        self.assertGreater(counted, 100)
+
+    def test_threads(self):
+        case = taut.Case.load(ROBOT1)
+        reference = taut.plan(case).text
+        texts = []
+        threads = [threading.Thread(target=lambda: texts.append(taut.plan(case).text)) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(texts, [reference] * 4)
+
+    def test_interruption(self):
+        script = ("import sys, taut\n"
+                  "case = taut.Case.load(sys.argv[1])\n"
+                  "print('ready', flush=True)\n"
+                  "try:\n"
+                  "    taut.plan(case, budget_seconds=100)\n"
+                  "except KeyboardInterrupt:\n"
+                  "    print('interrupted', flush=True)\n")
+        with subprocess.Popen([sys.executable, "-c", script, os.path.join(CASES, "robot2-free-q2-q3-astar.yaml")],
+                              stdout=subprocess.PIPE, text=True) as process:
+            self.assertEqual(process.stdout.readline(), "ready\n")
+            time.sleep(0.5)
+            begin = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.stdout.read(), "interrupted\n")
+            self.assertLess(time.monotonic() - begin, 20)
+        self.assertEqual(process.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
