@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     taut::PlanOptions options;
     options.progress = [](const taut::Progress& at) { std::cerr << at.stage << ": " << at.done << " charts\r"; };
     const taut::Certificate certificate = taut::plan(robot, options);
+    std::cerr << "\n";
     if (certificate.verdict() != taut::Verdict::kProved) {
       std::cout << "not proved: " << certificate.reason() << "\n";
       return 1;

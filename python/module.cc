@@ -82,8 +82,8 @@ auto run(const py::object& progress, const Work& work) {
       try {
         if (const auto at = desk.take(); at && !progress.is_none()) progress(at->stage, at->done, at->total);
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      } catch (py::error_already_set& error) {
-        raised.emplace(std::move(error));
+      } catch (const py::error_already_set& error) {
+        raised.emplace(error);
         worker.request_stop();
       }
     }
@@ -236,7 +236,7 @@ py::array_t<double> limits_array(const std::array<std::array<double, 2>, 6>& lim
 
 py::object error_type(const char* name) { return py::module_::import("taut._errors").attr(name); }
 
-void translate(std::exception_ptr failure) {
+void translate(std::exception_ptr failure) {  // NOLINT(performance-unnecessary-value-param): pybind11 wants it so
   const auto raise = [](const char* type, const char* message) { PyErr_SetString(error_type(type).ptr(), message); };
   try {
     if (failure) std::rethrow_exception(failure);

@@ -80,6 +80,24 @@ class Cases(unittest.TestCase):
         self.assertRaises(taut.InputError, taut.Case.load, "/no/such/file")
 
 
+    def test_messages_are_the_commands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "crane.yaml")
+            with open(ROBOT1, encoding="utf-8") as good, open(file, "w", encoding="utf-8") as bad:
+                bad.write(good.read().replace("point: [30, 14, -21]", "point: [30, 14, far]"))
+            rows = os.path.join(folder, "rows.csv")
+            with open(rows, "w", encoding="utf-8") as table:
+                table.write("phi[rad],theta[rad]\n1,2\n1,x\n")
+            for arguments, call in ((("plan", file), lambda: taut.Case.load(file)),
+                                    (("audit", ROBOT1, rows), lambda: taut.audit(taut.Case.load(ROBOT1), rows))):
+                said = subprocess.run([TAUT, *arguments, "--out", folder], capture_output=True, text=True, check=False,
+                                      timeout=60)
+                with self.assertRaises(taut.InputError) as caught:
+                    call()
+                self.assertEqual((said.returncode, said.stderr), (3, f"taut: {caught.exception}\n"))
+                self.assertTrue(str(caught.exception).startswith(f"{caught.exception.file}:{caught.exception.line}:"))
+
+
 class Certificates(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -129,6 +147,27 @@ class Certificates(unittest.TestCase):
         self.assertTrue(taut.report(self.planned, document="LIFT-1").startswith("<!DOCTYPE html>"))
         self.assertIn("confirmed", taut.report(self.planned, "json", check=True))
         self.assertRaises(taut.InputError, taut.report, self.planned, "pdf")
+
+
+    def test_are_signed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            key, public = os.path.join(folder, "key.pem"), os.path.join(folder, "public.pem")
+            subprocess.run(["openssl", "genpkey", "-algorithm", "ed25519", "-out", key], check=True)
+            os.chmod(key, 0o600)
+            subprocess.run(["openssl", "pkey", "-in", key, "-pubout", "-out", public], check=True)
+            with open(key, encoding="utf-8") as secret, open(public, encoding="utf-8") as known:
+                secret, known = secret.read(), known.read()
+            planned = taut.plan(self.case, signing_key=secret)
+            self.assertEqual(planned.text, command("plan", ROBOT1, "--sign", key))
+            audited = taut.audit(taut.Case.load(BRIDGING), signing_key=secret)
+            self.assertEqual(audited.text, command("audit", BRIDGING, "--sign", key))
+            proved = taut.prove(self.case, planned.path, signing_key=secret)
+        for certificate in (planned, audited, proved):
+            result = taut.check(certificate, trusted_keys=[known])
+            self.assertEqual((result.outcome, result.is_trusted, len(result.signer)), ("accepted", True, 64))
+        self.assertEqual(taut.check(self.planned, trusted_keys=[known]).outcome, "rejected")
+        with self.assertRaisesRegex(taut.InputError, "signing_key_pem"):
+            taut.plan(self.case, signing_key="no key")
 
 
 class Proofs(unittest.TestCase):
