@@ -89,8 +89,9 @@ class Installed(unittest.TestCase):
         symbols = run("nm", "-D", "-C", "--defined-only", library).stdout.splitlines()
         names = [line.split(None, 2)[2] for line in symbols]
         self.assertTrue(any("taut::v0::plan(" in name for name in names))
-        for name in names:
-            self.assertRegex(name, r"^(TAUT_0\.1|(typeinfo (name )?for |vtable for )?taut::v0::)")
+        # Whoever changes this list changes the ABI, and with it the minor version (docs/library.md).
+        with open(os.path.join(SOURCE, "tests", "packaging", "symbols.txt"), encoding="utf-8") as file:
+            self.assertEqual(sorted(set(names)), file.read().splitlines())
 
     def test_another_minor_version_is_refused(self):
         with open(self.path("CMakeLists.txt"), "w", encoding="utf-8") as file:
