@@ -3,6 +3,8 @@
 import copy
 import os
 import pickle
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -248,6 +250,27 @@ class Audits(unittest.TestCase):
             taut.audit(self.case, np.ones((2, 2)), columns=["phi[rad]"])
         with self.assertRaises(taut.InputError):
             taut.audit(self.case)  # which names no path
+
+
+class Documents(unittest.TestCase):
+    def test_what_the_documents_show_runs(self):
+        for document, count in ((os.path.join("docs", "library.md"), 1), ("README.md", 1)):
+            with open(os.path.join(SOURCE, document), encoding="utf-8") as file:
+                blocks = re.findall(r"^```python\n(.*?)^```", file.read(), re.M | re.S)
+            self.assertEqual(len(blocks), count)
+            for block in blocks:
+                with tempfile.TemporaryDirectory() as folder:
+                    shutil.copy(ROBOT1, os.path.join(folder, "crane.yaml"))
+                    here = os.getcwd()
+                    os.chdir(folder)
+                    try:
+                        exec(block, self.names_of_the_reader())  # pylint: disable=exec-used
+                    finally:
+                        os.chdir(here)
+
+    def names_of_the_reader(self):
+        """What the reader of a document has already."""
+        return {"taut": taut, "waypoints": [[0.1, 0.2], [0.2, 0.3]], "phi": np.linspace(0, 10, 5), "theta": np.linspace(5, 20, 5)}
 
 
 class Running(unittest.TestCase):
