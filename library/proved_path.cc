@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -11,6 +12,8 @@
 #include "certify/certificate.h"
 #include "certify/path_proof.h"
 #include "kinematics/decimal.h"
+#include "kinematics/pose_conversion.h"
+#include "kinematics/pose_sampler.h"
 
 namespace taut {
 namespace {
@@ -69,6 +72,31 @@ void require_times(const Path& path) {
   }
 }
 
+/// Where a pose does not have the lengths beside it, the one next to it that has: what is sought around a rough pose is not found.
+/// The lengths, which are what is commanded, stay.
+void refine_references(Path& path, const Model<double>& model) {
+  constexpr double kNearEnough = 1e-6;  // of the platform's size: proofs bear a hundred times as much
+  std::optional<Eigen::Quaterniond> before;
+  for (Waypoint& waypoint : path.waypoints) {
+    std::vector<double>& x = waypoint.x;
+    const Eigen::Quaterniond given(x[6], x[3], x[4], x[5]);
+    const RigidPose pose{Vector3<double>(x[0], x[1], x[2]), given.normalized()};
+    std::array<double, kCables> lengths{};
+    std::copy_n(x.begin() + 7, kCables, lengths.begin());
+    double off = 0;
+    const std::array<double, kCables> has = cable_lengths(model, pose);
+    for (std::size_t i = 0; i < kCables; ++i) off = std::max(off, std::abs(has[i] - lengths[i]));
+    if (off > kNearEnough * model.characteristic_length) {
+      if (auto found = pose_of_lengths(model, lengths, pose)) {
+        if (before && found->q.dot(*before) < 0) found->q.coeffs() = -found->q.coeffs();  // the shorter way
+        const Eigen::Quaterniond& q = found->q;
+        std::ranges::copy(std::array{found->p(0), found->p(1), found->p(2), q.x(), q.y(), q.z(), q.w()}, x.begin());
+      }
+    }
+    before = Eigen::Quaterniond(x[6], x[3], x[4], x[5]);
+  }
+}
+
 }  // namespace
 
 nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits, const std::stop_token& stop) {
@@ -94,6 +122,7 @@ nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits,
     const PoseSampler sampler(problem);
     for (Waypoint& waypoint : path.waypoints) waypoint.normals = sampler.constraints()->normals(waypoint);
   }
+  if (law == Interpolation::kCableLengths) refine_references(path, PoseSampler(problem).model());
   ProofOptions options;
   options.max_bits = max_bits;
   Prover prover(audited, options);

@@ -122,7 +122,7 @@ TAUT_ABI_NAMESPACE {
   /// Exact: these binary64 numbers are what is proved.
   struct Waypoint {
     /// One a parameter of the case [m, rad]; geodesic: px, py, pz [m], qx, qy, qz, qw; cable lengths: these, and the lengths
-    /// l1 … l6 [m], where the pose is where to look for the one that has them.
+    /// l1 … l6 [m], where the pose tells which of those that have them is meant, and is refined if it is rough.
     std::vector<double> x;
     /// One a parameter, which is then x + π half_turns; not 0 for periodic ones only. Empty: all 0.
     std::vector<int> half_turns;

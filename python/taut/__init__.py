@@ -286,7 +286,8 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
         "straight" (the default)  the case's parameters: they go from value to value at constant rates
         "spline"         the same, as control points of a cubic B-spline
         "geodesic"       px, py, pz [m], qx, qy, qz, qw: straight, and about one axis
-        "cable-lengths"  these, and l1 … l6 [m]: the pose is where to look for the one that has these lengths
+        "cable-lengths"  these, and l1 … l6 [m]: the pose tells which of those that have the lengths is meant; a rough one is
+                         refined
     :param half_turns: (n, columns): parameters are waypoints + π half_turns, exactly; of periodic ones only
     :param times: [s], ascending; no part of any claim
     """

@@ -176,6 +176,26 @@ TEST(Prove, OfPosesAndOfLengths) {
   }
 }
 
+TEST(Prove, OfLengthsRefinesARoughPose) {
+  const taut::Case robot = taut::Case::load(kCases + "audits/robot1-cable-lengths.yaml");
+  const taut::Path path = taut::audit(robot).path();
+  taut::Path rough = path;
+  for (taut::Waypoint& waypoint : rough.waypoints) {
+    for (std::size_t j = 0; j < 3; ++j) waypoint.x[j] += 0.01;
+    for (std::size_t j = 3; j < 7; ++j) waypoint.x[j] = std::round(100 * waypoint.x[j]) / 100;
+  }
+  const Certificate proved = taut::prove(robot, rough);
+  EXPECT_EQ(proved.verdict(), Verdict::kProved) << proved.reason();
+  EXPECT_EQ(outcome(proved), taut::Outcome::kAccepted);
+  const taut::Path refined = proved.path();
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    for (std::size_t j = 0; j < 7; ++j) EXPECT_NEAR(refined.waypoints[k].x[j], path.waypoints[k].x[j], 1e-9);
+    for (std::size_t j = 7; j < 13; ++j) EXPECT_EQ(refined.waypoints[k].x[j], path.waypoints[k].x[j]);
+  }
+  const taut::Path kept = taut::prove(robot, path).path();
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) EXPECT_EQ(kept.waypoints[k].x, path.waypoints[k].x);
+}
+
 TEST(Prove, OfASinglePoseStaysThere) {
   const taut::Case robot = taut::Case::load(kRobot1);
   const Certificate proved = taut::prove(robot, {taut::Interpolation::kStraight, {{{-2.3, 1.6}, {}}}, {}});
