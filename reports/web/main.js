@@ -48,25 +48,14 @@ function panelsAt(name, make, keys) {
   if (!holder || data.samples.position.length === 0) return;
   const made = make(data);
   panels.push(...made);
+  for (const panel of made) panel.redraw(axes[0]);
   holder.append(legend(...keys, ...marked), element("div", { class: made.length === 2 ? "panels two" : "panels" }, ...made.map((panel) => panel.figure)));
 }
 
-function drawPlots() {
-  panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]);
-  panelsAt("lengths", lengthPanels,
-    [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]);
-  if (data.margins.from.length > 0) {
-    panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]);
-  }
-  panelsAt("pose", posePanels, []);
-  if (data.plane && place("plane")) place("plane").append(planeFigure(data, cursor));
-  if (data.tolerances.length > 0 && place("tolerances")) {
-    place("tolerances").append(toleranceFigure(data));
-  }
+function joinPlots() {
   if (panels.length === 0) return;
   connect(panels, cursor, data.samples);
   offerAxes();
-  redraw(axes[0]);
 }
 
 function redraw(axis) {
@@ -88,64 +77,103 @@ function offerAxes() {
   document.querySelector("[data-plot] .panels").closest("[data-plot]").prepend(choice);
 }
 
-function drawMove() {
+const stage = element("div", {
+  class: "stage", tabindex: "0", role: "img",
+  "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to come " +
+    "nearer, space to play.",
+});
+let player;
+let viewer;
+
+/// What is beside and below the robot, and room for it. The robot itself takes as long as all plots, and comes last.
+function furnishMove() {
   const holder = place("move");
   if (!holder || data.samples.position.length === 0) return;
-  const stage = element("div", {
-    class: "stage", tabindex: "0", role: "img",
-    "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to come " +
-      "nearer, space to play.",
-  });
   const scene = element("div", { class: "scene" }, stage); // and beside it, what is in it in numbers
-  holder.append(scene);
-  const viewer = isDrawable(data) ? makeViewer(stage, data) : undefined;
-  const player = new Player(data, cursor, axes, viewer && (() => viewer.resetView()));
+  player = new Player(data, cursor, axes);
   scene.append(player.readout.element);
-  holder.append(player.controls);
-  if (viewer) {
-    root.classList.add("has-viewer");
-    cursor.onMove((position) => viewer.show(position));
-    onThemeChange(() => viewer.setTheme());
-    stage.addEventListener("keydown", (event) => {
-      const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], "+": [0, 0, 0.87],
-        "-": [0, 0, 1.15] }[event.key];
-      if (turn) viewer.orbit(...turn);
-      else if (event.key === " ") player.toggle();
-      else return;
-      event.preventDefault();
-    });
-    const bar = element("span", { class: "colour-scale", "aria-hidden": "true" });
-    bar.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map(tensionColour).join(", ")})`;
-    holder.append(
-      element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar, " upper limit; thick, ringed and ",
-        element("b", {}, "!"), ": out of its limits."),
-      legend(...PATH_KEYS[data.verdict],
-        ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
-        ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
-        ["load-line", "path of the load point"],
-        ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])));
-    if (data.tube_m !== null) {
-      const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
-      holder.append(element("p", { class: "note" }, viewer.tubeIsThin
-        ? `The origin may be up to ${size} from the path: too little to be seen at this scale.`
-        : `The tube around the path, to scale: the origin may be up to ${size} from it.`));
-    }
-  } else {
+  holder.append(scene, player.controls);
+  root.classList.toggle("has-viewer", isDrawable(data));
+}
+
+function drawRobot() {
+  if (!player) return;
+  const holder = place("move");
+  viewer = isDrawable(data) ? makeViewer(stage, data) : undefined;
+  root.classList.toggle("has-viewer", Boolean(viewer));
+  if (!viewer) {
     stage.remove();
     holder.append(element("p", { class: "note" }, "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."));
+    return;
+  }
+  player.offerReset(() => viewer.resetView());
+  if (cursor.position !== undefined) viewer.show(cursor.position);
+  cursor.onMove((position) => viewer.show(position));
+  onThemeChange(() => viewer.setTheme());
+  stage.addEventListener("keydown", (event) => {
+    const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], "+": [0, 0, 0.87],
+      "-": [0, 0, 1.15] }[event.key];
+    if (turn) viewer.orbit(...turn);
+    else if (event.key === " ") player.toggle();
+    else return;
+    event.preventDefault();
+  });
+  const bar = element("span", { class: "colour-scale", "aria-hidden": "true" });
+  bar.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map(tensionColour).join(", ")})`;
+  holder.append(
+    element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar, " upper limit; thick, ringed and ",
+      element("b", {}, "!"), ": out of its limits."),
+    legend(...PATH_KEYS[data.verdict],
+      ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
+      ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
+      ["load-line", "path of the load point"],
+      ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])));
+  if (data.tube_m !== null) {
+    const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
+    holder.append(element("p", { class: "note" }, viewer.tubeIsThin
+      ? `The origin may be up to ${size} from the path: too little to be seen at this scale.`
+      : `The tube around the path, to scale: the origin may be up to ${size} from it.`));
   }
 }
 
-// One after the other, so that the page answers between them.
-const jobs = [drawMove, drawPlots];
-function next() {
-  const job = jobs.shift();
-  if (!job) {
+// One after the other, so that the page answers between them; and none before the words and tables are on the screen.
+const jobs = [
+  furnishMove,
+  () => panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]),
+  () => panelsAt("lengths", lengthPanels, [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]),
+  () => data.margins.from.length > 0 &&
+    panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]),
+  () => panelsAt("pose", posePanels, []),
+  () => data.plane && place("plane")?.append(planeFigure(data, cursor)),
+  () => data.tolerances.length > 0 && place("tolerances")?.append(toleranceFigure(data)),
+  joinPlots,
+  drawRobot,
+];
+
+/// Whether there is more to do.
+function step() {
+  jobs.shift()?.();
+  if (jobs.length > 0) return true;
+  if (!root.classList.contains("drawn")) {
     root.classList.add("drawn");
     performance.mark("drawn");
-    return;
   }
-  job();
-  setTimeout(next);
+  return false;
 }
-next();
+
+function drawAll() {
+  if (step()) setTimeout(drawAll);
+}
+
+let isBegun = false;
+function begin() {
+  if (isBegun) return;
+  isBegun = true;
+  performance.mark("readable");
+  drawAll();
+}
+requestAnimationFrame(() => setTimeout(begin)); // after the first picture of the page,
+setTimeout(begin, 500); // or without one, where nobody looks
+addEventListener("beforeprint", () => {
+  while (step());
+});

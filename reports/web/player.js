@@ -88,8 +88,7 @@ class Readout {
 }
 
 export class Player {
-  /// onReset: what the button "Reset view" does; none without a picture.
-  constructor(data, cursor, axes, onReset) {
+  constructor(data, cursor, axes) {
     Object.assign(this, { data, cursor, axes });
     this.pace = pace(data);
     this.playing = false;
@@ -102,14 +101,8 @@ export class Player {
     if (this.pace.seconds > 0) offer(this.pace.seconds, `as timed (${text(this.pace.seconds, 3)} s)`);
     for (const seconds of [10, 5, 20, 60]) offer(seconds, `whole move in ${seconds} s`);
     this.readout = new Readout(data);
-    const controls = element("div", { class: "player controls", role: "group", "aria-label": "Playing the move" },
+    this.controls = element("div", { class: "player controls", role: "group", "aria-label": "Playing the move" },
       this.play, this.previous, this.slider, this.next, this.duration);
-    if (onReset) {
-      const reset = element("button", { type: "button" }, "Reset view");
-      reset.addEventListener("click", onReset);
-      controls.append(reset);
-    }
-    this.controls = controls;
 
     this.play.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => {
@@ -120,6 +113,13 @@ export class Player {
     this.next.addEventListener("click", () => this.step(1));
     cursor.onMove((position) => this.show(position));
     this.show(cursor.position ?? 0);
+  }
+
+  /// A button "Reset view", where there is a picture to be looked at from elsewhere.
+  offerReset(onReset) {
+    const reset = element("button", { type: "button" }, "Reset view");
+    reset.addEventListener("click", onReset);
+    this.controls.append(reset);
   }
 
   /// 0 at the start of the move, 1 at its end.
