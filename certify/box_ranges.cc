@@ -3,8 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
+#include <iterator>
 
 namespace taut {
 namespace {
@@ -52,37 +51,21 @@ std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& se
   return ranges;
 }
 
-/// A problem in binary64 and, made when first needed, in more bits: some boxes need them.
-class RangeFinder {
- public:
-  explicit RangeFinder(const Prover& prover) : prover_(prover) {}
-
-  [[nodiscard]] std::optional<BoxRanges> operator()(const Segment& segment, const DyadicBox& box) {
-    if (auto ranges = enclose_ranges(prover_.model(), segment, box)) return ranges;
-    for (std::size_t k = 0; k < kBits.size(); ++k) {
-      const PrecisionScope precision(kBits[k]);
-      std::call_once(made_[k], [&] { fine_[k].emplace(make_mp_proof_model(prover_.problem())); });
-      if (auto ranges = enclose_ranges(*fine_[k], segment, box)) return ranges;
-    }
-    return std::nullopt;
-  }
-
- private:
-  static constexpr std::array<mpfr_prec_t, 2> kBits = {256, 1024};
-  const Prover& prover_;
-  std::array<std::once_flag, kBits.size()> made_;
-  std::array<std::optional<ProofModel<MpInterval>>, kBits.size()> fine_;
-};
+/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take
+/// for ever.
+constexpr int kMostFailures = 2;
 
 /// Appends pieces that cover the box; nothing, and false, where that can't be had.
-bool append(RangeFinder& find, const Segment& segment, const DyadicBox& box, const RangeOptions& options, int halvings,
-            std::vector<BoxRanges>& result) {
-  std::optional<BoxRanges> ranges = find(segment, box);
-  const bool is_last = halvings == options.most_halvings;
+template <class I>
+bool append(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, const RangeOptions& options,
+            int halvings, int failures, std::vector<BoxRanges>& result) {
+  std::optional<BoxRanges> ranges = enclose_ranges(problem, segment, box);
+  if (!ranges) ++failures;
+  const bool is_last = halvings == options.most_halvings || failures > kMostFailures;
   if (!is_last && !(ranges && ranges->excess <= options.excess)) {
     const std::size_t before = result.size();
-    if (append(find, segment, box.left(), options, halvings + 1, result) &&
-        append(find, segment, box.right(), options, halvings + 1, result)) {
+    if (append(problem, segment, box.left(), options, halvings + 1, failures, result) &&
+        append(problem, segment, box.right(), options, halvings + 1, failures, result)) {
       return true;
     }
     result.resize(before);
@@ -90,6 +73,29 @@ bool append(RangeFinder& find, const Segment& segment, const DyadicBox& box, con
   if (!ranges) return false;
   result.push_back(std::move(*ranges));
   return true;
+}
+
+/// A box that binary64 can't enclose.
+struct Hard {
+  std::size_t segment = 0;
+  std::size_t box = 0;
+  std::vector<BoxRanges> pieces;  ///< found with more bits
+};
+
+/// With more bits: few boxes of a right certificate need them.
+void enclose_hard(const Prover& prover, const Path& path, const std::vector<std::vector<DyadicBox>>& boxes,
+                  const RangeOptions& options, std::vector<Hard>& hard) {
+  for (const mpfr_prec_t bits : {mpfr_prec_t{256}, mpfr_prec_t{1024}}) {
+    if (std::ranges::all_of(hard, [](const Hard& h) { return !h.pieces.empty(); })) return;
+    const PrecisionScope made_with(bits);
+    const ProofModel<MpInterval> model = make_mp_proof_model(prover.problem());
+    tbb::parallel_for(std::size_t{0}, hard.size(), [&](std::size_t k) {
+      const PrecisionScope precision(bits);
+      Hard& h = hard[k];
+      if (!h.pieces.empty()) return;
+      append(model, path.segment(h.segment), boxes[h.segment][h.box], options, 0, kMostFailures, h.pieces);
+    });
+  }
 }
 
 }  // namespace
@@ -111,17 +117,34 @@ std::optional<BoxRanges> enclose_ranges(const ProofModel<MpInterval>& problem, c
 
 PathRanges path_ranges(const Prover& prover, const Path& path, const std::vector<std::vector<DyadicBox>>& boxes,
                        const RangeOptions& options) {
-  RangeFinder find(prover);
-  PathRanges result;
-  result.segments.resize(std::min(boxes.size(), path.segments()));
-  std::atomic<std::size_t> missing = 0;
-  tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
+  const std::size_t segments = std::min(boxes.size(), path.segments());
+  // Pieces of each box.
+  std::vector<std::vector<std::vector<BoxRanges>>> found(segments);
+  tbb::parallel_for(std::size_t{0}, segments, [&](std::size_t k) {
     const Segment segment = path.segment(k);
-    for (const DyadicBox& box : boxes[k]) {
-      if (!append(find, segment, box, options, 0, result.segments[k])) ++missing;
+    found[k].resize(boxes[k].size());
+    for (std::size_t b = 0; b < boxes[k].size(); ++b) {
+      append(prover.model(), segment, boxes[k][b], options, 0, 0, found[k][b]);
     }
   });
-  result.missing = missing;
+  // The first of those that are hard, whatever thread found them.
+  std::vector<Hard> hard;
+  for (std::size_t k = 0; k < segments; ++k) {
+    for (std::size_t b = 0; b < boxes[k].size() && hard.size() < options.most_hard; ++b) {
+      if (found[k][b].empty()) hard.push_back({k, b, {}});
+    }
+  }
+  enclose_hard(prover, path, boxes, options, hard);
+  for (Hard& h : hard) found[h.segment][h.box] = std::move(h.pieces);
+
+  PathRanges result;
+  result.segments.resize(segments);
+  for (std::size_t k = 0; k < segments; ++k) {
+    for (std::vector<BoxRanges>& pieces : found[k]) {
+      if (pieces.empty()) ++result.missing;
+      std::ranges::move(pieces, std::back_inserter(result.segments[k]));
+    }
+  }
   return result;
 }
 

@@ -44,15 +44,18 @@ struct RangeOptions {
   /// Boxes are halved until their excess is below this, at most so often. Half a percent is about a pixel of a plot.
   double excess = 0.005;
   int most_halvings = 5;
+  /// Boxes that binary64 can't enclose are tried with more bits, the first so many along the path. A right certificate has few; of
+  /// a wrong one, all might be such, at tens of milliseconds each.
+  std::size_t most_hard = 1000;
 };
 
 struct PathRanges {
   std::vector<std::vector<BoxRanges>> segments;  ///< in order along each; a box may come in pieces
-  std::size_t missing =
-      0;  ///< boxes that could not be enclosed; with as many bits as it took, one that was proved can be
+  std::size_t missing = 0;  ///< boxes that were not enclosed: it failed, or there were too many that are hard
 };
 
-/// Of the boxes of each segment. On all cores; a piece takes what it takes to judge a box.
+/// Of the boxes of each segment. On all cores; a piece takes what it takes to judge a box, and a box that is false has seven in
+/// binary64 and two in more bits. The result depends on no thread.
 /// @param boxes  of the first segments of the path, or of all.
 [[nodiscard]] PathRanges path_ranges(const Prover& prover, const Path& path,
                                      const std::vector<std::vector<DyadicBox>>& boxes,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "reports/scene.h"
@@ -16,8 +17,14 @@ struct Use {
   double least_at = 0;     ///< where `range.lower` is; places count segments (PathSample::position)
   double greatest_at = 0;  ///< where `range.upper` is
 
-  /// The greatest as a share of the upper limit, what engineers call utilisation [1].
-  [[nodiscard]] double used() const { return range.upper / upper_limit; }
+  /// The greatest as a share of the upper limit, what engineers call utilisation [1]; and in percent. Never below what it is of the
+  /// exact limit.
+  [[nodiscard]] double used() const { return not_below(range.upper / upper_limit); }
+  [[nodiscard]] double used_percent() const { return not_below(100 * (range.upper / upper_limit)); }
+
+ private:
+  /// Room for the roundings of the limit, the quotient, the product and this sum: 2^-53 of the value each.
+  static double not_below(double x) { return x + 1e-15 * std::abs(x); }
 };
 
 struct CableUse {

@@ -49,7 +49,11 @@ Html bands_text(const Scene& scene, bool is_rejected) {
       "certificate has them: "
       "at no pose{} does a value leave its band.{} The darker band and the line are floating-point samples.",
       scene.view.problem.tolerances ? " and no deviation within the tolerances" : "",
-      scene.ranges_are_whole || is_rejected ? "" : " Where there is none, nothing is proved.");
+      is_rejected || scene.ranges_are_whole ? ""
+      : scene.ranges.missing > 0
+          ? fmt::format(" Where there is none, nothing is proved, or enclosing was given up ({}).",
+                        plural(scene.ranges.missing, "box"))
+          : " Where there is none, nothing is proved.");
 }
 
 Html tensions(const Scene& scene, bool is_rejected) {

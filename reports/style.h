@@ -152,6 +152,8 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   nav, .more { display: none; }
   h1 { font-size: 17pt; margin: 4pt 0 6pt; } h2 { font-size: 14pt; margin-top: 22pt; }
   h2, h3, caption, summary { break-after: avoid; }
+  p { orphans: 3; widows: 3; }
+  caption { white-space: nowrap; }
   figure, tr, blockquote, .sign, .formulas, .verdict, pre { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }

@@ -22,7 +22,7 @@ constexpr std::array<const char*, 7> kCableHeads = {
 std::vector<CableRow> cable_rows(const CableUse& use) {
   std::vector<CableRow> rows;
   if (use.source == CableUse::Source::kNone) return rows;
-  const auto percent = [](const Use& x) { return rounded_up(100 * x.used(), 3) + " %"; };
+  const auto percent = [](const Use& x) { return rounded_up(x.used_percent(), 3) + " %"; };
   for (std::size_t i = 0; i < kCables; ++i) {
     const Use& t = use.tension[i];
     const Use& d = use.length[i];

@@ -127,6 +127,7 @@ function drawRobot() {
       ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
       ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
       ["load-line", "path of the load point"],
+      ...(data.tube_m !== null && !viewer.tubeIsThin ? [["fill tube", "where the origin may be"]] : []),
       ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])));
   if (data.tube_m !== null) {
     const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;

@@ -1,7 +1,7 @@
 // Plots along the path: tensions, lengths, margins and pose, each a panel with one shared cursor.
 import * as Plot from "@observablehq/plot";
 import { between, extent, locate } from "./data.js";
-import { decimalsFor, degrees, element, fixed, text } from "./words.js";
+import { atLeast, atMost, decimalsFor, degrees, element, fixed, fixedAtLeast, fixedAtMost, text } from "./words.js";
 
 const NARROW = { width: 340, height: 210 };
 const WIDE = { width: 520, height: 230 };
@@ -138,7 +138,7 @@ class Panel {
 }
 
 /// "0.08 to 0.42 N"
-const span = (range, unit) => (range ? `${text(range[0], 3)} to ${text(range[1], 3)} ${unit}` : "");
+const span = (range, unit) => (range ? `${atMost(range[0])} to ${atLeast(range[1])} ${unit}` : "");
 
 function bandAt(band, bands, position) {
   if (!bands || bands.from.length === 0) return undefined;
@@ -184,6 +184,10 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
         }));
       }
       drawn.push(Plot.lineY(rows, { x: "x", y: (d) => d.y[1], stroke: "var(--curve)", strokeWidth: 1.5, clip: true }));
+      if (rows.length === 1) { // a single pose has no line
+        if (isBand) drawn.push(Plot.ruleX(rows, { x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], stroke: "var(--curve)", strokeWidth: 5, strokeOpacity: 0.5 }));
+        drawn.push(Plot.dot(rows, { x: "x", y: (d) => d.y[1], fill: "var(--curve)", r: 3 }));
+      }
       drawn.push(before);
       return drawn;
     },
@@ -191,7 +195,7 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
       const at = fixed(between(middle, where), decimals);
       const found = band && bandAt(proved, data.bands, position);
       const range = found
-        ? ` (${data.verdict === "rejected" ? "enclosed" : "proved"} ${fixed(found[0], decimals)} to ${fixed(found[1], decimals)})`
+        ? ` (${data.verdict === "rejected" ? "enclosed" : "proved"} ${fixedAtMost(found[0], decimals)} to ${fixedAtLeast(found[1], decimals)})`
         : isBand ? ` (${fixed(between(low, where), decimals)} to ${fixed(between(high, where), decimals)})` : "";
       return `${at}${range} ${unit}`;
     },
@@ -259,9 +263,9 @@ function marginPanel(data, title, unit, proved, sampled, needed) {
   if (!(domain[1] > domain[0])) domain[1] = domain[0] + 1;
   return new Panel({
     title,
-    rest: provedSpan ? `${data.verdict === "proved" ? "" : "where proved, "}at least ${text(provedSpan[0], 3)} ${unit}` : "",
+    rest: provedSpan ? `${data.verdict === "proved" ? "" : "where proved, "}at least ${atMost(provedSpan[0])} ${unit}` : "",
     description: `${title} margin along the move: ` +
-      (provedSpan ? `proved to be at least ${text(provedSpan[0], 3)} ${unit}; it has to exceed ${needed}.` : "not proved."),
+      (provedSpan ? `proved to be at least ${atMost(provedSpan[0])} ${unit}; it has to exceed ${needed}.` : "not proved."),
     domain,
     log,
     label: unit === "×" ? "factor" : `margin [${unit}]`,
@@ -286,7 +290,7 @@ function marginPanel(data, title, unit, proved, sampled, needed) {
     says: (where, position) => {
       const [k] = locate(data.margins.from, position);
       const bound = proved[k];
-      return (bound === null || bound === undefined ? "" : `proved ≥ ${text(bound, 3)} ${unit}; `) +
+      return (bound === null || bound === undefined ? "" : `proved ≥ ${atMost(bound)} ${unit}; `) +
         `sampled ${text(between(sampled, where), 3)} ${unit}`;
     },
   });

@@ -1,6 +1,6 @@
 // Which tolerance bites: how much of what each alone could be is used up by what is stated.
 import * as Plot from "@observablehq/plot";
-import { degrees, element, text } from "./words.js";
+import { atMost, degrees, element, text } from "./words.js";
 
 const NAMES = {
   base_anchors: "base anchors",
@@ -12,23 +12,26 @@ const NAMES = {
   cable_length: "cable length",
 };
 
-function shown(x, unit) {
-  if (unit === "m") return `${text(x * 1000, 3)} mm`;
-  if (unit === "rad") return `${text(degrees(x), 3)}°`;
-  return `${text(x, 3)} ${unit === "N, N m" ? "N or N·m" : unit}`;
+/// `digits`: how a number is put into words.
+function shown(x, unit, digits) {
+  if (unit === "m") return `${digits(x * 1000)} mm`;
+  if (unit === "rad") return `${digits(degrees(x))}°`;
+  return `${digits(x)} ${unit === "N, N m" ? "N or N·m" : unit}`;
 }
+
+const stated = (x) => text(x, 6); // as it was typed, in usual cases
 
 export function toleranceFigure(data) {
   const rows = data.tolerances
     .map((t) => ({ ...t, label: NAMES[t.name] ?? t.name, used: t.proved > 0 ? (100 * t.stated) / t.proved : 0 }))
     .sort((a, b) => b.used - a.used);
-  const words = (t) => t.stated > 0 ? `${shown(t.stated, t.unit)} of ${shown(t.proved, t.unit)}`
-    : `none stated; ${shown(t.proved, t.unit)} would do`;
+  const words = (t) => t.stated > 0 ? `${shown(t.stated, t.unit, stated)} of ${shown(t.proved, t.unit, atMost)}`
+    : `none stated; ${shown(t.proved, t.unit, atMost)} would do`;
   const plot = Plot.plot({
-    width: 700,
+    width: 750,
     height: 46 + 26 * rows.length,
     marginLeft: 112,
-    marginRight: 170,
+    marginRight: 220,
     marginBottom: 36,
     style: "background: none; color: inherit;",
     x: { domain: [0, 100], label: "stated, as a share of what is proved to be possible alone [%]", labelArrow: "none",

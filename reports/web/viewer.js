@@ -120,7 +120,8 @@ class Viewer {
       frame: new MeshLambertMaterial(),
       platform: new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.85 }),
       load: new MeshLambertMaterial(),
-      tube: new MeshBasicMaterial({ transparent: true, opacity: 0.25, depthWrite: false, side: DoubleSide }),
+      // In front of the platform, which it would be hidden in.
+      tube: new MeshBasicMaterial({ transparent: true, opacity: 0.45, depthWrite: false, depthTest: false }),
       ghost: new MeshBasicMaterial({ transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false, depthTest: false }),
       out: new MeshBasicMaterial(),
     };
@@ -233,12 +234,16 @@ class Viewer {
     }
     this.tubeIsThin = tube !== null && tube * this.scale < THINNEST_TUBE;
     if (tube === null || this.tubeIsThin) return;
-    const kept = origins.filter((p, k) => k === 0 || p.distanceTo(origins[k - 1]) > tube / 4);
-    const mesh = kept.length > 1
-      ? new Mesh(new TubeGeometry(new CatmullRomCurve3(kept), Math.min(kept.length * 2, 1200), tube, 16), this.materials.tube)
-      : new Mesh(new SphereGeometry(tube, 24, 16), this.materials.tube);
-    if (kept.length === 1) mesh.position.copy(kept[0]);
-    this.world.add(mesh);
+    const kept = [];
+    for (const p of origins) if (kept.length === 0 || p.distanceTo(kept[kept.length - 1]) > tube / 4) kept.push(p);
+    const add = (geometry, at) => {
+      const mesh = new Mesh(geometry, this.materials.tube);
+      if (at) mesh.position.copy(at);
+      mesh.renderOrder = 0.5; // below the path's line
+      this.world.add(mesh);
+    };
+    if (kept.length > 1) add(new TubeGeometry(new CatmullRomCurve3(kept), Math.min(kept.length * 2, 1200), tube, 16));
+    for (const end of [origins[0], origins[origins.length - 1]]) add(new SphereGeometry(tube, 24, 16), end);
   }
 
   /// The platform where the certificate's witness is.

@@ -15,6 +15,22 @@ export function fixed(x, decimals) {
   return (Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals).replace("-", "−");
 }
 
+/// As text() and fixed(), but never more than x, or never less: for what is proved, which must not look better than it is.
+export const atMost = (x, digits = 3) => towards(x, -1, (y) => text(y, digits), 0.05 * Math.abs(x));
+export const atLeast = (x, digits = 3) => towards(x, 1, (y) => text(y, digits), 0.05 * Math.abs(x));
+export const fixedAtMost = (x, decimals) => towards(x, -1, (y) => fixed(y, decimals), 10 ** -decimals);
+export const fixedAtLeast = (x, decimals) => towards(x, 1, (y) => fixed(y, decimals), 10 ** -decimals);
+
+/// What `shown`, which rounds to nearest, makes of the number next to x in a direction, 1 or -1, for which it is not on the wrong side of
+/// x. `step`: of about the size of the last digit.
+function towards(x, direction, shown, step) {
+  let result = shown(x);
+  for (let part = 0.001; part < 4 && direction * (Number(result.replace("−", "-")) - x) < 0; part *= 1.5) {
+    result = shown(x + direction * part * step);
+  }
+  return result;
+}
+
 /// Decimals that show a thousandth of `range`.
 export function decimalsFor(range) {
   if (!(range > 0)) return 3;

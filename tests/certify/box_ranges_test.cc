@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -173,6 +174,51 @@ TEST(PathRanges, LeaveOutWhatIsSingular) {
   const PathRanges ranges = path_ranges(prover, path, {{DyadicBox{}}});
   EXPECT_EQ(ranges.missing, 1u);
   EXPECT_TRUE(ranges.segments[0].empty());
+}
+
+TEST(PathRanges, GiveUpOnWhatIsFalseInGoodTime) {
+  const Prover prover(robot1_slice());
+  Path path;
+  path.waypoints = {{{-2.3, 1.6}, {0, 0}}};
+  std::vector<std::vector<DyadicBox>> boxes;
+  for (int k = 0; k < 2000; ++k) {  // back and forth through singular poses
+    path.waypoints.push_back({{k % 2 == 0 ? 1.7 : -2.3, k % 2 == 0 ? 1.7 : 1.6}, {0, 0}});
+    boxes.push_back({DyadicBox{}});
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(path_ranges(prover, path, boxes, {.most_hard = 10}).missing, 2000u);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
+TEST(PathRanges, TryHardBoxesWithMoreBits) {
+  // Next to a singular pose, on the way straight to q_g.
+  const Prover prover(robot1_slice());
+  Path path;
+  path.waypoints = {{{-2.3, 1.6}, {0, 0}}, {{1.7, 1.7}, {0, 0}}};
+  const Segment segment = path.segment(0);
+  const PoseSampler sampler(robot1_slice());
+  const auto determinant = [&](double s) {
+    const RigidPose pose = sampler.rigid_pose(segment, s);
+    return statics(sampler.model(), Vector3<double>(pose.p), Matrix3<double>(pose.q.toRotationMatrix())).determinant;
+  };
+  double low = 0;
+  double high = 1.0 / 64;
+  while (high < 1 && determinant(high) * determinant(0) > 0) high += 1.0 / 64;
+  low = high - 1.0 / 64;
+  ASSERT_LT(high, 1);
+  for (int i = 0; i < 60; ++i) (determinant((low + high) / 2) * determinant(0) > 0 ? low : high) = (low + high) / 2;
+
+  bool is_hard = false;
+  for (int distance = 1; distance < (1 << 20) && !is_hard; distance *= 2) {
+    const DyadicBox box{static_cast<std::int64_t>(std::ldexp(low, 50)) - distance, 50};
+    const PrecisionScope precision(1024);
+    is_hard = !enclose_ranges(prover.model(), segment, box) &&
+              enclose_ranges(make_mp_proof_model(prover.problem()), segment, box);
+    if (!is_hard) continue;
+    EXPECT_EQ(path_ranges(prover, path, {{box}}, {.most_hard = 0}).missing, 1u);
+    EXPECT_EQ(path_ranges(prover, path, {{box}}).missing, 0u);
+  }
+  EXPECT_TRUE(is_hard);
 }
 
 }  // namespace
