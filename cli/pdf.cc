@@ -86,7 +86,7 @@ bool is_whole_pdf(const std::string& bytes) {
 
 }  // namespace
 
-std::string print_to_pdf(const std::string& page, const std::stop_token& stop) {
+std::optional<std::string> print_to_pdf(const std::string& page, const std::stop_token& stop) {
   constexpr double kMostSeconds = 300;
   const ScratchDirectory scratch;
   const std::filesystem::path html = scratch.path() / "report.html";
@@ -120,7 +120,7 @@ std::string print_to_pdf(const std::string& page, const std::stop_token& stop) {
   options.insert(options.begin(), *browser);
   const FinishedProgram finished = run_program(options, stop, kMostSeconds);
   std::string bytes = std::filesystem::exists(pdf) ? read_whole(pdf) : "";
-  if (finished.interrupted) throw BrowserFailed(fmt::format("{}: no PDF: interrupted", *browser));
+  if (finished.interrupted) return std::nullopt;
   if (finished.timed_out) throw BrowserFailed(fmt::format("{}: no PDF in {} s", *browser, kMostSeconds));
   if (finished.exit_code != 0 || !is_whole_pdf(bytes)) {
     throw BrowserFailed(fmt::format("{}: no PDF: it ended with {}; its last words: {}", *browser, finished.exit_code,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -16,8 +17,8 @@ class BrowserFailed : public std::runtime_error {
 
 /// Prints a page, without network, in a directory of its own that vanishes. The browser is $TAUT_BROWSER where that is set, else the
 /// first of chromium, chromium-browser, google-chrome-stable and google-chrome that is found.
-/// @returns the PDF's bytes, whole.
-/// @throws InputError where there is no browser; BrowserFailed where it fails, takes too long or was interrupted.
-[[nodiscard]] std::string print_to_pdf(const std::string& page, const std::stop_token& stop);
+/// @returns the PDF's bytes, whole; nothing where `stop` asked to stop.
+/// @throws InputError where there is no browser; BrowserFailed where it fails or takes too long.
+[[nodiscard]] std::optional<std::string> print_to_pdf(const std::string& page, const std::stop_token& stop);
 
 }  // namespace taut

@@ -24,17 +24,20 @@ struct Rendered {
   const char* file_name;  ///< null: standard output
 };
 
-Rendered render(const ReportArguments& arguments, const nlohmann::json& certificate, const ReportOptions& options,
-                const std::stop_token& stop) {
-  if (arguments.text) return {text_summary(certificate, options), nullptr};
-  if (arguments.markdown) return {markdown_summary(certificate, options), nullptr};
+/// Nothing, where somebody asked to stop.
+std::optional<Rendered> render(const ReportArguments& arguments, const nlohmann::json& certificate,
+                               const ReportOptions& options, const std::stop_token& stop) {
+  if (arguments.text) return Rendered{text_summary(certificate, options), nullptr};
+  if (arguments.markdown) return Rendered{markdown_summary(certificate, options), nullptr};
   if (arguments.json) {
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    return {json_summary(certificate, options).dump(1, ' ', true, kReplace) + "\n", nullptr};
+    return Rendered{json_summary(certificate, options).dump(1, ' ', true, kReplace) + "\n", nullptr};
   }
   std::string page = html_report(certificate, options);
-  if (arguments.pdf) return {print_to_pdf(page, stop), "report.pdf"};
-  return {std::move(page), "report.html"};
+  if (!arguments.pdf) return Rendered{std::move(page), "report.html"};
+  std::optional<std::string> pdf = print_to_pdf(page, stop);
+  if (!pdf) return std::nullopt;
+  return Rendered{std::move(*pdf), "report.pdf"};
 }
 
 }  // namespace
@@ -71,7 +74,12 @@ int run_report(const ReportArguments& arguments) {
   ReportOptions options{
       arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
   options.recheck = recheck(read_whole(arguments.certificate_path), certificate, arguments.check, interruption.token());
-  const Rendered rendered = render(arguments, certificate, options, interruption.token());
+  const std::optional<Rendered> made = render(arguments, certificate, options, interruption.token());
+  if (!made || interruption.token().stop_requested()) {
+    fmt::print(stderr, "taut: interrupted: nothing was written\n");
+    return kUndecidedExit;
+  }
+  const Rendered& rendered = *made;
   if (arguments.out.empty() && rendered.file_name == nullptr) {
     fmt::print("{}", rendered.content);
   } else {

@@ -2,9 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -19,12 +22,37 @@ namespace {
   throw InputError(fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)), {path.string()});
 }
 
+/// Removes temporary files for `path` that a run left behind which was killed: its process is gone, and nobody holds the file locked.
+void remove_leftovers(const std::filesystem::path& path) {
+  const std::string prefix = path.filename().string() + ".";
+  constexpr std::string_view kSuffix = ".part";
+  std::error_code ignored;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (auto entry = std::filesystem::directory_iterator(folder, ignored);
+       entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() <= prefix.size() + kSuffix.size() || !name.starts_with(prefix) || !name.ends_with(kSuffix))
+      continue;
+    pid_t process = 0;
+    const char* const begin = name.data() + prefix.size();
+    const char* const end = name.data() + name.size() - kSuffix.size();
+    if (const auto [read, error] = std::from_chars(begin, end, process); error != std::errc() || read != end) continue;
+    if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH) continue;
+    const int descriptor = ::open(entry->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+    ::close(descriptor);
+  }
+}
+
 }  // namespace
 
 NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
+  remove_leftovers(path_);
   temporary_ += fmt::format(".{}.part", ::getpid());
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail(path_, "write", errno);
+  static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));  // says that it is in use, to whoever looks for leftovers
 }
 
 NewFile::~NewFile() {

@@ -190,8 +190,14 @@ void read_illustration(const json& illustration, CertificateView& view) {
 
 CertificateView read(const json& certificate) {
   CertificateView view;
-  if (certificate.at("format") != "taut-certificate" || certificate.at("version") != kCertificateVersion) {
-    throw InputError("certificate: expected format \"taut-certificate\", version 3");
+  if (certificate.at("format") != "taut-certificate") {
+    throw InputError("certificate: format: expected \"taut-certificate\"");
+  }
+  if (certificate.at("version") != kCertificateVersion) {
+    throw InputError(
+        fmt::format("certificate: version: got {}, expected {}: only the taut that made it can make its report, or one "
+                    "of that time",
+                    certificate.at("version").dump(), kCertificateVersion));
   }
   const json& generator = certificate.at("generator");
   view.generator = generator.value("name", "") + " " + generator.value("version", "");

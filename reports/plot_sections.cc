@@ -8,6 +8,7 @@
 #include "reports/plane.h"
 #include "reports/report_data.h"
 #include "reports/still_picture.h"
+#include "reports/wording.h"
 
 namespace taut {
 

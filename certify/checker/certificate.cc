@@ -647,6 +647,8 @@ const Json& coordinate_space() {
   return kSpace;
 }
 
+constexpr std::int64_t kVersion = 3;  // of the format
+
 std::string digest(const nlohmann::json& value) {
   const std::string canonical = value.dump(-1, ' ', true);
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
@@ -663,11 +665,17 @@ std::string digest(const nlohmann::json& value) {
 }
 
 Certificate read_certificate(const nlohmann::json& json) {
+  // First: a certificate of another version has other keys, and that is why.
+  if (json.is_object() && json.contains("format") && json.contains("version") && json["format"] == "taut-certificate" &&
+      json["version"].is_number_integer() && json["version"] != kVersion) {
+    fail("version", std::to_string(kVersion) + ", got " + json["version"].dump() +
+                        ": only the taut-check that came with the taut that made it can check it");
+  }
   object(json, "certificate",
          {"format", "version", "generator", "verdict", "claim", "problem", "problem_sha256", "path", "path_sha256",
           "segments", "margins", "witness", "stretches", "source", "undecided", "illustration", "footer"});
   if (json["format"] != "taut-certificate") fail("format", "'taut-certificate'");
-  integer(json["version"], "version", 3, 3);
+  integer(json["version"], "version", kVersion, kVersion);
   if (!json["generator"].is_object()) fail("generator", "an object");
 
   // Is this the whole file, as it was written?

@@ -42,19 +42,34 @@ class Report(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def forged(self):
-        """A certificate that claims too much, with digests that fit."""
+    def changed(self, name, change):
+        """The certificate after `change`, with digests that fit."""
         with open(self.certificate, encoding="utf-8") as file:
             certificate = json.load(file)
-        for segment in certificate["segments"]:
-            segment["margins"]["tension_N"] = "1e-1"
-        certificate["margins"]["tension_N"] = "1e-1"
+        change(certificate)
         footer = certificate.pop("footer")
         footer["sha256"] = digest(certificate)
         certificate["footer"] = footer
-        with open(self.path("forged.json"), "w", encoding="utf-8") as file:
+        with open(self.path(name), "w", encoding="utf-8") as file:
             json.dump(certificate, file)
-        return self.path("forged.json")
+        return self.path(name)
+
+    def forged(self):
+        """A certificate that claims too much."""
+        def exaggerate(certificate):
+            for segment in certificate["segments"]:
+                segment["margins"]["tension_N"] = "1e-1"
+            certificate["margins"]["tension_N"] = "1e-1"
+        return self.changed("forged.json", exaggerate)
+
+    def test_of_a_certificate_of_another_version_that_is_the_reason(self):
+        def age(certificate):
+            certificate["version"] = 1
+            del certificate["illustration"]
+        old = self.changed("old.json", age)
+        said = run(TAUT, "report", old, "--text")
+        self.assertEqual((said.returncode, said.stdout), (3, ""))
+        self.assertRegex(said.stderr, "version: got 1, expected [0-9]+:")
 
     def test_plan_checks_its_certificate_again_unless_told_not_to(self):
         self.assertIn("Re-checked by taut-check", self.planned.stdout)
@@ -142,7 +157,7 @@ class Report(unittest.TestCase):
             time.sleep(1)
             process.send_signal(signal.SIGINT)
             _, said = process.communicate(timeout=30)
-        self.assertIn("interrupted", said)
+        self.assertEqual((process.returncode, said), (2, "taut: interrupted: nothing was written\n"))
         self.assertEqual(subprocess.run(["pgrep", "-f", f"sleep {mark}"], capture_output=True, check=False).stdout, b"")
 
     def test_a_pdf_has_pages_and_nothing_of_it_stays_behind(self):

@@ -58,6 +58,8 @@ class Robustness(InFolder):
         self.assertLessEqual(set(left), set(RESULTS))
         self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("out")).returncode, 0)
         self.assert_whole(self.path("out"))
+        run(TAUT, "audit", AUDITED, "--out", self.path("out"))
+        self.assertLessEqual(set(os.listdir(self.path("out"))), set(RESULTS), "what was left behind is removed")
 
     def test_two_at_once_in_one_folder_leave_whole_files(self):
         processes = [subprocess.Popen([TAUT, "plan", CASE, "--out", self.path("out")], stdout=subprocess.DEVNULL,

@@ -1,9 +1,13 @@
 #include "reports/cable_use.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 
+#include "kinematics/decimal.h"
+#include "reports/wording.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
@@ -51,6 +55,21 @@ TEST(Closest, IsTheCableNextToALimitByTheWidthBetweenThem) {
   EXPECT_EQ(closest(uses).cable, 5);
   EXPECT_FALSE(closest(uses).is_upper);
   EXPECT_EQ(closest(uses).at, 7);
+}
+
+TEST(Use, IsNeverSaidToBeLessThanItIs) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> digits(1, 99999);
+  using Rational = boost::multiprecision::cpp_rational;
+  for (int i = 0; i < 20000; ++i) {
+    const DecimalText limit = fmt::format("0.{:05}", digits(random));
+    Use use;
+    use.upper_limit = ScalarTraits<double>::from_decimal(limit);
+    use.range.upper = use.upper_limit * digits(random) / 1000;  // just at a printed share, often
+    const Rational exact = 100 * Rational(use.range.upper) / Decimal::parse(limit).rational();
+    EXPECT_GE(Decimal::parse(rounded_up(use.used_percent(), 3)).rational(), exact);
+    EXPECT_GE(100 * Rational(use.used()), exact);
+  }
 }
 
 }  // namespace
