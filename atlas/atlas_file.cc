@@ -12,6 +12,7 @@
 
 #include "atlas/bytes.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 
 namespace taut {
 namespace {
@@ -157,7 +158,7 @@ AtlasFile::AtlasFile(std::filesystem::path path, const AtlasKey& key) : path_(st
 }
 
 void AtlasFile::refuse(const std::string& why) const {
-  throw InputError(fmt::format("{}: {}", path_.string(), why), {path_.string()});
+  throw InputErrorOfKind(InputKind::kAtlas, fmt::format("{}: {}", path_.string(), why), {path_.string()});
 }
 
 void AtlasFile::fail_at(int chart, const std::string& what) const {

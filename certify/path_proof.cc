@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/undecided.h"
 #include "kinematics/decimal.h"
 #include "kinematics/input_error.h"
 
@@ -69,7 +70,7 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   const SegmentProof proof = prover.prove(still);
   if (proof.verdict == Verdict::kProved) return std::nullopt;
   if (!prover.may_follow(still)) {
-    undecided = "it lies outside the closed range of a parameter, or its nearest binary64 does";
+    undecided = words(Undecided::kWaypointRange).at_pose;
     return std::nullopt;
   }
   const BoxVerdict verdict = prover.judge(still, whole);
@@ -79,12 +80,12 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   if (proof.witness && proof.witness->deviation) {
     return make_witness(prover, still, *proof.witness, PathPoint{false, index, {}});
   }
-  undecided = verdict.kind == BoxVerdict::Kind::kNearSingular ? "the force Jacobian is singular, or nearly so, there"
-              : verdict.kind == BoxVerdict::Kind::kNoMotion
-                  ? "no single pose on the constraints was proved to exist there"
-              : verdict.kind == BoxVerdict::Kind::kOutOfRange ? "a parameter is outside its closed range, or may be"
-              : verdict.kind == BoxVerdict::Kind::kFault      ? "the pose or an equation is not defined there"
-                                                              : "a margin vanishes there, or nearly so";
+  const Undecided reason = verdict.kind == BoxVerdict::Kind::kNearSingular ? Undecided::kSingular
+                           : verdict.kind == BoxVerdict::Kind::kNoMotion   ? Undecided::kNoMotion
+                           : verdict.kind == BoxVerdict::Kind::kOutOfRange ? Undecided::kParameterRange
+                           : verdict.kind == BoxVerdict::Kind::kFault      ? Undecided::kUndefined
+                                                                           : Undecided::kPrecision;
+  undecided = words(reason).at_pose;
   return std::nullopt;
 }
 
@@ -186,7 +187,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   if (path.segments() == 0) {
     if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason);
     if (result.witness) result.verdict = Verdict::kRefuted;
-    if (result.reason.empty()) result.reason = "the path has no segment";
+    if (result.reason.empty()) result.reason = words(Undecided::kNoSegment).words;
     return result;
   }
   result.segments.resize(path.segments());

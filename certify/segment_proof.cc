@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "certify/undecided.h"
 #include "kinematics/input_error.h"
 
 namespace taut {
@@ -141,18 +142,17 @@ bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
 
 namespace {
 
-constexpr const char* kMayNotFollow = "a waypoint lies outside the closed range of a parameter, or may";
-
-const char* undecided_reason(BoxVerdict::Kind kind) {
+Undecided reason_of(BoxVerdict::Kind kind) {
   switch (kind) {
-    case BoxVerdict::Kind::kFault: return "the pose or an equation is not defined on all of the box";
-    case BoxVerdict::Kind::kNoMotion:
-      return "no single motion was proved to exist there (on the constraints, with the cables' lengths, or between "
-             "orientations half "
-             "a turn apart)";
-    default: return "the force Jacobian is singular or nearly so";
+    case BoxVerdict::Kind::kFault: return Undecided::kUndefined;
+    case BoxVerdict::Kind::kNoMotion: return Undecided::kNoMotion;
+    default: return Undecided::kSingular;
   }
 }
+
+/// As certificates tell it; with a place, for those that have one.
+std::string told(Undecided reason) { return words(reason).words; }
+std::string told(Undecided reason, const std::string& place) { return told(reason) + " " + place; }
 
 }  // namespace
 
@@ -220,9 +220,7 @@ std::string describe(MarginId margin) {
   return std::string("margin ") + name(margin.kind) + " of cable " + std::to_string(margin.cable + 1);
 }
 
-std::string tolerances_too_large(MarginId margin) {
-  return "the tolerances are too large for a proof at " + describe(margin);
-}
+std::string tolerances_too_large(MarginId margin) { return told(Undecided::kTolerances, describe(margin)); }
 
 /// Of an enclosure at the working precision. Void if a fault is raised.
 std::optional<Centered<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
@@ -318,10 +316,10 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
   const auto& [box, rung, is_hopeless] = task;
   if (walk.judged >= options_.max_boxes || walk.multiprecision >= options_.max_multiprecision_boxes) {
-    return {Step::Kind::kStop, {}, {}, "the budget of boxes is spent"};
+    return {Step::Kind::kStop, {}, {}, told(Undecided::kBoxBudget)};
   }
   if (interrupt != nullptr && interrupt->load(std::memory_order_relaxed)) {
-    return {Step::Kind::kStop, {}, {}, "interrupted"};
+    return {Step::Kind::kStop, {}, {}, told(Undecided::kInterrupted)};
   }
   ++walk.judged;
   if (rung > 0) ++walk.multiprecision;
@@ -333,11 +331,11 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   switch (verdict.kind) {
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box}};
-    case Kind::kTooClose: return give_up("closer to a limit than the clearance asked for");
+    case Kind::kTooClose: return give_up(told(Undecided::kClearance));
     case Kind::kSplit:
       if (box.depth < deepest(rung, bits_)) return split;
       if (higher_rung) return settle(walk, task, verdict.worst);
-      return give_up("bisection depth reached at " + describe(verdict.worst));
+      return give_up(told(Undecided::kDepth, describe(verdict.worst)));
     case Kind::kTolerance:
       if (box.depth < options_.tolerance_depth) return split;
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
@@ -349,14 +347,14 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       return give_up(tolerances_too_large(verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
-      return give_up("precision reached at " + describe(verdict.worst) + ": it vanishes or nearly so");
-    case Kind::kOutOfRange: return give_up("a parameter leaves its closed range, or may");
+      return give_up(told(Undecided::kPrecision, describe(verdict.worst)) + ": it vanishes or nearly so");
+    case Kind::kOutOfRange: return give_up(told(Undecided::kParameterRange));
     case Kind::kNoMotion:
       // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
       if (box.depth < (walk.motion_given_up ? kHastyMotionDepth : options_.motion_depth)) return split;
       if (higher_rung && rung < kSingularRung && !walk.motion_given_up) return climb;
       walk.motion_given_up = true;
-      return give_up(undecided_reason(verdict.kind));
+      return give_up(told(reason_of(verdict.kind)));
     case Kind::kNearSingular:
     case Kind::kFault: break;
   }
@@ -367,14 +365,14 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   }
   if (higher_rung && rung < kSingularRung) return climb;
   if (box.depth < 2 * options_.singular_depth && !is_hopeless) return split;
-  return give_up(undecided_reason(verdict.kind));
+  return give_up(told(reason_of(verdict.kind)));
 }
 
 SegmentProof Prover::prove(const Segment& segment, double clearance) const {
   SegmentProof proof;
   proof.tension_N = proof.length_m = proof.wrench_scale = std::numeric_limits<double>::infinity();
   if (!may_follow(segment)) {
-    proof.reason = kMayNotFollow;
+    proof.reason = told(Undecided::kWaypointRange);
     return proof;
   }
   Walk walk{segment, clearance};
@@ -412,7 +410,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
   SegmentSurvey survey;
   survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
   if (!may_follow(segment)) {
-    survey.boxes.push_back({{}, Kind::kOpen, {}, kMayNotFollow});
+    survey.boxes.push_back({{}, Kind::kOpen, {}, told(Undecided::kWaypointRange)});
     return survey;
   }
   Walk walk{segment};
@@ -434,7 +432,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
         step.witness = SegmentWitness{true, {}, task.box};
         report(Kind::kSingular);
       } else {
-        step.reason = undecided_reason(step.verdict.kind);
+        step.reason = told(reason_of(step.verdict.kind));
         report(Kind::kOpen);
       }
       continue;

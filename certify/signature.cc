@@ -11,6 +11,7 @@
 
 #include "certify/certificate.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 
 namespace taut {
 namespace {
@@ -60,9 +61,12 @@ SigningKey::SigningKey(std::string pem, const std::string& name) {
   }
   OPENSSL_cleanse(pem.data(), pem.size());
   if (!seen.empty()) {
-    throw InputError(fmt::format(
-        "{}: got {}, expected an unencrypted Ed25519 private key in PEM (openssl genpkey -algorithm ed25519)", name,
-        seen));
+    throw InputErrorOfKind(
+        InputKind::kKey,
+        fmt::format(
+            "{}: got {}, expected an unencrypted Ed25519 private key in PEM (openssl genpkey -algorithm ed25519)", name,
+            seen),
+        {name});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "certify/undecided.h"
 #include "cli/console.h"
 #include "cli/report_command.h"
 #include "kinematics/case_file.h"
@@ -41,7 +42,7 @@ std::string text(const PathWitness& witness) {
 std::string text(const AuditStretch& stretch, const char* place_name) {
   std::string lines =
       fmt::format("  from {}\n    to {}\n", text(stretch.begin, place_name), text(stretch.end, place_name));
-  if (!stretch.inner) return lines + fmt::format("    open: {}\n", stretch.reason);
+  if (!stretch.inner) return lines + fmt::format("    open: {}\n", with_code(stretch.reason));
   lines += fmt::format("    violated from {}: {}\n", text(stretch.inner_places->first, place_name),
                        text(stretch.inner->first));
   return lines + fmt::format("              to {}: {}\n", text(stretch.inner_places->second, place_name),

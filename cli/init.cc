@@ -8,6 +8,7 @@
 #include "cli/console.h"
 #include "cli/new_case_text.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "library/files.h"
 
 namespace taut {
@@ -23,7 +24,8 @@ std::string new_case(const std::string& name) {
 }
 
 int run_init(const std::string& path) {
-  if (std::filesystem::exists(path)) throw InputError(path + ": got a file that exists, expected a new one");
+  if (std::filesystem::exists(path))
+    throw InputErrorOfKind(InputKind::kUse, path + ": got a file that exists, expected a new one", {path});
   std::string name = std::filesystem::path(path).stem().string();
   const bool is_plain = std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||

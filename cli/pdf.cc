@@ -12,6 +12,7 @@
 
 #include "cli/subprocess.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/shown.h"
 #include "library/files.h"
 
@@ -24,7 +25,8 @@ class ScratchDirectory {
   ScratchDirectory() {
     std::string name = (std::filesystem::temp_directory_path() / "taut-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
-      throw InputError(fmt::format("{}: could not make a directory: {}", name, std::strerror(errno)));
+      throw InputErrorOfKind(InputKind::kFile,
+                             fmt::format("{}: could not make a directory: {}", name, std::strerror(errno)), {name});
     }
     path_ = name;
   }
@@ -112,7 +114,8 @@ std::optional<std::string> print_to_pdf(const std::string& page, const std::stop
   const std::vector<std::string> candidates = browsers();
   const auto browser = std::ranges::find_if(candidates, can_be_found);
   if (browser == candidates.end()) {
-    throw InputError(
+    throw InputErrorOfKind(
+        InputKind::kBrowser,
         fmt::format("--pdf: found no browser ({}), expected Chromium: install Debian's package chromium, or set "
                     "TAUT_BROWSER to a Chromium or Chrome; or print report.html from any browser",
                     fmt::join(candidates, ", ")));

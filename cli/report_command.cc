@@ -9,6 +9,7 @@
 #include "cli/console.h"
 #include "cli/pdf.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/shown.h"
 #include "library/certificate_file.h"
 #include "library/files.h"
@@ -88,7 +89,8 @@ int run_report(const ReportArguments& arguments) {
                               : std::filesystem::path(arguments.out);
     std::error_code not_there;
     if (std::filesystem::equivalent(target, arguments.certificate_path, not_there)) {
-      throw InputError(
+      throw InputErrorOfKind(
+          InputKind::kUse,
           fmt::format("--out: got '{}', which is the certificate, expected another file", shown(target.string())));
     }
     write_whole({{target, rendered.content}});

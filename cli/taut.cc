@@ -11,13 +11,18 @@
 #include <optional>
 
 #include "certify/certificate.h"
+#include "certify/rounding.h"
 #include "certify/signature.h"
+#include "certify/undecided.h"
 #include "cli/audit_command.h"
 #include "cli/console.h"
 #include "cli/doctor.h"
+#include "cli/explain.h"
 #include "cli/init.h"
+#include "cli/pdf.h"
 #include "cli/regress_command.h"
 #include "cli/report_command.h"
+#include "cli/show.h"
 #include "kinematics/input_error.h"
 #include "library/files.h"
 #include "library/path_csv.h"
@@ -65,7 +70,7 @@ std::string sentence(const Plan& plan) {
     }
     case Verdict::kUndecided: break;
   }
-  return fmt::format("undecided: {}.", proof.reason);
+  return fmt::format("undecided: {}.", with_code(proof.reason));
 }
 
 /// What the search knows of its path.
@@ -166,6 +171,10 @@ int run(int argc, char** argv) {
   CLI::App app("Plans motions of cable-driven hexapods and proves what it plans.", "taut");
   app.set_version_flag("--version", std::string("taut ") + TAUT_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+    return fmt::format("{} [{}]\nRun with --help for more information: {} --help\n", error.what(),
+                       code(InputKind::kUse), failed->get_name());
+  });
   app.footer("Exit codes: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or untrustworthy machine.");
 
   PlanArguments plan_arguments;
@@ -206,6 +215,14 @@ int run(int argc, char** argv) {
       app.add_subcommand("report", "write the report from the certificate alone: page, PDF or summary");
   add_report_options(*report_command, report_arguments);
 
+  ExplainArguments explain_arguments;
+  CLI::App* explain_command = app.add_subcommand("explain", "say what the code behind a message means: U3, E5");
+  add_explain_options(*explain_command, explain_arguments);
+
+  ShowArguments show_arguments;
+  CLI::App* show_command = app.add_subcommand("show", "print what a case was understood to say; draw the robot");
+  add_show_options(*show_command, show_arguments);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -213,17 +230,19 @@ int run(int argc, char** argv) {
   }
   if (*plan_command) {
     rounding_self_test();
-    return run_plan(plan_arguments);
+    return reading(InputKind::kCase, [&] { return run_plan(plan_arguments); });
   }
   if (*audit_command) {
     rounding_self_test();
-    return run_audit(audit_arguments);
+    return reading(InputKind::kPath, [&] { return run_audit(audit_arguments); });
   }
+  if (*show_command) return reading(InputKind::kCase, [&] { return run_show(show_arguments); });
+  if (*explain_command) return run_explain(explain_arguments);
   if (*init_command) return run_init(new_path);
   if (*doctor_command) return run_doctor();
-  if (*regress_command) return run_regress(regress_arguments);
+  if (*regress_command) return reading(InputKind::kRegress, [&] { return run_regress(regress_arguments); });
   rounding_self_test();
-  return run_report(report_arguments);
+  return reading(InputKind::kCertificate, [&] { return run_report(report_arguments); });
 }
 
 }  // namespace
@@ -234,11 +253,20 @@ int main(int argc, char** argv) {
     const int code = taut::run(argc, argv);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw std::runtime_error("could not write to standard output");
     return code;
-  } catch (const taut::InputError& error) {
-    fmt::print(stderr, "taut: {}\n", error.what());
+  } catch (const taut::InputErrorOfKind& error) {
+    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::code(error.kind()));
     return taut::kBadInputExit;
+  } catch (const taut::InputError& error) {
+    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::code(taut::InputKind::kUse));
+    return taut::kBadInputExit;
+  } catch (const taut::BrowserFailed& error) {
+    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::kBrowserFailedCode);
+    return taut::kInternalExit;
+  } catch (const taut::UntrustworthyMachine& error) {
+    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::kUntrustworthyCode);
+    return taut::kInternalExit;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "taut: internal failure: {}\n", error.what());
+    fmt::print(stderr, "taut: internal failure: {} [{}]\n", error.what(), taut::kInternalCode);
     return taut::kInternalExit;
   }
 }

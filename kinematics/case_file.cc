@@ -17,6 +17,7 @@
 #include "kinematics/decimal.h"
 #include "kinematics/expression.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/shown.h"
 #include "kinematics/units.h"
 
@@ -845,7 +846,9 @@ std::string leading_comment(const std::string& text) {
 
 }  // namespace
 
-Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check) {
+namespace {
+
+Case parse(const std::string& text, const std::string& name, const CaseCheck& check) {
   Places places(name);
   if (text.size() > kMaxFileBytes) {
     throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes), {name});
@@ -864,14 +867,24 @@ Case parse_case(const std::string& text, const std::string& name, const CaseChec
   }
 }
 
-Case load_case(const std::string& path, const CaseCheck& check) {
+Case load(const std::string& path, const CaseCheck& check) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxFileBytes + 1, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && !file.eof()) {
     throw InputError(fmt::format("{}: got no readable file, expected a case file", path), {path});
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_case(text, path, check);
+  return parse(text, path, check);
+}
+
+}  // namespace
+
+Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check) {
+  return reading(InputKind::kCase, [&] { return parse(text, name, check); });
+}
+
+Case load_case(const std::string& path, const CaseCheck& check) {
+  return reading(InputKind::kCase, [&] { return load(path, check); });
 }
 
 }  // namespace taut

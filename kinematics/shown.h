@@ -13,10 +13,10 @@ namespace taut {
 /// As much of the text as a message should show: whole characters.
 [[nodiscard]] std::string shorten(const std::string& text);
 
-/// Control characters as \xNN.
+/// Control characters as "\\xNN".
 [[nodiscard]] std::string without_control_characters(const std::string& text);
 
-/// Both, and bytes that are no UTF-8 as \xNN too: fit to be quoted, whatever it was.
+/// Both, and bytes that are no UTF-8 as "\\xNN" too: fit to be quoted, whatever it was.
 [[nodiscard]] std::string shown(std::string_view text);
 
 }  // namespace taut

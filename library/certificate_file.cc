@@ -4,6 +4,7 @@
 
 #include "certify/certificate.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "library/files.h"
 
 namespace taut {
@@ -29,14 +30,16 @@ void require_unaltered(const nlohmann::json& certificate, const std::string& pat
 }  // namespace
 
 nlohmann::json parse_certificate(const std::string& text, const std::string& name) {
-  nlohmann::json certificate;
-  try {
-    certificate = nlohmann::json::parse(text);
-    require_unaltered(certificate, name);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", name, error.what()), {name});
-  }
-  return certificate;
+  return reading(InputKind::kCertificate, [&] {
+    nlohmann::json certificate;
+    try {
+      certificate = nlohmann::json::parse(text);
+      require_unaltered(certificate, name);
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError(fmt::format("{}: {}", name, error.what()), {name});
+    }
+    return certificate;
+  });
 }
 
 nlohmann::json read_certificate(const std::string& path) { return parse_certificate(read_whole(path), path); }

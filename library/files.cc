@@ -14,12 +14,15 @@
 #include <utility>
 
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 
 namespace taut {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* action, int error) {
-  throw InputError(fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)), {path.string()});
+  throw InputErrorOfKind(InputKind::kFile,
+                         fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)),
+                         {path.string()});
 }
 
 /// Removes temporary files for `path` that a run left behind which was killed: its process is gone, and nobody holds the file locked.
@@ -120,8 +123,10 @@ void make_directories(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path)) {
-    throw InputError(fmt::format("{}: could not make the directory: {}", path.string(),
-                                 error ? error.message() : "a file is in the way"));
+    throw InputErrorOfKind(InputKind::kFile,
+                           fmt::format("{}: could not make the directory: {}", path.string(),
+                                       error ? error.message() : "a file is in the way"),
+                           {path.string()});
   }
 }
 

@@ -15,6 +15,7 @@
 #include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
 #include "certify/certificate.h"
+#include "certify/undecided.h"
 #include "kinematics/geometry.h"
 #include "kinematics/motion_length.h"
 #include "library/smooth.h"
@@ -279,7 +280,7 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
     if (best.found.status != SearchStatus::kFound) {
       const bool ran_out = best.found.status == SearchStatus::kChartLimit || budget.over();
       statistics.budget_spent = ran_out && !stop.stop_requested();
-      reason = stop.stop_requested() ? "interrupted" : no_path_reason(best.found, leg);
+      reason = stop.stop_requested() ? words(Undecided::kInterrupted).words : no_path_reason(best.found, leg);
       return std::nullopt;
     }
     if (stop.stop_requested()) statistics.budget_spent = false;
@@ -351,17 +352,19 @@ std::string Planner::no_path_reason(const SearchResult& result, std::size_t leg)
   switch (result.status) {
     case SearchStatus::kExhausted:
       return fmt::format(
-          "{}: the component of the start was covered by {} charts of radius {}{} and the goal was not met; {}. That "
+          "{}: {} {} charts of radius {}{} and the goal was not met; {}. That "
           "is "
           "evidence, not proof, that none exists; charts of a smaller planner.radius see finer",
-          what, atlas_->size(), atlas_->options().radius,
+          what, words(Undecided::kNoPathFound).words, atlas_->size(), atlas_->options().radius,
           manifold_->dimension() > Polytope::kMaxDimension ? ", as densely as sampled directions tell," : "", best);
     case SearchStatus::kChartLimit:
-      return fmt::format("{}: the budget of {} charts is spent; {}", what, atlas_->options().max_charts, best);
+      return fmt::format("{}: the budget of {} {}; {}", what, atlas_->options().max_charts,
+                         words(Undecided::kChartBudget).words, best);
     case SearchStatus::kInterrupted:
-      return fmt::format("{}: the budget of {} s is spent; {}", what, case_.planner.max_seconds, best);
+      return fmt::format("{}: the budget of {}{}; {}", what, case_.planner.max_seconds,
+                         words(Undecided::kTimeBudget).words, best);
     case SearchStatus::kOutside:
-      return fmt::format("waypoint {} or {} of the query is outside the manifold in floating point", leg, leg + 1);
+      return fmt::format("waypoint {} or {} {}", leg, leg + 1, words(Undecided::kOutsideManifold).words);
     case SearchStatus::kFound: break;
   }
   return "";

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/shown.h"
 #include "reports/first_page.h"
 #include "reports/plane.h"
@@ -48,7 +49,8 @@ void require_plain(const ReportOptions& options) {
   };
   const auto require = [&](const std::string& text, const char* what) {
     if (text.size() > kLongest || !std::ranges::all_of(text, is_plain)) {
-      throw InputError(
+      throw InputErrorOfKind(
+          InputKind::kUse,
           fmt::format("{}: got '{}', expected at most {} letters, digits, blanks and . , : ; / _ + - # ( )", what,
                       shown(text), kLongest));
     }

@@ -18,7 +18,7 @@ namespace taut {
 ///                     problem and path.
 [[nodiscard]] nlohmann::json report_data(const Scene& scene, bool is_rejected = false);
 
-/// `value` as it may stand in a page, between <script type="application/json"> and </script>: no '<' in it.
+/// `value` as it may stand in a page, in a script element of type application/json: no '<' in it.
 [[nodiscard]] std::string script_safe(const nlohmann::json& value);
 
 }  // namespace taut

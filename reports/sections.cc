@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "certify/undecided.h"
 #include "reports/sentences.h"
 #include "reports/wording.h"
 
@@ -522,7 +523,7 @@ Html stretches(const Scene& scene) {
   for (std::size_t k = 0; k < shown; ++k) {
     const StretchView& stretch = view.stretches[k];
     rows.push_back({html("{}", k + 1), place(stretch.begin), place(stretch.end),
-                    stretch.first ? violation(*stretch.first) : html("open: {}", stretch.reason),
+                    stretch.first ? violation(*stretch.first) : html("open: {}", with_code(stretch.reason)),
                     stretch.last ? violation(*stretch.last) : Html()});
   }
   const Html all = table(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/undecided.h"
 #include "kinematics/decimal.h"
 #include "reports/wording.h"
 
@@ -141,7 +142,7 @@ std::vector<std::string> undecided_details(const Scene& scene) {
   const UndecidedView& open = *scene.view.undecided;
   std::vector<std::string> result = {
       "It was neither proved nor refuted: that does not mean that it is unsafe, and it is no evidence that it is safe.",
-      fmt::format("Reason: {}.", open.reason)};
+      fmt::format("Reason: {}.", with_code(open.reason))};
   if (open.segment) {
     const double from = *open.segment + open.lower;
     const std::string box =
@@ -221,6 +222,8 @@ std::string spread_text(const LoadText& load) {
                      group(3, "the moment", "N·m"), is_diagonal ? "semi-axes" : "extents, whose axes are oblique");
 }
 
+}  // namespace
+
 std::string load_text(const LoadText& load) {
   constexpr double kStandardGravity = 9.80665;  // [m/s²]
   std::array<double, 3> force{};
@@ -239,6 +242,8 @@ std::string load_text(const LoadText& load) {
       vector_text(force, "force", "N"), weight, vector_text(moment, "moment", "N·m"), spread_text(load));
 }
 
+namespace {
+
 /// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
 std::string limits_text(const RobotText& robot) {
   const auto text = [](const std::array<Limits, kCables>& limits, bool length) -> std::string {
@@ -256,6 +261,8 @@ std::string largest_mm(const std::array<DecimalText, kCables>& metres) {
       metres, [](const DecimalText& a, const DecimalText& b) { return Decimal::parse(a) < Decimal::parse(b); });
   return millimetres(*largest) + " mm";
 }
+
+}  // namespace
 
 std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
   if (!tolerances) {
@@ -285,6 +292,8 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
   if (items.empty()) return "Stated, and all zero.";
   return fmt::format("Up to, in any direction and all at once: {}.", listed(items));
 }
+
+namespace {
 
 std::string assumptions_text(const Problem& problem) {
   const bool is_held = problem.tolerances && problem.tolerances->cable_length_m;

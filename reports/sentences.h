@@ -35,6 +35,11 @@ struct Statement {
 /// What the verdict is about: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and who checked it again.
 [[nodiscard]] std::vector<Statement> statements(const Scene& scene, const Recheck& recheck);
 
+/// The centre load and by how much each component may differ from it: the semi-axes of K. Floating point.
+[[nodiscard]] std::string load_text(const LoadText& load);
+/// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
+[[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances);
+
 /// "Utilisation of the cables, proved …": what the table of cables shows.
 [[nodiscard]] std::string use_caption(CableUse::Source source);
 

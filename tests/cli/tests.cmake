@@ -17,3 +17,6 @@ set_tests_properties(cli.robustness PROPERTIES LABELS "unit" TIMEOUT 900)
 add_test(NAME cli.report COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/report_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.report PROPERTIES LABELS "unit" TIMEOUT 900)
+add_test(NAME cli.show COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/show_test.py
+  $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
+set_tests_properties(cli.show PROPERTIES LABELS "unit" TIMEOUT 900)

@@ -1,0 +1,40 @@
+#include "cli/show.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/console.h"
+#include "kinematics/case_file.h"
+#include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
+#include "kinematics/shown.h"
+#include "library/files.h"
+#include "reports/case_summary.h"
+
+namespace taut {
+
+void add_show_options(CLI::App& command, ShowArguments& arguments) {
+  command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md)")->required();
+  command.add_option("--out", arguments.out, "draw the robot at the first waypoint into this SVG file");
+  command.add_flag("--json", arguments.json, "print it as JSON, in SI units");
+}
+
+int run_show(const ShowArguments& arguments) {
+  if (!arguments.out.empty() && !arguments.out.ends_with(".svg")) {
+    throw InputErrorOfKind(InputKind::kUse,
+                           fmt::format("--out: got '{}', expected a file that ends in .svg", shown(arguments.out)));
+  }
+  const Case case_ = load_case(arguments.case_path);
+  const CaseSummary summary(case_);
+  if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summary)}});
+  if (arguments.json) {
+    fmt::print("{}\n", to_json(summary).dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{}", to_text(summary));
+    if (!arguments.out.empty()) fmt::print("\nWritten: {}\n", arguments.out);
+  }
+  return kProvedExit;
+}
+
+}  // namespace taut

@@ -1,0 +1,227 @@
+#include "reports/case_summary.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "certify/path_proof.h"
+#include "kinematics/decimal.h"
+#include "reports/samples.h"
+#include "reports/scene.h"
+#include "reports/sentences.h"
+#include "reports/wording.h"
+
+namespace taut {
+
+namespace {
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+/// Lengths as the case has them.
+class LengthUnit {
+ public:
+  explicit LengthUnit(const Unit& unit) : unit_(unit.factor.is_power_of_ten() ? unit : *find_unit("mm")) {}
+  [[nodiscard]] const std::string& name() const { return unit_.name; }
+  [[nodiscard]] std::string exact(const DecimalText& metres) const {
+    return (Decimal::parse(metres) * unit_.factor.reciprocal_of_power_of_ten()).text();
+  }
+  [[nodiscard]] std::string triple(const std::array<DecimalText, 3>& metres) const {
+    return fmt::format("({}, {}, {})", exact(metres[0]), exact(metres[1]), exact(metres[2]));
+  }
+  [[nodiscard]] std::string about(double metres) const {
+    return fmt::format("{:.6g}", metres / ScalarTraits<double>::from_decimal(unit_.factor.text()));
+  }
+
+ private:
+  Unit unit_;
+};
+
+/// Rows of cells in columns that are as wide as they have to be; the first row is the head.
+std::string columns(const std::vector<std::vector<std::string>>& rows) {
+  const auto width = [](const std::string& text) {  // characters, not bytes
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    text += " ";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      text += " " + row[c];
+      if (c + 1 < row.size()) text += std::string(widths[c] - width(row[c]) + 1, ' ');
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string robot_text(const RobotText& robot, const LengthUnit& length) {
+  std::vector<std::vector<std::string>> rows = {{"cable", fmt::format("base anchor a [{}]", length.name()),
+                                                 fmt::format("platform anchor b [{}]", length.name()), "tension [N]",
+                                                 fmt::format("length [{}]", length.name())}};
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Limits& f = robot.tension_N[i];
+    const Limits& d = robot.length_m[i];
+    rows.push_back({std::to_string(i + 1), length.triple(robot.base_anchors_m[i]),
+                    length.triple(robot.platform_anchors_m[i]), fmt::format("{} to {}", plain(f.lower), plain(f.upper)),
+                    fmt::format("{} to {}", length.exact(d.lower), length.exact(d.upper))});
+  }
+  return "Robot (a in the world frame, b in the platform frame; limits are themselves excluded)\n" + columns(rows);
+}
+
+/// Directions and sizes of K's semi-axes, where forces and moments do not mix.
+std::string axes_text(const Model<double>& model) {
+  const Matrix6<double>& e = model.ellipsoid;
+  if (!e.topRightCorner<3, 3>().isZero(0)) return "  Its axes mix forces and moments: E is in --json.\n";
+  std::string text;
+  for (const int first : {0, 3}) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(Matrix3<double>(e.block<3, 3>(first, first)));
+    for (int k = 0; k < 3; ++k) {
+      Vector3<double> v = axes.eigenvectors().col(k);
+      Eigen::Index largest = 0;
+      v.cwiseAbs().maxCoeff(&largest);
+      if (v(largest) < 0) v = -v;
+      text += fmt::format("  semi-axis of the {}: {:.6g} {} along ({:.4g}, {:.4g}, {:.4g})\n",
+                          first == 0 ? "force" : "moment", 1 / std::sqrt(axes.eigenvalues()(k)),
+                          first == 0 ? "N" : "N·m", v(0) + 0.0, v(1) + 0.0, v(2) + 0.0);
+    }
+  }
+  return text;
+}
+
+std::string space_text(const SpaceText& space) {
+  std::string text = "Space of poses (SI: m, rad)\n";
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    const Parameter& parameter = space.parameters[j];
+    std::string kind = "any real number";
+    if (parameter.kind == ParameterKind::kPeriodic) kind = "an angle; values 2π apart are the same";
+    if (parameter.kind == ParameterKind::kRange) {
+      kind = fmt::format("from {} to {}", parameter.range_lower, parameter.range_upper);
+    }
+    rows.push_back({"parameter " + parameter.name, in_brackets(unit(space, j)), kind});
+  }
+  text += columns(rows);
+  for (const auto& [name, value] : space.constants) text += fmt::format("  constant {} = {}\n", name, value);
+  for (std::size_t c = 0; c < space.pose.size(); ++c) {
+    text += fmt::format("  {:<5} = {} {}\n", kPoseNames[c], space.pose[c], c < 3 ? "m" : "rad");
+  }
+  for (const ExpressionText& constraint : space.constraints) text += fmt::format("  constraint: {} = 0\n", constraint);
+  if (space.flip) text += "  (phi, theta) and (phi + pi, -theta) are the same pose\n";
+  return text;
+}
+
+std::string waypoint_text(const CaseSummary& summary, std::size_t k, const LengthUnit& length) {
+  const WaypointSummary& waypoint = summary.waypoints[k];
+  const SpaceText& space = summary.source.problem.space;
+  const Statics<double>& s = waypoint.statics;
+  std::string typed;
+  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
+    typed += fmt::format("{}{} = {}", j == 0 ? "" : ", ", space.parameters[j].name, summary.source.problem.query[k][j]);
+  }
+  std::string text =
+      fmt::format("Waypoint {}: {}\n  p = ({}, {}, {}) {}, phi = {:.6g}°, theta = {:.6g}°, sigma = {:.6g}°\n", k, typed,
+                  length.about(waypoint.pose.p_WP(0) + 0.0), length.about(waypoint.pose.p_WP(1) + 0.0),
+                  length.about(waypoint.pose.p_WP(2) + 0.0), length.name(), waypoint.pose.phi * kDegrees + 0.0,
+                  waypoint.pose.theta * kDegrees + 0.0, waypoint.pose.sigma * kDegrees + 0.0);
+  if (!s.regular) return text + "  The force Jacobian is singular here, or nearly so: no tensions.\n";
+  std::vector<std::vector<std::string>> rows = {
+      {"cable", fmt::format("length [{}]", length.name()), "margin", "tension f0 ± v [N]", "margin", ""}};
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const double f = tension_margin(summary.sampler.model(), s, i);
+    const double d = length_margin(summary.sampler.model(), s, i);
+    rows.push_back({std::to_string(i + 1), length.about(s.length[i]), length.about(d),
+                    fmt::format("{:.5g} ± {:.3g}", s.tension[i], s.variation[i]), fmt::format("{:.4g}", f),
+                    f > 0 && d > 0 ? "" : "out of its limits"});
+  }
+  return text + columns(rows) +
+         fmt::format("  wrench_scale {:.4g}: by so much could K grow before a tension reaches a limit{}\n",
+                     waypoint.wrench_scale, waypoint.wrench_scale > 1 ? "" : "; it has to be above 1");
+}
+
+const char* law_text(const Case& the_case) {
+  if (the_case.audit && !the_case.audit->interpolation.empty()) return the_case.audit->interpolation.c_str();
+  if (the_case.problem.query.empty()) return "as the audited file suggests";
+  return the_case.planner.smoothing == Smoothing::kSpline
+             ? "a cubic spline in the parameters where that can be proved, else straight"
+             : "straight in the parameters";
+}
+
+}  // namespace
+
+double tension_margin(const Model<double>& model, const Statics<double>& s, std::size_t i) {
+  return std::min(s.tension[i] - s.variation[i] - model.tension_lower[i],
+                  model.tension_upper[i] - s.tension[i] - s.variation[i]);
+}
+
+double length_margin(const Model<double>& model, const Statics<double>& s, std::size_t i) {
+  return std::min(s.length[i] - model.length_lower[i], model.length_upper[i] - s.length[i]);
+}
+
+CaseSummary::CaseSummary(const Case& the_case) : source(the_case), sampler(the_case.problem) {
+  for (const Waypoint& waypoint : query_waypoints(the_case.problem)) {
+    WaypointSummary& next = waypoints.emplace_back();
+    next.parameters = resolved(waypoint);
+    next.pose = sampler.pose(waypoint);
+    next.statics = sampler.statics(next.pose);
+    if (next.statics.regular) next.wrench_scale = wrench_scale_approx(sampler.model(), next.statics);
+  }
+}
+
+std::string to_text(const CaseSummary& summary) {
+  const Problem& problem = summary.source.problem;
+  const LengthUnit length(summary.source.length_unit);
+  std::string text = fmt::format(
+      "{}, as it was understood. Nothing is proved here.\n"
+      "Lengths in {} as in the case file; forces in N, moments in N·m. Numbers of the case are exact, computed ones "
+      "floating point.\n\n",
+      problem.name, length.name());
+  text += robot_text(problem.robot, length) + "\n";
+  text += fmt::format("Load\n  {}\n{}\n", load_text(problem.load), axes_text(summary.sampler.model()));
+  text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances));
+  text += space_text(problem.space) + "\n";
+  text += fmt::format("Path between waypoints: {}\n", law_text(summary.source));
+  if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
+  for (std::size_t k = 0; k < summary.waypoints.size(); ++k) text += "\n" + waypoint_text(summary, k, length);
+  return text;
+}
+
+nlohmann::json to_json(const CaseSummary& summary) {
+  using nlohmann::json;
+  json waypoints = json::array();
+  for (const WaypointSummary& waypoint : summary.waypoints) {
+    const Pose<double>& pose = waypoint.pose;
+    json cables = json::array();
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Statics<double>& s = waypoint.statics;
+      cables.push_back(
+          {{"cable", i + 1},
+           {"length_m", s.length[i]},
+           {"length_margin_m", length_margin(summary.sampler.model(), s, i)},
+           {"f0_N", s.regular ? json(s.tension[i]) : json()},
+           {"v_N", s.regular ? json(s.variation[i]) : json()},
+           {"tension_margin_N", s.regular ? json(tension_margin(summary.sampler.model(), s, i)) : json()}});
+    }
+    waypoints.push_back({{"parameters", waypoint.parameters},
+                         {"pose",
+                          {{"px", pose.p_WP(0)},
+                           {"py", pose.p_WP(1)},
+                           {"pz", pose.p_WP(2)},
+                           {"phi", pose.phi},
+                           {"theta", pose.theta},
+                           {"sigma", pose.sigma}}},
+                         {"regular", waypoint.statics.regular},
+                         {"wrench_scale", waypoint.statics.regular ? json(waypoint.wrench_scale) : json()},
+                         {"cables", cables}});
+  }
+  return {
+      {"problem", to_json(summary.source.problem)}, {"path_law", law_text(summary.source)}, {"waypoints", waypoints}};
+}
+
+}  // namespace taut

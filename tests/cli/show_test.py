@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""taut show and taut explain, and that each code that is printed is explained.
+
+Usage: show_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import glob
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as xml
+
+TAUT, CHECK, SOURCE = (os.path.abspath(argument) for argument in sys.argv[1:4])
+CASES = os.path.join(SOURCE, "cases")
+CASE = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
+
+
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+
+
+class Show(unittest.TestCase):
+    def test_numbers_are_those_of_the_case_and_of_its_certificate(self):
+        said = run(TAUT, "show", CASE)
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        for expected in ("(-190.5256, -110, 0)", "(-112.5833, 65, 0)", "0.05 to 0.5", "100 to 550", "phi = -2.3", "floating point",
+                         "semi-axis of the force: 0.01 N", "semi-axis of the moment: 0.001 N·m", "Nothing is proved here"):
+            self.assertIn(expected, said.stdout)
+        shown = json.loads(run(TAUT, "show", CASE, "--json").stdout)
+        with tempfile.TemporaryDirectory() as folder:
+            run(TAUT, "plan", CASE, "--out", folder, "--no-check")
+            with open(os.path.join(folder, "certificate.json"), encoding="utf-8") as file:
+                certificate = json.load(file)
+        self.assertEqual(shown["problem"], certificate["problem"])
+
+    def test_tensions_balance_the_load(self):
+        """With J and w0 computed here, from the exact problem and the pose."""
+        shown = json.loads(run(TAUT, "show", CASE, "--json").stdout)
+        robot, load = shown["problem"]["robot"], shown["problem"]["load"]
+        a = [[float(x) for x in p] for p in robot["base_anchors_m"]]
+        b = [[float(x) for x in p] for p in robot["platform_anchors_m"]]
+        for waypoint in shown["waypoints"]:
+            pose = waypoint["pose"]
+            rotation = turn(pose["phi"], pose["theta"], pose["sigma"])
+            total = [0.0] * 3
+            for i, cable in enumerate(waypoint["cables"]):
+                end = [pose[c] + sum(rotation[k][j] * b[i][j] for j in range(3)) for k, c in enumerate(("px", "py", "pz"))]
+                along = [end[k] - a[i][k] for k in range(3)]
+                length = sum(x * x for x in along) ** 0.5
+                self.assertAlmostEqual(length, cable["length_m"], places=12)
+                total = [t + cable["f0_N"] * x / length for t, x in zip(total, along)]
+            for have, want in zip(total, load["wrench"][:3]):
+                self.assertAlmostEqual(have, float(want), places=9)
+
+    def test_every_case_is_shown_and_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for case in sorted(glob.glob(os.path.join(CASES, "**", "*.yaml"), recursive=True)):
+                with self.subTest(os.path.basename(case)):
+                    drawing = os.path.join(folder, "robot.svg")
+                    has_query = bool(json.loads(run(TAUT, "show", case, "--json").stdout)["waypoints"])
+                    said = run(TAUT, "show", case, "--out", drawing)
+                    self.assertEqual(said.returncode, 0 if has_query else 3, said.stderr)
+                    if not has_query:
+                        self.assertIn("no query", said.stderr)
+                        continue
+                    root = xml.parse(drawing).getroot()
+                    words = [element.text for element in root.iter() if element.tag.endswith("text")]
+                    for number in "123456":
+                        self.assertEqual(words.count(number), 3, "in each view")
+                    self.assertTrue(any(word.endswith("mm") or word.endswith(" m") for word in words), "a scale bar")
+                    named = " ".join(words)
+                    for name in [f"{side}{i}" for side in "AB" for i in range(1, 7)]:
+                        self.assertGreaterEqual(named.split().count(name), 3)
+                    self.assertNotRegex(xml.tostring(root, encoding="unicode"), r"nan|inf\b")
+
+    def test_wrong_use(self):
+        with tempfile.TemporaryDirectory() as folder:
+            broken = os.path.join(folder, "broken.yaml")
+            with open(broken, "w", encoding="utf-8") as file:
+                file.write("taut: 1\nname: <b>\n")
+            for arguments, code in (([broken], "E3"), ([os.path.join(folder, "none.yaml")], "E3"), ([CASE, "--out", "x.png"], "E1"),
+                                    ([CASE, "--colour"], "E1")):
+                said = run(TAUT, "show", *arguments)
+                self.assertEqual((said.returncode, said.stdout), (3, ""))
+                self.assertRegex(said.stderr, rf"\[{code}\]")
+
+
+def turn(phi, theta, sigma):
+    from math import cos, sin
+
+    def about_z(t):
+        return [[cos(t), -sin(t), 0], [sin(t), cos(t), 0], [0, 0, 1]]
+
+    def times(x, y):
+        return [[sum(x[i][k] * y[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+    about_y = [[cos(theta), 0, sin(theta)], [0, 1, 0], [-sin(theta), 0, cos(theta)]]
+    return times(times(about_z(phi), about_y), about_z(sigma - phi))
+
+
+class Explain(unittest.TestCase):
+    def test_all_are_listed_and_explained(self):
+        listed = re.findall(r"^(\w+) +\S", run(TAUT, "explain").stdout, re.M)
+        self.assertEqual(len(listed), len(set(listed)))
+        self.assertGreater(len(listed), 25)
+        for code in listed:
+            said = run(TAUT, "explain", code.lower())
+            self.assertEqual(said.returncode, 0)
+            for part in (code, "Usual causes: ", "What to do: ", "Example: "):
+                self.assertRegex(said.stdout, part + r"\S*")
+            self.assertIn(f"[{code}]", said.stdout, "the example is one of it")
+        self.assertEqual(run(TAUT, "explain", "U999").returncode, 3)
+
+    def test_the_document_is_the_table(self):
+        with open(os.path.join(SOURCE, "docs", "errors.md"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), run(TAUT, "explain", "--markdown").stdout)
+
+    def test_messages_have_the_codes_that_fit(self):
+        listed = run(TAUT, "explain").stdout
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bad.csv")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("phi[rad],theta[rad]\n0,x\n")
+            certificate = os.path.join(folder, "c.json")
+            with open(certificate, "w", encoding="utf-8") as file:
+                file.write("{}")
+            tight = os.path.join(folder, "tight.yaml")
+            with open(CASE, encoding="utf-8") as file:
+                text = file.read()
+            with open(tight, "w", encoding="utf-8") as file:
+                file.write(re.sub(r"^planner: .*\n", "planner: {max_charts: 3}\n", text, flags=re.M))
+            audited = os.path.join(CASES, "audits", "robot1-planned.yaml")
+            for code, exit_code, *command in (
+                    ("E1", 3, "plan"),
+                    ("E2", 3, "plan", CASE, "--out", "/proc/none"),
+                    ("E3", 3, "plan", path),
+                    ("E4", 3, "audit", audited, path),
+                    ("E5", 3, "report", certificate),
+                    ("E6", 3, "plan", CASE, "--atlas", path),
+                    ("E7", 3, "plan", CASE, "--sign", path),
+                    ("E9", 3, "regress", folder + "/none"),
+                    ("U14", 2, "plan", tight, "--out", folder)):
+                said = run(TAUT, *command)
+                self.assertEqual(said.returncode, exit_code, said.stdout + said.stderr)
+                self.assertRegex(said.stdout + said.stderr, rf"\[{code}\]", command)
+                self.assertRegex(listed, rf"(?m)^{code} ")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
