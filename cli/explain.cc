@@ -236,8 +236,6 @@ std::string to_markdown(const std::vector<Explanation>& all) {
 
 }  // namespace
 
-std::string code(InputKind kind) { return fmt::format("E{}", static_cast<int>(kind) + 1); }
-
 const std::vector<Explanation>& explanations() {
   static const std::vector<Explanation> all = [] {
     std::vector<Explanation> result;

@@ -14,9 +14,6 @@ inline constexpr const char* kInternalCode = "F1";
 inline constexpr const char* kUntrustworthyCode = "F2";
 inline constexpr const char* kBrowserFailedCode = "F3";
 
-/// "E3"
-[[nodiscard]] std::string code(InputKind kind);
-
 struct Explanation {
   std::string code;
   const char* title;    ///< what is wrong or open, in a few words

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "kinematics/input_error.h"
 
@@ -20,6 +21,9 @@ enum class InputKind {
   kRegress,      ///< a folder of cases, or its baseline
 };
 inline constexpr std::size_t kInputKinds = 9;
+
+/// "E3"
+[[nodiscard]] inline std::string code(InputKind kind) { return "E" + std::to_string(static_cast<int>(kind) + 1); }
 
 /// An InputError of a known kind.
 class InputErrorOfKind : public InputError {

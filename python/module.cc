@@ -107,7 +107,7 @@ taut::Interpolation interpolation_of(const std::string& name) {
   if (name == "geodesic") return taut::Interpolation::kGeodesic;
   if (name == "cable-lengths") return taut::Interpolation::kCableLengths;
   throw taut::InputError("interpolation: got '" + name + "', expected straight, spline, geodesic or cable-lengths", "",
-                         0, "interpolation");
+                         0, "interpolation", "E1");
 }
 
 const char* name_of(taut::Interpolation law) {
@@ -198,7 +198,8 @@ py::list stretch_list(const std::vector<taut::Stretch>& stretches) {
     if (stretch.violations) {
       violations = py::make_tuple(witness_dict(stretch.violations->first), witness_dict(stretch.violations->second));
     }
-    list.append(py::make_tuple(place_tuple(stretch.begin), place_tuple(stretch.end), violations, stretch.reason));
+    list.append(py::make_tuple(place_tuple(stretch.begin), place_tuple(stretch.end), violations, stretch.reason,
+                               stretch.reason_code));
   }
   return list;
 }
@@ -242,7 +243,7 @@ void translate(std::exception_ptr failure) {  // NOLINT(performance-unnecessary-
     if (failure) std::rethrow_exception(failure);
   } catch (const taut::InputError& error) {
     const py::object type = error_type("InputError");
-    PyErr_SetObject(type.ptr(), type(error.what(), error.file(), error.line(), error.field()).ptr());
+    PyErr_SetObject(type.ptr(), type(error.what(), error.file(), error.line(), error.field(), error.code()).ptr());
   } catch (const taut::Interrupted& error) {
     raise("Interrupted", error.what());
   } catch (const taut::UntrustworthyMachine& error) {
@@ -291,6 +292,7 @@ PYBIND11_MODULE(_taut, module) {
                              })
       .def_property_readonly("stretches", [](const taut::Certificate& c) { return stretch_list(c.stretches()); })
       .def_property_readonly("reason", &taut::Certificate::reason)
+      .def_property_readonly("reason_code", &taut::Certificate::reason_code)
       .def_property_readonly("path", [](const taut::Certificate& c) { return path_tuple(c.path()); })
       .def_property_readonly("path_csv", &taut::Certificate::path_csv)
       .def_property_readonly("segments", &taut::Certificate::segments)
@@ -386,8 +388,8 @@ PYBIND11_MODULE(_taut, module) {
         } else if (format == "json") {
           options.format = taut::ReportFormat::kJson;
         } else {
-          throw taut::InputError("format: got '" + format + "', expected html, text, markdown or json", "", 0,
-                                 "format");
+          throw taut::InputError("format: got '" + format + "', expected html, text, markdown or json", "", 0, "format",
+                                 "E1");
         }
         options.document = document;
         options.revision = revision;

@@ -17,7 +17,9 @@
 #include "certify/checker/signature.h"
 #include "certify/interval.h"
 #include "certify/rounding.h"
+#include "certify/undecided.h"
 #include "kinematics/case_file.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/pose_conversion.h"
 #include "library/certificate_file.h"
 #include "library/files.h"
@@ -99,17 +101,25 @@ class Relay {
   std::stop_callback<std::function<void()>> on_stop_;
 };
 
+[[noreturn]] void throw_outside(const taut::InputError& error, InputKind kind) {
+  const InputPlace& place = error.place();
+  throw InputError(error.what(), place.file, place.line, place.field, code(kind));
+}
+
 /// Calls `work` in a floating-point environment and with threads of its own, and turns taut's exceptions into those of the interface.
+/// @param kind  of input that is wrong, where an error does not say
 template <class Work>
-auto within(const Work& work) {
+auto within(InputKind kind, const Work& work) {
   const DefaultFloatingPoint environment;
   try {
     tbb::task_arena threads;  // begins with this thread's environment, whatever that of the caller's own tasks is
     return threads.execute(work);
+  } catch (const taut::InputErrorOfKind& error) {
+    throw_outside(error, error.kind());
   } catch (const taut::InputError& error) {
-    throw InputError(error.what(), error.place().file, error.place().line, error.place().field);
+    throw_outside(error, kind);
   } catch (const checker::Malformed& error) {  // of keys
-    throw InputError(error.what(), "", 0, "");
+    throw_outside(taut::InputError(error.what()), InputKind::kKey);
   } catch (const checker::Interrupted& error) {
     throw Interrupted(error.what());
   } catch (const taut::UntrustworthyMachine& error) {
@@ -127,8 +137,8 @@ auto within(const Work& work) {
 
 /// The same, for what proves: on a machine that rounds as told.
 template <class Work>
-auto prove_within(const Work& work) {
-  return within([&] {
+auto prove_within(InputKind kind, const Work& work) {
+  return within(kind, [&] {
     test_rounding_once();
     return work();
   });
@@ -169,6 +179,11 @@ taut::Path inner(const Path& path) {
     if (copy.half_turns.empty() && !has_poses(result.interpolation)) copy.half_turns.assign(copy.x.size(), 0);
   }
   return result;
+}
+
+std::string code_of(const std::string& reason) {
+  const std::optional<Undecided> known = undecided_reason(reason);
+  return known ? code(*known) : "";
 }
 
 double below(const std::string& decimal) { return ScalarTraits<Interval>::from_decimal(decimal).lower(); }
@@ -238,8 +253,13 @@ std::shared_ptr<const std::string> text_of(const Table& table) {
 
 const char* version() noexcept { return TAUT_VERSION; }
 
-InputError::InputError(const std::string& message, std::string file, std::size_t line, std::string field)
-    : std::runtime_error(message), file_(std::move(file)), line_(line), field_(std::move(field)) {}
+InputError::InputError(const std::string& message, std::string file, std::size_t line, std::string field,
+                       std::string code)
+    : std::runtime_error(message),
+      file_(std::move(file)),
+      line_(line),
+      field_(std::move(field)),
+      code_(std::move(code)) {}
 InputError::InputError(const InputError&) = default;
 InputError::~InputError() = default;
 Interrupted::~Interrupted() = default;
@@ -251,11 +271,15 @@ InternalError::~InternalError() = default;
 Case::Case(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Case Case::load(const std::string& file) {
-  return within([&] { return Case(std::make_shared<const Content>(Content{load_case(file), file})); });
+  return within(InputKind::kCase, [&] {
+    return Case(std::make_shared<const Content>(Content{load_case(file), file}));
+  });
 }
 
 Case Case::parse(const std::string& yaml, const std::string& name) {
-  return within([&] { return Case(std::make_shared<const Content>(Content{parse_case(yaml, name), name})); });
+  return within(InputKind::kCase, [&] {
+    return Case(std::make_shared<const Content>(Content{parse_case(yaml, name), name}));
+  });
 }
 
 const std::string& Case::name() const { return content_->the_case.problem.name; }
@@ -270,11 +294,11 @@ std::vector<std::string> Case::parameters() const {
 std::size_t Case::query_waypoints() const { return content_->the_case.problem.query.size(); }
 
 std::array<std::array<double, 2>, 6> Case::tension_limits_N() const {
-  return within([&] { return outer(content_->the_case.problem.robot.tension_N); });
+  return within(InputKind::kCase, [&] { return outer(content_->the_case.problem.robot.tension_N); });
 }
 
 std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
-  return within([&] { return outer(content_->the_case.problem.robot.length_m); });
+  return within(InputKind::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
 }
 
 // --- Certificates ----------------------------------------------------------------------------------------------------
@@ -282,15 +306,15 @@ std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
 Certificate::Certificate(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Certificate Certificate::load(const std::string& file) {
-  return parse(within([&] { return read_whole(file); }), file);
+  return parse(within(InputKind::kCertificate, [&] { return read_whole(file); }), file);
 }
 
 Certificate Certificate::parse(const std::string& text, const std::string& name) {
-  return within([&] { return certificate_of(text, parse_certificate(text, name)); });
+  return within(InputKind::kCertificate, [&] { return certificate_of(text, parse_certificate(text, name)); });
 }
 
 void Certificate::save(const std::string& file) const {
-  within([&] { write_whole({{file, content_->text}}); });
+  within(InputKind::kCertificate, [&] { write_whole({{file, content_->text}}); });
 }
 
 const std::string& Certificate::text() const { return content_->text; }
@@ -306,18 +330,18 @@ const std::string& Certificate::case_name() const { return content_->view.proble
 std::optional<Margins> Certificate::margins() const {
   const std::optional<MarginsView>& margins = content_->view.margins;
   if (!margins) return std::nullopt;
-  return within([&] {
+  return within(InputKind::kCertificate, [&] {
     return Margins{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale)};
   });
 }
 
 std::optional<Witness> Certificate::witness() const {
   if (!content_->view.witness) return std::nullopt;
-  return within([&] { return outer(*content_->view.witness); });
+  return within(InputKind::kCertificate, [&] { return outer(*content_->view.witness); });
 }
 
 std::vector<Stretch> Certificate::stretches() const {
-  return within([&] {
+  return within(InputKind::kCertificate, [&] {
     std::vector<Stretch> result;
     for (const StretchView& stretch : content_->view.stretches) {
       Stretch& copy = result.emplace_back();
@@ -325,6 +349,7 @@ std::vector<Stretch> Certificate::stretches() const {
       copy.end = outer(stretch.end);
       if (stretch.first) copy.violations = {outer(*stretch.first), outer(*stretch.last)};
       copy.reason = stretch.reason;
+      copy.reason_code = code_of(stretch.reason);
     }
     return result;
   });
@@ -334,6 +359,8 @@ const std::string& Certificate::reason() const {
   static const std::string none;
   return content_->view.undecided ? content_->view.undecided->reason : none;
 }
+
+std::string Certificate::reason_code() const { return code_of(reason()); }
 
 Path Certificate::path() const {
   const taut::Path& path = content_->view.path;
@@ -345,14 +372,14 @@ Path Certificate::path() const {
 }
 
 std::string Certificate::path_csv() const {
-  return within([&] { return taut::path_csv(content_->view.problem, content_->view.path); });
+  return within(InputKind::kCertificate, [&] { return taut::path_csv(content_->view.problem, content_->view.path); });
 }
 
 std::size_t Certificate::segments() const { return content_->view.path.segments(); }
 std::size_t Certificate::boxes() const { return content_->view.boxes; }
 
 std::vector<Sample> Certificate::samples(std::size_t about) const {
-  return within([&] {
+  return within(InputKind::kCertificate, [&] {
     const Sampler sampler(content_->view.problem);
     std::vector<Sample> result;
     for (const PathSample& sample : sampler.along(content_->view.path, about)) {
@@ -376,7 +403,7 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
 
 Certificate plan(const Case& the_case, const PlanOptions& options) {
   Relay relay(options.progress, options.stop);
-  Certificate result = prove_within([&] {
+  Certificate result = prove_within(InputKind::kCase, [&] {
     taut::Case planned = the_case.content().the_case;
     try {
       require_plannable(planned);
@@ -411,7 +438,7 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
 }
 
 Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options) {
-  return prove_within([&] {
+  return prove_within(InputKind::kPath, [&] {
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
     nlohmann::json certificate =
         prove_waypoints(the_case.content().the_case.problem, inner(path), options.max_bits, options.stop);
@@ -443,7 +470,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     return certificate_of(std::move(text), std::move(json));
   };
   try {
-    return prove_within(work);
+    return prove_within(InputKind::kPath, work);
   } catch (const Interrupted&) {
     relay.rethrow();
     throw;
@@ -457,7 +484,7 @@ Certificate audit(const Case& the_case, const std::string& path_file, const Audi
 }
 
 Certificate audit(const Case& the_case, const Table& table, const AuditOptions& options, const std::string& name) {
-  return audit_input(the_case, PathInput(name, within([&] { return text_of(table); })), options);
+  return audit_input(the_case, PathInput(name, within(InputKind::kPath, [&] { return text_of(table); })), options);
 }
 
 Certificate audit(const Case& the_case, const AuditOptions& options) {
@@ -465,7 +492,7 @@ Certificate audit(const Case& the_case, const AuditOptions& options) {
 }
 
 CheckResult check(const std::string& certificate_text, const CheckOptions& options) {
-  return within([&] {
+  return within(InputKind::kUse, [&] {
     std::vector<std::string> trusted;
     for (const std::string& pem : options.trusted_keys_pem) {
       trusted.push_back(checker::read_public_key(pem, "trusted_keys_pem"));
@@ -496,7 +523,7 @@ CheckResult check(const Certificate& certificate, const CheckOptions& options) {
 }
 
 std::string report(const Certificate& certificate, const ReportOptions& options) {
-  return prove_within([&]() -> std::string {
+  return prove_within(InputKind::kCertificate, [&]() -> std::string {
     const auto& [text, json, view] = certificate.content();
     taut::ReportOptions request{
         options.document, options.revision, options.date.empty() ? report_date() : options.date, {}};

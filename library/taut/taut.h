@@ -29,310 +29,312 @@
 
 #define TAUT_EXPORT __attribute__((visibility("default")))
 
-// The namespace's name says which ABI this is. Where headers of the layers (taut::certify and so on) are used as well, which
+namespace taut {
+// The inner namespace's name says which ABI this is. Where headers of the layers (taut::certify and so on) are used as well, which
 // have names of their own in namespace taut, these have to be called taut::v0::Case and so on; the layers' CMake targets see to it.
 #ifdef TAUT_WITH_LAYERS
-#define TAUT_ABI_NAMESPACE namespace v0
+namespace v0 {
 #else
-#define TAUT_ABI_NAMESPACE inline namespace v0
+inline namespace v0 {
 #endif
 
-namespace taut {
-TAUT_ABI_NAMESPACE {
-  /// "0.1.0": of the library, which writes it into certificates.
-  [[nodiscard]] TAUT_EXPORT const char* version() noexcept;
+/// "0.1.0": of the library, which writes it into certificates.
+[[nodiscard]] TAUT_EXPORT const char* version() noexcept;
 
-  // --- Errors ----------------------------------------------------------------------------------------------------------
+// --- Errors ----------------------------------------------------------------------------------------------------------
 
-  /// A case, path, certificate, key or option is wrong in some way. what() has the place, what was seen and what was expected:
-  /// "crane.yaml:12:9: load.mass: got 'NaN', expected …".
-  class TAUT_EXPORT InputError : public std::runtime_error {
-   public:
-    InputError(const std::string& message, std::string file, std::size_t line, std::string field);
-    ~InputError() override;
-    InputError(const InputError&);
-    InputError& operator=(const InputError&) = delete;
-    [[nodiscard]] const std::string& file() const noexcept { return file_; }  ///< may be empty
-    [[nodiscard]] std::size_t line() const noexcept { return line_; }         ///< from 1; 0: unknown, or the whole file
-    [[nodiscard]] const std::string& field() const noexcept { return field_; }  ///< "load.mass", a column; may be empty
+/// A case, path, certificate, key or option is wrong in some way. what() has the place, what was seen and what was expected:
+/// "crane.yaml:12:9: load.mass: got 'NaN', expected …".
+class TAUT_EXPORT InputError : public std::runtime_error {
+ public:
+  InputError(const std::string& message, std::string file, std::size_t line, std::string field, std::string code);
+  ~InputError() override;
+  InputError(const InputError&);
+  InputError& operator=(const InputError&) = delete;
+  [[nodiscard]] const std::string& file() const noexcept { return file_; }    ///< may be empty
+  [[nodiscard]] std::size_t line() const noexcept { return line_; }           ///< from 1; 0: unknown, or the whole file
+  [[nodiscard]] const std::string& field() const noexcept { return field_; }  ///< "load.mass", a column; may be empty
+  [[nodiscard]] const std::string& code() const noexcept { return code_; }  ///< "E3": `taut explain` has more about it
 
-   private:
-    std::string file_;
-    std::size_t line_;
-    std::string field_;
-  };
+ private:
+  std::string file_;
+  std::size_t line_;
+  std::string field_;
+  std::string code_;
+};
 
-  /// The caller asked to stop.
-  class TAUT_EXPORT Interrupted : public std::runtime_error {
-   public:
-    using std::runtime_error::runtime_error;
-    ~Interrupted() override;
-  };
+/// The caller asked to stop.
+class TAUT_EXPORT Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~Interrupted() override;
+};
 
-  /// This machine does not round as told: nothing can be proved on it.
-  class TAUT_EXPORT UntrustworthyMachine : public std::runtime_error {
-   public:
-    using std::runtime_error::runtime_error;
-    ~UntrustworthyMachine() override;
-  };
+/// This machine does not round as told: nothing can be proved on it.
+class TAUT_EXPORT UntrustworthyMachine : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~UntrustworthyMachine() override;
+};
 
-  /// Something failed in taut itself.
-  class TAUT_EXPORT InternalError : public std::runtime_error {
-   public:
-    using std::runtime_error::runtime_error;
-    ~InternalError() override;
-  };
+/// Something failed in taut itself.
+class TAUT_EXPORT InternalError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~InternalError() override;
+};
 
-  // --- Cases and paths -------------------------------------------------------------------------------------------------
+// --- Cases and paths -------------------------------------------------------------------------------------------------
 
-  /// A robot, its load, the space of its poses, and maybe a query (docs/case-format.md). Copies are cheap.
-  class TAUT_EXPORT Case {
-   public:
-    /// @throws InputError
-    [[nodiscard]] static Case load(const std::string& file);
-    /// From the text of a case file. @param name  stands for the file in messages
-    /// @throws InputError
-    [[nodiscard]] static Case parse(const std::string& yaml, const std::string& name = "case");
+/// A robot, its load, the space of its poses, and maybe a query (docs/case-format.md). Copies are cheap.
+class TAUT_EXPORT Case {
+ public:
+  /// @throws InputError
+  [[nodiscard]] static Case load(const std::string& file);
+  /// From the text of a case file. @param name  stands for the file in messages
+  /// @throws InputError
+  [[nodiscard]] static Case parse(const std::string& yaml, const std::string& name = "case");
 
-    [[nodiscard]] const std::string& name() const;
-    [[nodiscard]] const std::string& description() const;       ///< the file's leading comment
-    [[nodiscard]] std::vector<std::string> parameters() const;  ///< their names, in the order of waypoints
-    [[nodiscard]] std::size_t query_waypoints() const;          ///< 0: there is nothing to plan
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] const std::string& description() const;       ///< the file's leading comment
+  [[nodiscard]] std::vector<std::string> parameters() const;  ///< their names, in the order of waypoints
+  [[nodiscard]] std::size_t query_waypoints() const;          ///< 0: there is nothing to plan
 
-    /// Lower and upper limit of each cable, rounded to the nearest binary64: for plots.
-    [[nodiscard]] std::array<std::array<double, 2>, 6> tension_limits_N() const;
-    [[nodiscard]] std::array<std::array<double, 2>, 6> length_limits_m() const;
+  /// Lower and upper limit of each cable, rounded to the nearest binary64: for plots.
+  [[nodiscard]] std::array<std::array<double, 2>, 6> tension_limits_N() const;
+  [[nodiscard]] std::array<std::array<double, 2>, 6> length_limits_m() const;
 
-    struct Content;
-    [[nodiscard]] const Content& content() const { return *content_; }
+  struct Content;
+  [[nodiscard]] const Content& content() const { return *content_; }
 
-   private:
-    explicit Case(std::shared_ptr<const Content> content);
-    std::shared_ptr<const Content> content_;
-  };
+ private:
+  explicit Case(std::shared_ptr<const Content> content);
+  std::shared_ptr<const Content> content_;
+};
 
-  /// What happens between waypoints (docs/audits.md).
-  enum class Interpolation {
-    kStraight,     ///< the case's parameters go from value to value at constant rates, all at once
-    kSpline,       ///< the waypoints are control points of a cubic B-spline in the case's parameters
-    kGeodesic,     ///< the platform moves straight and turns about one axis, at constant rates
-    kCableLengths  ///< each cable's length changes at a constant rate
-  };
+/// What happens between waypoints (docs/audits.md).
+enum class Interpolation {
+  kStraight,     ///< the case's parameters go from value to value at constant rates, all at once
+  kSpline,       ///< the waypoints are control points of a cubic B-spline in the case's parameters
+  kGeodesic,     ///< the platform moves straight and turns about one axis, at constant rates
+  kCableLengths  ///< each cable's length changes at a constant rate
+};
 
-  /// Exact: these binary64 numbers are what is proved.
-  struct Waypoint {
-    /// One a parameter of the case [m, rad]; geodesic: px, py, pz [m], qx, qy, qz, qw; cable lengths: these, and the lengths
-    /// l1 … l6 [m], where the pose tells which of those that have them is meant, and is refined if it is rough.
-    std::vector<double> x;
-    /// One a parameter, which is then x + π half_turns; not 0 for periodic ones only. Empty: all 0.
-    std::vector<int> half_turns;
-  };
+/// Exact: these binary64 numbers are what is proved.
+struct Waypoint {
+  /// One a parameter of the case [m, rad]; geodesic: px, py, pz [m], qx, qy, qz, qw; cable lengths: these, and the lengths
+  /// l1 … l6 [m], where the pose tells which of those that have them is meant, and is refined if it is rough.
+  std::vector<double> x;
+  /// One a parameter, which is then x + π half_turns; not 0 for periodic ones only. Empty: all 0.
+  std::vector<int> half_turns;
+};
 
-  struct Path {
-    Interpolation interpolation = Interpolation::kStraight;
-    std::vector<Waypoint> waypoints;
-    std::vector<std::string> times;  ///< decimals [s], ascending, one a waypoint, or none; no part of any claim
-  };
+struct Path {
+  Interpolation interpolation = Interpolation::kStraight;
+  std::vector<Waypoint> waypoints;
+  std::vector<std::string> times;  ///< decimals [s], ascending, one a waypoint, or none; no part of any claim
+};
 
-  /// A table of numbers with a row for each waypoint.
-  struct Table {
-    /// With units, as docs/audits.md has them: "t[s]", "phi[deg]", "px[m]", "qw", "l1[mm]".
-    std::vector<std::string> columns;
-    std::vector<double> values;  ///< row by row; rows times columns
-  };
+/// A table of numbers with a row for each waypoint.
+struct Table {
+  /// With units, as docs/audits.md has them: "t[s]", "phi[deg]", "px[m]", "qw", "l1[mm]".
+  std::vector<std::string> columns;
+  std::vector<double> values;  ///< row by row; rows times columns
+};
 
-  // --- Certificates ----------------------------------------------------------------------------------------------------
+// --- Certificates ----------------------------------------------------------------------------------------------------
 
-  enum class Verdict {
-    kProved,    ///< the claim holds along the whole path
-    kRefuted,   ///< it does not, and that is proved
-    kUndecided  ///< nothing is claimed; that does not mean that the path is unsafe
-  };
+enum class Verdict {
+  kProved,    ///< the claim holds along the whole path
+  kRefuted,   ///< it does not, and that is proved
+  kUndecided  ///< nothing is claimed; that does not mean that the path is unsafe
+};
 
-  /// Proved lower bounds, rounded down.
-  struct Margins {
-    double tension_N = 0;     ///< every tension stays so far inside its limits, for every wrench
-    double length_m = 0;      ///< and every length
-    double wrench_scale = 0;  ///< the ellipsoid of wrenches could be larger by this factor
-  };
+/// Proved lower bounds, rounded down.
+struct Margins {
+  double tension_N = 0;     ///< every tension stays so far inside its limits, for every wrench
+  double length_m = 0;      ///< and every length
+  double wrench_scale = 0;  ///< the ellipsoid of wrenches could be larger by this factor
+};
 
-  /// A place on a path: the point s of a segment, or a waypoint.
-  struct Place {
-    std::size_t index = 0;    ///< of the segment or waypoint
-    std::optional<double> s;  ///< from 0 to 1; nothing: a waypoint
-    [[nodiscard]] double position() const { return static_cast<double>(index) + s.value_or(0); }
-  };
+/// A place on a path: the point s of a segment, or a waypoint.
+struct Place {
+  std::size_t index = 0;    ///< of the segment or waypoint
+  std::optional<double> s;  ///< from 0 to 1; nothing: a waypoint
+  [[nodiscard]] double position() const { return static_cast<double>(index) + s.value_or(0); }
+};
 
-  /// A proved violation.
-  struct Witness {
-    std::string kind;  ///< "tension_min", "tension_max", "length_min", "length_max" or "singular"
-    Place at;
-    std::optional<Place> to;  ///< singular: somewhere from `at` to here; the rest is then empty
-    int cable = 0;            ///< 1 to 6
-    double value_lower = 0;   ///< the tension [N] or length [m] lies between these two
-    double value_upper = 0;
-    double limit = 0;
-    bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
-  };
+/// A proved violation.
+struct Witness {
+  std::string kind;  ///< "tension_min", "tension_max", "length_min", "length_max" or "singular"
+  Place at;
+  std::optional<Place> to;  ///< singular: somewhere from `at` to here; the rest is then empty
+  int cable = 0;            ///< 1 to 6
+  double value_lower = 0;   ///< the tension [N] or length [m] lies between these two
+  double value_upper = 0;
+  double limit = 0;
+  bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
+};
 
-  /// A stretch of an audited path that is not proved.
-  struct Stretch {
-    Place begin, end;                                       ///< outside of them the path is proved
-    std::optional<std::pair<Witness, Witness>> violations;  ///< the first and the last proved one
-    std::string reason;                                     ///< why it is open; empty where there are violations
-  };
+/// A stretch of an audited path that is not proved.
+struct Stretch {
+  Place begin, end;                                       ///< outside of them the path is proved
+  std::optional<std::pair<Witness, Witness>> violations;  ///< the first and the last proved one
+  std::string reason;                                     ///< why it is open; empty where there are violations
+  std::string reason_code;                                ///< "U5": `taut explain` has more about it; may be empty
+};
 
-  /// A pose of a path in floating point. For plots: nothing here is proved.
-  struct Sample {
-    double position = 0;  ///< k + s: the point s of segment k
-    std::array<double, 3> p_m{};
-    std::array<double, 4> quaternion{};       ///< x, y, z, w
-    bool is_singular = false;                 ///< then tensions mean nothing
-    std::array<double, 6> tension_lower_N{};  ///< over all wrenches of the ellipsoid
-    std::array<double, 6> tension_upper_N{};
-    std::array<double, 6> length_m{};
-  };
+/// A pose of a path in floating point. For plots: nothing here is proved.
+struct Sample {
+  double position = 0;  ///< k + s: the point s of segment k
+  std::array<double, 3> p_m{};
+  std::array<double, 4> quaternion{};       ///< x, y, z, w
+  bool is_singular = false;                 ///< then tensions mean nothing
+  std::array<double, 6> tension_lower_N{};  ///< over all wrenches of the ellipsoid
+  std::array<double, 6> tension_upper_N{};
+  std::array<double, 6> length_m{};
+};
 
-  /// A claim with all that is needed to prove it again (docs/certificate-format.md). Copies are cheap.
-  ///
-  /// A certificate that was loaded or parsed is one whose digest fits, no more: whether it is true is check()'s to say.
-  class TAUT_EXPORT Certificate {
-   public:
-    /// @throws InputError where the file can't be read, is no certificate, or was cut or altered.
-    [[nodiscard]] static Certificate load(const std::string& file);
-    /// @param name  stands for the file in messages
-    [[nodiscard]] static Certificate parse(const std::string& text, const std::string& name = "certificate");
+/// A claim with all that is needed to prove it again (docs/certificate-format.md). Copies are cheap.
+///
+/// A certificate that was loaded or parsed is one whose digest fits, no more: whether it is true is check()'s to say.
+class TAUT_EXPORT Certificate {
+ public:
+  /// @throws InputError where the file can't be read, is no certificate, or was cut or altered.
+  [[nodiscard]] static Certificate load(const std::string& file);
+  /// @param name  stands for the file in messages
+  [[nodiscard]] static Certificate parse(const std::string& text, const std::string& name = "certificate");
 
-    /// Writes the file as a whole, or not at all. @throws InputError
-    void save(const std::string& file) const;
-    /// What a file of it holds, byte for byte: JSON.
-    [[nodiscard]] const std::string& text() const;
+  /// Writes the file as a whole, or not at all. @throws InputError
+  void save(const std::string& file) const;
+  /// What a file of it holds, byte for byte: JSON.
+  [[nodiscard]] const std::string& text() const;
 
-    [[nodiscard]] Verdict verdict() const;
-    [[nodiscard]] const std::string& claim() const;  ///< the theorem, in words
-    [[nodiscard]] const std::string& case_name() const;
-    [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
-    [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted
-    [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved
-    [[nodiscard]] const std::string& reason() const;       ///< only if undecided
-    [[nodiscard]] Path path() const;                       ///< bit for bit
-    [[nodiscard]] std::string path_csv() const;  ///< as `taut plan` writes it: for the machine that is to follow it
-    [[nodiscard]] std::size_t segments() const;
-    [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
+  [[nodiscard]] Verdict verdict() const;
+  [[nodiscard]] const std::string& claim() const;  ///< the theorem, in words
+  [[nodiscard]] const std::string& case_name() const;
+  [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
+  [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted
+  [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved
+  [[nodiscard]] const std::string& reason() const;       ///< only if undecided
+  [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty
+  [[nodiscard]] Path path() const;                       ///< bit for bit
+  [[nodiscard]] std::string path_csv() const;  ///< as `taut plan` writes it: for the machine that is to follow it
+  [[nodiscard]] std::size_t segments() const;
+  [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
 
-    /// About so many poses along the path, in order, with both ends.
-    [[nodiscard]] std::vector<Sample> samples(std::size_t about = 200) const;
+  /// About so many poses along the path, in order, with both ends.
+  [[nodiscard]] std::vector<Sample> samples(std::size_t about = 200) const;
 
-    struct Content;
-    [[nodiscard]] const Content& content() const { return *content_; }
-    explicit Certificate(std::shared_ptr<const Content> content);
+  struct Content;
+  [[nodiscard]] const Content& content() const { return *content_; }
+  explicit Certificate(std::shared_ptr<const Content> content);
 
-   private:
-    std::shared_ptr<const Content> content_;
-  };
+ private:
+  std::shared_ptr<const Content> content_;
+};
 
-  // --- What taut does --------------------------------------------------------------------------------------------------
+// --- What taut does --------------------------------------------------------------------------------------------------
 
-  struct Progress {
-    const char* stage = "";  ///< "planning" or "auditing"
-    std::size_t done = 0;    ///< charts made, or segments judged
-    std::size_t total = 0;   ///< 0: nobody knows
-  };
+struct Progress {
+  const char* stage = "";  ///< "planning" or "auditing"
+  std::size_t done = 0;    ///< charts made, or segments judged
+  std::size_t total = 0;   ///< 0: nobody knows
+};
 
-  /// Called every now and then, by one thread at a time, which need not be the caller's.
-  using ProgressCallback = std::function<void(const Progress&)>;
+/// Called every now and then, by one thread at a time, which need not be the caller's.
+using ProgressCallback = std::function<void(const Progress&)>;
 
-  struct PlanOptions {
-    double budget_seconds = 0;    ///< for planning and proving; 0: the case's own
-    std::string atlas;            ///< begin with the charts of this file (docs/atlas-file.md); empty: with none
-    std::string save_atlas;       ///< write all charts into this file; empty: into none
-    bool grow = false;            ///< make all charts that can be reached before they are saved
-    std::string signing_key_pem;  ///< sign the certificate with this Ed25519 private key; empty: don't
-    ProgressCallback progress = {};
-    /// Asks for the best path so far: without one the certificate says undecided, "interrupted".
-    std::stop_token stop = {};
-  };
+struct PlanOptions {
+  double budget_seconds = 0;    ///< for planning and proving; 0: the case's own
+  std::string atlas;            ///< begin with the charts of this file (docs/atlas-file.md); empty: with none
+  std::string save_atlas;       ///< write all charts into this file; empty: into none
+  bool grow = false;            ///< make all charts that can be reached before they are saved
+  std::string signing_key_pem;  ///< sign the certificate with this Ed25519 private key; empty: don't
+  ProgressCallback progress = {};
+  /// Asks for the best path so far: without one the certificate says undecided, "interrupted".
+  std::stop_token stop = {};
+};
 
-  /// Plans through the case's query and proves the path: `taut plan`. A case without a path that is found is undecided.
-  /// @throws InputError, also where the case has no query.
-  [[nodiscard]] TAUT_EXPORT Certificate plan(const Case& the_case, const PlanOptions& options = {});
+/// Plans through the case's query and proves the path: `taut plan`. A case without a path that is found is undecided.
+/// @throws InputError, also where the case has no query.
+[[nodiscard]] TAUT_EXPORT Certificate plan(const Case& the_case, const PlanOptions& options = {});
 
-  struct ProveOptions {
-    long max_bits = 4096;  ///< precision beyond which the prover gives up; 128 at least
-    std::string signing_key_pem;
-    std::stop_token stop = {};
-  };
+struct ProveOptions {
+  long max_bits = 4096;  ///< precision beyond which the prover gives up; 128 at least
+  std::string signing_key_pem;
+  std::stop_token stop = {};
+};
 
-  /// Proves a path that the caller has made. One that is not proved is refuted at the first violation found, or undecided at the
-  /// first piece that is: audit() tells of all. The case's query has no part in it.
-  /// @throws InputError where the path does not fit the case; Interrupted.
-  [[nodiscard]] TAUT_EXPORT Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options = {});
+/// Proves a path that the caller has made. One that is not proved is refuted at the first violation found, or undecided at the
+/// first piece that is: audit() tells of all. The case's query has no part in it.
+/// @throws InputError where the path does not fit the case; Interrupted.
+[[nodiscard]] TAUT_EXPORT Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options = {});
 
-  struct AuditOptions {
-    std::optional<Interpolation> interpolation;  ///< nothing: as the file suggests
-    bool allow_repeats = false;                  ///< drop rows that repeat the pose of the row before
-    long max_bits = 4096;                        ///< precision beyond which the prover gives up; 128 at least
-    std::string signing_key_pem;
-    ProgressCallback progress = {};
-    std::stop_token stop = {};
-  };
+struct AuditOptions {
+  std::optional<Interpolation> interpolation;  ///< nothing: as the file suggests
+  bool allow_repeats = false;                  ///< drop rows that repeat the pose of the row before
+  long max_bits = 4096;                        ///< precision beyond which the prover gives up; 128 at least
+  std::string signing_key_pem;
+  ProgressCallback progress = {};
+  std::stop_token stop = {};
+};
 
-  /// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the path here;
-  /// the command's does not.
-  /// @throws InputError with the file's line where the path is wrong; Interrupted.
-  [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const std::string& path_file,
-                                              const AuditOptions& options = {});
-  /// A table of the caller's. @param name  stands for the file in messages, whose line 1 are the columns, and in the certificate
-  [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const Table& table,
-                                              const AuditOptions& options = {}, const std::string& name = "table");
-  /// The path that the case itself names.
-  [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const AuditOptions& options = {});
+/// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the path here;
+/// the command's does not.
+/// @throws InputError with the file's line where the path is wrong; Interrupted.
+[[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const std::string& path_file,
+                                            const AuditOptions& options = {});
+/// A table of the caller's. @param name  stands for the file in messages, whose line 1 are the columns, and in the certificate
+[[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const Table& table, const AuditOptions& options = {},
+                                            const std::string& name = "table");
+/// The path that the case itself names.
+[[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const AuditOptions& options = {});
 
-  enum class Outcome {
-    kAccepted,  ///< the claim, "proved" or "refuted", was proved again
-    kRejected,  ///< well formed, but some statement could not be confirmed, or is not about the case or by the signer asked for
-    kUndecided,  ///< well formed, and the certificate itself claims nothing
-    kMalformed   ///< unreadable, cut, altered, or no certificate
-  };
+enum class Outcome {
+  kAccepted,  ///< the claim, "proved" or "refuted", was proved again
+  kRejected,  ///< well formed, but some statement could not be confirmed, or is not about the case or by the signer asked for
+  kUndecided,  ///< well formed, and the certificate itself claims nothing
+  kMalformed   ///< unreadable, cut, altered, or no certificate
+};
 
-  struct CheckResult {
-    Outcome outcome = Outcome::kMalformed;
-    std::string message;      ///< one line
-    std::string verdict;      ///< the certificate's: "proved" …
-    std::string signer;       ///< public key whose signature was verified, 64 hex digits, or empty
-    bool is_trusted = false;  ///< whether the signer is one of those asked for
-    std::size_t segments = 0;
-    std::size_t boxes = 0;
-  };
+struct CheckResult {
+  Outcome outcome = Outcome::kMalformed;
+  std::string message;      ///< one line
+  std::string verdict;      ///< the certificate's: "proved" …
+  std::string signer;       ///< public key whose signature was verified, 64 hex digits, or empty
+  bool is_trusted = false;  ///< whether the signer is one of those asked for
+  std::size_t segments = 0;
+  std::size_t boxes = 0;
+};
 
-  struct CheckOptions {
-    std::optional<Case> the_case = {};  ///< that the certificate must be about, to the last digit
-    std::vector<std::string> trusted_keys_pem =
-        {};  ///< unless empty: Ed25519 public keys, one of which must have signed
-    std::stop_token stop = {};
-  };
+struct CheckOptions {
+  std::optional<Case> the_case = {};               ///< that the certificate must be about, to the last digit
+  std::vector<std::string> trusted_keys_pem = {};  ///< unless empty: Ed25519 public keys, one of which must have signed
+  std::stop_token stop = {};
+};
 
-  /// Proves a certificate again, by the independent checker: what `taut-check` says. Takes the text, since a certificate may be no
-  /// certificate. Who wants to rely on it should run taut-check: it is another program, and small.
-  /// @throws InputError for keys; Interrupted. Never because of what the text says.
-  [[nodiscard]] TAUT_EXPORT CheckResult check(const std::string& certificate_text, const CheckOptions& options = {});
-  [[nodiscard]] TAUT_EXPORT CheckResult check(const Certificate& certificate, const CheckOptions& options = {});
+/// Proves a certificate again, by the independent checker: what `taut-check` says. Takes the text, since a certificate may be no
+/// certificate. Who wants to rely on it should run taut-check: it is another program, and small.
+/// @throws InputError for keys; Interrupted. Never because of what the text says.
+[[nodiscard]] TAUT_EXPORT CheckResult check(const std::string& certificate_text, const CheckOptions& options = {});
+[[nodiscard]] TAUT_EXPORT CheckResult check(const Certificate& certificate, const CheckOptions& options = {});
 
-  enum class ReportFormat { kHtml, kText, kMarkdown, kJson };
+enum class ReportFormat { kHtml, kText, kMarkdown, kJson };
 
-  struct ReportOptions {
-    ReportFormat format = ReportFormat::kHtml;
-    std::string document;  ///< its number; empty: one made from the certificate's digest
-    std::string revision;  ///< empty: a line to write on
-    std::string date;      ///< empty: today in UTC, or the day of SOURCE_DATE_EPOCH
-    std::optional<bool>
-        check;  ///< whether the independent checker is asked; nothing: where that takes a few seconds at most
-    std::stop_token stop = {};
-  };
+struct ReportOptions {
+  ReportFormat format = ReportFormat::kHtml;
+  std::string document;  ///< its number; empty: one made from the certificate's digest
+  std::string revision;  ///< empty: a line to write on
+  std::string date;      ///< empty: today in UTC, or the day of SOURCE_DATE_EPOCH
+  std::optional<bool>
+      check;  ///< whether the independent checker is asked; nothing: where that takes a few seconds at most
+  std::stop_token stop = {};
+};
 
-  /// A page for people, made from the certificate alone: `taut report`. UTF-8.
-  /// @throws InputError where a certificate is not of the form that it should have.
-  [[nodiscard]] TAUT_EXPORT std::string report(const Certificate& certificate, const ReportOptions& options = {});
+/// A page for people, made from the certificate alone: `taut report`. UTF-8.
+/// @throws InputError where a certificate is not of the form that it should have.
+[[nodiscard]] TAUT_EXPORT std::string report(const Certificate& certificate, const ReportOptions& options = {});
 
 }  // namespace v0
 }  // namespace taut

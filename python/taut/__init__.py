@@ -143,6 +143,7 @@ class Stretch:
     end: Place
     violations: Optional[tuple[Witness, Witness]]    #: the first and the last proved one
     reason: str                                      #: why it is open; empty where there are violations
+    reason_code: str                                 #: "U5": `taut explain` has more about it; may be empty
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -222,13 +223,18 @@ class Certificate:
     @property
     def stretches(self) -> list[Stretch]:
         """Of an audit that is not proved."""
-        return [Stretch(Place(*begin), Place(*end), violations and tuple(map(_witness, violations)), reason)
-                for begin, end, violations, reason in self._certificate.stretches]
+        return [Stretch(Place(*begin), Place(*end), violations and tuple(map(_witness, violations)), reason, code)
+                for begin, end, violations, reason, code in self._certificate.stretches]
 
     @property
     def reason(self) -> str:
         """Only if undecided."""
         return self._certificate.reason
+
+    @property
+    def reason_code(self) -> str:
+        """"U5": `taut explain` has more about it; may be empty."""
+        return self._certificate.reason_code
 
     @property
     def path(self) -> Path:

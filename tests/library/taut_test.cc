@@ -70,6 +70,7 @@ TEST(Case, ThatIsWrongSaysWhere) {
     EXPECT_EQ(error.file(), "crane.yaml");
     EXPECT_EQ(error.line(), 33U);
     EXPECT_EQ(error.field(), "robot.tension[0]");
+    EXPECT_EQ(error.code(), "E3");
     EXPECT_THAT(error.what(), testing::StartsWith("crane.yaml:33:12: robot.tension[0]: got [0.5, 0.05], expected"));
   }
   EXPECT_THROW(static_cast<void>(taut::Case::load("/no/such/file.yaml")), taut::InputError);
@@ -254,6 +255,7 @@ TEST(Audit, OfATableIsThatOfItsFile) {
     EXPECT_EQ(error.file(), "table");
     EXPECT_EQ(error.line(), 3U);
     EXPECT_EQ(error.field(), "phi");
+    EXPECT_EQ(error.code(), "E4");
   }
   table.values.pop_back();
   EXPECT_THROW(static_cast<void>(taut::audit(robot, table)), taut::InputError);
@@ -334,13 +336,13 @@ TEST(Report, ComesInFourForms) {
 // version (docs/library.md). tests/packaging/symbols.txt has the functions.
 TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_STREQ(taut::version(), "0.1.0");
-  EXPECT_EQ(sizeof(taut::InputError), 88U);
+  EXPECT_EQ(sizeof(taut::InputError), 120U);
   EXPECT_EQ(sizeof(taut::Case), 16U);
   EXPECT_EQ(sizeof(taut::Path), 56U);
   EXPECT_EQ(sizeof(taut::Waypoint), 48U);
   EXPECT_EQ(sizeof(taut::Table), 48U);
   EXPECT_EQ(sizeof(taut::Witness), 128U);
-  EXPECT_EQ(sizeof(taut::Stretch), 344U);
+  EXPECT_EQ(sizeof(taut::Stretch), 376U);
   EXPECT_EQ(sizeof(taut::Sample), 216U);
   EXPECT_EQ(sizeof(taut::Certificate), 16U);
   EXPECT_EQ(sizeof(taut::Progress), 24U);
@@ -363,6 +365,7 @@ TEST(Stop, EndsEverythingSoon) {
   const Certificate planned = taut::plan(robot, plan_options);
   EXPECT_EQ(planned.verdict(), Verdict::kUndecided);
   EXPECT_EQ(planned.reason(), "interrupted");
+  EXPECT_EQ(planned.reason_code(), "U11");
   const Certificate whole = taut::plan(robot);
   taut::ProveOptions prove_options;
   prove_options.stop = stop.get_token();
