@@ -268,6 +268,9 @@ PYBIND11_MODULE(_taut, module) {
       .def_property_readonly("description", &taut::Case::description)
       .def_property_readonly("parameters", &taut::Case::parameters)
       .def_property_readonly("query_waypoints", &taut::Case::query_waypoints)
+      .def("summary", &taut::Case::summary)
+      .def("summary_json", &taut::Case::summary_json)
+      .def("drawing_svg", &taut::Case::drawing_svg)
       .def_property_readonly("tension_limits_N", [](const taut::Case& c) { return limits_array(c.tension_limits_N()); })
       .def_property_readonly("length_limits_m", [](const taut::Case& c) { return limits_array(c.length_limits_m()); });
 

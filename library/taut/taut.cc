@@ -28,6 +28,7 @@
 #include "library/planned_case.h"
 #include "library/proved_path.h"
 #include "library/recheck.h"
+#include "reports/case_summary.h"
 #include "reports/certificate_view.h"
 #include "reports/html_report.h"
 #include "reports/samples.h"
@@ -299,6 +300,20 @@ std::array<std::array<double, 2>, 6> Case::tension_limits_N() const {
 
 std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
   return within(InputKind::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
+}
+
+std::string Case::summary() const {
+  return within(InputKind::kCase, [&] { return to_text(CaseSummary(content_->the_case)); });
+}
+
+std::string Case::summary_json() const {
+  return within(InputKind::kCase, [&] {
+    return to_json(CaseSummary(content_->the_case)).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+  });
+}
+
+std::string Case::drawing_svg() const {
+  return within(InputKind::kCase, [&] { return robot_drawing(CaseSummary(content_->the_case)); });
 }
 
 // --- Certificates ----------------------------------------------------------------------------------------------------

@@ -104,7 +104,15 @@ class TAUT_EXPORT Case {
   [[nodiscard]] std::array<std::array<double, 2>, 6> tension_limits_N() const;
   [[nodiscard]] std::array<std::array<double, 2>, 6> length_limits_m() const;
 
-  struct Content;
+  /// What the case was understood to say, with tensions, lengths and margins at the query's waypoints in floating point: what
+  /// `taut show` prints. Nothing is proved here. @throws InputError
+  [[nodiscard]] std::string summary() const;
+  /// The same as JSON, in SI: `taut show --json`.
+  [[nodiscard]] std::string summary_json() const;
+  /// The robot at the query's first waypoint, an SVG document: `taut show --out`. @throws InputError where there is no query.
+  [[nodiscard]] std::string drawing_svg() const;
+
+  struct Content;  // the library's own
   [[nodiscard]] const Content& content() const { return *content_; }
 
  private:
@@ -226,7 +234,7 @@ class TAUT_EXPORT Certificate {
   /// About so many poses along the path, in order, with both ends.
   [[nodiscard]] std::vector<Sample> samples(std::size_t about = 200) const;
 
-  struct Content;
+  struct Content;  // the library's own
   [[nodiscard]] const Content& content() const { return *content_; }
   explicit Certificate(std::shared_ptr<const Content> content);
 

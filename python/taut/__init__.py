@@ -84,6 +84,23 @@ class Case:
         """Lower and upper limit of each cable, (6, 2), rounded: for plots."""
         return self._case.length_limits_m
 
+    def summary(self) -> str:
+        """What the case was understood to say, with tensions, lengths and margins at the query's waypoints in floating point: what
+        `taut show` prints. Nothing is proved here."""
+        return self._case.summary()
+
+    def summary_data(self) -> dict[str, Any]:
+        """The same in Python's types, in SI."""
+        return json.loads(self._case.summary_json())
+
+    def drawing_svg(self) -> str:
+        """The robot at the query's first waypoint, an SVG document."""
+        return self._case.drawing_svg()
+
+    def _repr_svg_(self) -> Optional[str]:
+        """In notebooks."""
+        return self.drawing_svg() if self.query_waypoints else None
+
     def __repr__(self) -> str:
         return f"<taut.Case {self.name!r}, parameters {', '.join(self.parameters)}>"
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The Python module. Usage: taut_test.py TAUT SOURCE_DIR, with the module in PYTHONPATH."""
 import copy
+import json
 import os
 import pickle
 import re
@@ -55,6 +56,21 @@ class Cases(unittest.TestCase):
         self.assertEqual((case.name, case.parameters, case.query_waypoints), ("robot1-slice-qs-qg", ["phi", "theta"], 2))
         self.assertEqual(case.tension_limits_N.tolist(), [[0.05, 0.5]] * 6)
         self.assertEqual(case.length_limits_m.shape, (6, 2))
+
+    def test_is_shown_as_by_the_command(self):
+        case = taut.Case.load(ROBOT1)
+        with tempfile.TemporaryDirectory() as folder:
+            drawing = os.path.join(folder, "robot.svg")
+            said = subprocess.run([TAUT, "show", ROBOT1], capture_output=True, text=True, check=True, timeout=60)
+            self.assertEqual(case.summary(), said.stdout)
+            said = subprocess.run([TAUT, "show", ROBOT1, "--json", "--out", drawing], capture_output=True, text=True, check=True,
+                                  timeout=60)
+            self.assertEqual(case.summary_data(), json.loads(said.stdout))
+            with open(drawing, encoding="utf-8") as file:
+                self.assertEqual(case._repr_svg_(), file.read())
+        bridging = taut.Case.load(BRIDGING)
+        self.assertIsNone(bridging._repr_svg_())
+        self.assertRaises(taut.InputError, bridging.drawing_svg)
 
     def test_of_a_dict_with_arrays(self):
         case = taut.Case(ROBOT)
