@@ -166,6 +166,7 @@ function drawAll() {
   if (step()) setTimeout(drawAll);
 }
 
+const LONGEST_BLANK = 1000; // [ms]
 let isBegun = false;
 function begin() {
   if (isBegun) return;
@@ -173,8 +174,11 @@ function begin() {
   performance.mark("readable");
   drawAll();
 }
-requestAnimationFrame(() => setTimeout(begin)); // after the first picture of the page,
-setTimeout(begin, 500); // or without one, where nobody looks
+// After the first picture of the page, or without one, where nobody looks.
+if (globalThis.PerformanceObserver?.supportedEntryTypes?.includes("paint")) {
+  new PerformanceObserver(begin).observe({ type: "paint", buffered: true });
+}
+setTimeout(begin, LONGEST_BLANK);
 addEventListener("beforeprint", () => {
   while (step());
 });

@@ -8,6 +8,7 @@ Usage: documents_test.py TAUT TAUT_CHECK SOURCE_DIR
 import glob
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -54,6 +55,22 @@ class Documents(unittest.TestCase):
                         self.assertEqual(ran.returncode, expected, ran.stdout + ran.stderr)
                     count += 1
         self.assertGreater(count, 12)
+
+    def test_the_workflows_commands_run(self):
+        """Beside a folder cases, with taut's sources in taut/."""
+        for workflow in sorted(glob.glob(os.path.join(SOURCE, "docs", "ci", "*.yml"))):
+            run = re.findall(r"^ *- (?:run: )?(taut/taut .*)$", text_of(workflow), re.M)
+            self.assertEqual(len(run), 1, workflow)
+            with self.subTest(os.path.basename(workflow)), tempfile.TemporaryDirectory() as folder:
+                shutil.copytree(os.path.join(SOURCE, "cases", "tutorial"), os.path.join(folder, "cases"))
+                os.mkdir(os.path.join(folder, "taut"))
+                for name, program in (("taut", TAUT), ("taut-check", CHECK)):
+                    os.symlink(program, os.path.join(folder, "taut", name))
+                path = os.path.join(folder, "taut") + os.pathsep + os.environ["PATH"]
+                ran = subprocess.run(["sh", "-c", run[0]], cwd=folder, capture_output=True, text=True, timeout=280,
+                                     check=False, env={**os.environ, "PATH": path})
+                self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
+                self.assertIn("<testsuite", text_of(os.path.join(folder, "taut.xml")), "what the workflow keeps")
 
     def test_the_readme_shows_what_is_printed(self):
         shown = re.search(r"It prints\n\n```\n(.*?)```", text_of(DOCUMENTS[0]), re.S).group(1)
