@@ -543,6 +543,7 @@ std::string report(const Certificate& certificate, const ReportOptions& options)
     taut::ReportOptions request{
         options.document, options.revision, options.date.empty() ? report_date() : options.date, {}};
     request.recheck = recheck(text, json, options.check, options.stop);
+    if (options.stop.stop_requested()) throw Interrupted("interrupted");
     switch (options.format) {
       case ReportFormat::kHtml: break;
       case ReportFormat::kText: return text_summary(json, request);

@@ -341,7 +341,7 @@ struct ReportOptions {
 };
 
 /// A page for people, made from the certificate alone: `taut report`. UTF-8.
-/// @throws InputError where a certificate is not of the form that it should have.
+/// @throws InputError where a certificate is not of the form that it should have; Interrupted, before the page is made.
 [[nodiscard]] TAUT_EXPORT std::string report(const Certificate& certificate, const ReportOptions& options = {});
 
 }  // namespace v0

@@ -373,6 +373,9 @@ TEST(Stop, EndsEverythingSoon) {
   taut::CheckOptions check_options;
   check_options.stop = stop.get_token();
   EXPECT_THROW(static_cast<void>(taut::check(whole, check_options)), taut::Interrupted);
+  taut::ReportOptions report_options;
+  report_options.stop = stop.get_token();
+  EXPECT_THROW(static_cast<void>(taut::report(whole, report_options)), taut::Interrupted);
 }
 
 TEST(Stop, MayComeFromProgress) {
