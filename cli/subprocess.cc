@@ -165,9 +165,14 @@ std::string own_program() {
 }
 
 std::string checker_program() {
-  const std::filesystem::path here = std::filesystem::path(own_program()).parent_path();
-  for (const std::filesystem::path& candidate : {here / "taut-check", here / "../certify/checker/taut-check"}) {
-    if (std::filesystem::exists(candidate)) return candidate.string();
+  const std::filesystem::path own = own_program();
+  std::error_code ignored;
+  for (const std::filesystem::path& program :
+       {own, std::filesystem::canonical(own, ignored)}) {  // a link may lead to it
+    const std::filesystem::path here = program.parent_path();
+    for (const std::filesystem::path& candidate : {here / "taut-check", here / "../certify/checker/taut-check"}) {
+      if (std::filesystem::exists(candidate)) return candidate.string();
+    }
   }
   return "taut-check";
 }

@@ -134,8 +134,9 @@ std::string robot_drawing(const CaseSummary& summary) {
     bounds[v].extend(all[v](load));
     widest = std::max(widest, bounds[v].sizes().maxCoeff());
   }
-  if (!(widest > 0) || !std::isfinite(widest))
-    throw InputErrorOfKind(InputKind::kUse, "--out: the robot has no size that can be drawn");
+  if (!(widest > 0) || !std::isfinite(widest) || !load.allFinite() || !turn.allFinite()) {
+    throw InputErrorOfKind(InputKind::kUse, "--out: the robot has no pose or size there that can be drawn");
+  }
   const double scale = kSide / widest;
   for (std::size_t v = 0; v < all.size(); ++v) {
     const Point corner(kPad + static_cast<double>(v) * (kSide + 2 * kPad), kHead + kPad);
