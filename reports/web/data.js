@@ -62,6 +62,13 @@ export function locate(list, x) {
   return [low, (x - list[low]) / (list[high] - list[low])];
 }
 
+/// Points along a way of which each is farther than `least` from the one before.
+export function spaced(points, least) {
+  const kept = [];
+  for (const p of points) if (kept.length === 0 || p.distanceTo(kept[kept.length - 1]) > least) kept.push(p);
+  return kept;
+}
+
 /// A column between its entries; NaN beside an entry that is none.
 export function between(list, [k, t]) {
   const a = list[k] ?? NaN;

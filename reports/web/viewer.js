@@ -27,7 +27,7 @@ import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { tensionColour, themed } from "./colours.js";
-import { between, locate, status } from "./data.js";
+import { between, locate, spaced, status } from "./data.js";
 import { element } from "./words.js";
 
 // Sizes in units of the scene, of which the robot fills a ball of radius 1.
@@ -234,8 +234,7 @@ class Viewer {
     }
     this.tubeIsThin = tube !== null && tube * this.scale < THINNEST_TUBE;
     if (tube === null || this.tubeIsThin) return;
-    const kept = [];
-    for (const p of origins) if (kept.length === 0 || p.distanceTo(kept[kept.length - 1]) > tube / 4) kept.push(p);
+    const kept = spaced(origins, tube / 4);
     const add = (geometry, at) => {
       const mesh = new Mesh(geometry, this.materials.tube);
       if (at) mesh.position.copy(at);
