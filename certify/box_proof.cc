@@ -93,12 +93,10 @@ bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
 template <class I>
 MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
                                       const I& offset) {
-  const MotionEnclosure<I> reference = enclose_motion(problem.motion, segment, s.range, s.mid, offset);
-  if (segment.law != Interpolation::kCableLengths || reference.status == MotionEnclosure<I>::Status::kUnproved) {
-    return reference;
+  if (segment.law == Interpolation::kCableLengths) {
+    return hold_by_lengths(problem.model, segment, s.range, s.mid, offset);
   }
-  return hold_by_lengths(problem.model, reference, commanded_lengths(segment, s.range, s.mid), segment.pose_tube,
-                         offset);
+  return enclose_motion(problem.motion, segment, s.range, s.mid, offset);
 }
 
 template <class I>
@@ -115,7 +113,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
 
   const MotionEnclosure<I> motion = undisturbed_motion(problem, segment, s, offset);
   result.motion = motion.status;
-  if (motion.status == MotionEnclosure<I>::Status::kUnproved) return result;
+  if (!motion.is_enclosed()) return result;
   const CableGeometry<Centered<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
   for (std::size_t i = 0; i < kCables; ++i) {
     result.length[i] = length(geometry.p_AB_W[i]);
@@ -292,9 +290,12 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   using Status = typename MotionEnclosure<I>::Status;
   const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box);
   BoxVerdict verdict;
-  if (enclosure.motion == Status::kUnproved || enclosure.motion == Status::kOutOfRange) {
-    verdict.kind = enclosure.motion == Status::kUnproved ? Kind::kNoMotion : Kind::kOutOfRange;
-    return verdict;
+  switch (enclosure.motion) {
+    case Status::kAcross: verdict.kind = Kind::kAcross; return verdict;
+    case Status::kUnproved: verdict.kind = Kind::kNoMotion; return verdict;
+    case Status::kOutOfRange: verdict.kind = Kind::kOutOfRange; return verdict;
+    case Status::kRangeWide:
+    case Status::kKnown: break;
   }
   MarginList<I> margins;
   for (const MarginSource<I> source : kSources) source(problem.model, enclosure, margins);
@@ -381,7 +382,7 @@ int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segme
   Faults<MpInterval>::clear();
   const auto point = enclose<MpInterval>(s);
   const MotionEnclosure<MpInterval> motion = undisturbed_motion(problem, segment, {point, point}, MpInterval(0.0));
-  if (motion.status == MotionEnclosure<MpInterval>::Status::kUnproved) return 0;
+  if (!motion.is_enclosed()) return 0;
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
   const Vector3<MpInterval> p_WP = motion.p_WP.unaryExpr(at_mid);
   const Matrix3<MpInterval> r_WP = motion.r_WP.unaryExpr(at_mid);

@@ -106,6 +106,7 @@ struct BoxVerdict {
     kPrecision,     ///< at the midpoint itself this scalar can't tell
     kNearSingular,  ///< ρ < 1 could not be had: T is too wide, or D comes close to singular
     kNoMotion,      ///< the motion is only implied, and was not proved to exist on all of T
+    kAcross,        ///< T reaches across an inner pose of the reference, and nothing was tried
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };

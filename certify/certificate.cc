@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -92,6 +93,33 @@ json hex_floats(std::span<const double> values) {
   return list;
 }
 
+/// "k/m" of a number in (0, 1) with m at most 2^52.
+std::string dyadic_text(double s) {
+  int depth = 1;
+  while (std::ldexp(s, depth) != std::floor(std::ldexp(s, depth))) ++depth;
+  return Dyadic{static_cast<std::uint64_t>(std::ldexp(s, depth)), depth}.text();
+}
+
+json tube_json(const PoseTube& tube) {
+  return {{"position", hex_float(tube.position)}, {"turn", hex_float(tube.turn)}};
+}
+
+}  // namespace
+
+json pose_tube_json(const PoseTube& tube, std::span<const InnerPose> inner_poses) {
+  json result = tube_json(tube);
+  for (const InnerPose& inner : inner_poses) {
+    const std::span<const double> x = inner.x;
+    result["inner"].push_back({{"s", dyadic_text(inner.s)},
+                               {"position", hex_floats(x.first(3))},
+                               {"quaternion", hex_floats(x.subspan(3))},
+                               {"tube", tube_json(inner.tube)}});
+  }
+  return result;
+}
+
+namespace {
+
 json waypoint_json(Interpolation law, const Waypoint& waypoint) {
   if (has_poses(law)) {
     const std::span<const double> x = waypoint.x;
@@ -108,8 +136,9 @@ json path_json(const Path& path) {
   json waypoints = json::array();
   for (const Waypoint& waypoint : path.waypoints) waypoints.push_back(waypoint_json(path.interpolation, waypoint));
   json pose_tubes = json::array();
-  for (const PoseTube& tube : path.pose_tubes) {
-    pose_tubes.push_back({{"position", hex_float(tube.position)}, {"turn", hex_float(tube.turn)}});
+  for (std::size_t k = 0; k < path.pose_tubes.size(); ++k) {
+    pose_tubes.push_back(pose_tube_json(path.pose_tubes[k],
+                                        k < path.inner_poses.size() ? path.inner_poses[k] : std::vector<InnerPose>()));
   }
   return {{"interpolation", interpolation_name(path.interpolation)},
           {"waypoints", std::move(waypoints)},
@@ -211,6 +240,36 @@ Waypoint waypoint_from_json(Interpolation law, const json& entry) {
   return waypoint;
 }
 
+PoseTube tube_from_json(const json& tube) {
+  const std::vector<double> sizes = binary64s(json::array({tube.at("position"), tube.at("turn")}));
+  return {sizes[0], sizes[1]};
+}
+
+/// Of "k/m" with m a power of two, at most 2^52.
+double number_from_dyadic(const std::string& text) {
+  constexpr std::uint64_t kMostParts = std::uint64_t{1} << 52U;
+  const std::size_t slash = text.find('/');
+  if (slash != std::string::npos) {
+    const std::uint64_t k = std::stoull(text.substr(0, slash));
+    const std::uint64_t m = std::stoull(text.substr(slash + 1));
+    if (k < m && m <= kMostParts && std::has_single_bit(m)) return static_cast<double>(k) / static_cast<double>(m);
+  }
+  throw InputError(fmt::format("path: got an inner pose at '{}', expected k/m with m a power of two up to 2^52", text));
+}
+
+InnerPose inner_pose_from_json(const json& entry) {
+  InnerPose inner;
+  inner.s = number_from_dyadic(entry.at("s").get<std::string>());
+  const std::vector<double> position = binary64s(entry.at("position"));
+  const std::vector<double> quaternion = binary64s(entry.at("quaternion"));
+  if (position.size() != 3 || quaternion.size() != 4) {
+    throw InputError("path: an inner pose has too few or too many numbers");
+  }
+  std::ranges::copy(quaternion, std::ranges::copy(position, inner.x.begin()).out);
+  inner.tube = tube_from_json(entry.at("tube"));
+  return inner;
+}
+
 Interpolation interpolation_from_json(const json& law) {
   for (const Interpolation known : {Interpolation::kStraight, Interpolation::kCubicBSpline, Interpolation::kGeodesic,
                                     Interpolation::kCableLengths}) {
@@ -230,8 +289,11 @@ Path path_from_json(const json& path) {
     }
     result.tubes = binary64s(path.at("tubes"));
     for (const json& tube : path.at("pose_tubes")) {
-      const std::vector<double> sizes = binary64s(json::array({tube.at("position"), tube.at("turn")}));
-      result.pose_tubes.push_back({sizes[0], sizes[1]});
+      result.pose_tubes.push_back(tube_from_json(tube));
+      std::vector<InnerPose>& inner = result.inner_poses.emplace_back();
+      if (tube.contains("inner")) {
+        for (const json& pose : tube["inner"]) inner.push_back(inner_pose_from_json(pose));
+      }
     }
     if (const json& times = path.at("times"); !times.is_null()) result.times = times.get<std::vector<std::string>>();
     return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "certify/path_proof.h"
@@ -29,6 +30,9 @@ inline constexpr int kCertificateVersion = 3;
 [[nodiscard]] nlohmann::json to_json(const Margins& margins);
 [[nodiscard]] nlohmann::json to_json(const PathPoint& place);
 [[nodiscard]] nlohmann::json to_json(const PathWitness& witness);
+
+/// An entry of `path.pose_tubes`.
+[[nodiscard]] nlohmann::json pose_tube_json(const PoseTube& tube, std::span<const InnerPose> inner_poses);
 
 /// A certificate's `path`. @throws InputError for anything malformed.
 [[nodiscard]] Path path_from_json(const nlohmann::json& path);

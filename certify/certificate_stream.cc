@@ -150,8 +150,8 @@ CertificateStream::~CertificateStream() = default;
 void CertificateStream::add_waypoint(std::string_view text) { waypoints_->add(text); }
 void CertificateStream::add_time(std::string_view decimal) { times_->add(fmt::format("\"{}\"", decimal)); }
 void CertificateStream::add_tube(double tube) { tubes_->add("\"" + hex_float(tube) + "\""); }
-void CertificateStream::add_pose_tube(const PoseTube& tube) {
-  pose_tubes_->add(fmt::format(R"({{"position":"{}","turn":"{}"}})", hex_float(tube.position), hex_float(tube.turn)));
+void CertificateStream::add_pose_tube(const PoseTube& tube, std::span<const InnerPose> inner_poses) {
+  pose_tubes_->add(canonical(pose_tube_json(tube, inner_poses)));
 }
 void CertificateStream::add_segment(std::string_view text, std::size_t boxes) {
   segments_->add(text);

@@ -48,7 +48,7 @@ class CertificateStream {
   void add_waypoint(std::string_view text);
   void add_time(std::string_view decimal);  ///< one a waypoint, or none at all
   void add_tube(double tube);
-  void add_pose_tube(const PoseTube& tube);
+  void add_pose_tube(const PoseTube& tube, std::span<const InnerPose> inner_poses = {});
   void add_segment(std::string_view text, std::size_t boxes);
   void add_stretch(const nlohmann::json& stretch);
 

@@ -1,6 +1,7 @@
 #include "certify/held_motion.h"
 
 #include <cmath>
+#include <optional>
 
 #include "certify/implied_zero.h"
 #include "kinematics/geometry.h"
@@ -10,6 +11,110 @@ namespace taut {
 namespace {
 
 constexpr std::size_t kUnknowns = 6;
+constexpr std::size_t kPoseNumbers = 7;
+
+template <class I>
+using Lengths = std::array<Centered<I>, kCables>;
+
+template <class I>
+Vector3<I> apply(const Matrix3<I>& r, const Vector3<I>& x) {
+  Vector3<I> result;
+  for (int i = 0; i < 3; ++i) result(i) = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
+  return result;
+}
+
+template <class I>
+Matrix3<I> times(const Matrix3<I>& a, const Matrix3<I>& b) {
+  Matrix3<I> result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
+  }
+  return result;
+}
+
+// ---- The reference ---------------------------------------------------------------------------------------------------
+
+/// The symmetric bilinear form of which M of quaternion.h is the quadratic one.
+template <class I>
+Matrix3<I> bilinear(const Quaternion<I>& a, const Quaternion<I>& b) {
+  const I xx = a.x * b.x;
+  const I yy = a.y * b.y;
+  const I zz = a.z * b.z;
+  const I ww = a.w * b.w;
+  const I xy = a.x * b.y + a.y * b.x;
+  const I xz = a.x * b.z + a.z * b.x;
+  const I yz = a.y * b.z + a.z * b.y;
+  const I wx = a.w * b.x + a.x * b.w;
+  const I wy = a.w * b.y + a.y * b.w;
+  const I wz = a.w * b.z + a.z * b.w;
+  Matrix3<I> m;
+  m(0, 0) = ww + xx - yy - zz;
+  m(0, 1) = xy - wz;
+  m(0, 2) = xz + wy;
+  m(1, 0) = xy + wz;
+  m(1, 1) = ww - xx + yy - zz;
+  m(1, 2) = yz - wx;
+  m(2, 0) = xz - wy;
+  m(2, 1) = yz + wx;
+  m(2, 2) = ww - xx - yy + zz;
+  return m;
+}
+
+template <class I>
+I inner(const Quaternion<I>& a, const Quaternion<I>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+
+/// p_ref and R_ref over a box with midpoint m; of second order, R_ref(t) = r_mid + (t − m)(r_slope + (t − m) r_bend).
+template <class I>
+struct Reference {
+  Vector3<Centered<I>> p;
+  Matrix3<I> r_mid, r_slope, r_bend, r_range;
+  PoseTube tube;
+};
+
+/// Nothing where the box reaches across an inner pose.
+template <class I>
+std::optional<Reference<I>> enclose_reference(const Segment& segment, const I& range, const I& mid, const I& offset) {
+  const ReferencePiece piece = reference_piece(segment, lower_bound(range));
+  if (!(lower_bound(range) >= piece.from && upper_bound(range) <= piece.to)) return std::nullopt;
+  std::array<Centered<I>, kPoseNumbers> x;
+  const I from(piece.from);
+  const I length = I(piece.to) - from;
+  for (std::size_t j = 0; j < kPoseNumbers; ++j) {
+    const I first(piece.first[j]);
+    const I slope = (I(piece.last[j]) - first) / length;
+    x[j] = {first + slope * (mid - from), slope, first + slope * (range - from)};
+  }
+  const Quaternion<I> q = {x[3].at_mid, x[4].at_mid, x[5].at_mid, x[6].at_mid};
+  const Quaternion<I> q_slope = {x[3].slope, x[4].slope, x[5].slope, x[6].slope};
+
+  // With R = M(q)/|q|^2, h = t − m, n1 = 2 q·q', n2 = |q'|^2: R(t) − R(m) = h (S1 + h B)/|q(t)|^2, S1 = 2 M(q, q') − n1 R(m) and
+  // B = M(q', q') − n2 R(m); and 1/|q(t)|^2 = 1/|q(m)|^2 − h (n1 + h n2)/(|q(m)|^2 |q(t)|^2).
+  const I scale_mid = reciprocal(I(sqr(q.x) + sqr(q.y) + sqr(q.z) + sqr(q.w)));
+  const I scale = reciprocal(I(sqr(x[3].range) + sqr(x[4].range) + sqr(x[5].range) + sqr(x[6].range)));
+  const I half_n1 = inner(q, q_slope);
+  const I n1 = half_n1 + half_n1;
+  const I n2 = sqr(q_slope.x) + sqr(q_slope.y) + sqr(q_slope.z) + sqr(q_slope.w);
+  const I growth = n1 + offset * n2;
+  const Matrix3<I> m = bilinear(q, q);
+  const Matrix3<I> m1 = bilinear(q, q_slope);
+  const Matrix3<I> m2 = bilinear(q_slope, q_slope);
+  Reference<I> result;
+  for (int i = 0; i < 3; ++i) {
+    result.p(i) = x[static_cast<std::size_t>(i)];
+    for (int j = 0; j < 3; ++j) {
+      result.r_mid(i, j) = m(i, j) * scale_mid;
+      result.r_slope(i, j) = (m1(i, j) + m1(i, j) - n1 * result.r_mid(i, j)) * scale_mid;
+      result.r_bend(i, j) = (m2(i, j) - n2 * result.r_mid(i, j) - result.r_slope(i, j) * growth) * scale;
+      result.r_range(i, j) = result.r_mid(i, j) + offset * (result.r_slope(i, j) + offset * result.r_bend(i, j));
+    }
+  }
+  result.tube = piece.tube;
+  return result;
+}
+
+// ---- The equations ---------------------------------------------------------------------------------------------------
 
 /// g of the header.
 template <class I>
@@ -17,13 +122,12 @@ class LengthSystem {
  public:
   using Vector = std::array<I, kUnknowns>;
 
-  LengthSystem(const Model<I>& model, const MotionEnclosure<I>& reference,
-               const std::array<Centered<I>, kCables>& lengths, const PoseTube& tube)
-      : model_(model), reference_(reference), lengths_(lengths), tube_(tube) {}
+  LengthSystem(const Model<I>& model, const Reference<I>& reference, const Lengths<I>& lengths, const I& offset)
+      : model_(model), reference_(reference), lengths_(lengths), offset_(offset) {}
 
   [[nodiscard]] Vector values(const Vector& z) const {
     const Vector3<I> p = position(z, &Centered<I>::at_mid);
-    const Matrix3<I> r = orientation(z, &Centered<I>::at_mid);
+    const Matrix3<I> r = times(local_turn(z), reference_.r_mid);
     Vector result;
     for (std::size_t i = 0; i < kCables; ++i) {
       const Vector3<I> reach = apply(r, model_.p_PB[i]);
@@ -35,12 +139,12 @@ class LengthSystem {
   }
 
   [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, Place place) const {
-    const auto where = place == Place::kAtMid ? &Centered<I>::at_mid : &Centered<I>::range;
-    const Vector3<I> p = position(z, where);
+    const bool over_box = place == Place::kOverBox;
+    const Vector3<I> p = position(z, over_box ? &Centered<I>::range : &Centered<I>::at_mid);
     const Matrix3<I> local = local_turn(z);
-    const Matrix3<I> r = times(local, reference_.r_WP, where);
+    const Matrix3<I> r = times(local, over_box ? reference_.r_range : reference_.r_mid);
     const Vector3<I> u = turn(z);
-    const I scale = I(2.0 * tube_.turn) / (I(1.0) + sqr(u(0)) + sqr(u(1)) + sqr(u(2)));
+    const I scale = I(2.0 * reference_.tube.turn) / (I(1.0) + sqr(u(0)) + sqr(u(1)) + sqr(u(2)));
     EquationDerivatives<kUnknowns, I> result;
     for (std::size_t i = 0; i < kCables; ++i) {
       const Vector3<I> reach = apply(r, model_.p_PB[i]);
@@ -50,28 +154,72 @@ class LengthSystem {
       const Vector3<I> moment = cross(reach, from_base);  // = R b_i × d_i, and tighter
       const Vector3<I> turned = moment + cross(moment, u);
       for (int k = 0; k < 3; ++k) {
-        result.by_y[i][static_cast<std::size_t>(k)] = I(tube_.position) * d(k);
+        result.by_y[i][static_cast<std::size_t>(k)] = I(reference_.tube.position) * d(k);
         result.by_y[i][static_cast<std::size_t>(k) + 3] = scale * turned(k);
       }
-      if (place == Place::kAtMid) continue;
-      const Matrix3<I> r_slope = times(local, reference_.r_WP, &Centered<I>::slope);
-      const Vector3<I> reach_slope = apply(r_slope, model_.p_PB[i]);
-      I slope(0.0);
-      for (int k = 0; k < 3; ++k) slope = slope + d(k) * (reference_.p_WP(k).slope + reach_slope(k));
-      result.by_t[i] = slope - lengths_[i].slope * lengths_[i].range;
+    }
+    if (over_box) add_slopes(z, local, result);
+    return result;
+  }
+
+  [[nodiscard]] MotionEnclosure<I> pose(const std::array<Centered<I>, kUnknowns>& z) const {
+    using C = Centered<I>;
+    MotionEnclosure<I> result;
+    result.status = MotionEnclosure<I>::Status::kKnown;
+    const I turn(reference_.tube.turn);
+    const Matrix3<C> local = rotation(Quaternion<C>{z[3] * turn, z[4] * turn, z[5] * turn, C(1.0)});
+    Matrix3<C> r;
+    for (int i = 0; i < 3; ++i) {
+      result.p_WP(i) = reference_.p(i) + z[static_cast<std::size_t>(i)] * I(reference_.tube.position);
+      result.p_WP(i).tighten(offset_);
+      for (int j = 0; j < 3; ++j) {
+        r(i, j) = {reference_.r_mid(i, j), reference_.r_slope(i, j) + offset_ * reference_.r_bend(i, j),
+                   reference_.r_range(i, j)};
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        result.r_WP(i, j) = local(i, 0) * r(0, j) + local(i, 1) * r(1, j) + local(i, 2) * r(2, j);
+        result.r_WP(i, j).tighten(offset_);
+      }
     }
     return result;
   }
 
  private:
+  /// With d(t) = d(m) + h (σ + h τ), h = t − m: (|d(t)|^2 − |d(m)|^2)/2 = h (d(m)·σ + h (d(m)·τ + |σ + h τ|^2/2)).
+  void add_slopes(const Vector& z, const Matrix3<I>& local, EquationDerivatives<kUnknowns, I>& result) const {
+    const Vector3<I> p = position(z, &Centered<I>::at_mid);
+    const Matrix3<I> r = times(local, reference_.r_mid);
+    const Matrix3<I> r_slope = times(local, reference_.r_slope);
+    const Matrix3<I> r_bend = times(local, reference_.r_bend);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Vector3<I> reach = apply(r, model_.p_PB[i]);
+      const Vector3<I> reach_slope = apply(r_slope, model_.p_PB[i]);
+      const Vector3<I> reach_bend = apply(r_bend, model_.p_PB[i]);
+      I slope(0.0);
+      I bend(0.0);
+      I square(0.0);
+      for (int k = 0; k < 3; ++k) {
+        const I d = p(k) + reach(k) - model_.p_WA[i](k);
+        const I sigma = reference_.p(k).slope + reach_slope(k);
+        slope = slope + d * sigma;
+        bend = bend + d * reach_bend(k);
+        square = square + sqr(I(sigma + offset_ * reach_bend(k)));
+      }
+      result.by_t[i] = slope - lengths_[i].slope * lengths_[i].at_mid;
+      result.bend[i] = bend + I(0.5) * (square - sqr(lengths_[i].slope));
+    }
+  }
+
   [[nodiscard]] Vector3<I> turn(const Vector& z) const {
-    const I size(tube_.turn);
+    const I size(reference_.tube.turn);
     return {size * z[3], size * z[4], size * z[5]};
   }
   [[nodiscard]] Vector3<I> position(const Vector& z, I Centered<I>::*where) const {
-    const I size(tube_.position);
+    const I size(reference_.tube.position);
     Vector3<I> p;
-    for (int k = 0; k < 3; ++k) p(k) = reference_.p_WP(k).*where + size * z[static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) p(k) = reference_.p(k).*where + size * z[static_cast<std::size_t>(k)];
     return p;
   }
   /// R(u, 1).
@@ -79,70 +227,38 @@ class LengthSystem {
     const Vector3<I> u = turn(z);
     return rotation(Quaternion<I>{u(0), u(1), u(2), I(1.0)});
   }
-  static Matrix3<I> times(const Matrix3<I>& a, const Matrix3<Centered<I>>& b, I Centered<I>::*where) {
-    Matrix3<I> result;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        result(i, j) = a(i, 0) * (b(0, j).*where) + a(i, 1) * (b(1, j).*where) + a(i, 2) * (b(2, j).*where);
-      }
-    }
-    return result;
-  }
-  [[nodiscard]] Matrix3<I> orientation(const Vector& z, I Centered<I>::*where) const {
-    return times(local_turn(z), reference_.r_WP, where);
-  }
-  static Vector3<I> apply(const Matrix3<I>& r, const Vector3<I>& x) {
-    Vector3<I> result;
-    for (int i = 0; i < 3; ++i) result(i) = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
-    return result;
-  }
 
   const Model<I>& model_;
-  const MotionEnclosure<I>& reference_;
-  const std::array<Centered<I>, kCables>& lengths_;
-  const PoseTube& tube_;
+  const Reference<I>& reference_;
+  const Lengths<I>& lengths_;
+  const I& offset_;  ///< holds t − m
 };
 
 }  // namespace
 
 template <class I>
-MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const MotionEnclosure<I>& reference,
-                                   const std::array<Centered<I>, kCables>& lengths, const PoseTube& tube,
+MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const Segment& segment, const I& range, const I& mid,
                                    const I& offset) {
+  const auto reference = enclose_reference(segment, range, mid, offset);
+  if (!reference) return {MotionEnclosure<I>::Status::kAcross, {}, {}};
   const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
-  if (!is_size(tube.position) || !is_size(tube.turn)) return {};
-  for (const Centered<I>& length : lengths) {
-    if (!certainly_positive(length.range)) return {};
+  if (!is_size(reference->tube.position) || !is_size(reference->tube.turn)) return {};
+  Lengths<I> lengths;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto line = coordinate_polynomial<I>(segment, kPoseNumbers + i);
+    lengths[i] = {line.at(mid), line.slope(range), line.at(range)};
+    if (!certainly_positive(lengths[i].range)) return {};
   }
   using System = LengthSystem<I>;
-  const System system(model, reference, lengths, tube);
+  const System system(model, *reference, lengths, offset);
   std::array<Centered<I>, kUnknowns> z;
   if (!ImpliedZero<kUnknowns, I, System>(system, offset, 1.0).enclose(z)) return {};
-
-  MotionEnclosure<I> result = reference;
-  using C = Centered<I>;
-  const I turn(tube.turn);
-  for (int k = 0; k < 3; ++k) {
-    C& p = result.p_WP(k);
-    p = p + z[static_cast<std::size_t>(k)] * I(tube.position);
-    p.tighten(offset);
-  }
-  const Matrix3<C> local = rotation(Quaternion<C>{z[3] * turn, z[4] * turn, z[5] * turn, C(1.0)});
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      C& r = result.r_WP(i, j);
-      r = local(i, 0) * reference.r_WP(0, j) + local(i, 1) * reference.r_WP(1, j) + local(i, 2) * reference.r_WP(2, j);
-      r.tighten(offset);
-    }
-  }
-  return result;
+  return system.pose(z);
 }
 
-template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const MotionEnclosure<Interval>&,
-                                                   const std::array<Centered<Interval>, kCables>&, const PoseTube&,
-                                                   const Interval&);
-template MotionEnclosure<MpInterval> hold_by_lengths(const Model<MpInterval>&, const MotionEnclosure<MpInterval>&,
-                                                     const std::array<Centered<MpInterval>, kCables>&, const PoseTube&,
-                                                     const MpInterval&);
+template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const Segment&, const Interval&,
+                                                   const Interval&, const Interval&);
+template MotionEnclosure<MpInterval> hold_by_lengths(const Model<MpInterval>&, const Segment&, const MpInterval&,
+                                                     const MpInterval&, const MpInterval&);
 
 }  // namespace taut

@@ -25,8 +25,10 @@ enum class Place { kAtMid, kOverBox };
 
 template <std::size_t K, class I>
 struct EquationDerivatives {
-  Square<I, K> by_y;      ///< g_y: one row an equation
-  std::array<I, K> by_t;  ///< slopes of g in t from m, at one y; only over the box
+  Square<I, K> by_y;  ///< g_y: one row an equation
+  /// Of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend). Only over the box.
+  std::array<I, K> by_t;
+  std::array<I, K> bend;
 };
 
 /// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m), and
@@ -66,7 +68,7 @@ class ImpliedZero {
   struct Step {
     Vector image;       ///< (c)
     Square<I, K> rest;  ///< I − A g_y
-    Vector drift;       ///< A g_t
+    Vector drift;       ///< A g_t: slopes from m
   };
 
   [[nodiscard]] Square<I, K> times_a(const Square<I, K>& x) const {
@@ -166,6 +168,8 @@ class ImpliedZero {
     Step step;
     step.rest = one_minus(times_a(over.by_y));
     step.drift = times_a(over.by_t);
+    const Vector bend = times_a(over.bend);
+    for (std::size_t i = 0; i < K; ++i) step.drift[i] = step.drift[i] + bend[i] * offset_;
     for (std::size_t i = 0; i < K; ++i) {
       I image = centre_[i] - residual_[i] - step.drift[i] * offset_;
       for (std::size_t k = 0; k < K; ++k) image = image + step.rest[i][k] * (box[k] - centre_[k]);

@@ -88,6 +88,7 @@ class ConstraintSystem {
     EquationDerivatives<K, I> result;
     for (auto& row : result.by_y) row.fill(I(0.0));
     result.by_t.fill(I(0.0));
+    result.bend.fill(I(0.0));
     for (std::size_t j = 0; j < line_.size(); ++j) {
       I slope = line_[j].slope;
       for (std::size_t i = 0; i < K; ++i) slope = slope + normal_[j][i].slope * y[i];
@@ -256,31 +257,17 @@ bool follow_geodesic(const Segment& segment, const I& range, const I& mid, Motio
   return true;
 }
 
-/// The two laws that know nothing of the space; of cable lengths, the reference.
 template <class I>
 void between_poses(const Segment& segment, const I& range, const I& mid, const I& offset, MotionEnclosure<I>& motion) {
-  const auto number = [&](std::size_t j) { return over_box(coordinate_polynomial<I>(segment, j), range, mid); };
-  for (int i = 0; i < 3; ++i) motion.p_WP(i) = number(static_cast<std::size_t>(i));
-  if (segment.law == Interpolation::kGeodesic) {
-    if (!follow_geodesic(segment, range, mid, motion)) return;
-  } else {
-    motion.r_WP = rotation(Quaternion<Centered<I>>{number(3), number(4), number(5), number(6)});
+  for (int i = 0; i < 3; ++i) {
+    motion.p_WP(i) = over_box(coordinate_polynomial<I>(segment, static_cast<std::size_t>(i)), range, mid);
   }
+  if (!follow_geodesic(segment, range, mid, motion)) return;
   motion.status = MotionEnclosure<I>::Status::kKnown;
   tighten(motion, offset);
 }
 
 }  // namespace
-
-template <class I>
-std::array<Centered<I>, kCables> commanded_lengths(const Segment& segment, const I& range, const I& mid) {
-  constexpr std::size_t kFirstLength = 7;
-  std::array<Centered<I>, kCables> lengths;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    lengths[i] = over_box(coordinate_polynomial<I>(segment, kFirstLength + i), range, mid);
-  }
-  return lengths;
-}
 
 template <class I>
 MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range, const I& mid,
@@ -309,9 +296,6 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
   return result;
 }
 
-template std::array<Centered<Interval>, kCables> commanded_lengths(const Segment&, const Interval&, const Interval&);
-template std::array<Centered<MpInterval>, kCables> commanded_lengths(const Segment&, const MpInterval&,
-                                                                     const MpInterval&);
 template MotionModel<Interval> make_motion_model(const Problem&);
 template MotionModel<MpInterval> make_motion_model(const Problem&);
 template MotionEnclosure<Interval> enclose_motion(const MotionModel<Interval>&, const Segment&, const Interval&,

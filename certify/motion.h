@@ -2,8 +2,8 @@
 //
 // Without constraints γ(t) = pose(ℓ(t)) (kinematics/segment.h), a function of the waypoints. With constraints C(λ) = 0 the
 // motion is only implied: γ(t) = pose(ℓ(t) + N(t) y(t)) with y(t) the only zero of g(y, t) = C(ℓ(t) + N(t) y) in the tube
-// Y = [−r, r]^k, by the Krawczyk operator of implied_zero.h. Laws between poses have p and R directly; of cable lengths this is the
-// reference around which held_motion.h finds the motion. In every case p and R are centred forms over T.
+// Y = [−r, r]^k, by the Krawczyk operator of implied_zero.h. A geodesic has p and R directly; under
+// the law of cable lengths held_motion.h finds them. In every case p and R are centred forms over T.
 // Proofs: docs/theory.md, "A motion that is only implied", "Motions between poses".
 #pragma once
 
@@ -47,8 +47,10 @@ struct MotionEnclosure {
     kOutOfRange,  ///< some parameter is not certainly in its range, at m itself
     kRangeWide,   ///< not certainly on all of T
     kUnproved,    ///< T is too wide, the tube is too narrow or too wide, or there is no such motion, or not one only
+    kAcross,      ///< T reaches across an inner pose of the reference: not asked
   };
   Status status = Status::kUnproved;
+  [[nodiscard]] bool is_enclosed() const { return status != Status::kUnproved && status != Status::kAcross; }
   Vector3<Centered<I>> p_WP;  ///< [m]
   Matrix3<Centered<I>> r_WP;
 };
@@ -56,13 +58,10 @@ struct MotionEnclosure {
 /// For t in `range` with midpoint `mid`; `offset` encloses t − mid. Void if a fault was raised.
 /// Ranges are examined in spaces with constraints only: elsewhere the waypoints being inside is enough
 /// (MotionModel::ranges; ℓ is a convex combination of them).
+/// @pre the law is not that of cable lengths
 template <class I>
 [[nodiscard]] MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& segment, const I& range,
                                                 const I& mid, const I& offset);
-
-/// L_i over a box, under the law of cable lengths [m].
-template <class I>
-[[nodiscard]] std::array<Centered<I>, kCables> commanded_lengths(const Segment& segment, const I& range, const I& mid);
 
 extern template MotionModel<Interval> make_motion_model(const Problem&);
 extern template MotionModel<MpInterval> make_motion_model(const Problem&);

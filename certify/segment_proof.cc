@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "certify/held_reference.h"
 #include "certify/undecided.h"
 #include "kinematics/input_error.h"
 
@@ -38,62 +39,15 @@ Segment Prover::segment(const Waypoint& a, const Waypoint& b) const { return pre
 
 Segment Prover::prepared(Segment segment) const {
   if (constraints_ && !has_poses(segment.law)) segment.tube = suitable_tube(segment);
-  if (segment.law == Interpolation::kCableLengths) segment.pose_tube = suitable_pose_tube(segment);
+  if (segment.law == Interpolation::kCableLengths && may_follow(segment)) {
+    std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
+    propose_reference(fast_, sampler_->model(), segment);
+  }
   return segment;
 }
 
 bool Prover::is_held_by_lengths(Interpolation law) const {
   return law == Interpolation::kCableLengths || (problem_.tolerances && problem_.tolerances->cable_length_m);
-}
-
-namespace {
-
-/// Whether one pose in the tube is proved in a few small boxes along the segment.
-bool seems_provable(const ProofModel<Interval>& model, const Segment& segment) {
-  constexpr int kDepth = 6;
-  constexpr int kSamples = 4;
-  bool is_known = true;
-  for (int k = 0; k <= kSamples && is_known; ++k) {
-    const DyadicBox box{((std::uint64_t{1} << kDepth) - 1) * static_cast<std::uint64_t>(k) / kSamples, kDepth};
-    const double radius = box.radius();
-    const bool is_sound = run_upward([&] {
-      const MotionEnclosure<Interval> motion =
-          undisturbed_motion(model, segment, enclose<Interval>(box), Interval(-radius, radius));
-      is_known = motion.status != MotionEnclosure<Interval>::Status::kUnproved;
-    });
-    is_known = is_known && is_sound;
-  }
-  return is_known;
-}
-
-}  // namespace
-
-PoseTube Prover::suitable_pose_tube(const Segment& segment) const {
-  constexpr int kSamples = 4;     // intervals of s
-  constexpr double kRoom = 1.75;  // around what floating point finds
-  constexpr double kLeast = 0x1p-20;
-  std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
-  const Model<double>& model = sampler_->model();
-  const double unit = std::exp2(std::ceil(std::log2(model.characteristic_length)));
-  double needed = 0;  // of positions over `unit`, and of half angles
-  for (int k = 0; k <= kSamples; ++k) {
-    const double s = static_cast<double>(k) / kSamples;
-    const RigidPose pose = sampler_->rigid_pose(segment, s);
-    const RigidPose reference = pose_between(segment, s);
-    const double angle = pose.q.angularDistance(reference.q);
-    needed = std::max({needed, (pose.p - reference.p).cwiseAbs().maxCoeff() / unit, 0.5 * angle});
-  }
-  needed = std::isfinite(needed) ? std::max(kRoom * needed, kLeast) : kLeast;
-  // A wide tube lets boxes be large, by (b) of implied_zero.h; in a narrow one there is sooner one pose only.
-  PoseTube tube;
-  for (const double least : {0x1p-8, 0x1p-11, 0x1p-14, 0.0}) {
-    const double size = std::max(needed, least);
-    tube = {unit * size, size};
-    Segment trial = segment;
-    trial.pose_tube = tube;
-    if (size == needed || seems_provable(fast_, trial)) break;
-  }
-  return tube;
 }
 
 double Prover::suitable_tube(const Segment& segment) const {
@@ -120,12 +74,29 @@ const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
   return *rung.model;
 }
 
+namespace {
+
+bool has_inner_poses_in_order(const Segment& segment) {
+  double last = 0;
+  for (const InnerPose& inner : segment.inner_poses) {
+    const bool is_number = std::ranges::all_of(inner.x, [](double x) { return std::isfinite(x); });
+    if (!(last < inner.s && inner.s < 1) || !is_number) return false;
+    last = inner.s;
+  }
+  return true;
+}
+
+}  // namespace
+
 bool Prover::may_follow(const Segment& segment) const {
   const auto is_finite = [](double x) { return std::isfinite(x); };
-  return std::ranges::all_of(segment.controls(), [&](const Waypoint* waypoint) {
-    if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
-    return waypoint->x.size() == pose_numbers(segment.law) && std::ranges::all_of(waypoint->x, is_finite);
-  });
+  return std::ranges::all_of(segment.controls(),
+                             [&](const Waypoint* waypoint) {
+                               if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
+                               return waypoint->x.size() == pose_numbers(segment.law) &&
+                                      std::ranges::all_of(waypoint->x, is_finite);
+                             }) &&
+         has_inner_poses_in_order(segment);
 }
 
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
@@ -226,7 +197,10 @@ std::string tolerances_too_large(MarginId margin) { return told(Undecided::kTole
 std::optional<Centered<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
                                                 const DyadicBox& box, MarginId id) {
   const BoxEnclosure<MpInterval> enclosure = enclose_box(model, segment, box);
-  if (enclosure.motion == MotionEnclosure<MpInterval>::Status::kUnproved) return std::nullopt;
+  if (enclosure.motion == MotionEnclosure<MpInterval>::Status::kUnproved ||
+      enclosure.motion == MotionEnclosure<MpInterval>::Status::kAcross) {
+    return std::nullopt;
+  }
   MarginList<MpInterval> margins;
   length_margins(model.model, enclosure, margins);
   tension_margins(model.model, enclosure, margins);
@@ -349,6 +323,9 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up(told(Undecided::kPrecision, describe(verdict.worst)) + ": it vanishes or nearly so");
     case Kind::kOutOfRange: return give_up(told(Undecided::kParameterRange));
+    case Kind::kAcross:
+      if (box.depth < DyadicBox::kMaxDepth) return split;
+      return give_up(told(Undecided::kNoMotion));  // the inner pose is at no end of a box
     case Kind::kNoMotion:
       // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
       if (box.depth < (walk.motion_given_up ? kHastyMotionDepth : options_.motion_depth)) return split;

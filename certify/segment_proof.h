@@ -100,10 +100,7 @@ class Prover {
 
   /// Whether the machine is held by its cables' lengths along a path of this law.
   [[nodiscard]] bool is_held_by_lengths(Interpolation law) const;
-  /// Under the law of cable lengths: room around the pose that floating point finds. The ratio of its two sizes is the problem's,
-  /// so that of any two tubes one contains the other.
-  [[nodiscard]] PoseTube suitable_pose_tube(const Segment& segment) const;
-  /// `segment` with the tubes that it needs.
+  /// `segment` with the tubes that it needs; under the law of cable lengths with inner poses, too (held_reference.h).
   [[nodiscard]] Segment prepared(Segment segment) const;
 
   /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay in their closed
@@ -163,7 +160,7 @@ class Prover {
   std::optional<ConstraintFunctions> constraints_;
   ProofModel<Interval> fast_;
   mutable std::once_flag sampler_made_;
-  mutable std::optional<PoseSampler> sampler_;  ///< made when first needed, for pose tubes
+  mutable std::optional<PoseSampler> sampler_;  ///< made when first needed, for references
   std::vector<mpfr_prec_t> bits_;               ///< of the rungs
   /// One a rung of the ladder, made when first needed: most problems never climb it.
   struct Rung {

@@ -121,19 +121,17 @@ std::optional<RigidPose> pose_of_lengths(const Model<double>& model, const std::
 }
 
 RigidPose pose_between(const Segment& segment, double s) {
-  const auto orientation = [](const Waypoint& waypoint) {
-    return Eigen::Quaterniond(waypoint.x[6], waypoint.x[3], waypoint.x[4], waypoint.x[5]);
-  };
-  const Waypoint& a = *segment.control[0];
-  const Waypoint& b = *segment.control[1];
+  const ReferencePiece piece = reference_piece(segment, s);
+  const double t = (s - piece.from) / (piece.to - piece.from);
+  const auto orientation = [](std::span<const double> x) { return Eigen::Quaterniond(x[6], x[3], x[4], x[5]); };
   RigidPose result;
-  for (std::size_t k = 0; k < 3; ++k) result.p(static_cast<int>(k)) = (1 - s) * a.x[k] + s * b.x[k];
-  const Eigen::Quaterniond first = orientation(a);
-  const Eigen::Quaterniond last = orientation(b);
+  for (std::size_t k = 0; k < 3; ++k) result.p(static_cast<int>(k)) = (1 - t) * piece.first[k] + t * piece.last[k];
+  const Eigen::Quaterniond first = orientation(piece.first);
+  const Eigen::Quaterniond last = orientation(piece.last);
   if (segment.law == Interpolation::kGeodesic) {
-    result.q = first.normalized().slerp(s, last.normalized());
+    result.q = first.normalized().slerp(t, last.normalized());
   } else {
-    result.q = Eigen::Quaterniond((1 - s) * first.coeffs() + s * last.coeffs()).normalized();
+    result.q = Eigen::Quaterniond((1 - t) * first.coeffs() + t * last.coeffs()).normalized();
   }
   return result;
 }

@@ -6,25 +6,6 @@
 #include "kinematics/pose_conversion.h"
 
 namespace taut {
-namespace {
-
-/// px … sigma of a segment under a law with poses.
-std::vector<double> free_coordinates(const Model<double>& model, const Segment& segment, double s) {
-  std::array<RigidPose, 2> ends;
-  std::array<double, kCables> lengths{};
-  for (std::size_t end = 0; end < 2; ++end) {
-    const std::vector<double>& x = segment.control[end]->x;
-    ends[end] = {Vector3<double>(x[0], x[1], x[2]), Eigen::Quaterniond(x[6], x[3], x[4], x[5]).normalized()};
-    if (segment.law != Interpolation::kCableLengths) continue;
-    for (std::size_t i = 0; i < kCables; ++i) lengths[i] += (end == 0 ? 1 - s : s) * x[7 + i];
-  }
-  RigidPose pose{(1 - s) * ends[0].p + s * ends[1].p, ends[0].q.slerp(s, ends[1].q)};
-  if (segment.law == Interpolation::kCableLengths) pose = pose_of_lengths(model, lengths, pose).value_or(pose);
-  const TiltAndTorsion angles = tilt_and_torsion(pose.q, std::nullopt);
-  return {pose.p(0), pose.p(1), pose.p(2), angles.x[0], angles.x[1], angles.x[2]};
-}
-
-}  // namespace
 
 PoseSampler::PoseSampler(const Problem& problem)
     : model_(make_model<double>(problem)), tape_(pose_tape(problem)), pose_(tape_) {
@@ -32,7 +13,11 @@ PoseSampler::PoseSampler(const Problem& problem)
 }
 
 std::vector<double> PoseSampler::parameters(const Segment& segment, double s) const {
-  if (has_poses(segment.law)) return free_coordinates(model_, segment, s);
+  if (has_poses(segment.law)) {
+    const RigidPose at = rigid_pose(segment, s);
+    const TiltAndTorsion angles = tilt_and_torsion(at.q, std::nullopt);
+    return {at.p(0), at.p(1), at.p(2), angles.x[0], angles.x[1], angles.x[2]};
+  }
   if (constraints_) return constraints_->parameters(segment, s);
   return curve_parameters(segment, s);
 }

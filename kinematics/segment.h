@@ -18,13 +18,16 @@
 //   geodesic           p(s) = (1−s) p_0 + s p_1,  R(s) = R_0 exp(s log(R_0^T R_1)): at constant rate about one axis, by an
 //                      angle below π
 //   cable lengths      the commanded lengths L(s) = (1−s) L_0 + s L_1 [m]; the pose is implied by |d_i| = L_i(s). It is sought
-//                      around the reference p(s) = (1−s) p_0 + s p_1, R(s) = R((1−s) q_0 + s q_1), that quaternion never 0
-//
-//                        p = p_ref + r_p z_p,  R = R(r_u z_u, 1) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) = `pose_tube`,
+//                      around a reference, which runs straight in p and q from waypoint to waypoint through the inner poses
+//                      (s_j, p_j, q_j): between two of them, t = (s − s_j)/(s_{j+1} − s_j),
+//                        p_ref(s) = (1−t) p_j + t p_{j+1},  R_ref(s) = R((1−t) q_j + t q_{j+1}), that quaternion never 0,
+//                        p = p_ref + r_p z_p,  R = R(r_u z_u, 1) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) the piece's tube,
 //                      with the only z that has the lengths; again, that there is exactly one is for the proof to show
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,12 +65,21 @@ struct PoseTube {
   bool operator==(const PoseTube&) const = default;
 };
 
+/// A point that the reference passes between two waypoints; its number s is exact.
+struct InnerPose {
+  double s = 0;               ///< in (0, 1)
+  std::array<double, 7> x{};  ///< px, py, pz [m], qx, qy, qz, qw
+  PoseTube tube;              ///< of the piece that begins here
+  bool operator==(const InnerPose&) const = default;
+};
+
 /// One segment of a path; refers to waypoints that outlive it.
 struct Segment {
   Interpolation law = Interpolation::kStraight;
   std::array<const Waypoint*, 4> control{};
-  double tube = 0;          ///< bound of |y_i|; only in a space with constraints
-  PoseTube pose_tube = {};  ///< only under the law of cable lengths
+  double tube = 0;                          ///< bound of |y_i|; only in a space with constraints
+  PoseTube pose_tube = {};                  ///< of the first piece; only under the law of cable lengths
+  std::vector<InnerPose> inner_poses = {};  ///< by rising s; likewise
 
   [[nodiscard]] static Segment straight(const Waypoint& a, const Waypoint& b, double tube = 0) {
     return {Interpolation::kStraight, {&a, &b}, tube};
@@ -85,7 +97,8 @@ struct Path {
   std::vector<double> tubes = {};  ///< one a segment, in a space with constraints; else empty
   std::vector<std::string> times =
       {};  ///< decimals, one a waypoint [s]; empty where the path has none. No part of any claim
-  std::vector<PoseTube> pose_tubes = {};  ///< one a segment, under the law of cable lengths; else empty
+  std::vector<PoseTube> pose_tubes = {};                 ///< one a segment, under the law of cable lengths; else empty
+  std::vector<std::vector<InnerPose>> inner_poses = {};  ///< likewise
 
   [[nodiscard]] std::size_t segments() const {
     const std::size_t controls = control_points(interpolation);
@@ -95,6 +108,7 @@ struct Path {
   [[nodiscard]] Segment segment(std::size_t k) const {
     Segment segment{interpolation, {}, k < tubes.size() ? tubes[k] : 0};
     if (k < pose_tubes.size()) segment.pose_tube = pose_tubes[k];
+    if (k < inner_poses.size()) segment.inner_poses = inner_poses[k];
     if (segments() == 0) {
       if (!has_poses(interpolation)) segment.law = Interpolation::kStraight;
       segment.control[0] = segment.control[1] = &waypoints.front();
@@ -104,6 +118,34 @@ struct Path {
     return segment;
   }
 };
+
+/// What the reference of a segment is on one of its pieces, [from, to] of s; refers to the segment.
+struct ReferencePiece {
+  double from = 0;
+  double to = 1;
+  std::span<const double> first;  ///< px, py, pz, qx, qy, qz, qw at `from`
+  std::span<const double> last;   ///< at `to`
+  PoseTube tube;
+};
+
+/// The piece in which s is; at a joint, the one that begins there.
+[[nodiscard]] inline ReferencePiece reference_piece(const Segment& segment, double s) {
+  const auto& inner = segment.inner_poses;
+  const auto next =
+      std::upper_bound(inner.begin(), inner.end(), s, [](double x, const InnerPose& y) { return x < y.s; });
+  ReferencePiece piece{0, 1, segment.control[0]->x, segment.control[1]->x, segment.pose_tube};
+  if (next != inner.end()) {
+    piece.to = next->s;
+    piece.last = next->x;
+  }
+  if (next != inner.begin()) {
+    const InnerPose& begin = *std::prev(next);
+    piece.from = begin.s;
+    piece.first = begin.x;
+    piece.tube = begin.tube;
+  }
+  return piece;
+}
 
 /// One coordinate of a segment as a polynomial in s, in scalar S; exact up to S's rounding.
 template <class S>

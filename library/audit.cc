@@ -28,6 +28,7 @@ struct StatedGap {
 struct SegmentResult {
   double tube = 0;
   PoseTube pose_tube;
+  std::vector<InnerPose> inner_poses;
   std::size_t boxes = 0;  ///< proved
   long boxes_judged = 0;
   double tension_N = 0, length_m = 0, wrench_scale = 0;
@@ -121,6 +122,7 @@ class BatchProver {
     SegmentResult result;
     result.tube = segment.tube;
     result.pose_tube = segment.pose_tube;
+    result.inner_poses = segment.inner_poses;
     result.boxes_judged = survey.boxes_judged;
     result.tension_N = survey.tension_N;
     result.length_m = survey.length_m;
@@ -175,7 +177,7 @@ class BatchWriter {
     for (std::size_t i = 0; i < batch.segments.size(); ++i) {
       const SegmentResult& segment = batch.segments[i];
       if (has_tubes_) certificate_.add_tube(segment.tube);
-      if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube);
+      if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube, segment.inner_poses);
       certificate_.add_segment(segment.text, segment.boxes);
       result_.boxes += segment.boxes;
       result_.boxes_judged += segment.boxes_judged;

@@ -334,9 +334,51 @@ Interpolation read_interpolation(const Json& json) {
   return law->second;
 }
 
-PoseTube read_pose_tube(const Json& json, const std::string& where) {
-  object(json, where, {"position", "turn"});
+PoseTube tube_of(const Json& json, const std::string& where) {
   return {parse_binary64(text(json["position"], where), where), parse_binary64(text(json["turn"], where), where)};
+}
+
+InnerPose read_inner_pose(const Json& json, const std::string& where, const mpq_class& last) {
+  static const mpz_class kMostParts = mpz_class(1) << 52;
+  object(json, where, {"s", "position", "quaternion", "tube"});
+  InnerPose inner;
+  inner.s = dyadic(json["s"], where + ".s");
+  if (inner.s <= last || inner.s >= 1 || inner.s.get_den() > kMostParts) {
+    fail(where + ".s", "places that rise inside of (0, 1), with denominators of at most 2^52");
+  }
+  const std::vector<double> position = binary64s(json["position"], where + ".position", 3);
+  const std::vector<double> quaternion = binary64s(json["quaternion"], where + ".quaternion", 4);
+  if (std::all_of(quaternion.begin(), quaternion.end(), [](double x) { return x == 0; })) {
+    fail(where + ".quaternion", "a quaternion that is not 0");
+  }
+  std::copy(quaternion.begin(), quaternion.end(), std::copy(position.begin(), position.end(), inner.x.begin()));
+  inner.tube = tube_of(object(json["tube"], where + ".tube", {"position", "turn"}), where + ".tube");
+  return inner;
+}
+
+/// One entry of `pose_tubes`: the first tube, and what follows from the inner poses on.
+void read_pose_tube(const Json& json, const std::string& where, Path& path) {
+  if (json.is_object() && json.contains("inner")) {
+    object(json, where, {"position", "turn", "inner"});
+  } else {
+    object(json, where, {"position", "turn"});
+  }
+  path.pose_tubes.push_back(tube_of(json, where));
+  std::vector<InnerPose>& inner = path.inner_poses.emplace_back();
+  if (!json.contains("inner")) return;
+  array(json["inner"], where + ".inner");
+  if (json["inner"].empty()) fail(where + ".inner", "inner poses, or no such key");
+  for (std::size_t i = 0; i < json["inner"].size(); ++i) {
+    const mpq_class last = i == 0 ? mpq_class(0) : inner.back().s;
+    inner.push_back(read_inner_pose(json["inner"][i], at(where + ".inner", i), last));
+  }
+}
+
+/// Of two successive tubes one contains the other: else the motion might change from one pose to another where they meet.
+void require_nested(const PoseTube& a, const PoseTube& b, const std::string& where) {
+  if ((b.position < a.position && b.turn > a.turn) || (b.position > a.position && b.turn < a.turn)) {
+    fail(where, "a tube that contains the one before, or is contained in it");
+  }
 }
 
 /// Decimals that rise, one a waypoint.
@@ -374,17 +416,18 @@ Path read_path(const Json& json, const Problem& problem, Verdict verdict) {
   }
   const bool is_implied = path.interpolation == Interpolation::kCableLengths;
   const Json& pose_tubes = array(json["pose_tubes"], "path.pose_tubes", is_implied ? segments : 0);
+  std::optional<PoseTube> last;
   for (std::size_t k = 0; k < pose_tubes.size(); ++k) {
     const std::string here = at("path.pose_tubes", k);
-    const PoseTube tube = read_pose_tube(pose_tubes[k], here);
-    if (!is_wide(tube.position) || !is_wide(tube.turn)) fail(here, "positive widths");
-    path.pose_tubes.push_back(tube);
-    if (k == 0) continue;
-    const PoseTube& last = path.pose_tubes[k - 1];
-    if ((tube.position < last.position && tube.turn > last.turn) ||
-        (tube.position > last.position && tube.turn < last.turn)) {
-      fail(here, "a tube that contains the one before, or is contained in it");
-    }
+    read_pose_tube(pose_tubes[k], here, path);
+    const auto follow = [&](const PoseTube& tube, const std::string& where) {
+      if (!is_wide(tube.position) || !is_wide(tube.turn)) fail(where, "positive widths");
+      if (last) require_nested(*last, tube, where);
+      last = tube;
+    };
+    follow(path.pose_tubes[k], here);
+    const std::vector<InnerPose>& inner = path.inner_poses[k];
+    for (std::size_t i = 0; i < inner.size(); ++i) follow(inner[i].tube, at(here + ".inner", i) + ".tube");
   }
   return path;
 }

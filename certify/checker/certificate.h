@@ -3,6 +3,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -83,11 +84,26 @@ struct PoseTube {
   double turn = 0;
 };
 
+/// A point that the reference passes between two waypoints.
+struct InnerPose {
+  mpq_class s;                ///< in (0, 1)
+  std::array<double, 7> x{};  ///< px, py, pz [m], qx, qy, qz, qw
+  PoseTube tube;              ///< from here to the next
+};
+
+/// The first of them beyond s.
+inline std::vector<InnerPose>::const_iterator first_after(const std::vector<InnerPose>& inner, const mpq_class& s) {
+  return std::upper_bound(inner.begin(), inner.end(), s,
+                          [](const mpq_class& x, const InnerPose& y) { return x < y.s; });
+}
+
 struct Path {
   Interpolation interpolation = Interpolation::kStraight;
   std::vector<Waypoint> waypoints;
-  std::vector<double> tubes;           ///< one a segment where the space has constraints, else none
-  std::vector<PoseTube> pose_tubes{};  ///< one a segment under the law of cable lengths, else none
+  std::vector<double> tubes;  ///< one a segment where the space has constraints, else none
+  std::vector<PoseTube>
+      pose_tubes{};  ///< one a segment under the law of cable lengths, else none: up to its first inner pose
+  std::vector<std::vector<InnerPose>> inner_poses{};  ///< likewise, by rising s
 
   [[nodiscard]] std::size_t control_points() const { return interpolation == Interpolation::kCubicBSpline ? 4 : 2; }
   [[nodiscard]] std::size_t segments() const {

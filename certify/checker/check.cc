@@ -98,7 +98,7 @@ class Checker {
       for (const Box& box : segment.boxes) {
         const std::string where = "segment " + std::to_string(k) + ", box ";
         escalate([&](const Model& model) {
-          cover(box, where, [&](const Box& piece, int halvings) {
+          cover(k, box, where, [&](const Box& piece, int halvings) {
             const int parts = halvings < 3 ? 1 << halvings : kMostParts;
             if (const auto doubt = doubt_piece(model, k, piece, parts, where + show(piece))) throw Undefined(*doubt);
           });
@@ -107,16 +107,24 @@ class Checker {
     }
   }
 
-  /// Shows something for every s of the box: of each of finitely many pieces that cover it, by `prove`, which is given a
-  /// piece and the number of halvings that led to it, and throws Undefined where it fails. Where it fails of the middle of a
+  /// Shows something for every s of the box, of segment k: of each of finitely many pieces that cover it, none of which reaches
+  /// across an inner pose of the reference, by `prove`, which is given a piece and the number of halvings that led to it, and throws Undefined where it fails. Where it fails of the middle of a
   /// piece alone, which is as small as pieces get, halving would not help: then this throws Undefined, too.
   template <class Prove>
-  void cover(const Box& box, const std::string& where, const Prove& prove) {
+  void cover(std::size_t k, const Box& box, const std::string& where, const Prove& prove) {
     struct Piece {
       Box box;
       int halvings;
     };
     std::vector<Piece> open = {{box, 0}};
+    if (k < certificate_.path.inner_poses.size()) {
+      const std::vector<InnerPose>& inner = certificate_.path.inner_poses[k];
+      for (auto next = first_after(inner, box.begin); next != inner.end() && next->s < box.end; ++next) {
+        open.back().box.end = next->s;
+        open.push_back({{next->s, box.end}, 0});
+      }
+    }
+    const auto at_first = static_cast<int>(open.size());
     int pieces = 0;
     while (!open.empty()) {
       if (stop_.stop_requested()) throw Interrupted("interrupted");
@@ -132,7 +140,7 @@ class Checker {
         } catch (const Undefined& reason) {
           throw Undefined(where + show(piece.box) + ": " + reason.what());
         }
-        if (piece.halvings == kMostHalvings || static_cast<int>(open.size()) + pieces >= kMaxPieces) {
+        if (piece.halvings == kMostHalvings || static_cast<int>(open.size()) + pieces >= kMaxPieces + at_first) {
           throw Rejected("not confirmed: " + where + show(piece.box) + ": " + doubt.what());
         }
         open.push_back({{middle, piece.box.end}, piece.halvings + 1});
@@ -193,11 +201,11 @@ class Checker {
     return doubt;
   }
 
-  /// Where the path leads on a box of segment k: of a law in cable lengths, only about where. Between waypoints inside their
+  /// Where the path leads on a box of segment k, unless lengths say where. Between waypoints inside their
   /// ranges parameters stay inside, by convexity; those of a motion that is only implied need not.
-  Frame reference(std::size_t k, const Box& box) const {
+  Frame stated_pose(std::size_t k, const Box& box) const {
     const Problem& problem = certificate_.problem;
-    if (has_poses(certificate_.path.interpolation)) return pose_between_poses(certificate_.path, k, box);
+    if (certificate_.path.interpolation == Interpolation::kGeodesic) return geodesic(certificate_.path, k, box);
     const std::vector<Form> at = parameters(problem, certificate_.path, k, box);
     if (!problem.constraints.empty()) require_in_range(at, "segment " + std::to_string(k));
     return frame(coordinates(problem, at));
@@ -209,14 +217,16 @@ class Checker {
     Geometry geometry;
   };
 
-  /// On a box of segment k.
+  /// On a box of segment k, which reaches across no inner pose.
   Situation situation(const Model& model, std::size_t k, const Box& box) const {
     const Path& path = certificate_.path;
-    const Frame there = reference(k, box);
-    if (path.interpolation != Interpolation::kCableLengths) return {there, model.geometry(there)};
+    if (path.interpolation != Interpolation::kCableLengths) {
+      const Frame pose = stated_pose(k, box);
+      return {pose, model.geometry(pose)};
+    }
     try {
       const Vector6<Form> L = commanded_lengths(path, k, box);
-      const Frame pose = held_by_lengths(model, there, L, path.pose_tubes[k]);
+      const Frame pose = held_by_lengths(model, reference(path, k, box), L);
       Situation result{pose, model.geometry(pose)};
       result.geometry.length = L;
       return result;
@@ -322,7 +332,7 @@ class Checker {
     for (std::size_t k = begin.segment; k <= end.segment; ++k) {
       const Box box = {k == begin.segment ? begin.s : 0, k == end.segment ? end.s : 1};
       if (box.begin == box.end && begin.segment != end.segment) continue;  // a place, which is in the neighbour, too
-      cover(box, name + ": segment " + std::to_string(k) + ", ",
+      cover(k, box, name + ": segment " + std::to_string(k) + ", ",
             [&](const Box& piece, int /*halvings*/) { (void)situation(model, k, piece); });
     }
   }

@@ -36,24 +36,33 @@ Matrix3<Interval> turn_by(const Vector3<Interval>& v) {
 /// g of the header.
 class HeldByLengths : public Equations {
  public:
-  HeldByLengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube)
-      : model_(model), reference_(reference), L_(L), position_(mpq_class(tube.position)), turn_(mpq_class(tube.turn)) {}
+  HeldByLengths(const Model& model, const Reference& reference, const Vector6<Form>& L)
+      : model_(model),
+        reference_(reference),
+        L_(L),
+        position_(mpq_class(reference.tube.position)),
+        turn_(mpq_class(reference.tube.turn)) {}
 
   [[nodiscard]] std::size_t unknowns() const override { return 6; }
 
   [[nodiscard]] Derivatives derivatives(const Vector6<Interval>& z) const override {
-    const Vector3<Interval> p = parts(reference_.p, kRange) + position(z);
     const Vector3<Interval> v = turn(z);
     const Matrix3<Interval> R_v = turn_by(v);
-    const Matrix3<Interval> R = multiply(R_v, parts(reference_.R, kRange));
-    const Matrix3<Interval> R_drift = multiply(R_v, parts(reference_.R, kSlope));
-    const Vector3<Interval> p_drift = parts(reference_.p, kSlope);
+    const Vector3<Interval> p = parts(reference_.pose.p, kRange) + position(z);
+    const Matrix3<Interval> R = multiply(R_v, parts(reference_.pose.R, kRange));
+    const Vector3<Interval> p_mid = parts(reference_.pose.p, kMid) + position(z);
+    const Matrix3<Interval> R_mid = multiply(R_v, parts(reference_.pose.R, kMid));
+    const Vector3<Interval> p_drift = parts(reference_.pose.p, kSlope);
+    const Vector3<Interval> w = multiply(R_v, parts(reference_.turning, kRange));
+    const Vector3<Interval> w_mid = multiply(R_v, parts(reference_.turning, kMid));
+    const Vector3<Interval> w_drift = multiply(R_v, parts(reference_.turning, kSlope));
     const Interval turning = turn_ * Interval(2) / (Interval(1) + squared_norm(v));
     Derivatives result;
     for (std::size_t i = 0; i < 6; ++i) {
+      const Vector3<Interval>& a = model_.base_anchors()[i];
       const Vector3<Interval>& b = model_.platform_anchors()[i];
       const Vector3<Interval> Rb = multiply(R, b);
-      const Vector3<Interval> from_a = p - model_.base_anchors()[i];
+      const Vector3<Interval> from_a = p - a;
       const Vector3<Interval> d = from_a + Rb;
       const Vector3<Interval> x = cross(Rb, from_a);  // = cross(Rb, d)
       const Vector3<Interval> x_turned = x + cross(x, v);
@@ -61,14 +70,19 @@ class HeldByLengths : public Equations {
         result.by_y[i][c] = position_ * d[c];
         result.by_y[i][3 + c] = turning * x_turned[c];
       }
-      result.by_u[i] = dot(d, p_drift + multiply(R_drift, b)) - L_[i].range * L_[i].slope;
+      const Vector3<Interval> Rb_mid = multiply(R_mid, b);
+      const Vector3<Interval> d_mid = p_mid + Rb_mid - a;
+      result.by_u[i] = dot(d_mid, p_drift + cross(w_mid, Rb_mid)) - L_[i].mid * L_[i].slope;
+      const Vector3<Interval> turned = cross(w, Rb);
+      result.by_uu[i] =
+          squared_norm(p_drift + turned) + dot(d, cross(w_drift, Rb) + cross(w, turned)) - sqr(L_[i].slope);
     }
     return result;
   }
 
   [[nodiscard]] Vector6<Interval> at_middle(const Vector6<Interval>& z) const override {
-    const Vector3<Interval> p = parts(reference_.p, kMid) + position(z);
-    const Matrix3<Interval> R = multiply(turn_by(turn(z)), parts(reference_.R, kMid));
+    const Vector3<Interval> p = parts(reference_.pose.p, kMid) + position(z);
+    const Matrix3<Interval> R = multiply(turn_by(turn(z)), parts(reference_.pose.R, kMid));
     Vector6<Interval> result;
     for (std::size_t i = 0; i < 6; ++i) {
       const Vector3<Interval> d = p + multiply(R, model_.platform_anchors()[i]) - model_.base_anchors()[i];
@@ -80,8 +94,8 @@ class HeldByLengths : public Equations {
   [[nodiscard]] Frame pose(const Vector6<Form>& z) const {
     const Form position(position_);
     const Form turn(turn_);
-    return {reference_.p + position * Vector3<Form>{z[0], z[1], z[2]},
-            multiply(turn_by(turn * Vector3<Form>{z[3], z[4], z[5]}), reference_.R)};
+    return {reference_.pose.p + position * Vector3<Form>{z[0], z[1], z[2]},
+            multiply(turn_by(turn * Vector3<Form>{z[3], z[4], z[5]}), reference_.pose.R)};
   }
 
   [[nodiscard]] Vector3<Interval> position(const Vector6<Interval>& z) const {
@@ -93,7 +107,7 @@ class HeldByLengths : public Equations {
 
  private:
   const Model& model_;
-  const Frame& reference_;
+  const Reference& reference_;
   const Vector6<Form>& L_;
   Interval position_;
   Interval turn_;
@@ -105,26 +119,27 @@ Vector6<Form> at_middle(const Vector6<Form>& x) {
   return result;
 }
 
-Frame at_middle(const Frame& x) {
-  Frame result;
+Reference at_middle(const Reference& x) {
+  Reference result;  // which does not turn
+  result.tube = x.tube;
   for (std::size_t i = 0; i < 3; ++i) {
-    result.p[i] = Form(x.p[i].mid);
-    for (std::size_t j = 0; j < 3; ++j) result.R[i][j] = Form(x.R[i][j].mid);
+    result.pose.p[i] = Form(x.pose.p[i].mid);
+    for (std::size_t j = 0; j < 3; ++j) result.pose.R[i][j] = Form(x.pose.R[i][j].mid);
   }
   return result;
 }
 
 }  // namespace
 
-Frame held_by_lengths(const Model& model, const Frame& reference, const Vector6<Form>& L, const PoseTube& tube) {
+Frame held_by_lengths(const Model& model, const Reference& reference, const Vector6<Form>& L) {
   for (const Form& length : L) {
     if (!certainly_positive(length.range)) throw Undefined("a cable may have no length");
   }
   const Interval whole(1);
-  const Frame reference_mid = at_middle(reference);
+  const Reference reference_mid = at_middle(reference);
   const Vector6<Form> L_mid = at_middle(L);
-  const HeldByLengths at_mid(model, reference_mid, L_mid, tube);
-  const HeldByLengths over_box(model, reference, L, tube);
+  const HeldByLengths at_mid(model, reference_mid, L_mid);
+  const HeldByLengths over_box(model, reference, L);
   const Vector6<Interval> near = approximate_zero(at_mid);
   const Zero mid = only_zero(at_mid, whole, near);
   const Zero range = only_zero(over_box, whole, near);

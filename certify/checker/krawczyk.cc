@@ -36,8 +36,12 @@ Zero krawczyk(const Equations& equations, const Vector6<Interval>& Y) {
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) M[i][j] -= AG[i][j];
   }
-  Vector6<Interval> drift = multiply(A, g.by_u);
-  for (Interval& x : drift) x = -x;
+  const Interval u = Interval::plus_minus_one();
+  const Interval half_u_squared = sqr(u) / Interval(2);
+  const Vector6<Interval> Ah = multiply(A, g.by_u);
+  const Vector6<Interval> Aj = multiply(A, g.by_uu);
+  Vector6<Interval> drift;
+  for (std::size_t i = 0; i < 6; ++i) drift[i] = -(Ah[i] + Aj[i] * u);
   result.slope = contract(M, drift);
 
   Vector6<Interval> c;
@@ -49,7 +53,7 @@ Zero krawczyk(const Equations& equations, const Vector6<Interval>& Y) {
   const Vector6<Interval> Ag = multiply(A, equations.at_middle(c));
   const Vector6<Interval> M_offset = multiply(M, offset);
   for (std::size_t i = 0; i < k; ++i) {
-    result.y[i] = c[i] - Ag[i] + drift[i] * Interval::plus_minus_one() + M_offset[i];
+    result.y[i] = c[i] - Ag[i] - Ah[i] * u - Aj[i] * half_u_squared + M_offset[i];
   }
   return result;
 }

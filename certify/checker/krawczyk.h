@@ -1,18 +1,21 @@
 // A motion that equations imply: where the zero y(u) of g(y, u) = 0 is, for every u in [-1, 1], and that there is only one.
 //
-// Let Y be a box of k unknowns, c its middle, and let G and h enclose the partial derivatives of g by y and by u, on all
-// of Y and for all u. Between (c, 0) and (y, u) the mean value theorem says
-//     g(y, u) = g(c, 0) + h' u + G' (y - c)   for some h' in h and G' in G.                                          (1)
+// Let Y be a box of k unknowns, c its middle; let G enclose the partial derivatives of g by y on all of Y and for all u, and
+// let h and j be such that for y in Y and all u
+//     dg/du = h' + u j',   g(y, u) = g(y, 0) + u h' + u^2/2 j'   for some h' in h, j' in j (not the same in both):     (0)
+// by Taylor's theorem h encloses dg/du at u = 0 and j the second derivative for all u; or h encloses dg/du for all u, and
+// j is 0. With the mean value theorem from (c, 0) to (y, 0),
+//     g(y, u) = g(c, 0) + u h' + u^2/2 j' + G' (y - c)   for some h' in h, j' in j and G' in G.                      (1)
 // Take any matrix A, M = I - A G, ||M|| <= rho < 1 (row sums), and
-//     K = c - A g(c, 0) - A h [-1, 1] + M (Y - c).
+//     K = c - A g(c, 0) - A h [-1, 1] - A j [0, 1/2] + M (Y - c).
 // For each u, y -> y - A g(y, u) maps Y into K by (1), and shrinks distances (largest component) by rho. Since
 // A G' = I - M' is non-singular, so is A, and the fixed points of this map are the zeros of g. So Y has
 //     at most one zero,   and exactly one where K is within Y.                                                       (2)
 // The first half is shown of the whole tube |y_i| <= t, the second of a small box in it. Whatever Y and A are,
 //     a zero in Y is in K too,                                                                                       (3)
-// by which Y is narrowed about y(u). By (1) between two zeros, y is continuous in u, hence differentiable by the
-// implicit function theorem, with G' y' = -h', that is y' = -A h' + M' y':
-//     |y'_i| <= max_k |(A h)_k| / (1 - rho),   and y' in -A h + M y'.                                                (4)
+// by which Y is narrowed about y(u). As G' is non-singular, the implicit function theorem makes y differentiable in u (it is
+// the only zero, and stays in K), with G' y' = -dg/du. With D = A h + A j [-1, 1] that is y' = -D' + M' y':
+//     |y'_i| <= max_k |D_k| / (1 - rho),   and y' in -D + M y'.                                                      (4)
 #pragma once
 
 #include "certify/checker/linear.h"
@@ -24,8 +27,9 @@ namespace taut::checker {
 class Equations {
  public:
   struct Derivatives {
-    Matrix6<Interval> by_y;
-    Vector6<Interval> by_u;
+    Matrix6<Interval> by_y;   ///< G
+    Vector6<Interval> by_u;   ///< h
+    Vector6<Interval> by_uu;  ///< j
   };
   Equations() = default;
   Equations(const Equations&) = delete;

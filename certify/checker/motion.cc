@@ -153,6 +153,37 @@ Quaternion quaternion(const Waypoint& waypoint) {
   return q;
 }
 
+/// The part of a segment's reference between two successive poses.
+struct Piece {
+  mpq_class begin = 0;
+  mpq_class end = 1;
+  std::span<const double> first, last;  ///< the numbers of the poses there
+  PoseTube tube;
+};
+
+/// That in which the box is.
+Piece piece_of(const Path& path, std::size_t k, const Box& box) {
+  const std::span<const Waypoint> controls = path.controls(k);
+  Piece piece;
+  piece.first = controls.front().x;
+  piece.last = controls.back().x;
+  piece.tube = path.pose_tubes[k];
+  const std::vector<InnerPose>& inner = path.inner_poses[k];
+  const auto next = first_after(inner, box.begin);
+  if (next != inner.end()) {
+    piece.end = next->s;
+    piece.last = next->x;
+  }
+  if (next != inner.begin()) {
+    const InnerPose& begin = *std::prev(next);
+    piece.begin = begin.s;
+    piece.first = begin.x;
+    piece.tube = begin.tube;
+  }
+  if (box.end > piece.end) throw std::logic_error("a box that reaches across an inner pose");
+  return piece;
+}
+
 std::array<Form, 4> constant(const Quaternion& q) {
   return {Form(Interval(q[0])), Form(Interval(q[1])), Form(Interval(q[2])), Form(Interval(q[3]))};
 }
@@ -217,18 +248,48 @@ Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& param
   return result;
 }
 
-Frame pose_between_poses(const Path& path, std::size_t k, const Box& box) {
+Frame geodesic(const Path& path, std::size_t k, const Box& box) {
   const std::span<const Waypoint> controls = path.controls(k);
   const std::vector<Form> line = curve(controls, box, 0).line;
-  const Vector3<Form> p = {line[0], line[1], line[2]};
-  const Quaternion q0 = quaternion(controls.front());
-  const Quaternion q1 = quaternion(controls.back());
-  if (path.interpolation == Interpolation::kGeodesic) {
-    return {p, geodesic(q0, q1, form(over({0, 1}, box), {}))};
-  }
+  return {{line[0], line[1], line[2]},
+          geodesic(quaternion(controls.front()), quaternion(controls.back()), form(over({0, 1}, box), {}))};
+}
+
+Reference reference(const Path& path, std::size_t k, const Box& box) {
+  const Piece piece = piece_of(path, k, box);
+  const mpq_class length = piece.end - piece.begin;
+  // Number j of the poses, as a polynomial in u: exact.
+  const auto number = [&](std::size_t j) {
+    const mpq_class first(piece.first[j]);
+    const mpq_class slope = (mpq_class(piece.last[j]) - first) / length;
+    return over({first - slope * piece.begin, slope}, box);
+  };
+  Reference result;
+  result.tube = piece.tube;
+  for (std::size_t i = 0; i < 3; ++i) result.pose.p[i] = form(number(i), {});
+
   std::array<Form, 4> q;
-  for (std::size_t i = 0; i < 4; ++i) q[i] = form(over({q0[i], q1[i] - q0[i]}, box), {});
-  return {p, rotation(q)};
+  Quaternion q0, q1;
+  Polynomial squared;  // |q|^2
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Polynomial qi = number(3 + i);
+    q[i] = form(qi, {});
+    q0[i] = qi[0];
+    q1[i] = qi[1];
+    squared[0] += qi[0] * qi[0];
+    squared[1] += 2 * qi[0] * qi[1];
+    squared[2] += qi[1] * qi[1];
+  }
+  result.pose.R = rotation(q);
+  const Vector3<mpq_class> v0 = {q0[0], q0[1], q0[2]};
+  const Vector3<mpq_class> v1 = {q1[0], q1[1], q1[2]};
+  const Vector3<mpq_class> v0_v1 = cross(v0, v1);
+  const Form norm = form(squared, {});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mpq_class twice = 2 * (q0[3] * v1[i] - q1[3] * v0[i] + v0_v1[i]);
+    result.turning[i] = Form(Interval(twice)) / norm;
+  }
+  return result;
 }
 
 Vector6<Form> commanded_lengths(const Path& path, std::size_t k, const Box& box) {

@@ -6,8 +6,8 @@
 //                exactly, so that each is a Form in u of nearly no width.
 //   parameters   Without constraints they are l. With k constraints C(lambda) = 0 they are l + N y, where y(u) is the zero
 //                of g(y, u) = C(l(u) + N(u) y) in the tube |y_i| <= t. krawczyk.h shows that there is exactly one.
-//   poses        by the case's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi), or between two
-//                poses by a law of the format.
+//   poses        by the case's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi), or of a geodesic
+//                between two poses; or a reference near which lengths say what the pose is.
 #pragma once
 
 #include <vector>
@@ -37,9 +37,21 @@ struct Frame {
 /// Of the quaternion q = (x, y, z, w), of any length but 0.
 [[nodiscard]] Matrix3<Form> rotation(const std::array<Form, 4>& q);
 
-/// On a box of segment k of a path with a law of poses: the pose itself of a geodesic, the reference of lengths that are
-/// straight. @throws Undefined for a geodesic of half a turn.
-[[nodiscard]] Frame pose_between_poses(const Path& path, std::size_t k, const Box& box);
+/// On a box of segment k of a path of geodesics. @throws Undefined for one of half a turn.
+[[nodiscard]] Frame geodesic(const Path& path, std::size_t k, const Box& box);
+
+/// About where the pose is under the law by which lengths are straight.
+struct Reference {
+  Frame pose;             ///< p is straight
+  Vector3<Form> turning;  ///< w: dR/du = [w] R, axes of W
+  PoseTube tube;
+};
+
+/// On a box of segment k, which reaches across no inner pose.
+///
+/// R = R(q) with q = q0 + u q1 turns at the rate 2 vec(q1 conj(q)) / |q|^2, and q1 conj(q0 + u q1) = q1 conj(q0) + u |q1|^2: so its
+/// axis is fixed.
+[[nodiscard]] Reference reference(const Path& path, std::size_t k, const Box& box);
 
 /// L_i [m] on a box of segment k, of the law by which they are straight.
 [[nodiscard]] Vector6<Form> commanded_lengths(const Path& path, std::size_t k, const Box& box);

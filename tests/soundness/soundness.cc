@@ -161,7 +161,7 @@ struct Counts {
 };
 
 struct Tally {
-  std::array<Decades, 3> decades;  ///< exactly on a path; by lengths; with tolerances
+  std::array<Decades, 4> decades;  ///< exactly on a path; by lengths; with tolerances; by lengths, with a bad reference
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
   Count wrong{0}, looked_at{0};
 };
@@ -173,12 +173,17 @@ struct Options {
   std::uint64_t seed = 20261121;
   std::optional<Law> law;
   std::optional<ToleranceKind> tolerances;
+  bool list_undecided = false;
 };
 
 class Judge {
  public:
   Judge(std::uint64_t seed, const Options& options, Tally& tally)
-      : seed_(seed), random_(seed), tally_(tally), trial_(make_trial(random_, options.law, options.tolerances)) {}
+      : seed_(seed),
+        is_listed_(options.list_undecided),
+        random_(seed),
+        tally_(tally),
+        trial_(make_trial(random_, options.law, options.tolerances)) {}
 
   void run() {
     Counts& counts = tally_.counts[static_cast<std::size_t>(trial_.law)][static_cast<std::size_t>(trial_.tolerances)];
@@ -186,19 +191,17 @@ class Judge {
     approx_.emplace(trial_);
     exact_.emplace(trial_);
     id_ = {static_cast<MarginKind>(random_() % 4), static_cast<int>(random_() % 6)};
+    if (trial_.law == Law::kCableLengths) propose_reference();
     if (!find_extremum() || !set_limits() || !choose_tube()) {
       ++counts.skipped;
       return;
     }
     const Prover prover(trial_.problem);
-    const PoseTube own = trial_.pose_tube;
-    Segment segment = prover.prepared(trial_.curve());
-    if (trial_.law == Law::kCableLengths && one_in(random_, 4)) segment.pose_tube = own;
-    trial_.pose_tube = segment.pose_tube;
+    const Segment segment = trial_.law == Law::kCableLengths ? trial_.curve() : prover.prepared(trial_.curve());
     const SegmentProof proof = prover.prove(segment);
     counts.boxes += proof.boxes_judged;
     counts.multiprecision += proof.boxes_multiprecision;
-    Decades& decades = tally_.decades[has_tolerances() ? 2 : trial_.law == Law::kCableLengths ? 1 : 0];
+    Decades& decades = tally_.decades[decades_of_trial()];
     const auto d = static_cast<std::size_t>(decade_);
     ++(violated_ ? decades.violated : decades.clear)[d];
     switch (proof.verdict) {
@@ -212,7 +215,15 @@ class Judge {
         ++(violated_ ? decades.violated_refuted : decades.clear_decided)[d];
         examine_witness(*proof.witness);
         break;
-      case Verdict::kUndecided: ++counts.undecided; break;
+      case Verdict::kUndecided:
+        ++counts.undecided;
+        if (is_listed_ && !trial_.has_bad_reference) {
+          fmt::print(stderr, "undecided: seed {}, {}, tolerances {}, {} boxes, at {:.17g} to depth {}: {}\n", seed_,
+                     kLawNames[static_cast<std::size_t>(trial_.law)],
+                     kToleranceNames[static_cast<std::size_t>(trial_.tolerances)], proof.boxes_judged,
+                     proof.open_box.lower().approx(), proof.open_box.depth, proof.reason);
+        }
+        break;
     }
   }
 
@@ -225,6 +236,36 @@ class Judge {
                seed_, kLawNames[static_cast<std::size_t>(trial_.law)],
                kToleranceNames[static_cast<std::size_t>(trial_.tolerances)], name(id_.kind), id_.cable + 1, delta_,
                best_s_);
+  }
+
+  [[nodiscard]] std::size_t decades_of_trial() const {
+    if (trial_.has_bad_reference) return 3;
+    if (has_tolerances()) return 2;
+    return trial_.law == Law::kCableLengths ? 1 : 0;
+  }
+
+  /// Inner poses and tubes as an audit has them; of a bad reference, spoiled.
+  void propose_reference() {
+    const Segment segment = Prover(trial_.problem).prepared(trial_.curve());
+    trial_.pose_tube = segment.pose_tube;
+    trial_.inner_poses = segment.inner_poses;
+    if (!trial_.has_bad_reference || one_in(random_, 4)) return;
+    const auto spoil = [&](PoseTube& tube) {
+      const double scale = std::pow(10.0, uniform(random_, -2, 4));
+      tube = {scale * tube.position, scale * tube.turn};
+    };
+    if (one_in(random_, 2)) spoil(trial_.pose_tube);
+    if (trial_.inner_poses.empty()) return;
+    InnerPose& inner = trial_.inner_poses[random_() % trial_.inner_poses.size()];
+    switch (random_() % 4) {
+      case 0: spoil(inner.tube); break;
+      case 1:
+        for (double& x : inner.x) x += std::pow(10.0, uniform(random_, -9, 0)) * uniform(random_, -1, 1);
+        break;
+      case 2: trial_.inner_poses.erase(trial_.inner_poses.begin()); break;
+      default:
+        for (std::size_t k = 3; k < inner.x.size(); ++k) inner.x[k] = -inner.x[k];
+    }
   }
 
   [[nodiscard]] bool has_tolerances() const { return trial_.tolerances != ToleranceKind::kNone; }
@@ -320,17 +361,12 @@ class Judge {
   bool choose_tube() {
     if (!trial_.is_held()) return true;
     constexpr int kSamples = 16;
-    PoseTube largest;
     for (int k = 0; k <= kSamples; ++k) {
       const double s = static_cast<double>(k) / kSamples;
       const auto pose = approx_->commanded(s, Deviation());
       if (!pose || !approx_->commanded(s, worst_) || !approx_->commanded(s, random_deviation(random_))) return false;
-      const PoseTube away = distance(approx_->reference(s), *pose);
-      largest = {std::max(largest.position, away.position), std::max(largest.turn, away.turn)};
     }
-    trial_.pose_tube = {2 * largest.position + trial_.size * std::pow(10.0, uniform(random_, -8, -3)),
-                        2 * largest.turn + std::pow(10.0, uniform(random_, -8, -3))};
-    return std::isfinite(trial_.pose_tube.position) && std::isfinite(trial_.pose_tube.turn);
+    return true;
   }
 
   /// The largest |r_p z| and |r_u z| that lead from one pose to the other.
@@ -416,11 +452,13 @@ class Judge {
   /// Newton's method, started anywhere in the tube, ends at one and the same pose if it ends in the tube.
   void require_one_pose(double s) {
     const RigidPose<double> reference = approx_->reference(s);
+    const Segment curve = trial_.curve();
+    const PoseTube tube = reference_piece(curve, s).tube;
     const auto expected = approx_->commanded(s, Deviation());
     if (!expected) return;
     const auto is_inside = [&](const RigidPose<double>& pose, double room) {
       const PoseTube away = distance(reference, pose);
-      return away.position <= room * trial_.pose_tube.position && away.turn <= room * trial_.pose_tube.turn;
+      return away.position <= room * tube.position && away.turn <= room * tube.turn;
     };
     constexpr double kRoom = 1 + 1e-6;
     if (!is_inside(*expected, kRoom)) breach(fmt::format("proved, but the pose is outside its tube (s {:.17g})", s));
@@ -429,13 +467,13 @@ class Judge {
         return Vec<double>{size * uniform(random_, -1, 1), size * uniform(random_, -1, 1),
                            size * uniform(random_, -1, 1)};
       };
-      const Vec<double> u = in_tube(trial_.pose_tube.turn);
-      const RigidPose<double> start{reference.p + in_tube(trial_.pose_tube.position),
+      const Vec<double> u = in_tube(tube.turn);
+      const RigidPose<double> start{reference.p + in_tube(tube.position),
                                     rotation(Quaternion<double>{u[0], u[1], u[2], 1.0}) * reference.r};
       const auto found = hold(approx_->machine(Deviation()), start, approx_->commanded_lengths(s, Deviation()), 25);
       if (!found || !is_inside(*found, 1 - 1e-6)) continue;
       const PoseTube apart = distance(*expected, *found);
-      if (apart.position > 1e-3 * trial_.pose_tube.position && apart.position > 1e-6 * trial_.size) {
+      if (apart.position > 1e-3 * tube.position && apart.position > 1e-6 * trial_.size) {
         breach(fmt::format("proved, but there are two poses in the tube (s {:.17g})", s));
       }
     }
@@ -451,6 +489,7 @@ class Judge {
   }
 
   std::uint64_t seed_;
+  bool is_listed_;
   Random random_;
   Tally& tally_;
   Trial trial_;
@@ -471,10 +510,10 @@ class Judge {
 
 // ---- The campaign ----------------------------------------------------------------------------------------------------
 
-double print_decades(const Decades& table, const char* title) {
+/// @returns the share decided of what is clear by 10^from of the range or more.
+double print_decades(const Decades& table, const char* title, int from = -6) {
   long clear = 0;
   long decided = 0;
-  constexpr int kFromMillionth = kDecades - 6;
   const auto is_empty = [](const auto& counts) {
     return std::ranges::all_of(counts, [](const Count& n) { return n == 0; });
   };
@@ -488,7 +527,7 @@ double print_decades(const Decades& table, const char* title) {
     fmt::print("1e{:<3} to 1e{:<3}  {:8d} {:7.3f}%   {:8d} {:7.3f}%\n", k - kDecades, k - kDecades + 1,
                table.violated[d].load(), share(table.violated_refuted[d], table.violated[d]), table.clear[d].load(),
                share(table.clear_decided[d], table.clear[d]));
-    if (k < kFromMillionth) continue;
+    if (k < kDecades + from) continue;
     clear += table.clear[d];
     decided += table.clear_decided[d];
   }
@@ -526,13 +565,15 @@ int run(const Options& options, double budget) {
   }
   const std::array<double, 3> share = {
       print_decades(tally.decades[0], "Paths of poses, without tolerances"),
-      print_decades(tally.decades[1], "Paths of cable lengths, without tolerances"),
+      print_decades(tally.decades[1], "Paths of cable lengths, without tolerances", -9),
       print_decades(tally.decades[2], "With tolerances: delta from the worst deviation found")};
+  print_decades(tally.decades[3], "Paths of cable lengths with a bad reference, with and without tolerances");
   fmt::print(
       "\n{} segments, seed {}: {:.1f} s, {:.0f} a second, {:.2f} ms of processor time each; {} points judged in 200 "
       "bits after "
       "proofs; {} WRONG.\n"
-      "Decided with margin > 1e-6 of the range: {:.4f} %; of cable lengths {:.4f} %; with tolerances {:.4f} %.\n",
+      "Decided with margin > 1e-6 of the range: {:.4f} %; of cable lengths, > 1e-9, {:.4f} %; with tolerances {:.4f} "
+      "%.\n",
       done, options.seed, elapsed, static_cast<double>(done) / elapsed,
       1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done), tally.looked_at.load(),
       tally.wrong.load(), 100 * share[0], 100 * share[1], 100 * share[2]);
@@ -560,6 +601,7 @@ int main(int argc, char** argv) {
   app.add_option("--tolerances", tolerances, "one kind only")
       ->transform(CLI::CheckedTransformer(by_name(kToleranceNames)));
   app.add_option("--threads", threads, "0: all");
+  app.add_flag("--list", options.list_undecided, "names each trial that stays undecided, on stderr");
   app.add_option("--budget", budget, "stop after so many seconds");
   CLI11_PARSE(app, argc, argv);
   if (law) options.law = static_cast<Law>(*law);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kinematics/motion_length.h"
+#include "kinematics/pose_conversion.h"
 #include "tests/support/linear_system.h"
 #include "tests/support/robots.h"
 
@@ -248,7 +249,7 @@ void choose_poses(Trial& trial, Random& random) {
   double length = random_length();
   for (std::size_t k = 0; k < 2; ++k) {
     // Under the law of lengths another length or sign makes another reference, the wrong one.
-    if (trial.law == Law::kGeodesic || one_in(random, 16)) length = random_length();
+    if (trial.law == Law::kGeodesic || (trial.has_bad_reference && one_in(random, 4))) length = random_length();
     trial.controls[k].x = {x[0], x[1], x[2]};
     for (const double c : turned) trial.controls[k].x.push_back(length * c);
     for (double& c : x) c += step * 0.1 * trial.size * uniform(random, -1, 1);
@@ -258,15 +259,26 @@ void choose_poses(Trial& trial, Random& random) {
   set_pose(trial, six_coordinates);
 }
 
-/// Lengths near those of the poses, which then are but a reference.
+/// Lengths near those of the poses; of a bad reference, which are left as they were.
 void choose_lengths(Trial& trial, Random& random) {
   const Machine<double> machine = make_machine<double>(trial.problem);
+  const Model<double> model = make_model<double>(trial.problem);
   const double error = one_in(random, 2) ? 0 : std::pow(10.0, uniform(random, -9, -3));
   for (std::size_t k = 0; k < 2; ++k) {
     std::vector<double>& x = trial.controls[k].x;
-    for (const double length : lengths(machine, mixed(x, x, 0.0))) {
-      x.push_back(length * (1 + error * uniform(random, -1, 1)));
+    std::array<double, kCables> wanted = lengths(machine, mixed(x, x, 0.0));
+    for (double& length : wanted) length *= 1 + error * uniform(random, -1, 1);
+    if (!trial.has_bad_reference) {
+      // As a table of lengths is read: the pose to which they lead from that before.
+      const std::vector<double>& from = trial.controls[0].x;
+      const Eigen::Quaterniond q(from[6], from[3], from[4], from[5]);
+      const auto pose = pose_of_lengths(model, wanted, {{from[0], from[1], from[2]}, q.normalized()});
+      if (pose) {
+        const Eigen::Quaterniond sign(pose->q.dot(q) < 0 ? Eigen::Quaterniond(-pose->q.coeffs()) : pose->q);
+        x = {pose->p(0), pose->p(1), pose->p(2), sign.x(), sign.y(), sign.z(), sign.w()};
+      }
     }
+    x.insert(x.end(), wanted.begin(), wanted.end());
   }
 }
 
@@ -366,6 +378,7 @@ Trial make_trial(Random& random, std::optional<Law> law, std::optional<Tolerance
   const Law random_law = static_cast<Law>(random() % kLaws);
   trial.tolerances = tolerances.value_or(random_kind);
   trial.law = law.value_or(random_law);
+  trial.has_bad_reference = trial.law == Law::kCableLengths && one_in(random, 6);
   switch (trial.law) {
     case Law::kStraight:
     case Law::kSpline: choose_space(trial, random, false); break;
@@ -398,7 +411,23 @@ Motion<S>::Motion(const Trial& trial)
 template <class S>
 RigidPose<S> Motion<S>::reference(const S& s) const {
   if (trial_.law == Law::kGeodesic) return slerp(trial_.controls[0].x, trial_.controls[1].x, s);
-  if (trial_.law == Law::kCableLengths) return mixed(trial_.controls[0].x, trial_.controls[1].x, s);
+  if (trial_.law == Law::kCableLengths) {
+    std::vector<double> from = trial_.controls[0].x;
+    std::vector<double> to = trial_.controls[1].x;
+    double begin = 0;
+    double end = 1;
+    // Straight between the two poses next to s.
+    for (const InnerPose& inner : trial_.inner_poses) {
+      if (s < S(inner.s)) {
+        end = inner.s;
+        to.assign(inner.x.begin(), inner.x.end());
+        break;
+      }
+      begin = inner.s;
+      from.assign(inner.x.begin(), inner.x.end());
+    }
+    return mixed(from, to, S((s - S(begin)) / (S(end) - S(begin))));
+  }
   Six<S> pose;
   if constexpr (std::is_same_v<S, double>) {
     pose = trial_.pose_approx(constraints_ ? constraints_->parameters(trial_.curve(), s)

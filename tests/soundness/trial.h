@@ -46,6 +46,9 @@ struct Trial {
   Interpolation interpolation = Interpolation::kStraight;
   double size = 1;  ///< of the robot [m]
   PoseTube pose_tube;
+  std::vector<InnerPose> inner_poses;
+  /// Under the law of cable lengths: made to mislead, not proposed as an audit does.
+  bool has_bad_reference = false;
   std::optional<OracleConstraints> constraints;
   /// The pose's six coordinates, of the parameters.
   std::function<oracle::Big6(const Vector&)> pose;
@@ -53,14 +56,14 @@ struct Trial {
 
   /// Refers to this trial.
   [[nodiscard]] Segment curve() const {
-    return {interpolation, {&controls[0], &controls[1], &controls[2], &controls[3]}, 0, pose_tube};
+    return {interpolation, {&controls[0], &controls[1], &controls[2], &controls[3]}, 0, pose_tube, inner_poses};
   }
   [[nodiscard]] bool is_held() const {
     return law == Law::kCableLengths || (problem.tolerances && problem.tolerances->cable_length_m);
   }
 };
 
-/// All but limits and pose tube. Within PrecisionScope(oracle::kBits).
+/// All but limits, pose tubes and inner poses. Within PrecisionScope(oracle::kBits).
 [[nodiscard]] Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances);
 
 /// What the machine does along a trial, in scalar S (double or BigFloat).
