@@ -123,7 +123,13 @@ class Checker {
         open.back().box.end = next->s;
         open.push_back({{next->s, box.end}, 0});
       }
+      std::ranges::reverse(open);
     }
+    const auto require_moderate = [&](std::size_t pieces) {
+      if (pieces <= kMeanPieces * certificate_.boxes + kMaxPieces) return;
+      throw Rejected("not confirmed: the boxes are too large to be proved in a reasonable time");
+    };
+    require_moderate(result_.pieces + open.size());
     const auto at_first = static_cast<int>(open.size());
     int pieces = 0;
     while (!open.empty()) {
@@ -148,9 +154,7 @@ class Checker {
       }
     }
     result_.pieces += static_cast<std::size_t>(pieces);
-    if (result_.pieces > kMeanPieces * certificate_.boxes + kMaxPieces) {
-      throw Rejected("not confirmed: the boxes are too large to be proved in a reasonable time");
-    }
+    require_moderate(result_.pieces);
   }
 
   /// Nothing, where the segment's claim holds for every s of the box; else what could not be shown.

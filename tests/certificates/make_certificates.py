@@ -266,8 +266,31 @@ def between_poses(pr, pa, k, s):
         if half < 1e-9:
             return p, rotation(a)
         return p, rotation([(sin((1 - s) * half) * x + sin(s * half) * y) / sin(half) for x, y in zip(a, b)])
-    a, b = numbers('quaternion')
-    return with_lengths(pr, (p, rotation(mixed(a, b))), mixed(*numbers('lengths')), pa['pose_tubes'][k])
+    tube = pa['pose_tubes'][k]
+    ends = (pa['waypoints'] + pa['waypoints'][-1:])[k:k + 2]
+    places = [(Fraction(0), ends[0], tube)] + [(Fraction(i['s']), i, i['tube']) for i in tube.get('inner', [])] + [(Fraction(1), ends[1], None)]
+    j = max(j for j in range(len(places) - 1) if places[j][0] <= s)
+    (begin, first, tube), (end, last, _) = places[j:j + 2]
+    t = (s - float(begin)) / float(end - begin)
+    at = lambda key: [(1 - t) * float.fromhex(x) + t * float.fromhex(y) for x, y in zip(first[key], last[key])]
+    return with_lengths(pr, (at('position'), rotation(at('quaternion'))), mixed(*numbers('lengths')), tube)
+
+
+def bent(pr, first, last, parts, sizes):
+    """One segment of straight lengths between two poses, with inner poses that are on the motion."""
+    lengths = [geometry(pr, (p, rotation(q)))[1] for p, q in (first, last)]
+    inner, (p, q) = [], first
+    for n in range(1, parts):
+        wanted = [(1 - n / parts) * x + n / parts * y for x, y in zip(*lengths)]
+        p, R = with_lengths(pr, (p, rotation(q)), wanted, {'position': '1', 'turn': '1'})
+        new = [R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1], 1 + R[0][0] + R[1][1] + R[2][2]]
+        size = sqrt(sum(x * x for x in new)) * (1 if sum(x * y for x, y in zip(new, q)) > 0 else -1)
+        q = [x / size for x in new]
+        tube = dict(zip(('position', 'turn'), map(hex64, sizes)))
+        inner.append({'s': dyadic(n, parts), **pose(p, q), 'tube': tube})
+    path = poses('straight-in-cable-lengths', *[pose(*at, l) for at, l in zip((first, last), lengths)], pose_tubes=[sizes])
+    path['pose_tubes'][0]['inner'] = inner
+    return path
 
 
 def with_lengths(pr, reference, lengths, tube):
@@ -1291,9 +1314,68 @@ def motions_between_poses():
            'The quantity is that of the pose with these lengths.', 'value')
     reject('lengths_witness_without_a_pose', held_still, 'In so thin a tube there is no pose to refute.', inside, tubes(2**-40, 2**-40))
 
+    # With inner poses: the reference is a polyline.
+    held_by = 'the pose held by the lengths'
+    far = bent(free, start, tilted(-2.1, 1.5), 4, (2**-9, 2**-8))
+    far_winches = proved(free, far, 16, samples=60)
+    write('accepted', 'lengths_inner', far_winches, 'A long step: three inner poses keep the reference near the motion.')
+    nested = copy.deepcopy(far)
+    nested['pose_tubes'][0]['inner'][1]['tube'] = {'position': '0x1p-10', 'turn': '0x1p-9'}
+    write('accepted', 'lengths_inner_nested', proved(free, nested, 16, samples=60), 'The tubes of the pieces are not of one size.')
+    write('accepted', 'lengths_inner_within_a_box', proved(free, far, 1, samples=60), 'One box, which reaches across all inner poses.')
+    still = bent(free, start, start, 2, (2**-20, 2**-20))
+    write('accepted', 'lengths_inner_still', proved(free, still, 1, samples=1), 'Nothing moves, along an inner pose.')
+    def inner(edit):
+        return lambda c: edit(c['path']['pose_tubes'][0]['inner'])
+    def lift(pose, by):
+        pose['position'][2] = hex64(float.fromhex(pose['position'][2]) + by)
+    reject('lengths_inner_moved', far_winches, 'The second inner pose is 5 mm beside the motion.', held_by, inner(lambda i: lift(i[1], 0.005)))
+    reject('lengths_inner_turned', far_winches, 'The second inner pose is turned over.', held_by,
+           inner(lambda i: i[1].update(quaternion=[hex64(-float.fromhex(x)) for x in i[1]['quaternion'][:3]] + i[1]['quaternion'][3:])))
+    reject('lengths_inner_of_other_sign', far_winches, 'To the second inner pose, and from it, the reference turns all the way round.', held_by,
+           inner(lambda i: i[1].update(quaternion=[hex64(-float.fromhex(x)) for x in i[1]['quaternion']])))
+    reject('lengths_inner_elsewhere', far_winches, 'The second inner pose stands at another place.', held_by, inner(lambda i: i[1].update(s='5/8')))
+    reject('lengths_inner_exchanged', far_winches, 'Two inner poses stand at the place of the other.', held_by,
+           inner(lambda i: (i.reverse(), [x.update(s=s) for x, s in zip(i, ('1/4', '1/2', '3/4'))])))
+    reject('lengths_inner_left_out', far_winches, 'Straight from end to end, the reference leaves its tube.', held_by,
+           lambda c: c['path']['pose_tubes'][0].pop('inner'))
+    reject('lengths_inner_tube_too_narrow', far_winches, 'Between two inner poses the platform leaves its tube.', held_by,
+           inner(lambda i: i[1].update(tube={'position': '0x1p-30', 'turn': '0x1p-30'})))
+    reject('lengths_inner_tube_too_wide', far_winches, 'A tube reaches beyond singular poses.', unique,
+           inner(lambda i: i[1].update(tube={'position': '0x1p-1', 'turn': '0x1p+0'})))
+    reject('lengths_inner_not_in_the_next_tube', far_winches, 'At an inner pose, which is half a millimetre beside the motion, only the tube before it holds the pose.', held_by,
+           inner(lambda i: (lift(i[1], 0.0005), i[1].update(tube={'position': '0x1p-20', 'turn': '0x1p-19'}))))
+    jump = poses('straight-in-cable-lengths', pose(*up, lengths_of(up)), pose(*down, lengths_of(up)), pose_tubes=[(2**-8, 2**-8)])
+    jump['pose_tubes'][0]['inner'] = [
+        {'s': s, **pose(*at), 'tube': {'position': '0x1p-8', 'turn': '0x1p-8'}} for s, at in (('1/4', up), ('3/4', down))]
+    reject('lengths_inner_of_another_assembly', asserted(free, jump), 'In between the reference leads to the mirror image; the platform does not.', held_by)
+    reject('lengths_inner_sign_change', certificate(free, jump, 'refuted', witness={
+        'kind': 'singular', 'at': {'segment': 0, 's': '0'}, 'to': {'segment': 0, 's': '1'}}),
+        'det J has opposite signs in the two assemblies, and nothing leads from one to the other.', held_by)
+
     # Against the format.
     def on(edit):
         return lambda c: edit(c['path'])
+    malform('lengths_inner_at_the_start', 'Inner poses are inside.', 'places that rise', inner(lambda i: i[0].update(s='0')), far_winches)
+    malform('lengths_inner_at_the_end', 'Inner poses are inside.', 'places that rise', inner(lambda i: i[2].update(s='1')), far_winches)
+    malform('lengths_inner_out_of_order', 'Their places rise.', 'places that rise', inner(lambda i: i.reverse()), far_winches)
+    malform('lengths_inner_twice', 'Their places rise.', 'places that rise', inner(lambda i: i.insert(1, i[1])), far_winches)
+    malform('lengths_inner_too_fine', 'Denominators are at most 2^52.', 'places that rise', inner(lambda i: i[0].update(s='1/%d' % 2**53)), far_winches)
+    malform('lengths_inner_not_dyadic', 'Places are dyadics.', 'a power of two', inner(lambda i: i[0].update(s='1/3')), far_winches)
+    malform('lengths_inner_none', 'Where there is none, there is no key.', 'inner poses, or no such key', inner(lambda i: i.clear()), far_winches)
+    malform('lengths_inner_quaternion_zero', 'No orientation.', 'a quaternion that is not 0', inner(lambda i: i[0].update(quaternion=['0x0p+0'] * 4)),
+            far_winches)
+    malform('lengths_inner_position_of_two', 'A position has three numbers.', 'position: expected an array of 3', inner(lambda i: i[0]['position'].pop()),
+            far_winches)
+    malform('lengths_inner_with_lengths', 'Lengths are straight from waypoint to waypoint.', "no key 'lengths'",
+            inner(lambda i: i[0].update(lengths=['0x1p-2'] * 6)), far_winches)
+    malform('lengths_inner_without_a_tube', 'Each piece has its tube.', "the key 'tube'", inner(lambda i: i[0].pop('tube')), far_winches)
+    malform('lengths_inner_tube_zero', 'A tube has a width.', 'positive widths', inner(lambda i: i[0]['tube'].update(turn='0x0p+0')), far_winches)
+    malform('lengths_inner_tubes_not_nested', 'Of two successive tubes one contains the other.', 'contains the one before',
+            inner(lambda i: i[1].update(tube={'position': '0x1p-10', 'turn': '0x1p-7'})), far_winches)
+    malform('lengths_inner_tubes_not_nested_at_a_waypoint', 'Nor at the end of a segment.', 'contains the one before',
+            lambda c: (c['path']['waypoints'].append(c['path']['waypoints'][-1]),
+                       c['path']['pose_tubes'].append({'position': '0x1p-10', 'turn': '0x1p-7'})), far_winches)
     malform('quaternion_zero', 'No orientation.', 'a quaternion that is not 0',
             on(lambda p: p['waypoints'][1].update(quaternion=['0x0p+0', '-0x0p+0', '0x0p+0', '0x0p+0'])), turn_c)
     malform('quaternion_of_three', 'A quaternion has four numbers.', 'quaternion: expected an array of 4',

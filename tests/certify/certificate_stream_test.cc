@@ -18,7 +18,10 @@ json streamed(const Problem& problem, const Path& path, const PathProof& proof, 
   for (const Waypoint& waypoint : path.waypoints) stream.add_waypoint(waypoint_text(path.interpolation, waypoint));
   for (const std::string& time : path.times) stream.add_time(time);
   for (const double tube : path.tubes) stream.add_tube(tube);
-  for (const PoseTube& tube : path.pose_tubes) stream.add_pose_tube(tube);
+  for (std::size_t k = 0; k < path.pose_tubes.size(); ++k) {
+    const bool has_inner_poses = k < path.inner_poses.size();
+    stream.add_pose_tube(path.pose_tubes[k], has_inner_poses ? path.inner_poses[k] : std::vector<InnerPose>());
+  }
   CertificateStream::Ending ending;
   ending.verdict = proof.verdict;
   ending.illustration = illustration;
@@ -107,10 +110,12 @@ TEST(CertificateStream, ReadsBackWithPosesAndTubes) {
       if (law == Interpolation::kCableLengths) path.waypoints.back().x.insert(path.waypoints.back().x.end(), 6, 0.3);
     }
     path.pose_tubes = {{0.1, 0.2}, {0x1p-40, 1}};
+    path.inner_poses = {{}, {{0x1p-40, {0.1, 2, 4, 0, 0.3, 0, 1}, {0.3, 0.7}}, {0.75, {1, 2, 3, 4, 5, 6, 7}, {1, 2}}}};
     path.tubes = {0.5, 0.25};
     const Path back = path_from_json(streamed(problem, path, {}, nullptr)["path"]);
     EXPECT_EQ(back.waypoints, path.waypoints);
     EXPECT_EQ(back.pose_tubes, path.pose_tubes);
+    EXPECT_EQ(back.inner_poses, path.inner_poses);
     EXPECT_EQ(back.tubes, path.tubes);
     EXPECT_EQ(back.interpolation, law);
   }

@@ -118,6 +118,24 @@ TEST(Checker, ProvesMarginsCloseToTheTruthBySplitting) {
   EXPECT_LT(tight.pieces, 100U);
 }
 
+TEST(Checker, InnerPosesWithoutBoxesAreNotWorkedOff) {
+  nlohmann::json certificate = accepted("lengths_inner_still");
+  nlohmann::json& inner = certificate["path"]["pose_tubes"][0]["inner"];
+  nlohmann::json pose = inner[0];
+  inner.clear();
+  for (int k = 1; k < 4096; ++k) {
+    mpq_class s(k, 4096);
+    s.canonicalize();
+    pose["s"] = s.get_str();
+    inner.push_back(pose);
+  }
+  seal(certificate);
+  const CheckResult result = check_certificate(certificate.dump());
+  EXPECT_EQ(result.outcome, Outcome::kRejected);
+  EXPECT_NE(result.message.find("too large to be proved in a reasonable time"), std::string::npos) << result.message;
+  EXPECT_EQ(result.pieces, 0U);
+}
+
 TEST(Checker, AQueryThatCannotBeRoundedIsRejected) {
   nlohmann::json json = accepted("robot1_near_goal");
   json["problem"]["query"]["waypoints"][0][0] = "1.7 + sin(pi)";  // equal to 1.7, but no finite precision shows that

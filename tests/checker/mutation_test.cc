@@ -73,9 +73,9 @@ void for_each_mutant(const Json& original, const std::function<void(const Mutant
 }
 
 TEST(Mutation, WithoutNewDigestsNothingPasses) {
-  for (const char* name :
-       {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped", "implied_start_is_goal",
-        "refuted_implied_singular", "geodesic_still", "lengths_still", "tight_position", "refuted_by_a_deviation"}) {
+  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped",
+                           "implied_start_is_goal", "refuted_implied_singular", "geodesic_still", "lengths_still",
+                           "lengths_inner_still", "tight_position", "refuted_by_a_deviation"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
       EXPECT_EQ(check_certificate(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
@@ -171,6 +171,11 @@ TEST(Mutation, OfLawsOfPosesOnlyTrueStatementsPass) {
   const Rule minus_zero = {"-0 is 0.", std::regex("/path/waypoints/./position/.: changes its sign"), true};
   expect_accepted_mutants("geodesic_still", "/path", {minus_zero});
   expect_accepted_mutants("lengths_still", "/path", {minus_zero});
+  expect_accepted_mutants(
+      "lengths_inner_still", "/path",
+      {minus_zero,
+       {"-0 is 0.", std::regex("/path/pose_tubes/0/inner/0/position/.: changes its sign"), true},
+       {"Where nothing moves, no inner pose is needed.", std::regex("/path/pose_tubes/0: loses inner")}});
 }
 
 TEST(Mutation, OfTolerancesOnlyTrueStatementsPass) {

@@ -120,6 +120,25 @@ class Audit(InFolder):
             self.assertAlmostEqual(phi, typed[0], places=13)
             self.assertAlmostEqual(theta, typed[1], places=13)
 
+    def test_a_long_step_of_cable_lengths_is_proved_along_inner_poses(self):
+        # Between the two rows the platform turns by 40 degrees, and bends far from any straight line.
+        table = """px[mm],py[mm],pz[mm],qx,qy,qz,qw,l1[mm],l2[mm],l3[mm],l4[mm],l5[mm],l6[mm]
+0,0,350,0.371820859,-0.613472909,0.203697328,0.666263940,308.4463,515.9140,427.9979,333.5792,539.3413,333.3060
+,,,,,,,414.1204,483.4030,382.5360,352.7146,504.7667,294.1618
+"""
+        summary = self.audit(os.path.join(AUDITS, "robot1-cable-lengths.yaml"), self.write("long.csv", table))
+        self.assertEqual(summary["verdict"], "proved")
+        certificate = self.certificate()
+        inner = certificate["path"]["pose_tubes"][0]["inner"]
+        self.assertGreater(len(inner), 2)
+        places = [fraction(pose["s"]) for pose in inner]
+        self.assertEqual(places, sorted(places))
+        self.assertEqual(run(CHECK, self.path("out", "certificate.json")).returncode, 0)
+        # Audited again from its certificate it has the same path.
+        again = self.audit(os.path.join(AUDITS, "robot1-cable-lengths.yaml"), self.path("out", "certificate.json"), out="again")
+        self.assertEqual(again["verdict"], "proved")
+        self.assertEqual(self.certificate("again")["path"], certificate["path"])
+
     def test_one_pose_is_a_platform_that_stays(self):
         summary = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n"))
         self.assertEqual((summary["verdict"], summary["segments"]), ("proved", 1))
