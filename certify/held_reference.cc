@@ -18,7 +18,7 @@ constexpr double kLeastTube = 0x1p-36;
 constexpr double kRoom = 6;
 constexpr double kRoomAtEnds = 3;  ///< and times the distance of a waypoint's pose from the motion
 
-/// Half-open on the way: from `begin` to `end`, either of which may be the larger.
+/// Follows the motion along a segment, piece by piece.
 class ReferenceFinder {
  public:
   ReferenceFinder(const ProofModel<Interval>& model, const Model<double>& approx, const Segment& segment)
@@ -37,7 +37,7 @@ class ReferenceFinder {
     PoseTube tube;
   };
 
-  /// Pieces from s = 0 (or from 1, backwards), until they meet the other end, or `until`.
+  /// Pieces from s = 0 up to `until`, or from 1 down to it; fewer where none that is short enough is proved.
   std::vector<Piece> follow(bool forward, double until) {
     std::vector<Piece> pieces;
     const auto start = at_waypoint(forward ? 0 : 1);
@@ -53,11 +53,9 @@ class ReferenceFinder {
         continue;
       }
       std::optional<Piece> piece;
-      if (auto next = point(at, s)) {
-        if (s == 1 || s == 0) {
-          if (!finish) return pieces;
-          next->x = finish->x;
-        }
+      const bool is_finish = s == 1 || s == 0;
+      if (auto next = point(at, s); next && !(is_finish && !finish)) {
+        if (is_finish) next->x = finish->x;
         piece = forward ? proved(at, *next) : proved(*next, at);
         if (piece) {
           at = *next;
@@ -67,7 +65,7 @@ class ReferenceFinder {
       if (!piece) {
         ++depth;
       } else if (depth > 0 && std::fmod(at.s, 2 * step) == 0) {
-        --depth;
+        --depth;  // so that pieces are boxes of bisection
       }
     }
     return pieces;
