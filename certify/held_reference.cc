@@ -10,10 +10,11 @@
 namespace taut {
 namespace {
 
-constexpr int kMostPieces = 1024;  ///< of a segment, either way
+constexpr int kMostPieces =
+    4096;  ///< of a segment, either way: next to a singular pose all along, thousands are needed
 constexpr int kMostHalvings = 40;  ///< of [0, 1]
-/// Of a tube, in units of the robot's size: what rounding may need.
-constexpr double kLeastTube = 0x1p-36;
+/// Of a tube, in units of the robot's size: what rounding may need, and Newton's method next to a singular pose.
+constexpr std::array<double, 3> kLeastTubes = {0x1p-36, 0x1p-30, 0x1p-24};
 /// Of a tube, times what the motion bends away from a piece: a box as long as the piece sees two or three times that.
 constexpr double kRoom = 6;
 constexpr double kRoomAtEnds = 3;  ///< and times the distance of a waypoint's pose from the motion
@@ -71,7 +72,7 @@ class ReferenceFinder {
     return pieces;
   }
 
-  [[nodiscard]] PoseTube least_tube() const { return {unit_ * kLeastTube, kLeastTube}; }
+  [[nodiscard]] PoseTube least_tube() const { return tube(kLeastTubes.front()); }
   [[nodiscard]] PoseTube tube(double size) const { return {unit_ * size, size}; }
 
  private:
@@ -133,9 +134,12 @@ class ReferenceFinder {
     const double bend = distance(chord, *pose);
     const double size = kRoom * std::max(0.0, bend - away) + kRoomAtEnds * away;
     if (!std::isfinite(size)) return std::nullopt;
-    const Piece piece{first, last, tube(std::max(size, kLeastTube))};
-    if (!is_proved(piece)) return std::nullopt;
-    return piece;
+    for (const double least : kLeastTubes) {
+      const Piece piece{first, last, tube(std::max(size, least))};
+      if (is_proved(piece)) return piece;
+      if (size > least) break;
+    }
+    return std::nullopt;
   }
 
   /// Whether one pose in the tube is proved all along the piece.
