@@ -41,10 +41,8 @@ class ReferenceFinder {
   /// Pieces from s = 0 up to `until`, or from 1 down to it; fewer where none that is short enough is proved.
   std::vector<Piece> follow(bool forward, double until) {
     std::vector<Piece> pieces;
-    const auto start = at_waypoint(forward ? 0 : 1);
-    const auto finish = at_waypoint(forward ? 1 : 0);
-    if (!start) return pieces;
-    Point at = *start;
+    Point at = at_waypoint(forward ? 0 : 1);
+    const Point finish = at_waypoint(forward ? 1 : 0);
     int depth = 0;
     while (at.s != until && depth <= kMostHalvings && pieces.size() < kMostPieces) {
       const double step = std::ldexp(forward ? 1.0 : -1.0, -depth);
@@ -54,9 +52,8 @@ class ReferenceFinder {
         continue;
       }
       std::optional<Piece> piece;
-      const bool is_finish = s == 1 || s == 0;
-      if (auto next = point(at, s); next && !(is_finish && !finish)) {
-        if (is_finish) next->x = finish->x;
+      if (auto next = point(at, s)) {
+        if (s == finish.s) next->x = finish.x;
         piece = forward ? proved(at, *next) : proved(*next, at);
         if (piece) {
           at = *next;
@@ -90,13 +87,13 @@ class ReferenceFinder {
     return std::hypot(std::hypot(x[3], x[4]), std::hypot(x[5], x[6]));
   }
 
-  std::optional<Point> at_waypoint(std::size_t k) const {
+  /// Its pose is the one next to the reference that has the lengths, where Newton's method finds that.
+  [[nodiscard]] Point at_waypoint(std::size_t k) const {
     Point result;
     result.s = static_cast<double>(k);
     std::copy_n(segment_.control[k]->x.begin(), result.x.size(), result.x.begin());
-    const auto pose = pose_of_lengths(approx_, lengths(result.s), pose_at(result.x));
-    if (!pose) return std::nullopt;
-    result.pose = *pose;
+    result.pose = pose_at(result.x);
+    result.pose = pose_of_lengths(approx_, lengths(result.s), result.pose).value_or(result.pose);
     return result;
   }
 
