@@ -88,6 +88,15 @@ bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
   return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->held_by_lengths);
 }
 
+/// Whether the undisturbed margins are positive on all of T.
+template <class I>
+bool is_within_limits(const Model<I>& model, const BoxEnclosure<I>& box) {
+  MarginList<I> margins;
+  length_margins(model, box, margins);
+  tension_margins(model, box, margins);
+  return std::all_of(margins.begin(), margins.end(), [](const auto& x) { return certainly_positive(x.value.range); });
+}
+
 }  // namespace
 
 template <class I>
@@ -100,7 +109,7 @@ MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segmen
 }
 
 template <class I>
-BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
+BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, int parts) {
   using Point = typename Scalars<I>::Point;
   using Upper = UpperOf<I>;
   const Model<I>& model = problem.model;
@@ -225,9 +234,10 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     result.variation[i].tighten(offset);
   }
   result.regular = true;
-  if (problem.tolerance) {
+  if (problem.tolerance && is_within_limits(model, result)) {
     const bool held = is_held_by_lengths(problem, segment);
-    result.disturbance = disturbance<I>({model, motion, geometry, result.length, c, q, held}, *problem.tolerance);
+    result.disturbance =
+        disturbance<I>({model, motion, geometry, result.length, c, q, held}, *problem.tolerance, parts);
   }
   return result;
 }
@@ -236,8 +246,8 @@ template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<Interval>
                                                       const EnclosedBox<Interval>&, const Interval&);
 template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInterval>&, const Segment&,
                                                         const EnclosedBox<MpInterval>&, const MpInterval&);
-template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
-template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);
+template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&, int);
+template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&, int);
 
 // ---- Margins ---------------------------------------------------------------------------------------------------------
 
@@ -284,11 +294,12 @@ double half_range(const Model<I>& model, MarginId id) {
 }
 
 template <class I>
-BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance) {
+BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
+                 int parts) {
   static constexpr std::array<MarginSource<I>, 2> kSources = {length_margins<I>, tension_margins<I>};
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
-  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box);
+  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, parts);
   BoxVerdict verdict;
   switch (enclosure.motion) {
     case Status::kAcross: verdict.kind = Kind::kAcross; return verdict;
@@ -307,6 +318,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   bool too_close = false;
   double lowest = std::numeric_limits<double>::infinity();
   MarginId refuted_id;
+  bool all_positive_undisturbed = true;
   bool within_tolerance = !problem.tolerance || enclosure.disturbance;
   for (const auto& [id, value, disturbed] : margins) {
     const double bound = lower_bound(disturbed);
@@ -315,6 +327,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     if (!(bound > 0 && bound > required)) all_positive = false;
     if (clearance > 0 && upper_bound(value.at_mid) <= required) too_close = true;
     if (!certainly_positive(value.at_mid)) midpoint_positive = false;
+    if (!certainly_positive(value.range)) all_positive_undisturbed = false;
     if (problem.tolerance && lower_bound(value.at_mid) + (bound - lower_bound(value.range)) <= 0) {
       within_tolerance = false;  // a smaller box would hardly do
     }
@@ -356,7 +369,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   } else if (!midpoint_positive) {
     verdict.kind = Kind::kPrecision;
   } else {
-    verdict.kind = within_tolerance ? Kind::kSplit : Kind::kTolerance;
+    verdict.kind = within_tolerance || !all_positive_undisturbed ? Kind::kSplit : Kind::kTolerance;
   }
   return verdict;
 }
@@ -364,16 +377,17 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
 }  // namespace
 
 BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance) {
+                     double clearance, int parts) {
   BoxVerdict verdict;
-  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance); })) verdict.kind = BoxVerdict::Kind::kFault;
+  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, parts); }))
+    verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
 
 BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance) {
+                     double clearance, int parts) {
   Faults<MpInterval>::clear();
-  BoxVerdict verdict = judge(problem, segment, box, clearance);
+  BoxVerdict verdict = judge(problem, segment, box, clearance, parts);
   if (Faults<MpInterval>::raised()) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }

@@ -56,14 +56,17 @@ struct BoxEnclosure {
   std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
   std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]; only where regular
   I offset;                                    ///< contains t − m for all t in T
-  /// What deviations may change: only where the problem has tolerances, and for every deviation the commanded pose is proved to
-  /// exist, and J to be non-singular. All of the above is about the undisturbed machine.
+  /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of T, and for
+  /// every deviation the commanded pose is proved to exist, and J to be non-singular. All of the above is about the undisturbed
+  /// machine.
   std::optional<Disturbance<I>> disturbance;
 };
 
 /// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
+/// @param parts  of deviations (tolerance.h)
 template <class I>
-[[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box);
+[[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
+                                          int parts = 1);
 
 /// Several margins of one box; positive throughout if the claim holds on it.
 template <class I>
@@ -122,9 +125,9 @@ struct BoxVerdict {
 /// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins have to
 /// exceed c times half the range between the limits (in floating point; what is proved remains that they are positive).
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0);
+                                   double clearance = 0, int parts = 1);
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0);
+                                   double clearance = 0, int parts = 1);
 
 /// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
 [[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s);
@@ -133,7 +136,8 @@ extern template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<In
                                                              const EnclosedBox<Interval>&, const Interval&);
 extern template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInterval>&, const Segment&,
                                                                const EnclosedBox<MpInterval>&, const MpInterval&);
-extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&);
-extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&);
+extern template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&, int);
+extern template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&,
+                                                     int);
 
 }  // namespace taut

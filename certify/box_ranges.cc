@@ -20,8 +20,9 @@ double excess(const Centered<I>& x, double radius) {
 }
 
 template <class I>
-std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
-  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box);
+std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
+                                 int parts) {
+  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, parts);
   const bool is_known = enclosure.motion == MotionEnclosure<I>::Status::kKnown && enclosure.regular;
   if (!is_known || (problem.tolerance && !enclosure.disturbance)) return std::nullopt;
   const Model<I>& model = problem.model;
@@ -54,6 +55,29 @@ std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& se
 /// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take
 /// for ever.
 constexpr int kMostFailures = 2;
+template <class I>
+bool is_within_limits(const Model<I>& model, const BoxRanges& ranges) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto is_between = [](const Range& x, const I& lower, const I& upper) {
+      return upper_bound(lower) < x.lower && x.upper < lower_bound(upper);
+    };
+    if (!is_between(ranges.tension[i], model.tension_lower[i], model.tension_upper[i]) ||
+        !is_between(ranges.length[i], model.length_lower[i], model.length_upper[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// With as many parts of deviations as it takes to show what was proved.
+template <class I>
+std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
+  std::optional<BoxRanges> ranges = enclose(problem, segment, box, 1);
+  if (!problem.tolerance || (ranges && is_within_limits(problem.model, *ranges))) return ranges;
+  if (std::optional<BoxRanges> tighter = enclose(problem, segment, box, kMostParts)) return tighter;
+  return ranges;
+}
+
 
 /// Appends pieces that cover the box; nothing, and false, where that can't be had.
 template <class I>

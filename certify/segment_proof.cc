@@ -18,6 +18,9 @@ constexpr std::size_t kDeviationRung = 0;
 
 constexpr mpfr_prec_t kFirstRung = 128;
 
+/// Where tolerances are too large for one part of a deviation's way, it is taken in so many more (kMostParts at most).
+constexpr int kMoreParts = 4;
+
 std::vector<mpfr_prec_t> ladder(mpfr_prec_t max_bits) {
   std::vector<mpfr_prec_t> bits = {kFirstRung};
   while (bits.back() < max_bits) bits.push_back(std::min(2 * bits.back(), max_bits));
@@ -127,17 +130,21 @@ std::string told(Undecided reason, const std::string& place) { return told(reaso
 
 }  // namespace
 
-BoxVerdict Prover::judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance) const {
-  if (rung == 0) return judge_box(fast_, segment, box, clearance);
+BoxVerdict Prover::judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
+                            int parts) const {
+  if (rung == 0) return judge_box(fast_, segment, box, clearance, parts);
   const PrecisionScope precision(bits_[rung - 1]);
-  return judge_box(fine(rung - 1), segment, box, clearance);
+  return judge_box(fine(rung - 1), segment, box, clearance, parts);
 }
 
 BoxVerdict Prover::judge(const Segment& segment, const DyadicBox& box) const {
   BoxVerdict verdict;
-  for (std::size_t rung = 0; rung <= fine_.size(); ++rung) {
-    verdict = judge_at(rung, segment, box, 0);
-    if (verdict.kind == BoxVerdict::Kind::kProved || verdict.kind == BoxVerdict::Kind::kRefuted) break;
+  for (const int parts : {1, kMostParts}) {
+    for (std::size_t rung = 0; rung <= fine_.size(); ++rung) {
+      verdict = judge_at(rung, segment, box, 0, parts);
+      if (verdict.kind == BoxVerdict::Kind::kProved || verdict.kind == BoxVerdict::Kind::kRefuted) return verdict;
+    }
+    if (!problem_.tolerances) break;
   }
   return verdict;
 }
@@ -156,6 +163,10 @@ struct Prover::Walk {
     stack.pop_back();
     return task;
   }
+  void refine(Task task) {
+    task.parts *= kMoreParts;
+    stack.push_back(std::move(task));
+  }
   /// The halves, the left one first.
   void split(const Task& task, std::size_t rung) {
     stack.push_back({task.box.right(), rung, task.is_hopeless});
@@ -170,6 +181,7 @@ struct Prover::Step {
     kRefuted,  ///< by `witness`
     kSplit,    ///< as it is
     kClimb,    ///< the same box on the next rung
+    kRefine,   ///< the same box again, with deviations in more parts
     kGiveUp,   ///< for this box, for `reason`
     kStop,     ///< for all the rest, for `reason`
   };
@@ -240,7 +252,7 @@ Prover::Step Prover::settle(Walk& walk, const Task& task, MarginId margin) const
           std::clamp<boost::multiprecision::cpp_int>(point.k, task.box.k << finer, ((task.box.k + 1) << finer) - 1);
       ++walk.judged;
       ++walk.multiprecision;
-      const BoxVerdict verdict = judge_at(rung, segment, point, walk.clearance);
+      const BoxVerdict verdict = judge_at(rung, segment, point, walk.clearance, task.parts);
       if (verdict.kind == BoxVerdict::Kind::kRefuted) {
         return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, point}};
       }
@@ -288,7 +300,7 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   using Kind = BoxVerdict::Kind;
   constexpr int kHastyMotionDepth = 5;      // where all means failed once, they are not tried again
   constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
-  const auto& [box, rung, is_hopeless] = task;
+  const auto& [box, rung, is_hopeless, parts] = task;
   if (walk.judged >= options_.max_boxes || walk.multiprecision >= options_.max_multiprecision_boxes) {
     return {Step::Kind::kStop, {}, {}, told(Undecided::kBoxBudget)};
   }
@@ -297,10 +309,11 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   }
   ++walk.judged;
   if (rung > 0) ++walk.multiprecision;
-  const BoxVerdict verdict = judge_at(rung, walk.segment, box, walk.clearance);
+  const BoxVerdict verdict = judge_at(rung, walk.segment, box, walk.clearance, parts);
   const auto give_up = [&](std::string reason) { return Step{Step::Kind::kGiveUp, verdict, {}, std::move(reason)}; };
   const Step split{Step::Kind::kSplit, verdict};
   const Step climb{Step::Kind::kClimb, verdict};
+  const Step refine{Step::Kind::kRefine, verdict};
   const bool higher_rung = rung < fine_.size() && !is_hopeless;
   switch (verdict.kind) {
     case Kind::kProved: return {Step::Kind::kProved, verdict};
@@ -311,6 +324,7 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up(told(Undecided::kDepth, describe(verdict.worst)));
     case Kind::kTolerance:
+      if (parts == 1) return refine;
       if (box.depth < options_.tolerance_depth) return split;
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
       if (walk.deviation_found && box.upper() != Dyadic{1, 0}) return give_up(tolerances_too_large(verdict.worst));
@@ -318,6 +332,7 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
         walk.deviation_found = true;
         return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
       }
+      if (parts < kMostParts) return refine;
       return give_up(tolerances_too_large(verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
@@ -371,6 +386,7 @@ SegmentProof Prover::prove(const Segment& segment, double clearance) const {
         return proof;
       case Step::Kind::kSplit: walk.split(task, task.rung); break;
       case Step::Kind::kClimb: walk.stack.push_back({task.box, task.rung + 1}); break;
+      case Step::Kind::kRefine: walk.refine(task); break;
       case Step::Kind::kGiveUp:
       case Step::Kind::kStop:
         proof.open_box = task.box;
@@ -434,6 +450,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
         break;
       case Step::Kind::kSplit: walk.split(task, task.rung); break;
       case Step::Kind::kClimb: walk.stack.push_back({task.box, task.rung + 1, task.is_hopeless}); break;
+      case Step::Kind::kRefine: walk.refine(task); break;
       case Step::Kind::kGiveUp:
         // There may be violations next to what can't be decided, but no ladder will help.
         task.is_hopeless = true;

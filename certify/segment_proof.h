@@ -142,11 +142,12 @@ class Prover {
     DyadicBox box;
     std::size_t rung = 0;      ///< 0: binary64
     bool is_hopeless = false;  ///< not worth the ladder
+    int parts = 1;             ///< of the ways of deviations (tolerance.h)
   };
   struct Walk;
   struct Step;
-  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box,
-                                    double clearance) const;
+  [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
+                                    int parts) const;
   [[nodiscard]] Step examine(Walk& walk, const Task& task) const;
   [[nodiscard]] Step settle(Walk& walk, const Task& task, MarginId margin) const;
   [[nodiscard]] bool is_singular_between_ends(const Segment& segment, const DyadicBox& box) const;

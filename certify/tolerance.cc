@@ -1,10 +1,23 @@
 #include "certify/tolerance.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace taut {
+
+/// Not an enclosing scalar: what is computed with it is a guess.
+template <>
+struct Scalars<double> {
+  using Upper = double;
+  static double symmetric(double) { return 0; }
+  static double root(double x) { return std::sqrt(x); }
+};
+
 namespace {
+
+double magnitude(double x) { return std::abs(x); }
+double approx(const Interval& x) { return midpoint_approx(x); }
+double approx(const MpInterval& x) { return 0.5 * x.lower().to_double() + 0.5 * x.upper().to_double(); }
 
 /// For a tolerance >= 0.
 template <class I>
@@ -54,26 +67,36 @@ Vector3<I> rotated_range(const Matrix3<Centered<I>>& r, const Vector3<I>& x) {
 }
 
 /// Bounds of how far a deviation moves what it does, or of the rates at which it does.
-template <class I>
+template <class Upper>
 struct Change {
-  std::array<Bounds3<I>, kCables> d, reach, arm;
-  Bounds3<I> load_point;
-  Square<UpperOf<I>> s;  ///< |S − I|
+  std::array<std::array<Upper, 3>, kCables> d, reach, arm;
+  std::array<Upper, 3> load_point;
+  Square<Upper> s;  ///< |S − I|
 
-  /// Calls visit(ours, theirs) for each number.
-  template <class Visit>
-  void pair_with(const Change& other, Visit visit) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < kCables; ++i) {
-        visit(d[i][k], other.d[i][k]);
-        visit(reach[i][k], other.reach[i][k]);
-        visit(arm[i][k], other.arm[i][k]);
-      }
-      visit(load_point[k], other.load_point[k]);
-    }
+  /// Sets each number to function(a's, b's).
+  template <class A, class B, class F>
+  void set(const Change<A>& a, const Change<B>& b, F function) {
     for (std::size_t i = 0; i < kCables; ++i) {
-      for (std::size_t k = 0; k < kCables; ++k) visit(s[i][k], other.s[i][k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        d[i][k] = function(a.d[i][k], b.d[i][k]);
+        reach[i][k] = function(a.reach[i][k], b.reach[i][k]);
+        arm[i][k] = function(a.arm[i][k], b.arm[i][k]);
+      }
+      for (std::size_t k = 0; k < kCables; ++k) s[i][k] = function(a.s[i][k], b.s[i][k]);
     }
+    for (std::size_t k = 0; k < 3; ++k) load_point[k] = function(a.load_point[k], b.load_point[k]);
+  }
+
+  /// Whether each number is positive, and not less than the other's.
+  [[nodiscard]] bool covers(const Change& other) const {
+    bool result = true;
+    const Upper zero(0.0);
+    Change unused;
+    unused.set(*this, other, [&](const Upper& ours, const Upper& theirs) {
+      if (!(zero < ours) || !(theirs < ours)) result = false;  // also a NaN
+      return ours;
+    });
+    return result;
   }
 };
 
@@ -83,7 +106,7 @@ struct Origin {
   using Upper = UpperOf<I>;
   std::array<Vector3<I>, kCables> d, reach, arm;
   Vector3<I> load_point;                                  ///< R p_m
-  std::array<I, kCables> length;                          ///< |d_i| of every deviation
+  std::array<I, kCables> length;                          ///< |d_i|
   std::array<std::array<I, 6>, kCables> y;                ///< Y
   std::array<std::array<Upper, 6>, kCables> y_magnitude;  ///< |Y|
   std::array<Upper, kCables> reach_size, arm_size;        ///< |b_i|, |b_i − p_m| of every deviation
@@ -106,8 +129,7 @@ struct OnAll {
 };
 
 template <class I>
-Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance,
-                      const std::array<UpperOf<I>, kCables>& length_change) {
+Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance) {
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
   Origin<I> origin;
@@ -124,7 +146,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
     origin.d[i] = ranges(box.geometry.p_AB_W[i]);
     origin.reach[i] = rotated_range(box.motion.r_WP, model.p_PB[i]);
     origin.arm[i] = rotated_range(box.motion.r_WP, model.p_MB[i]);
-    origin.length[i] = box.length[i].range + Scalars<I>::symmetric(length_change[i]);
+    origin.length[i] = box.length[i].range;
     origin.reach_size[i] = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
     origin.arm_size[i] = norm_above(model.p_MB[i]) + tolerance.platform_anchor[i] + tolerance.load_point;
     origin.pull[i] = Upper(0.0);
@@ -140,7 +162,8 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
 
 /// X for a guess, as far as (i) needs it; and bounds of all rates on it.
 template <class I>
-Change<I> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const Change<I>& guess, OnAll<I>& x) {
+Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const Change<UpperOf<I>>& guess,
+                         OnAll<I>& x) {
   using Upper = UpperOf<I>;
   const std::array<std::array<Upper, 6>, kCables> y_error = upper_product(guess.s, origin.y_magnitude);
   Upper spin(0.0);  // >= |Ω_c|
@@ -156,7 +179,7 @@ Change<I> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, con
   x.load_point = widened<I>(origin.load_point, guess.load_point);
 
   const Upper turn = tolerance.orientation + tolerance.orientation * spin;  // ω, and Ω_c turned by T
-  Change<I> rate;
+  Change<Upper> rate;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Upper reach_rate = turn * origin.reach_size[i] + tolerance.platform_anchor[i];
     rate.reach[i].fill(reach_rate);
@@ -195,33 +218,99 @@ Change<I> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, con
   return rate;
 }
 
-/// Whether no deviation leads out of X, which is found by guessing.
+/// The rates at τ = 0 and the middle of the box, about.
 template <class I>
-bool enclose_states(const Origin<I>& origin, const ToleranceModel<I>& tolerance, OnAll<I>& x) {
+Change<double> approx_rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance) {
+  const auto to_double = [](const UpperOf<I>& x) { return Scalars<I>::to_double(x); };
+  const auto vector = [](const Vector3<I>& x) { return Vector3<double>(approx(x(0)), approx(x(1)), approx(x(2))); };
+  Origin<double> here;
+  ToleranceModel<double> by;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    here.d[i] = vector(origin.d[i]);
+    here.reach[i] = vector(origin.reach[i]);
+    here.arm[i] = vector(origin.arm[i]);
+    for (std::size_t j = 0; j < 6; ++j) {
+      here.y[i][j] = approx(origin.y[i][j]);
+      here.y_magnitude[i][j] = to_double(origin.y_magnitude[i][j]);
+    }
+    here.reach_size[i] = to_double(origin.reach_size[i]);
+    here.arm_size[i] = to_double(origin.arm_size[i]);
+    here.pull[i] = to_double(origin.pull[i]);
+    by.base_anchor[i] = to_double(tolerance.base_anchor[i]);
+    by.platform_anchor[i] = to_double(tolerance.platform_anchor[i]);
+  }
+  here.load_point = vector(origin.load_point);
+  here.load_point_size = to_double(origin.load_point_size);
+  by.load_point = to_double(tolerance.load_point);
+  by.position = to_double(tolerance.position);
+  by.orientation = to_double(tolerance.orientation);
+  OnAll<double> unused;
+  Change<double> rate = rates(here, by, Change<double>{}, unused);
+  // What is next to 0 here need not be elsewhere in the box.
+  const auto level = [](auto& row) {
+    constexpr double kShare = 0.5;
+    const double least = kShare * *std::ranges::max_element(row);
+    for (double& x : row) x = std::max(x, least);
+  };
+  for (std::size_t i = 0; i < kCables; ++i) {
+    level(rate.d[i]);
+    level(rate.reach[i]);
+    level(rate.arm[i]);
+    level(rate.s[i]);
+  }
+  return rate;
+}
+
+/// The states of all deviations, τ from 0 to a part of the whole: see theory.md 7, "Where the states are".
+template <class I>
+class States {
+ public:
   using Upper = UpperOf<I>;
-  constexpr int kMostGuesses = 12;
-  constexpr double kRoom = 1.25;  // over what moved on the last X
-  constexpr double kHopeless = 8;
-  constexpr double kLeast = 0x1p-200;  // so that every guess is positive
-  const Upper zero(0.0);
-  Change<I> guess;
-  guess.pair_with(guess, [&](Upper& ours, const Upper&) { ours = zero; });
-  for (int k = 0; k < kMostGuesses; ++k) {
-    Change<I> rate = rates(origin, tolerance, guess, x);
-    bool holds = true;
-    guess.pair_with(rate, [&](Upper& ours, const Upper& theirs) {
-      if (!(zero < ours) || ours < theirs || !(theirs < Upper(std::numeric_limits<double>::max()))) holds = false;
-    });
-    if (holds) return true;
-    for (const auto& row : rate.s) {
-      for (const Upper& entry : row) {
-        if (!(entry < Upper(kHopeless))) return false;  // also a NaN
+
+  /// At τ = 0.
+  States(const Origin<I>& origin, const ToleranceModel<I>& tolerance)
+      : origin_(origin), tolerance_(tolerance), rate_(upper(approx_rates(origin, tolerance))) {}
+
+  /// Goes on by `share` of the whole, a power of two. @returns false where no guess holds.
+  [[nodiscard]] bool advance(double share, OnAll<I>& x) {
+    constexpr int kMostGuesses = 12;
+    constexpr double kRoom = 1.25;  // over the rates on the last X
+    constexpr double kHopeless = 8;
+    constexpr double kLeast = 0x1p-200;  // so that every guess is positive
+    for (int k = 0; k < kMostGuesses; ++k) {
+      Change<Upper> guess;
+      guess.set(reached_, rate_,
+                [&](const Upper& from, const Upper& by) { return from + Upper(room_ * share) * by + Upper(kLeast); });
+      rate_ = rates(origin_, tolerance_, guess, x);
+      room_ = kRoom;
+      Change<Upper> moved;
+      moved.set(reached_, rate_, [&](const Upper& from, const Upper& by) { return from + Upper(share) * by; });
+      if (guess.covers(moved)) {
+        reached_ = moved;
+        return true;
+      }
+      for (const auto& row : moved.s) {
+        for (const Upper& entry : row) {
+          if (!(entry < Upper(kHopeless))) return false;  // also a NaN
+        }
       }
     }
-    guess.pair_with(rate, [&](Upper& ours, const Upper& theirs) { ours = Upper(kRoom) * theirs + Upper(kLeast); });
+    return false;
   }
-  return false;
-}
+
+ private:
+  static Change<Upper> upper(const Change<double>& x) {
+    Change<Upper> result;
+    result.set(x, x, [](double ours, double) { return Upper(ours); });
+    return result;
+  }
+
+  const Origin<I>& origin_;
+  const ToleranceModel<I>& tolerance_;
+  Change<Upper> reached_{};
+  Change<Upper> rate_;  ///< the last
+  double room_ = 2;     ///< over that, for the next guess: much over rates at one point
+};
 
 template <class I>
 void set_loads(const Model<I>& model, const Vector6<I>& wrench, OnAll<I>& x) {
@@ -294,6 +383,37 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   return bound;
 }
 
+/// (t) for f0_r − v_rr and f0_r + v_rr of each cable. Void where v_rr may be 0.
+template <class I>
+std::optional<std::array<std::array<UpperOf<I>, 2>, kCables>> tension_rates(const Origin<I>& origin,
+                                                                            const ToleranceModel<I>& tolerance,
+                                                                            const OnAll<I>& x) {
+  std::array<std::array<UpperOf<I>, 2>, kCables> result;
+  for (std::size_t r = 0; r < kCables; ++r) {
+    I square(0.0);
+    for (const I& entry : x.root[r]) square = square + sqr(entry);
+    if (!certainly_positive(square)) return std::nullopt;
+    const I spread = sqrt(square);  // V_r
+    const I inverse = reciprocal(spread);
+    std::array<I, kCables> low;   // κ_ri of λ − V
+    std::array<I, kCables> high;  // of λ + V
+    for (std::size_t i = 0; i < kCables; ++i) {
+      I share = spread;  // Z_r·Z_i / V_r
+      if (i != r) {
+        share = I(0.0);
+        for (std::size_t k = 0; k < 6; ++k) share = share + x.root[r][k] * x.root[i][k];
+        share = share * inverse;
+      }
+      low[i] = x.density[i] - share;
+      high[i] = x.density[i] + share;
+    }
+    std::array<Vector3<I>, kCables> moved;
+    for (std::size_t i = 0; i < kCables; ++i) moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
+    result[r] = {tension_rate(origin, tolerance, x, r, low, moved), tension_rate(origin, tolerance, x, r, high, moved)};
+  }
+  return result;
+}
+
 }  // namespace
 
 template <class I>
@@ -316,7 +436,7 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
 }
 
 template <class I>
-std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance) {
+std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance, int parts) {
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
   Disturbance<I> result;
@@ -327,37 +447,26 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
     result.length[i] = tolerance.position + tolerance.orientation * reach + held;
     if (!certainly_positive(I(box.length[i].range + Scalars<I>::symmetric(result.length[i])))) return std::nullopt;
   }
-  const Origin<I> origin = make_origin(box, tolerance, result.length);
+  Origin<I> origin = make_origin(box, tolerance);
+  States<I> states(origin, tolerance);
+  const double share = 1.0 / parts;
   OnAll<I> x;
-  if (!enclose_states(origin, tolerance, x)) return std::nullopt;
-  Vector6<I> wrench;
-  for (int k = 0; k < 6; ++k) {
-    wrench(k) = model.wrench(k) + Scalars<I>::symmetric(above(tolerance.wrench(k)));
-  }
-  set_loads(model, wrench, x);
-
-  for (std::size_t r = 0; r < kCables; ++r) {
-    I square(0.0);
-    for (const I& entry : x.root[r]) square = square + sqr(entry);
-    if (!certainly_positive(square)) return std::nullopt;
-    const I spread = sqrt(square);  // V_r
-    const I inverse = reciprocal(spread);
-    std::array<I, kCables> low;   // κ_ri of λ − V
-    std::array<I, kCables> high;  // of λ + V
+  for (int part = 1; part <= parts; ++part) {
+    if (!states.advance(share, x)) return std::nullopt;
+    const Upper until(share * part);
     for (std::size_t i = 0; i < kCables; ++i) {
-      I share = spread;  // Z_r·Z_i / V_r
-      if (i != r) {
-        share = I(0.0);
-        for (std::size_t k = 0; k < 6; ++k) share = share + x.root[r][k] * x.root[i][k];
-        share = share * inverse;
-      }
-      low[i] = x.density[i] - share;
-      high[i] = x.density[i] + share;
+      origin.length[i] = box.length[i].range + Scalars<I>::symmetric(until * result.length[i]);
     }
-    std::array<Vector3<I>, kCables> moved;
-    for (std::size_t i = 0; i < kCables; ++i) moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
-    result.tension[r] = {tension_rate(origin, tolerance, x, r, low, moved),
-                         tension_rate(origin, tolerance, x, r, high, moved)};
+    Vector6<I> wrench;
+    for (int k = 0; k < 6; ++k) {
+      wrench(k) = model.wrench(k) + Scalars<I>::symmetric(until * above(tolerance.wrench(k)));
+    }
+    set_loads(model, wrench, x);
+    const auto rates = tension_rates(origin, tolerance, x);
+    if (!rates) return std::nullopt;
+    for (std::size_t r = 0; r < kCables; ++r) {
+      for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * (*rates)[r][side];
+    }
   }
   return result;
 }
@@ -365,8 +474,8 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
 template std::optional<ToleranceModel<Interval>> make_tolerance_model(const Problem&);
 template std::optional<ToleranceModel<MpInterval>> make_tolerance_model(const Problem&);
 template std::optional<Disturbance<Interval>> disturbance(const UndisturbedBox<Interval>&,
-                                                          const ToleranceModel<Interval>&);
+                                                          const ToleranceModel<Interval>&, int);
 template std::optional<Disturbance<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
-                                                            const ToleranceModel<MpInterval>&);
+                                                            const ToleranceModel<MpInterval>&, int);
 
 }  // namespace taut

@@ -1,14 +1,15 @@
 // What deviations within the tolerances can do to a box: how far lengths and tensions change.
 //
 // A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking error. It is
-// scaled by τ from 0 to 1; where the machine is held by lengths, its commanded pose follows. Bounds of how far things move are
-// guessed, which makes a set X of states; if everything that holds on X moves no farther than was guessed, no deviation leads
-// out of X. Changes are kept as |d_i' − d_i|, |arm_i' − arm_i| … by coordinates, and as |S − I| <= Q of S = D'^-1 D:
+// scaled by τ from 0 to 1; where the machine is held by lengths, its commanded pose follows. The way is taken in n parts. Up to
+// the end of one, bounds of how far things move are guessed, which makes a set X of states; if everything that moves at rates as
+// on X gets no farther than was guessed, no deviation leads out of X. Changes are kept as |d_i' − d_i|, |arm_i' − arm_i| … by
+// coordinates, and as |S − I| <= Q of S = D'^-1 D, where
 //   |S'| <= B (I + Q),   B_ri >= |y_r·D_i'| on X.                                                                       (i)
 // That proves D non-singular, and that the commanded pose exists. Then the rates of tensions are bounded, Euclidean norms:
 //   |F_r'| <= Σ_i (δ_a,i |A_ri + c_ri d_i| + δ_b,i (|B_ri − c_ri d_i| + ε |c_ri d_i|) + δ_L,i |d_i| |c_ri|)
 //             + δ_m |M_r| + ℓ_r |y_r·ŵ| + δ_p |P_r| + ε |W_r|.                                                         (t)
-// So what is undisturbed, widened by (t), holds for every deviation.
+// So what is undisturbed, widened by the mean of (t) over the parts, holds for every deviation.
 #pragma once
 
 #include <array>
@@ -41,8 +42,8 @@ template <class I>
 template <class I>
 struct Disturbance {
   using Upper = UpperOf<I>;
-  std::array<Upper, kCables> length;                  ///< of d_i [m]
-  std::array<std::array<Upper, 2>, kCables> tension;  ///< of f0_i − v_ii and f0_i + v_ii [N]
+  std::array<Upper, kCables> length{};                  ///< of d_i [m]
+  std::array<std::array<Upper, 2>, kCables> tension{};  ///< of f0_i − v_ii and f0_i + v_ii [N]
   /// Of v_ii, half the difference of those two [N].
   [[nodiscard]] Upper variation(std::size_t i) const { return Upper(0.5) * (tension[i][0] + tension[i][1]); }
 };
@@ -59,16 +60,20 @@ struct UndisturbedBox {
   bool held_by_lengths;
 };
 
+/// Where one part is too coarse, so many are taken at most.
+inline constexpr int kMostParts = 16;
+
 /// Nothing unless all commanded poses are proved to exist, and D to be non-singular, on X. For Interval: only under run_upward().
+/// @param parts  of the way from τ = 0 to 1, a power of two: more are tighter, and hold for larger tolerances
 template <class I>
 [[nodiscard]] std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box,
-                                                        const ToleranceModel<I>& tolerance);
+                                                        const ToleranceModel<I>& tolerance, int parts);
 
 extern template std::optional<ToleranceModel<Interval>> make_tolerance_model(const Problem&);
 extern template std::optional<ToleranceModel<MpInterval>> make_tolerance_model(const Problem&);
 extern template std::optional<Disturbance<Interval>> disturbance(const UndisturbedBox<Interval>&,
-                                                                 const ToleranceModel<Interval>&);
+                                                                 const ToleranceModel<Interval>&, int);
 extern template std::optional<Disturbance<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
-                                                                   const ToleranceModel<MpInterval>&);
+                                                                   const ToleranceModel<MpInterval>&, int);
 
 }  // namespace taut

@@ -71,7 +71,7 @@ template <class S, class K>
 }
 
 template <class S>
-[[nodiscard]] Vector3<S> cross(const Vector3<S>& a, const Vector3<S>& b) {
+[[nodiscard, gnu::always_inline]] inline Vector3<S> cross(const Vector3<S>& a, const Vector3<S>& b) {
   return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
 }
 

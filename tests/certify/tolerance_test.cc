@@ -1,5 +1,6 @@
 #include "certify/tolerance.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -263,6 +264,49 @@ TEST(Tolerance, ABoundIsReachedToFirstOrderByTheWorstDeviation) {
         t.platform_anchor_m.fill("1e-5");
       },
       kSize * by_platform_held);
+}
+
+/// Deviations in parts are enclosed more tightly, and tolerances may be larger; what is proved with them holds all the same.
+TEST(Tolerance, MorePartsProveLargerOnes) {
+  const DyadicBox whole{0, 0};
+  const auto scaled = [](double factor) {
+    Problem problem = robot1_slice();
+    TolerancesText& t = problem.tolerances.emplace();
+    const auto size = [factor](double x) { return fmt::format("{:.9f}", factor * x); };
+    t.base_anchor_m.fill(size(2e-4));
+    t.platform_anchor_m.fill(size(2e-4));
+    t.position_m = size(2e-4);
+    t.orientation_rad = size(1e-3);
+    t.cable_length_m.emplace().fill(size(2e-4));
+    return problem;
+  };
+  const Waypoint a = at({0.5, 0.2});
+  const Waypoint b = at({0.501, 0.2});
+  const Segment segment = Prover(scaled(1)).segment(a, b);
+  double largest = 0;
+  BoxVerdict verdict;
+  for (const int parts : {1, 4, kMostParts}) {
+    double proved = 0;
+    for (double factor = 1; factor < 100; factor *= 1.05) {
+      const BoxVerdict here = judge_box(make_proof_model(scaled(factor)), segment, whole, 0, parts);
+      if (here.kind != BoxVerdict::Kind::kProved) break;
+      proved = factor;
+      verdict = here;
+    }
+    EXPECT_GT(proved, 1.05 * largest) << parts;
+    largest = proved;
+  }
+  const Problem problem = scaled(largest);
+  const PoseSampler sampler(problem);
+  std::mt19937 random(11);
+  Least least;
+  for (int k = 0; k < 20000; ++k) {
+    const Deviated deviated = random_deviation(problem, random);
+    update(least, deviated.model, deviated_pose(problem, deviated, sampler.rigid_pose(segment, 0.5)));
+  }
+  EXPECT_LE(verdict.tension_N, least.tension + 1e-12);
+  EXPECT_LE(verdict.length_m, least.length + 1e-12);
+  EXPECT_LE(verdict.wrench_scale, least.scale + 1e-9);
 }
 
 TEST(Tolerance, TooLargeOnesAreSoonDoneWith) {

@@ -12,7 +12,7 @@
 //     machine is held by lengths, there must be one pose in the tube, from wherever in it Newton's method is started.
 // Any breach is printed with its seed, and the program exits with 1. δ runs over the decades from 1e-13 to 1 of the range.
 //
-// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--threads N] [--budget SECONDS]
+// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--threads N] [--budget SECONDS]
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -148,7 +148,9 @@ Deviation worst_deviation(const Deviation& x, F value) {
 
 // ---- Tables ----------------------------------------------------------------------------------------------------------
 
-constexpr int kDecades = 13;  // δ/range in [1e-13, 1]
+constexpr int kDecades = 13;      // δ/range in [1e-13, 1]
+constexpr int kLeastEffect = -8;  // δ/effect in [1e-8, 1e5], and beyond
+constexpr double kMild = 0.01;    // effect/range up to which tolerances are mild
 
 using Count = std::atomic<long>;
 
@@ -161,9 +163,11 @@ struct Counts {
 };
 
 struct Tally {
-  std::array<Decades, 4> decades;  ///< exactly on a path; by lengths; with tolerances; by lengths, with a bad reference
+  /// δ/range exactly on a path, and by lengths; δ/effect with tolerances that are mild, and with others; δ/range by lengths
+  /// with a bad reference.
+  std::array<Decades, 5> decades;
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
-  Count wrong{0}, looked_at{0};
+  Count wrong{0}, looked_at{0}, violated_elsewhere{0};
 };
 
 // ---- A trial ---------------------------------------------------------------------------------------------------------
@@ -180,7 +184,7 @@ class Judge {
  public:
   Judge(std::uint64_t seed, const Options& options, Tally& tally)
       : seed_(seed),
-        is_listed_(options.list_undecided),
+        options_(options),
         random_(seed),
         tally_(tally),
         trial_(make_trial(random_, options.law, options.tolerances)) {}
@@ -201,8 +205,13 @@ class Judge {
     const SegmentProof proof = prover.prove(segment);
     counts.boxes += proof.boxes_judged;
     counts.multiprecision += proof.boxes_multiprecision;
-    Decades& decades = tally_.decades[decades_of_trial()];
+    Decades& decades = tally_.decades[table()];
     const auto d = static_cast<std::size_t>(decade_);
+    if (proof.verdict == Verdict::kUndecided && !violated_ && has_tolerances() && is_violated_elsewhere()) {
+      ++counts.undecided;
+      ++tally_.violated_elsewhere;
+      return;
+    }
     ++(violated_ ? decades.violated : decades.clear)[d];
     switch (proof.verdict) {
       case Verdict::kProved:
@@ -217,11 +226,9 @@ class Judge {
         break;
       case Verdict::kUndecided:
         ++counts.undecided;
-        if (is_listed_ && !trial_.has_bad_reference) {
-          fmt::print(stderr, "undecided: seed {}, {}, tolerances {}, {} boxes, at {:.17g} to depth {}: {}\n", seed_,
-                     kLawNames[static_cast<std::size_t>(trial_.law)],
-                     kToleranceNames[static_cast<std::size_t>(trial_.tolerances)], proof.boxes_judged,
-                     proof.open_box.lower().approx(), proof.open_box.depth, proof.reason);
+        if (options_.list_undecided && !violated_ && !trial_.has_bad_reference) {
+          report("undecided", fmt::format("{} boxes; from s = {:.6g}, depth {}: {}", proof.boxes_judged,
+                                          proof.open_box.lower().approx(), proof.open_box.depth, proof.reason));
         }
         break;
     }
@@ -230,20 +237,23 @@ class Judge {
  private:
   void breach(const std::string& what) {
     ++tally_.wrong;
+    report("WRONG", what);
+  }
+  void report(const char* kind, const std::string& what) const {
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
-    fmt::print(stderr, "WRONG: {} (seed {}, {}, tolerances {}, {} of cable {}, delta {:.3e}, s* {:.17g})\n", what,
-               seed_, kLawNames[static_cast<std::size_t>(trial_.law)],
+    fmt::print(stderr,
+               "{}: {} (seed {}, {}, tolerances {}, {} of cable {}, delta {:.3e}, row {}, effect {:.1e}, s* {:.17g})\n",
+               kind, what, seed_, kLawNames[static_cast<std::size_t>(trial_.law)],
                kToleranceNames[static_cast<std::size_t>(trial_.tolerances)], name(id_.kind), id_.cable + 1, delta_,
-               best_s_);
+               decade_, effect_, best_s_);
   }
 
-  [[nodiscard]] std::size_t decades_of_trial() const {
-    if (trial_.has_bad_reference) return 3;
-    if (has_tolerances()) return 2;
+  [[nodiscard]] std::size_t table() const {
+    if (trial_.has_bad_reference) return 4;
+    if (has_tolerances()) return effect_ < kMild ? 2 : 3;
     return trial_.law == Law::kCableLengths ? 1 : 0;
   }
-
   /// Inner poses and tubes as an audit has them; of a bad reference, spoiled.
   void propose_reference() {
     const Segment segment = Prover(trial_.problem).prepared(trial_.curve());
@@ -267,7 +277,6 @@ class Judge {
         for (std::size_t k = 3; k < inner.x.size(); ++k) inner.x[k] = -inner.x[k];
     }
   }
-
   [[nodiscard]] bool has_tolerances() const { return trial_.tolerances != ToleranceKind::kNone; }
 
   /// What is sought to be least; not finite where there is no pose.
@@ -351,6 +360,13 @@ class Judge {
     limit(trial_.problem, id_) = decimal(quantity(*at, id_) + shift);
     exact_limits_.emplace(trial_.problem);
     approx_limits_.emplace(trial_.problem);
+    if (has_tolerances() && !trial_.has_bad_reference) {
+      const double effect = std::abs(objective(best_s_, Deviation(), id_) - objective(best_s_, worst_, id_));
+      const double decade =
+          std::floor(std::log10(delta_ / effect)) - kLeastEffect;  // infinite where there is no effect
+      decade_ = static_cast<int>(std::clamp(decade, 0.0, kDecades - 1.0));
+      effect_ = largest_effect();
+    }
     const bool is_within = exact_limits_->margin(*at, id_) > BigFloat(0.0);
     if (violated_ == is_within) breach("the trial does not violate what it should, or does");
     // Next to singular poses floating point may have seen too little of the other quantities' ranges.
@@ -479,6 +495,36 @@ class Judge {
     }
   }
 
+  /// Of any quantity at s*, in parts of its range: what its worst deviation takes.
+  double largest_effect() {
+    double largest = 0;
+    for (const MarginKind kind : kKinds) {
+      const double range = is_tension(kind) ? tension_[1] - tension_[0] : length_[1];
+      for (int i = 0; i < kCables; ++i) {
+        const MarginId id{kind, i};
+        const Deviation x = worst_deviation({}, [&](const Deviation& y) { return objective(best_s_, y, id); });
+        const double effect = std::abs(objective(best_s_, {}, id) - objective(best_s_, x, id)) / range;
+        if (!(effect <= largest)) largest = effect;  // also a NaN
+      }
+    }
+    return largest;
+  }
+
+  /// Whether some deviation leads to a violation of any limit, or to a singular pose, as floating point sees it: the trial is
+  /// not what it was made for.
+  bool is_violated_elsewhere() {
+    for (const double s : {best_s_, uniform(random_, 0, 1)}) {
+      for (const MarginKind kind : kKinds) {
+        for (int i = 0; i < kCables; ++i) {
+          const Deviation x = worst_deviation({}, [&](const Deviation& y) { return objective(s, y, {kind, i}); });
+          const auto at = approx_->statics(s, x);
+          if (!at || (at->determinant > 0) != sign_ || !approx_limits_->feasible(*at)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
   void examine_witness(const SegmentWitness& witness) {
     if (witness.singular) return;
     const BigFloat s = enclose<MpInterval>(witness.box.mid()).lower();
@@ -489,7 +535,7 @@ class Judge {
   }
 
   std::uint64_t seed_;
-  bool is_listed_;
+  const Options& options_;
   Random random_;
   Tally& tally_;
   Trial trial_;
@@ -503,6 +549,7 @@ class Judge {
   bool violated_ = false;
   bool sign_ = false;  ///< of the determinant
   int decade_ = 0;
+  double effect_ = 0;  ///< of the tolerances, see largest_effect()
   double delta_ = 0;
   std::array<double, 2> tension_{HUGE_VAL, -HUGE_VAL};
   std::array<double, 2> length_{HUGE_VAL, -HUGE_VAL};
@@ -510,8 +557,9 @@ class Judge {
 
 // ---- The campaign ----------------------------------------------------------------------------------------------------
 
-/// @returns the share decided of what is clear by 10^from of the range or more.
-double print_decades(const Decades& table, const char* title, int from = -6) {
+/// @param unit   what δ is measured in; the first row's δ is 10^least of it
+/// @returns the share decided of clear trials with δ from 10^from of it
+double print_decades(const Decades& table, const char* title, const char* unit, int least, int from) {
   long clear = 0;
   long decided = 0;
   const auto is_empty = [](const auto& counts) {
@@ -521,13 +569,13 @@ double print_decades(const Decades& table, const char* title, int from = -6) {
   const auto share = [](const Count& part, const Count& all) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(std::max(1L, all.load()));
   };
-  fmt::print("\n{}\ndelta/range      violated  refuted      clear  decided\n", title);
+  fmt::print("\n{}\n{:<15}  violated  refuted      clear  decided\n", title, fmt::format("delta/{}", unit));
   for (int k = 0; k < kDecades; ++k) {
     const auto d = static_cast<std::size_t>(k);
-    fmt::print("1e{:<3} to 1e{:<3}  {:8d} {:7.3f}%   {:8d} {:7.3f}%\n", k - kDecades, k - kDecades + 1,
+    fmt::print("1e{:<3} to 1e{:<3}  {:8d} {:7.3f}%   {:8d} {:7.3f}%\n", least + k, least + k + 1,
                table.violated[d].load(), share(table.violated_refuted[d], table.violated[d]), table.clear[d].load(),
                share(table.clear_decided[d], table.clear[d]));
-    if (k < kDecades + from) continue;
+    if (least + k < from) continue;
     clear += table.clear[d];
     decided += table.clear_decided[d];
   }
@@ -563,20 +611,27 @@ int run(const Options& options, double budget) {
                  static_cast<double>(c.multiprecision) / static_cast<double>(judged));
     }
   }
-  const std::array<double, 3> share = {
-      print_decades(tally.decades[0], "Paths of poses, without tolerances"),
-      print_decades(tally.decades[1], "Paths of cable lengths, without tolerances", -9),
-      print_decades(tally.decades[2], "With tolerances: delta from the worst deviation found")};
-  print_decades(tally.decades[3], "Paths of cable lengths with a bad reference, with and without tolerances");
+  const std::array<double, 4> share = {
+      print_decades(tally.decades[0], "Paths of poses, without tolerances", "range", -kDecades, -9),
+      print_decades(tally.decades[1], "Paths of cable lengths, without tolerances", "range", -kDecades, -9),
+      print_decades(tally.decades[2], "With tolerances that take up to 1 % of the range of any tension or length",
+                    "effect", kLeastEffect, -1),
+      print_decades(tally.decades[3], "With larger ones", "effect", kLeastEffect, -1)};
+  print_decades(tally.decades[4], "Paths of cable lengths with a bad reference, with and without tolerances", "range",
+                -kDecades, -9);
+  fmt::print("\n{} segments, seed {}: {:.1f} s, {:.0f} a second, {:.2f} ms of processor time each\n", done,
+             options.seed, elapsed, static_cast<double>(done) / elapsed,
+             1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done));
+  fmt::print("{} points judged in 200 bits after proofs; {} WRONG\n", tally.looked_at.load(), tally.wrong.load());
+  if (tally.violated_elsewhere > 0) {
+    fmt::print("{} undecided left aside: some deviation leads to a singular pose or beyond another limit\n",
+               tally.violated_elsewhere.load());
+  }
   fmt::print(
-      "\n{} segments, seed {}: {:.1f} s, {:.0f} a second, {:.2f} ms of processor time each; {} points judged in 200 "
-      "bits after "
-      "proofs; {} WRONG.\n"
-      "Decided with margin > 1e-6 of the range: {:.4f} %; of cable lengths, > 1e-9, {:.4f} %; with tolerances {:.4f} "
-      "%.\n",
-      done, options.seed, elapsed, static_cast<double>(done) / elapsed,
-      1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done), tally.looked_at.load(),
-      tally.wrong.load(), 100 * share[0], 100 * share[1], 100 * share[2]);
+      "Decided with margin > 1e-9 of the range: {:.4f} %; of cable lengths {:.4f} %; with tolerances, and margin > 0.1 "
+      "of "
+      "their effect: {:.4f} %, with large ones {:.4f} %\n",
+      100 * share[0], 100 * share[1], 100 * share[2], 100 * share[3]);
   constexpr double kLeastShare = 0.999;
   return tally.wrong == 0 && share[0] >= kLeastShare ? 0 : 1;
 }
@@ -600,8 +655,8 @@ int main(int argc, char** argv) {
   app.add_option("--law", law, "one law only")->transform(CLI::CheckedTransformer(by_name(kLawNames)));
   app.add_option("--tolerances", tolerances, "one kind only")
       ->transform(CLI::CheckedTransformer(by_name(kToleranceNames)));
+  app.add_flag("--undecided", options.list_undecided, "list the clear ones that are not decided, with their reasons");
   app.add_option("--threads", threads, "0: all");
-  app.add_flag("--list", options.list_undecided, "names each trial that stays undecided, on stderr");
   app.add_option("--budget", budget, "stop after so many seconds");
   CLI11_PARSE(app, argc, argv);
   if (law) options.law = static_cast<Law>(*law);
