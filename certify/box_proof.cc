@@ -212,6 +212,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   const auto mid_error = upper_product(q0, x_magnitude);
   const auto slope_error = upper_product(w, x_magnitude);
   const auto drift_error = upper_product(a1_magnitude, x_error);
+  Square<I> root;  // the rows of Z = P C L over T
   std::array<Centered<I>, 6> squares;
   squares.fill(Centered<I>(0.0));
   for (std::size_t i = 0; i < 6; ++i) {
@@ -224,6 +225,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
         result.density[i] = value;
       } else {
         squares[i] = squares[i] + sqr(value);
+        root[i][j - 1] = value.range;
       }
     }
   }
@@ -237,7 +239,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   if (problem.tolerance && is_within_limits(model, result)) {
     const bool held = is_held_by_lengths(problem, segment);
     result.disturbance =
-        disturbance<I>({model, motion, geometry, result.length, c, q, held}, *problem.tolerance, parts);
+        disturbance<I>({model, motion, geometry, result.length, result.density, result.variation, root, c, q, held},
+                       *problem.tolerance, parts);
   }
   return result;
 }

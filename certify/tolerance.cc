@@ -5,19 +5,7 @@
 
 namespace taut {
 
-/// Not an enclosing scalar: what is computed with it is a guess.
-template <>
-struct Scalars<double> {
-  using Upper = double;
-  static double symmetric(double) { return 0; }
-  static double root(double x) { return std::sqrt(x); }
-};
-
 namespace {
-
-double magnitude(double x) { return std::abs(x); }
-double approx(const Interval& x) { return midpoint_approx(x); }
-double approx(const MpInterval& x) { return 0.5 * x.lower().to_double() + 0.5 * x.upper().to_double(); }
 
 /// For a tolerance >= 0.
 template <class I>
@@ -29,6 +17,11 @@ template <class I>
 UpperOf<I> norm_above(const Vector3<I>& x) {
   const UpperOf<I> a = above(x(0)), b = above(x(1)), c = above(x(2));
   return Scalars<I>::root(a * a + b * b + c * c);
+}
+
+template <class I>
+UpperOf<I> norm_above(const std::array<UpperOf<I>, 3>& x) {
+  return Scalars<I>::root(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
 template <class I>
@@ -100,32 +93,85 @@ struct Change {
   }
 };
 
-/// What is known at τ = 0, and what is the same for every X.
+/// For each row r of D^-1 and each cable i a vector: row r has those of all cables.
+template <class T>
+using Table = std::array<std::array<std::array<T, 3>, kCables>, kCables>;
+
+/// As 6 x 18 matrices.
+template <class Upper>
+Table<Upper> upper_product(const Square<Upper>& a, const Table<Upper>& b) {
+  Table<Upper> c;
+  for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      for (std::size_t n = 0; n < 3; ++n) c[r][i][n] = a[r][0] * b[0][i][n];
+    }
+    for (std::size_t k = 1; k < kCables; ++k) {
+      for (std::size_t i = 0; i < kCables; ++i) {
+        for (std::size_t n = 0; n < 3; ++n) c[r][i][n] += a[r][k] * b[k][i][n];
+      }
+    }
+  }
+  return c;
+}
+
+/// What depends linearly on the row y = (f, m) and on a vector of a cable, such as f + m × arm_i: for the rows of C, on T.
+template <class I>
+struct Products {
+  Table<I> of_c;
+  Table<UpperOf<I>> magnitude;
+
+  void set(std::size_t r, std::size_t i, const std::array<I, 3>& x) {
+    for (std::size_t n = 0; n < 3; ++n) {
+      of_c[r][i][n] = x[n];
+      magnitude[r][i][n] = above(x[n]);
+    }
+  }
+};
+
+/// m × a for the exact m.
+template <class I>
+std::array<I, 3> cross_exact(const std::array<typename Scalars<I>::Point, 3>& m, const Vector3<I>& a) {
+  return {m[1] * a(2) - m[2] * a(1), m[2] * a(0) - m[0] * a(2), m[0] * a(1) - m[1] * a(0)};
+}
+
+/// What is known at τ = 0 on all of T, and what is the same for every X.
 template <class I>
 struct Origin {
   using Upper = UpperOf<I>;
   std::array<Vector3<I>, kCables> d, reach, arm;
-  Vector3<I> load_point;                                  ///< R p_m
-  std::array<I, kCables> length;                          ///< |d_i|
-  std::array<std::array<I, 6>, kCables> y;                ///< Y
-  std::array<std::array<Upper, 6>, kCables> y_magnitude;  ///< |Y|
-  std::array<Upper, kCables> reach_size, arm_size;        ///< |b_i|, |b_i − p_m| of every deviation
-  Upper load_point_size;                                  ///< |p_m|, likewise
-  std::array<Upper, kCables> pull;                        ///< >= |ρ_i|: 0 unless held by lengths
+  Vector3<I> load_point;                            ///< R p_m
+  Square<I> c;                                      ///< C, points
+  Square<Upper> c_magnitude, q;                     ///< Y = P C, |P − I| <= q
+  Products<I> h, twist;                             ///< f + m × arm_i; d_i × m
+  Products<I> swing, sweep;                         ///< m × arm_i, m × R b_i; only if held by lengths
+  std::array<I, kCables> length, density, spread;   ///< |d_i|, λ_i, |Z_i|
+  Square<I> gram;                                   ///< Z_r·Z_i
+  std::array<Upper, kCables> reach_size, arm_size;  ///< |b_i|, |b_i − p_m| of every deviation
+  Upper load_point_size;                            ///< |p_m|, likewise
+  std::array<Upper, kCables> pull;                  ///< >= |ρ_i|: 0 unless held by lengths
+  bool held_by_lengths;
 };
 
-/// Everything on X that (i) and (t) are made of.
+/// How far what Products has may be from that of C, on X.
+template <class I>
+struct Errors {
+  using Upper = UpperOf<I>;
+  Square<Upper> y;
+  Table<Upper> h, twist;
+};
+
+/// Everything on X that (t) is made of.
 template <class I>
 struct OnAll {
   std::array<Vector3<I>, kCables> d;                           ///< d_i
-  std::array<Vector3<I>, kCables> reach;                       ///< R b_i
   std::array<Vector3<I>, kCables> arm;                         ///< R (b_i − p_m)
   Vector3<I> load_point;                                       ///< R p_m
   std::array<Vector3<I>, kCables> force, moment;               ///< the rows of D^-1: y_r^f, y_r^m
   std::array<std::array<Vector3<I>, kCables>, kCables> h;      ///< h_ri = y_r^f + y_r^m × arm_i
   std::array<std::array<Vector3<I>, kCables>, kCables> twist;  ///< d_i × y_r^m
-  std::array<I, kCables> density;                              ///< λ_r
-  std::array<std::array<I, 6>, kCables> root;                  ///< the rows of D^-1 L
+  std::array<I, kCables> length, density, spread;              ///< |d_i|, λ_i, V_i
+  std::array<I, kCables> load_rate;                            ///< y_r·ŵ
+  Square<I> gram;                                              ///< Z_r·Z_i
 };
 
 template <class I>
@@ -133,20 +179,15 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
   Origin<I> origin;
-  Square<Upper> c;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) c[i][j] = above(I(box.c(static_cast<int>(i), static_cast<int>(j))));
-  }
-  const Square<Upper> error = upper_product(box.q, c);
+  origin.held_by_lengths = box.held_by_lengths;
+  origin.q = box.q;
   for (std::size_t i = 0; i < kCables; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      origin.y[i][j] = I(box.c(static_cast<int>(i), static_cast<int>(j))) + Scalars<I>::symmetric(error[i][j]);
-      origin.y_magnitude[i][j] = c[i][j] + error[i][j];
-    }
     origin.d[i] = ranges(box.geometry.p_AB_W[i]);
     origin.reach[i] = rotated_range(box.motion.r_WP, model.p_PB[i]);
     origin.arm[i] = rotated_range(box.motion.r_WP, model.p_MB[i]);
     origin.length[i] = box.length[i].range;
+    origin.density[i] = box.density[i].range;
+    origin.spread[i] = box.spread[i].range;
     origin.reach_size[i] = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
     origin.arm_size[i] = norm_above(model.p_MB[i]) + tolerance.platform_anchor[i] + tolerance.load_point;
     origin.pull[i] = Upper(0.0);
@@ -154,29 +195,76 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
     const Upper commanded = above(box.length[i].range) + tolerance.cable_length[i];
     origin.pull[i] = commanded * (tolerance.cable_length[i] + tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
   }
+  for (std::size_t r = 0; r < kCables; ++r) {
+    std::array<typename Scalars<I>::Point, 6> y;
+    for (std::size_t j = 0; j < 6; ++j) {
+      y[j] = box.c(static_cast<int>(r), static_cast<int>(j));
+      origin.c[r][j] = I(y[j]);
+      origin.c_magnitude[r][j] = above(origin.c[r][j]);
+    }
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const std::array<I, 3> swing = cross_exact<I>({y[3], y[4], y[5]}, origin.arm[i]);
+      const std::array<I, 3> twist = cross_exact<I>({y[3], y[4], y[5]}, origin.d[i]);
+      origin.h.set(r, i, {origin.c[r][0] + swing[0], origin.c[r][1] + swing[1], origin.c[r][2] + swing[2]});
+      origin.twist.set(r, i, {-twist[0], -twist[1], -twist[2]});
+      if (!box.held_by_lengths) continue;
+      origin.swing.set(r, i, swing);
+      origin.sweep.set(r, i, cross_exact<I>({y[3], y[4], y[5]}, origin.reach[i]));
+    }
+    for (std::size_t i = 0; i < r; ++i) {
+      I sum(0.0);
+      for (std::size_t k = 0; k < 6; ++k) sum = sum + box.root[r][k] * box.root[i][k];
+      origin.gram[r][i] = origin.gram[i][r] = sum;
+    }
+    origin.gram[r][r] = sqr(origin.spread[r]);
+  }
   const Vector3<I> load_point = model.p_PB[0] - model.p_MB[0];
   origin.load_point = rotated_range(box.motion.r_WP, load_point);
   origin.load_point_size = norm_above(load_point) + tolerance.load_point;
   return origin;
 }
 
-/// X for a guess, as far as (i) needs it; and bounds of all rates on it.
+/// |a × b| by coordinates, from bounds of those of a and b.
+template <class Upper>
+std::array<Upper, 3> cross_above(const std::array<Upper, 3>& a, const std::array<Upper, 3>& b) {
+  return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
+}
+
+/// How far, on X, what is linear in y and in a vector that moves by `moved` is from that of C: with Y = S P C, |S P − I| <= q,
+///   y(τ) ∘ a(τ) = Σ_k (S P)_rk c_k ∘ a(0) + y_r(τ) ∘ (a(τ) − a(0)).
+template <class I>
+Table<UpperOf<I>> product_errors(const Products<I>& products, const Square<UpperOf<I>>& q,
+                                 const std::array<std::array<UpperOf<I>, 3>, kCables>& moment,
+                                 const std::array<std::array<UpperOf<I>, 3>, kCables>& moved) {
+  Table<UpperOf<I>> errors = upper_product(q, products.magnitude);
+  for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const auto more = cross_above(moment[r], moved[i]);
+      for (std::size_t n = 0; n < 3; ++n) errors[r][i][n] += more[n];
+    }
+  }
+  return errors;
+}
+
+/// Bounds of all rates on the X of a guess, by (i).
 template <class I>
 Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const Change<UpperOf<I>>& guess,
-                         OnAll<I>& x) {
+                         Errors<I>& errors) {
   using Upper = UpperOf<I>;
-  const std::array<std::array<Upper, 6>, kCables> y_error = upper_product(guess.s, origin.y_magnitude);
-  Upper spin(0.0);  // >= |Ω_c|
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const auto entry = [&](std::size_t j) { return I(origin.y[i][j] + Scalars<I>::symmetric(y_error[i][j])); };
-    x.force[i] = {entry(0), entry(1), entry(2)};
-    x.moment[i] = {entry(3), entry(4), entry(5)};
-    x.d[i] = widened<I>(origin.d[i], guess.d[i]);
-    x.reach[i] = widened<I>(origin.reach[i], guess.reach[i]);
-    x.arm[i] = widened<I>(origin.arm[i], guess.arm[i]);
-    if (Upper(0.0) < origin.pull[i]) spin += origin.pull[i] * norm_above(x.moment[i]);
+  // |S P − I| <= |S − I| + |P − I| + |S − I||P − I|
+  Square<Upper> q = taut::upper_product(guess.s, origin.q);
+  for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t k = 0; k < kCables; ++k) q[r][k] += guess.s[r][k] + origin.q[r][k];
   }
-  x.load_point = widened<I>(origin.load_point, guess.load_point);
+  errors.y = taut::upper_product(q, origin.c_magnitude);
+  std::array<std::array<Upper, 3>, kCables> moment;
+  Upper spin(0.0);  // >= |Ω_c|
+  for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t n = 0; n < 3; ++n) moment[r][n] = origin.c_magnitude[r][3 + n] + errors.y[r][3 + n];
+    if (origin.held_by_lengths) spin += origin.pull[r] * norm_above<I>(moment[r]);
+  }
+  errors.h = product_errors(origin.h, q, moment, guess.arm);
+  errors.twist = product_errors(origin.twist, q, moment, guess.d);
 
   const Upper turn = tolerance.orientation + tolerance.orientation * spin;  // ω, and Ω_c turned by T
   Change<Upper> rate;
@@ -185,18 +273,18 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
     rate.reach[i].fill(reach_rate);
     rate.arm[i].fill(turn * origin.arm_size[i] + tolerance.platform_anchor[i] + tolerance.load_point);
     rate.d[i].fill(reach_rate + tolerance.position + tolerance.base_anchor[i]);
+  }
+  if (origin.held_by_lengths) {
+    const Table<Upper> swing = product_errors(origin.swing, q, moment, guess.arm);
+    const Table<Upper> sweep = product_errors(origin.sweep, q, moment, guess.reach);
     for (std::size_t j = 0; j < kCables; ++j) {
-      const Vector3<I> swing = cross(x.moment[j], x.arm[i]);
-      x.h[j][i] = x.force[j] + swing;
-      x.twist[j][i] = cross(x.d[i], x.moment[j]);
       const Upper& pull = origin.pull[j];
-      if (!(Upper(0.0) < pull)) continue;
-      const Vector3<I> sweep = cross(x.moment[j], x.reach[i]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int n = static_cast<int>(k);
-        rate.d[i][k] += pull * above(x.h[j][i](n));
-        rate.arm[i][k] += pull * above(swing(n));
-        rate.reach[i][k] += pull * above(sweep(n));
+      for (std::size_t i = 0; i < kCables; ++i) {
+        for (std::size_t n = 0; n < 3; ++n) {
+          rate.d[i][n] += pull * (origin.h.magnitude[j][i][n] + errors.h[j][i][n]);
+          rate.arm[i][n] += pull * (origin.swing.magnitude[j][i][n] + swing[j][i][n]);
+          rate.reach[i][n] += pull * (origin.sweep.magnitude[j][i][n] + sweep[j][i][n]);
+        }
       }
     }
   }
@@ -207,57 +295,14 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
   for (std::size_t r = 0; r < kCables; ++r) {
     for (std::size_t i = 0; i < kCables; ++i) {
       b[r][i] = Upper(0.0);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int n = static_cast<int>(k);
-        b[r][i] += above(x.h[r][i](n)) * rate.d[i][k] + above(x.twist[r][i](n)) * rate.arm[i][k];
+      for (std::size_t n = 0; n < 3; ++n) {
+        b[r][i] += (origin.h.magnitude[r][i][n] + errors.h[r][i][n]) * rate.d[i][n] +
+                   (origin.twist.magnitude[r][i][n] + errors.twist[r][i][n]) * rate.arm[i][n];
       }
     }
     s[r][r] += Upper(1.0);
   }
-  rate.s = upper_product(b, s);
-  return rate;
-}
-
-/// The rates at τ = 0 and the middle of the box, about.
-template <class I>
-Change<double> approx_rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance) {
-  const auto to_double = [](const UpperOf<I>& x) { return Scalars<I>::to_double(x); };
-  const auto vector = [](const Vector3<I>& x) { return Vector3<double>(approx(x(0)), approx(x(1)), approx(x(2))); };
-  Origin<double> here;
-  ToleranceModel<double> by;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    here.d[i] = vector(origin.d[i]);
-    here.reach[i] = vector(origin.reach[i]);
-    here.arm[i] = vector(origin.arm[i]);
-    for (std::size_t j = 0; j < 6; ++j) {
-      here.y[i][j] = approx(origin.y[i][j]);
-      here.y_magnitude[i][j] = to_double(origin.y_magnitude[i][j]);
-    }
-    here.reach_size[i] = to_double(origin.reach_size[i]);
-    here.arm_size[i] = to_double(origin.arm_size[i]);
-    here.pull[i] = to_double(origin.pull[i]);
-    by.base_anchor[i] = to_double(tolerance.base_anchor[i]);
-    by.platform_anchor[i] = to_double(tolerance.platform_anchor[i]);
-  }
-  here.load_point = vector(origin.load_point);
-  here.load_point_size = to_double(origin.load_point_size);
-  by.load_point = to_double(tolerance.load_point);
-  by.position = to_double(tolerance.position);
-  by.orientation = to_double(tolerance.orientation);
-  OnAll<double> unused;
-  Change<double> rate = rates(here, by, Change<double>{}, unused);
-  // What is next to 0 here need not be elsewhere in the box.
-  const auto level = [](auto& row) {
-    constexpr double kShare = 0.5;
-    const double least = kShare * *std::ranges::max_element(row);
-    for (double& x : row) x = std::max(x, least);
-  };
-  for (std::size_t i = 0; i < kCables; ++i) {
-    level(rate.d[i]);
-    level(rate.reach[i]);
-    level(rate.arm[i]);
-    level(rate.s[i]);
-  }
+  rate.s = taut::upper_product(b, s);
   return rate;
 }
 
@@ -268,24 +313,25 @@ class States {
   using Upper = UpperOf<I>;
 
   /// At τ = 0.
-  States(const Origin<I>& origin, const ToleranceModel<I>& tolerance)
-      : origin_(origin), tolerance_(tolerance), rate_(upper(approx_rates(origin, tolerance))) {}
+  States(const Origin<I>& origin, const ToleranceModel<I>& tolerance) : origin_(origin), tolerance_(tolerance) {
+    const Upper zero(0.0);
+    reached_.set(reached_, reached_, [&](const Upper&, const Upper&) { return zero; });
+    rate_ = rates(origin, tolerance, reached_, errors_);
+  }
 
   /// Goes on by `share` of the whole, a power of two. @returns false where no guess holds.
-  [[nodiscard]] bool advance(double share, OnAll<I>& x) {
+  [[nodiscard]] bool advance(double share) {
     constexpr int kMostGuesses = 12;
     constexpr double kRoom = 1.25;  // over the rates on the last X
     constexpr double kHopeless = 8;
     constexpr double kLeast = 0x1p-200;  // so that every guess is positive
     for (int k = 0; k < kMostGuesses; ++k) {
-      Change<Upper> guess;
-      guess.set(reached_, rate_,
-                [&](const Upper& from, const Upper& by) { return from + Upper(room_ * share) * by + Upper(kLeast); });
-      rate_ = rates(origin_, tolerance_, guess, x);
-      room_ = kRoom;
+      guess_.set(reached_, rate_,
+                 [&](const Upper& from, const Upper& by) { return from + Upper(kRoom * share) * by + Upper(kLeast); });
+      rate_ = rates(origin_, tolerance_, guess_, errors_);
       Change<Upper> moved;
       moved.set(reached_, rate_, [&](const Upper& from, const Upper& by) { return from + Upper(share) * by; });
-      if (guess.covers(moved)) {
+      if (guess_.covers(moved)) {
         reached_ = moved;
         return true;
       }
@@ -298,46 +344,69 @@ class States {
     return false;
   }
 
- private:
-  static Change<Upper> upper(const Change<double>& x) {
-    Change<Upper> result;
-    result.set(x, x, [](double ours, double) { return Upper(ours); });
-    return result;
+  /// X of the last part, which ends at τ = `until`. Void where some V_r may be 0.
+  /// @param length_change  of a whole deviation
+  [[nodiscard]] std::optional<OnAll<I>> enclosed(const Upper& until,
+                                                 const std::array<Upper, kCables>& length_change) const {
+    OnAll<I> x;
+    x.load_point = widened<I>(origin_.load_point, guess_.load_point);
+    std::array<Upper, kCables> spread;  // >= |Z_r| at τ = 0
+    for (std::size_t r = 0; r < kCables; ++r) spread[r] = above(origin_.spread[r]);
+    std::array<Upper, kCables> root_moved;  // >= |Z_r(τ) − Z_r(0)|, as Z(τ) = S Z(0)
+    for (std::size_t r = 0; r < kCables; ++r) {
+      const auto entry = [&](std::size_t j) { return I(origin_.c[r][j] + Scalars<I>::symmetric(errors_.y[r][j])); };
+      const auto near = [](const std::array<I, 3>& of_c, const std::array<Upper, 3>& error) {
+        return widened<I>(Vector3<I>(of_c[0], of_c[1], of_c[2]), error);
+      };
+      x.d[r] = widened<I>(origin_.d[r], guess_.d[r]);
+      x.arm[r] = widened<I>(origin_.arm[r], guess_.arm[r]);
+      x.force[r] = {entry(0), entry(1), entry(2)};
+      x.moment[r] = {entry(3), entry(4), entry(5)};
+      for (std::size_t i = 0; i < kCables; ++i) {
+        x.h[r][i] = near(origin_.h.of_c[r][i], errors_.h[r][i]);
+        x.twist[r][i] = near(origin_.twist.of_c[r][i], errors_.twist[r][i]);
+      }
+      I load_rate(0.0);
+      for (int n = 0; n < 3; ++n) {
+        load_rate = load_rate + x.force[r](n) * tolerance_.wrench(n) + x.moment[r](n) * tolerance_.wrench(n + 3);
+      }
+      x.load_rate[r] = load_rate;
+      // λ(τ) = S λ(0) + τ Y(τ) ŵ.
+      Upper density_moved = until * above(load_rate);
+      root_moved[r] = Upper(0.0);
+      for (std::size_t k = 0; k < kCables; ++k) {
+        density_moved += guess_.s[r][k] * above(origin_.density[k]);
+        root_moved[r] += guess_.s[r][k] * spread[k];
+      }
+      x.density[r] = origin_.density[r] + Scalars<I>::symmetric(density_moved);
+      x.spread[r] = origin_.spread[r] + Scalars<I>::symmetric(root_moved[r]);
+      if (!certainly_positive(x.spread[r])) return std::nullopt;
+      x.length[r] = origin_.length[r] + Scalars<I>::symmetric(until * length_change[r]);
+    }
+    for (std::size_t r = 0; r < kCables; ++r) {
+      for (std::size_t i = 0; i < r; ++i) {
+        const Upper moved = root_moved[r] * spread[i] + spread[r] * root_moved[i] + root_moved[r] * root_moved[i];
+        x.gram[r][i] = x.gram[i][r] = origin_.gram[r][i] + Scalars<I>::symmetric(moved);
+      }
+    }
+    return x;
   }
 
+ private:
   const Origin<I>& origin_;
   const ToleranceModel<I>& tolerance_;
-  Change<Upper> reached_{};
+  Change<Upper> reached_;
+  Change<Upper> guess_;
   Change<Upper> rate_;  ///< the last
-  double room_ = 2;     ///< over that, for the next guess: much over rates at one point
+  Errors<I> errors_;    ///< for the last guess
 };
-
-template <class I>
-void set_loads(const Model<I>& model, const Vector6<I>& wrench, OnAll<I>& x) {
-  for (std::size_t r = 0; r < kCables; ++r) {
-    const std::array<I, 6> y = {x.force[r](0),  x.force[r](1),  x.force[r](2),
-                                x.moment[r](0), x.moment[r](1), x.moment[r](2)};
-    I density(0.0);
-    for (std::size_t k = 0; k < 6; ++k) density = density + y[k] * wrench(static_cast<int>(k));
-    x.density[r] = density;
-    for (std::size_t j = 0; j < 6; ++j) {
-      const int column = static_cast<int>(j);
-      I entry = y[j] * model.ellipsoid_root(column, column);
-      if (!model.ellipsoid_is_diagonal) {
-        for (int k = 0; k < column; ++k)
-          entry = entry + y[static_cast<std::size_t>(k)] * model.ellipsoid_root(k, column);
-      }
-      x.root[r][j] = entry;
-    }
-  }
-}
 
 /// (t) for the tension bounds φ_r = λ_r ∓ V_r of cable r; `moved` of each cable i is arm_i × (h_ri + d_i × y_r^m).
 template <class I>
 UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t r,
                         const std::array<I, kCables>& kappa, const std::array<Vector3<I>, kCables>& moved) {
   using Upper = UpperOf<I>;
-  const I& length = origin.length[r];
+  const I& length = x.length[r];
   const Vector3<I> pull = scaled(I(kappa[r] / length), x.d[r]);  // φ_r u_r
   Vector3<I> by_position = pull;                                 // P_r
   Vector3<I> by_turn = cross(x.arm[r], pull);                    // of the turn about P_m: W_r − R p_m × P_r
@@ -357,22 +426,18 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   by_base[r] = by_base[r] - pull;
   by_platform[r] = by_platform[r] + pull;
 
-  I by_load(0.0);
-  for (int k = 0; k < 3; ++k) {
-    by_load = by_load + x.force[r](k) * tolerance.wrench(k) + x.moment[r](k) * tolerance.wrench(k + 3);
-  }
   const Upper by_position_size = norm_above(by_position);
   const Upper by_turn_size = norm_above(Vector3<I>(by_turn + cross(x.load_point, by_position)));  // |W_r|
-  Upper bound = tolerance.load_point * norm_above(by_load_point) + above(I(length * by_load)) +
+  Upper bound = tolerance.load_point * norm_above(by_load_point) + above(I(length * x.load_rate[r])) +
                 tolerance.position * by_position_size + tolerance.orientation * by_turn_size;
   for (std::size_t i = 0; i < kCables; ++i) {
-    if (Upper(0.0) < origin.pull[i]) {
+    if (origin.held_by_lengths) {
       // c_ri; T turns Ω_c, and R_c p_m to R p_m.
       const I turned = Scalars<I>::symmetric(tolerance.orientation * norm_above(x.moment[i]) *
                                              (by_turn_size + origin.load_point_size * by_position_size));
       const I c = dot(by_position, x.force[i]) + dot(by_turn, x.moment[i]) + turned;
       const Vector3<I> along = scaled(c, x.d[i]);
-      const Upper size = above(c) * above(origin.length[i]);
+      const Upper size = above(c) * above(x.length[i]);
       by_base[i] = by_base[i] + along;
       by_platform[i] = by_platform[i] - along;
       bound += tolerance.cable_length[i] * size + tolerance.platform_anchor[i] * tolerance.orientation * size;
@@ -383,35 +448,21 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   return bound;
 }
 
-/// (t) for f0_r − v_rr and f0_r + v_rr of each cable. Void where v_rr may be 0.
+/// (t) for f0_r − v_rr and f0_r + v_rr.
 template <class I>
-std::optional<std::array<std::array<UpperOf<I>, 2>, kCables>> tension_rates(const Origin<I>& origin,
-                                                                            const ToleranceModel<I>& tolerance,
-                                                                            const OnAll<I>& x) {
-  std::array<std::array<UpperOf<I>, 2>, kCables> result;
-  for (std::size_t r = 0; r < kCables; ++r) {
-    I square(0.0);
-    for (const I& entry : x.root[r]) square = square + sqr(entry);
-    if (!certainly_positive(square)) return std::nullopt;
-    const I spread = sqrt(square);  // V_r
-    const I inverse = reciprocal(spread);
-    std::array<I, kCables> low;   // κ_ri of λ − V
-    std::array<I, kCables> high;  // of λ + V
-    for (std::size_t i = 0; i < kCables; ++i) {
-      I share = spread;  // Z_r·Z_i / V_r
-      if (i != r) {
-        share = I(0.0);
-        for (std::size_t k = 0; k < 6; ++k) share = share + x.root[r][k] * x.root[i][k];
-        share = share * inverse;
-      }
-      low[i] = x.density[i] - share;
-      high[i] = x.density[i] + share;
-    }
-    std::array<Vector3<I>, kCables> moved;
-    for (std::size_t i = 0; i < kCables; ++i) moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
-    result[r] = {tension_rate(origin, tolerance, x, r, low, moved), tension_rate(origin, tolerance, x, r, high, moved)};
+std::array<UpperOf<I>, 2> tension_rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x,
+                                        std::size_t r) {
+  const I inverse = reciprocal(x.spread[r]);
+  std::array<I, kCables> low;   // κ_ri of λ − V
+  std::array<I, kCables> high;  // of λ + V
+  std::array<Vector3<I>, kCables> moved;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const I share = i == r ? x.spread[r] : I(x.gram[r][i] * inverse);  // Z_r·Z_i / V_r
+    low[i] = x.density[i] - share;
+    high[i] = x.density[i] + share;
+    moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
   }
-  return result;
+  return {tension_rate(origin, tolerance, x, r, low, moved), tension_rate(origin, tolerance, x, r, high, moved)};
 }
 
 }  // namespace
@@ -447,25 +498,16 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
     result.length[i] = tolerance.position + tolerance.orientation * reach + held;
     if (!certainly_positive(I(box.length[i].range + Scalars<I>::symmetric(result.length[i])))) return std::nullopt;
   }
-  Origin<I> origin = make_origin(box, tolerance);
+  const Origin<I> origin = make_origin(box, tolerance);
   States<I> states(origin, tolerance);
   const double share = 1.0 / parts;
-  OnAll<I> x;
   for (int part = 1; part <= parts; ++part) {
-    if (!states.advance(share, x)) return std::nullopt;
-    const Upper until(share * part);
-    for (std::size_t i = 0; i < kCables; ++i) {
-      origin.length[i] = box.length[i].range + Scalars<I>::symmetric(until * result.length[i]);
-    }
-    Vector6<I> wrench;
-    for (int k = 0; k < 6; ++k) {
-      wrench(k) = model.wrench(k) + Scalars<I>::symmetric(until * above(tolerance.wrench(k)));
-    }
-    set_loads(model, wrench, x);
-    const auto rates = tension_rates(origin, tolerance, x);
-    if (!rates) return std::nullopt;
+    if (!states.advance(share)) return std::nullopt;
+    const std::optional<OnAll<I>> x = states.enclosed(Upper(share * part), result.length);
+    if (!x) return std::nullopt;
     for (std::size_t r = 0; r < kCables; ++r) {
-      for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * (*rates)[r][side];
+      const std::array<Upper, 2> rates = tension_rates(origin, tolerance, *x, r);
+      for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rates[side];
     }
   }
   return result;

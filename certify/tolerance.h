@@ -54,9 +54,10 @@ struct UndisturbedBox {
   const Model<I>& model;
   const MotionEnclosure<I>& motion;
   const CableGeometry<Centered<I>>& geometry;
-  const std::array<Centered<I>, kCables>& length;
-  const Matrix6<typename Scalars<I>::Point>& c;  ///< C
-  const Square<UpperOf<I>>& q;                   ///< D^-1 = P C on T, |P − I| <= Q
+  const std::array<Centered<I>, kCables>&length, &density, &spread;  ///< d_i, λ_i, |Z_i|
+  const Square<I>& root;                                             ///< rows Z_i of D^-1 L, over T
+  const Matrix6<typename Scalars<I>::Point>& c;                      ///< C
+  const Square<UpperOf<I>>& q;                                       ///< D^-1 = P C on T, |P − I| <= Q
   bool held_by_lengths;
 };
 
