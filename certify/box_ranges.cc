@@ -52,9 +52,6 @@ std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& se
   return ranges;
 }
 
-/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take
-/// for ever.
-constexpr int kMostFailures = 2;
 template <class I>
 bool is_within_limits(const Model<I>& model, const BoxRanges& ranges) {
   for (std::size_t i = 0; i < kCables; ++i) {
@@ -78,6 +75,9 @@ std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& se
   return ranges;
 }
 
+/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take
+/// for ever.
+constexpr int kMostFailures = 2;
 
 /// Appends pieces that cover the box; nothing, and false, where that can't be had.
 template <class I>
