@@ -50,8 +50,9 @@ Explanation explained(Undecided reason) {
           "The platform's motion is only implied there, by constraints or by the six cable lengths (or turns by "
           "nearly half a turn at once), and it could not be proved that there is exactly one.",
           "Waypoints far apart; constraints that meet at a flat angle, so that two motions come close; cable "
-          "lengths near a singular pose; two orientations half a turn apart.",
-          "Set more waypoints in between. In a table of cable lengths, more rows.",
+          "lengths that lead to a singular pose; two orientations half a turn apart.",
+          "Set more waypoints in between. In a table of cable lengths it is near a pose beyond which no pose has the "
+          "lengths: other lengths, or a start in another assembly.",
           "open: no single motion was proved to exist there (on the constraints, with the cables' lengths, or "
           "between orientations half a turn apart) [U4]");
     case Undecided::kSingular:
