@@ -23,8 +23,8 @@ constexpr int kMostHalvings = 60;
 constexpr int kMaxPieces = 2000;
 /// Pieces that all boxes together may need on the average, beyond those that one may: so the work is bounded by a file's size.
 constexpr std::size_t kMeanPieces = 50;
-/// Parts of the way to a deviation (deviation.h): 2^h after h halvings of a box, up to this.
-constexpr int kMostParts = 8;
+/// Parts of the way to a deviation (deviation.h): 4^h after h halvings of a box, up to this, which is the prover's most, too.
+constexpr int kMostParts = 16;
 
 enum class Answer { kYes, kNo, kUnknown };
 
@@ -99,7 +99,7 @@ class Checker {
         const std::string where = "segment " + std::to_string(k) + ", box ";
         escalate([&](const Model& model) {
           cover(k, box, where, [&](const Box& piece, int halvings) {
-            const int parts = halvings < 3 ? 1 << halvings : kMostParts;
+            const int parts = halvings < 2 ? 1 << (2 * halvings) : kMostParts;
             if (const auto doubt = doubt_piece(model, k, piece, parts, where + show(piece))) throw Undefined(*doubt);
           });
         });
@@ -292,7 +292,23 @@ class Checker {
     return deviant->geometry(pose);
   }
 
-  void confirm_violation(const Model& stated, const Witness& witness, const std::string& name) const {
+  /// Under the law of cable lengths inner poses are the certificate's own choice. A witness between them is of the path only
+  /// where a motion is proved that leads to its pose from one of the segment's waypoints.
+  void require_connected(const Model& model, const Place& at, const std::string& name) {
+    const Path& path = certificate_.path;
+    if (at.segment >= path.inner_poses.size() || path.inner_poses[at.segment].empty()) return;
+    const auto exists = [&](const Box& piece, int) { (void)situation(model, at.segment, piece); };
+    try {
+      cover(at.segment, {0, at.s}, name + ": from the waypoint before, ", exists);
+      return;
+    } catch (const Undefined&) {  // then from the other side
+    } catch (const Rejected&) {
+    }
+    cover(at.segment, {at.s, 1}, name + ": from the waypoint behind, ", exists);
+  }
+
+  void confirm_violation(const Model& stated, const Witness& witness, const std::string& name) {
+    require_connected(stated, witness.at, name);
     const auto i = static_cast<std::size_t>(witness.cable);
     std::optional<Model> deviant;
     const Geometry geometry = geometry_of(witness, stated, deviant);
@@ -325,6 +341,7 @@ class Checker {
   /// det J = det D / (product of the lengths) vanishes somewhere. Continuity is not free: the case's expressions may
   /// jump (1/x, tan, atan2). A Form of the geometry exists only where they don't.
   void confirm_sign_change(const Model& model, const Witness& witness, const std::string& name) {
+    require_connected(model, witness.at, name);
     const auto det = [&](const Place& place) { return determinant(mid(situation_at(model, place).geometry.D)); };
     const Interval product = det(witness.at) * det(witness.to);
     if (certainly_positive(product)) throw Rejected(name + ": det D has the same sign at both places");

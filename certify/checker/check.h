@@ -45,7 +45,7 @@ struct Interrupted : std::runtime_error {
 /// @param stop     asks to stop: looked at before each piece.
 /// Never throws because of what the text says. @throws Interrupted; any other std::exception only where this program or machine
 /// fails.
-/// Cost: about a millisecond a box; with tolerances some 10 to 50. Thread-safe.
+/// Cost: about a millisecond a box; with tolerances some 10 to 50, or half a second where they take many parts. Thread-safe.
 [[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr,
                                             std::span<const std::string> trusted = {},
                                             const std::stop_token& stop = {});

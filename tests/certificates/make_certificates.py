@@ -1345,6 +1345,27 @@ def motions_between_poses():
            inner(lambda i: i[1].update(tube={'position': '0x1p-1', 'turn': '0x1p+0'})))
     reject('lengths_inner_not_in_the_next_tube', far_winches, 'At an inner pose, which is half a millimetre beside the motion, only the tube before it holds the pose.', held_by,
            inner(lambda i: (lift(i[1], 0.0005), i[1].update(tube={'position': '0x1p-20', 'turn': '0x1p-19'}))))
+    def other_assembly(c):
+        """A refutation by the mirror image, which is the inner pose in the middle; no motion leads there from a waypoint."""
+        tubes_of = c['path']['pose_tubes'][0]
+        middle, = [i for i in tubes_of['inner'] if i['s'] == '1/2']
+        lift(middle, -2 * float.fromhex(middle['position'][2]))
+        x, y, z, w = (float.fromhex(x) for x in middle['quaternion'])
+        middle['quaternion'] = [hex64(n) for n in (-x, -y, z, w)]
+        narrow = {'position': '0x1p-12', 'turn': '0x1p-11'}
+        middle['tube'] = narrow
+        tubes_of.update(narrow, inner=[middle])
+    elsewhere = copy.deepcopy(far_winches['path'])
+    other_assembly({'path': elsewhere})
+    middle_pose = between_poses(free, elsewhere, 0, 0.5)
+    _, centre, spread = statics(free, middle_pose)[:3]
+    slack = min(range(6), key=lambda k: centre[k] - spread[k])
+    least = centre[slack] - spread[slack]
+    write('rejected', 'lengths_witness_of_another_assembly',
+          seal(certificate(free, elsewhere, 'refuted', witness={
+              'kind': 'tension_min', 'at': {'segment': 0, 's': '1/2'}, 'cable': slack + 1, 'value': ['%.9f' % (least - 1e-6), '%.9f' % (least + 1e-6)],
+              'limit': free['robot']['tension_N'][slack][0]})),
+          'The witness is at an inner pose of the mirror image, to which no motion leads from a waypoint.', 'from the waypoint')
     jump = poses('straight-in-cable-lengths', pose(*up, lengths_of(up)), pose(*down, lengths_of(up)), pose_tubes=[(2**-8, 2**-8)])
     jump['pose_tubes'][0]['inner'] = [
         {'s': s, **pose(*at), 'tube': {'position': '0x1p-8', 'turn': '0x1p-8'}} for s, at in (('1/4', up), ('3/4', down))]

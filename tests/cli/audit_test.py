@@ -168,12 +168,12 @@ class Audit(InFolder):
     def test_an_interrupted_audit_leaves_nothing(self):
         def rows():
             yield "phi[deg],theta[deg]"
-            for k in range(300000):
+            for k in range(900000):
                 yield f"{-88.9 + 0.3 * math.sin(k / 100)},{80.2 + 0.3 * math.cos(k / 100)}"
         path = self.write("path.csv", "\n".join(rows()))
         process = subprocess.Popen([TAUT, "audit", ROBOT1, path, "--out", self.path("out")], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
-        time.sleep(1.5)
+        time.sleep(1)
         self.assertIsNone(process.poll(), "it should take longer")
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
