@@ -91,6 +91,9 @@ TEST(Audit, GivesTheCommandsCertificateByteForByte) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kCases + "audits")) {
     if (entry.path().extension() != ".yaml") continue;
+    // How far each tolerance may grow is sought for minutes under sanitizers.
+    const bool has_tolerances = entry.path().stem() == "robot1-cable-lengths-tolerances";
+    if (has_tolerances && std::getenv("TAUT_SANITIZED") != nullptr) continue;
     const Certificate certificate = taut::audit(taut::Case::load(entry.path().string()));
     EXPECT_EQ(certificate.text(), certificate_of_command("audit " + entry.path().string())) << entry.path();
     ++count;
