@@ -40,20 +40,34 @@ Matrix6<double> jacobian_of_lengths(const Model<double>& model, const RigidPose&
   return jacobian;
 }
 
-/// Newton's method; nothing unless it converges to the last digits.
+/// Newton's method; nothing unless it converges to the last digits, and at once. From its second step on it is then next to the
+/// pose to which `pose` leads, and to no other.
 std::optional<RigidPose> newton(const Model<double>& model, const Lengths& target, RigidPose pose) {
-  constexpr int kMaxIterations = 12;
-  constexpr double kConverged = 1e-13;  // of the lengths; what rounding leaves is less
-  constexpr double kMaxTurn = 0.5;      // rad in one step: beyond it is another solution
+  constexpr int kMaxIterations = 24;
+  constexpr double kConverged = 1e-13;       // of the lengths; what rounding leaves is less
+  constexpr double kExact = 2e-16;           // of the lengths
+  constexpr double kMaxTurn = 0.5;           // rad in one step
+  constexpr double kContraction = 1.0 / 16;  // of the second step, by which the distance to where it fails is judged
+  double last_error = std::numeric_limits<double>::infinity();
+  double last_size = 0;
+  RigidPose last_pose = pose;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const Lengths residual = target - lengths_at(model, pose);
-    const double error = residual.cwiseAbs().maxCoeff();
+    const double error = residual.cwiseAbs().maxCoeff() / target.maxCoeff();
     if (!std::isfinite(error)) return std::nullopt;
-    if (error <= kConverged * target.maxCoeff()) return pose;
+    if (error <= kExact) return pose;
+    if (last_error <= kConverged && error > 0.5 * last_error) return error < last_error ? pose : last_pose;
     const Vector6<double> step = Eigen::PartialPivLU<Matrix6<double>>(jacobian_of_lengths(model, pose)).solve(residual);
     const Vector3<double> turn = step.tail<3>();
     const double angle = turn.norm();
-    if (!std::isfinite(step.norm()) || angle > kMaxTurn) return std::nullopt;
+    const double size = std::hypot(step.head<3>().norm() / model.characteristic_length, angle);
+    if (!std::isfinite(size) || angle > kMaxTurn) return std::nullopt;
+    if (error > kConverged && iteration > 0 && size > (iteration == 1 ? kContraction : 0.5) * last_size) {
+      return std::nullopt;
+    }
+    last_error = error;
+    last_size = size;
+    last_pose = pose;
     pose.p += step.head<3>();
     if (angle > 0) pose.q = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) * pose.q).normalized();
   }
@@ -106,16 +120,24 @@ std::array<double, kCables> cable_lengths(const Model<double>& model, const Rigi
 
 std::optional<RigidPose> pose_of_lengths(const Model<double>& model, const std::array<double, kCables>& lengths,
                                          const RigidPose& start) {
-  constexpr int kMostSteps = 256;
+  constexpr double kLeastStep = 0x1p-48;
+  constexpr int kMostSteps = 10000;
   const Lengths target(lengths.data());
   const Lengths from = lengths_at(model, start);
-  for (int steps = 1; steps <= kMostSteps; steps *= 4) {
-    std::optional<RigidPose> pose = start;
-    for (int k = 1; k <= steps && pose; ++k) {
-      const Lengths at = k == steps ? target : Lengths(from + (target - from) * (static_cast<double>(k) / steps));
-      pose = newton(model, at, *pose);
+  RigidPose pose = start;
+  double s = 0;
+  double step = 1;
+  for (int k = 0; k < kMostSteps && step >= kLeastStep; ++k) {
+    const double next = std::min(1.0, s + step);
+    const auto found = newton(model, next < 1 ? Lengths(from + (target - from) * next) : target, pose);
+    if (!found) {
+      step /= 2;
+      continue;
     }
-    if (pose) return pose;
+    if (next == 1) return found;
+    pose = *found;
+    s = next;
+    step *= 2;
   }
   return std::nullopt;
 }

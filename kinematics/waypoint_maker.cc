@@ -92,14 +92,14 @@ const Waypoint& WaypointMaker::next(const PathRow& row, const std::vector<double
     }
     return waypoint_;
   }
-  const std::optional<RigidPose> previous = pose_;
   if (header_.form == PathForm::kCableLengths) {
-    find_reference(row, start);
+    find_reference(row, start);  // references turn as the motion does, even by more than half a turn
   } else {
+    const std::optional<RigidPose> previous = pose_;
     pose_ = pose_of(header_.form, row.x, row.half_turns);
+    if (previous && pose_->q.dot(previous->q) < 0) pose_->q.coeffs() = -pose_->q.coeffs();  // the shorter way
   }
-  RigidPose& pose = *pose_;
-  if (previous && pose.q.dot(previous->q) < 0) pose.q.coeffs() = -pose.q.coeffs();  // references turn the shorter way
+  const RigidPose& pose = *pose_;
   if (law_ == Interpolation::kStraight) {
     angles_ = tilt_and_torsion(pose.q, angles_);
     waypoint_.x = {pose.p(0), pose.p(1), pose.p(2), angles_->x[0], angles_->x[1], angles_->x[2]};

@@ -86,6 +86,37 @@ TEST(PoseConversion, LengthsLeadToThePoseTheyCameFrom) {
                                rigid_pose({Vector3<double>(0, 0, 0.35), 0.3, 0.2, 0.5})));
 }
 
+struct Way {
+  RigidPose start;
+  std::array<double, kCables> lengths;
+};
+
+TEST(PoseConversion, LengthsLeadPastASingularPose) {
+  const PoseSampler sampler(testing::robot1_slice());
+  const Way ways[] = {{rigid_pose({Vector3<double>(0.04721, 0.00233, 0.3), -2.02239, 0.13456, 0.79145}),
+                       {0.2985, 0.41256, 0.49969, 0.31206, 0.44673, 0.34441}},
+                      {rigid_pose({Vector3<double>(0.02842, -0.02128, 0.4), 1.23635, 0.48762, 0.49451}),
+                       {0.57464, 0.36149, 0.42669, 0.36844, 0.38736, 0.4744}}};
+  for (const Way& way : ways) {
+    const auto found = pose_of_lengths(sampler.model(), way.lengths, way.start);
+    ASSERT_TRUE(found);
+    const std::array<double, kCables> reached = cable_lengths(sampler.model(), *found);
+    for (std::size_t i = 0; i < kCables; ++i) EXPECT_NEAR(reached[i], way.lengths[i], 1e-13);
+  }
+}
+
+TEST(PoseConversion, LengthsDoNotLeadAcrossASingularPose) {
+  // Newton's method, in too long steps, finds a pose beyond.
+  const PoseSampler sampler(testing::robot1_slice());
+  const Way ways[] = {{rigid_pose({Vector3<double>(-0.0294, -0.03603, 0.35), 1.71062, 0.49847, 0.7952}),
+                       {0.478, 0.28332, 0.47342, 0.38539, 0.30109, 0.38757}},
+                      {rigid_pose({Vector3<double>(-0.03466, -0.03374, 0.35), -1.90163, 0.37874, 0.34026}),
+                       {0.58478, 0.43428, 0.24824, 0.45888, 0.28684, 0.20849}},
+                      {rigid_pose({Vector3<double>(-0.02888, -0.00957, 0.3), 1.11026, 0.41375, 0.26672}),
+                       {0.32653, 0.20178, 0.42012, 0.26287, 0.25275, 0.4127}}};
+  for (const Way& way : ways) EXPECT_FALSE(pose_of_lengths(sampler.model(), way.lengths, way.start));
+}
+
 // --- Waypoints ---------------------------------------------------------------------------------------------------------
 
 std::vector<Waypoint> waypoints(const std::string& text, std::optional<Interpolation> law, const Problem& problem) {

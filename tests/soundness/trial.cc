@@ -274,8 +274,9 @@ void choose_lengths(Trial& trial, Random& random) {
       const Eigen::Quaterniond q(from[6], from[3], from[4], from[5]);
       const auto pose = pose_of_lengths(model, wanted, {{from[0], from[1], from[2]}, q.normalized()});
       if (pose) {
-        const Eigen::Quaterniond sign(pose->q.dot(q) < 0 ? Eigen::Quaterniond(-pose->q.coeffs()) : pose->q);
-        x = {pose->p(0), pose->p(1), pose->p(2), sign.x(), sign.y(), sign.z(), sign.w()};
+        x = {pose->p(0), pose->p(1), pose->p(2), pose->q.x(), pose->q.y(), pose->q.z(), pose->q.w()};
+      } else if (k == 0) {
+        trial.has_bad_reference = true;  // next to a singular pose nothing near need have these lengths
       }
     }
     x.insert(x.end(), wanted.begin(), wanted.end());
