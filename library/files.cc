@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -25,21 +26,36 @@ namespace {
                          {path.string()});
 }
 
+constexpr std::string_view kPart = ".part";
+
+/// Unlike the name of any other file that is being written, in this process or another: they differ by process and number.
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  static std::atomic<unsigned> number = 0;
+  return path.string() + fmt::format(".{}-{}{}", ::getpid(), number++, kPart);
+}
+
+/// The process that made a file of that name for one named `file`; 0 where it is no such name.
+pid_t maker(std::string_view name, const std::string& file) {
+  const std::string prefix = file + ".";
+  if (!name.starts_with(prefix) || !name.ends_with(kPart) || name.size() <= prefix.size() + kPart.size()) return 0;
+  name.remove_prefix(prefix.size());
+  name.remove_suffix(kPart.size());
+  pid_t process = 0;
+  unsigned number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [read, error] = std::from_chars(name.data(), end, process);
+  if (error != std::errc() || read == end || *read != '-') return 0;
+  const auto [read_all, no_number] = std::from_chars(read + 1, end, number);
+  return no_number == std::errc() && read_all == end ? process : 0;
+}
+
 /// Removes temporary files for `path` that a run left behind which was killed: its process is gone, and nobody holds the file locked.
 void remove_leftovers(const std::filesystem::path& path) {
-  const std::string prefix = path.filename().string() + ".";
-  constexpr std::string_view kSuffix = ".part";
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   for (auto entry = std::filesystem::directory_iterator(folder, ignored);
        entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
-    const std::string name = entry->path().filename().string();
-    if (name.size() <= prefix.size() + kSuffix.size() || !name.starts_with(prefix) || !name.ends_with(kSuffix))
-      continue;
-    pid_t process = 0;
-    const char* const begin = name.data() + prefix.size();
-    const char* const end = name.data() + name.size() - kSuffix.size();
-    if (const auto [read, error] = std::from_chars(begin, end, process); error != std::errc() || read != end) continue;
+    const pid_t process = maker(entry->path().filename().string(), path.filename().string());
     if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH) continue;
     const int descriptor = ::open(entry->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) continue;
@@ -50,10 +66,12 @@ void remove_leftovers(const std::filesystem::path& path) {
 
 }  // namespace
 
-NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
+NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)) {
   remove_leftovers(path_);
-  temporary_ += fmt::format(".{}.part", ::getpid());
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  do {
+    temporary_ = temporary_name(path_);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  } while (descriptor_ < 0 && errno == EEXIST);  // left by a process of the same number, or of another container's
   if (descriptor_ < 0) fail(path_, "write", errno);
   static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));  // says that it is in use, to whoever looks for leftovers
 }

@@ -14,6 +14,7 @@ struct FileContent {
 };
 
 /// A file that is written piece by piece under a temporary name beside its own; it vanishes unless it is renamed into place.
+/// Any number of them may be of one path at once, in any threads and processes; the last to be renamed stays.
 /// What earlier runs that were killed left of it is removed.
 /// Everything throws InputError naming the path and the system's reason.
 class NewFile {
