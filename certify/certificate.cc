@@ -162,7 +162,7 @@ json segments_json(const Path& path, const PathProof& proof) {
 }
 
 json undecided_json(const PathProof& proof) {
-  json result = {{"reason", proof.reason}, {"segment", nullptr}, {"box", nullptr}};
+  json result = {{"reason", proof.reason.text()}, {"segment", nullptr}, {"box", nullptr}};
   if (proof.open_segment >= 0) {
     const DyadicBox& box = proof.segments[static_cast<std::size_t>(proof.open_segment)].open_box;
     result["segment"] = proof.open_segment;

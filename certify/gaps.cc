@@ -30,7 +30,7 @@ std::vector<Gap> gaps(const SegmentSurvey& survey) {
     const bool throughout = part.kind == Kind::kViolated;
     if (!gap.first) gap.first = throughout ? at_end(*part.witness, false) : *part.witness;
     gap.last = throughout ? at_end(*part.witness, true) : *part.witness;
-    gap.reason.clear();
+    gap.reason = {};
   }
   return result;
 }

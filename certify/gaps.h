@@ -14,7 +14,7 @@ struct Gap {
   Dyadic begin, end;
   /// Inner ends, which may be the same: the first and the last place in it where a violation is proved; none of an open gap.
   std::optional<SegmentWitness> first, last;
-  std::string reason;  ///< only of an open gap: of its first box
+  Reason reason;  ///< only of an open gap: of its first box
 };
 
 /// In order along the segment.

@@ -65,12 +65,12 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
 }
 
 /// Of waypoint `index`: refute_waypoint() on a segment that stays there.
-std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, std::string& undecided) {
+std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, Reason& undecided) {
   const DyadicBox whole;
   const SegmentProof proof = prover.prove(still);
   if (proof.verdict == Verdict::kProved) return std::nullopt;
   if (!prover.may_follow(still)) {
-    undecided = words(Undecided::kWaypointRange).at_pose;
+    undecided = Reason::at_pose(Undecided::kWaypointRange);
     return std::nullopt;
   }
   const BoxVerdict verdict = prover.judge(still, whole);
@@ -85,7 +85,7 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
                            : verdict.kind == BoxVerdict::Kind::kOutOfRange ? Undecided::kParameterRange
                            : verdict.kind == BoxVerdict::Kind::kFault      ? Undecided::kUndefined
                                                                            : Undecided::kPrecision;
-  undecided = words(reason).at_pose;
+  undecided = Reason::at_pose(reason);
   return std::nullopt;
 }
 
@@ -187,7 +187,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   if (path.segments() == 0) {
     if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason);
     if (result.witness) result.verdict = Verdict::kRefuted;
-    if (result.reason.empty()) result.reason = words(Undecided::kNoSegment).words;
+    if (result.reason.empty()) result.reason = Undecided::kNoSegment;
     return result;
   }
   result.segments.resize(path.segments());
@@ -239,7 +239,7 @@ PathWitness path_witness(const Prover& prover, const Segment& segment, int index
 }
 
 std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
-                                           std::string& undecided) {
+                                           Reason& undecided) {
   return refute_pose(prover, prover.segment(waypoint, waypoint), index, undecided);
 }
 

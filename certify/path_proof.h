@@ -42,7 +42,7 @@ struct PathProof {
   std::vector<Margins> segment_margins;  ///< likewise
   Margins margins;                       ///< smallest along the path; only if proved
   std::optional<PathWitness> witness;    ///< only if refuted
-  std::string reason;                    ///< only if undecided
+  Reason reason;                         ///< only if undecided
   int open_segment = -1;                 ///< only if undecided
   long boxes = 0;
   long boxes_judged = 0;
@@ -61,7 +61,7 @@ using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 /// Proof attempt at one pose: nothing if the waypoint is wrench-feasible (proved), else the witness; `undecided` is set to a
 /// reason if neither could be proved.
 [[nodiscard]] std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
-                                                         std::string& undecided);
+                                                         Reason& undecided);
 
 /// The binary64 nearest to the exact value of a constant expression (ties to even).
 /// @throws InputError if it is not finite or can't be told at 4096 bits.

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "certify/held_reference.h"
-#include "certify/undecided.h"
 #include "kinematics/input_error.h"
 
 namespace taut {
@@ -124,10 +123,6 @@ Undecided reason_of(BoxVerdict::Kind kind) {
   }
 }
 
-/// As certificates tell it; with a place, for those that have one.
-std::string told(Undecided reason) { return words(reason).words; }
-std::string told(Undecided reason, const std::string& place) { return told(reason) + " " + place; }
-
 }  // namespace
 
 BoxVerdict Prover::judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
@@ -188,7 +183,7 @@ struct Prover::Step {
   Kind kind;
   BoxVerdict verdict = {};
   std::optional<SegmentWitness> witness = {};
-  std::string reason = {};
+  Reason reason = {};
 };
 
 namespace {
@@ -199,11 +194,11 @@ int deepest(std::size_t rung, const std::vector<mpfr_prec_t>& bits) {
   return rung == 0 ? kBinary64Depth : static_cast<int>(std::min<mpfr_prec_t>(bits[rung - 1], DyadicBox::kMaxDepth));
 }
 
-std::string describe(MarginId margin) {
-  return std::string("margin ") + name(margin.kind) + " of cable " + std::to_string(margin.cable + 1);
+/// For a reason whose words end with "at".
+Reason at(Undecided reason, MarginId margin, std::string_view detail = {}) {
+  std::string place = std::string(" margin ") + name(margin.kind) + " of cable " + std::to_string(margin.cable + 1);
+  return {reason, place.append(detail)};
 }
-
-std::string tolerances_too_large(MarginId margin) { return told(Undecided::kTolerances, describe(margin)); }
 
 /// Of an enclosure at the working precision. Void if a fault is raised.
 std::optional<Centered<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
@@ -283,7 +278,8 @@ Prover::Step Prover::settle(Walk& walk, const Task& task, MarginId margin) const
   return {Step::Kind::kGiveUp,
           {},
           {},
-          describe(margin) + " is zero, or too close to it for " + std::to_string(bits_.back()) + " bits to tell"};
+          at(Undecided::kPrecision, margin,
+             ": it is zero, or too close to it for " + std::to_string(bits_.back()) + " bits to tell")};
 }
 
 bool Prover::is_singular_between_ends(const Segment& segment, const DyadicBox& box) const {
@@ -302,15 +298,15 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
   const auto& [box, rung, is_hopeless, parts] = task;
   if (walk.judged >= options_.max_boxes || walk.multiprecision >= options_.max_multiprecision_boxes) {
-    return {Step::Kind::kStop, {}, {}, told(Undecided::kBoxBudget)};
+    return {Step::Kind::kStop, {}, {}, Undecided::kBoxBudget};
   }
   if (interrupt != nullptr && interrupt->load(std::memory_order_relaxed)) {
-    return {Step::Kind::kStop, {}, {}, told(Undecided::kInterrupted)};
+    return {Step::Kind::kStop, {}, {}, Undecided::kInterrupted};
   }
   ++walk.judged;
   if (rung > 0) ++walk.multiprecision;
   const BoxVerdict verdict = judge_at(rung, walk.segment, box, walk.clearance, parts);
-  const auto give_up = [&](std::string reason) { return Step{Step::Kind::kGiveUp, verdict, {}, std::move(reason)}; };
+  const auto give_up = [&](Reason reason) { return Step{Step::Kind::kGiveUp, verdict, {}, std::move(reason)}; };
   const Step split{Step::Kind::kSplit, verdict};
   const Step climb{Step::Kind::kClimb, verdict};
   const Step refine{Step::Kind::kRefine, verdict};
@@ -318,35 +314,36 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   switch (verdict.kind) {
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box}};
-    case Kind::kTooClose: return give_up(told(Undecided::kClearance));
+    case Kind::kTooClose: return give_up(Undecided::kClearance);
     case Kind::kSplit:
       if (box.depth < deepest(rung, bits_)) return split;
       if (higher_rung) return settle(walk, task, verdict.worst);
-      return give_up(told(Undecided::kDepth, describe(verdict.worst)));
+      return give_up(at(Undecided::kDepth, verdict.worst));
     case Kind::kTolerance:
       if (parts == 1) return refine;
       if (box.depth < options_.tolerance_depth) return split;
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
-      if (walk.deviation_found && box.upper() != Dyadic{1, 0}) return give_up(tolerances_too_large(verdict.worst));
+      if (walk.deviation_found && box.upper() != Dyadic{1, 0})
+        return give_up(at(Undecided::kTolerances, verdict.worst));
       if (auto deviation = refuting_deviation(walk.segment, box, verdict.worst)) {
         walk.deviation_found = true;
         return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
       }
       if (parts < kMostParts) return refine;
-      return give_up(tolerances_too_large(verdict.worst));
+      return give_up(at(Undecided::kTolerances, verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
-      return give_up(told(Undecided::kPrecision, describe(verdict.worst)) + ": it vanishes or nearly so");
-    case Kind::kOutOfRange: return give_up(told(Undecided::kParameterRange));
+      return give_up(at(Undecided::kPrecision, verdict.worst, ": it vanishes or nearly so"));
+    case Kind::kOutOfRange: return give_up(Undecided::kParameterRange);
     case Kind::kAcross:
       if (box.depth < DyadicBox::kMaxDepth) return split;
-      return give_up(told(Undecided::kNoMotion));  // the inner pose is at no end of a box
+      return give_up(Undecided::kNoMotion);  // the inner pose is at no end of a box
     case Kind::kNoMotion:
       // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
       if (box.depth < (walk.motion_given_up ? kHastyMotionDepth : options_.motion_depth)) return split;
       if (higher_rung && rung < kSingularRung && !walk.motion_given_up) return climb;
       walk.motion_given_up = true;
-      return give_up(told(reason_of(verdict.kind)));
+      return give_up(reason_of(verdict.kind));
     case Kind::kNearSingular:
     case Kind::kFault: break;
   }
@@ -357,14 +354,14 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   }
   if (higher_rung && rung < kSingularRung) return climb;
   if (box.depth < 2 * options_.singular_depth && !is_hopeless) return split;
-  return give_up(told(reason_of(verdict.kind)));
+  return give_up(reason_of(verdict.kind));
 }
 
 SegmentProof Prover::prove(const Segment& segment, double clearance) const {
   SegmentProof proof;
   proof.tension_N = proof.length_m = proof.wrench_scale = std::numeric_limits<double>::infinity();
   if (!may_follow(segment)) {
-    proof.reason = told(Undecided::kWaypointRange);
+    proof.reason = Undecided::kWaypointRange;
     return proof;
   }
   Walk walk{segment, clearance};
@@ -403,7 +400,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
   SegmentSurvey survey;
   survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
   if (!may_follow(segment)) {
-    survey.boxes.push_back({{}, Kind::kOpen, {}, told(Undecided::kWaypointRange)});
+    survey.boxes.push_back({{}, Kind::kOpen, {}, Undecided::kWaypointRange});
     return survey;
   }
   Walk walk{segment};
@@ -425,7 +422,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
         step.witness = SegmentWitness{true, {}, task.box};
         report(Kind::kSingular);
       } else {
-        step.reason = told(reason_of(step.verdict.kind));
+        step.reason = reason_of(step.verdict.kind);
         report(Kind::kOpen);
       }
       continue;

@@ -15,6 +15,7 @@
 
 #include "certify/box_proof.h"
 #include "certify/deviation.h"
+#include "certify/undecided.h"
 #include "kinematics/constraint_functions.h"
 #include "kinematics/pose_sampler.h"
 
@@ -52,7 +53,7 @@ struct SegmentProof {
   double wrench_scale = 0;
   std::optional<SegmentWitness> witness;  ///< only if refuted
   DyadicBox open_box;                     ///< only if undecided: the smallest box left
-  std::string reason;                     ///< only if undecided
+  Reason reason;                          ///< only if undecided
   int boxes_judged = 0;                   ///< including those that were split
   int boxes_multiprecision = 0;
 };
@@ -69,8 +70,8 @@ struct SurveyedBox {
   DyadicBox box;
   Kind kind = Kind::kOpen;
   std::optional<SegmentWitness>
-      witness;         ///< within `box`; unless kProved or kOpen. kViolated: any of its midpoints will do
-  std::string reason;  ///< only if kOpen
+      witness;    ///< within `box`; unless kProved or kOpen. kViolated: any of its midpoints will do
+  Reason reason;  ///< only if kOpen
 };
 
 struct SurveyOptions {

@@ -1,5 +1,7 @@
 #include "certify/undecided.h"
 
+#include <ostream>
+
 namespace taut {
 
 UndecidedWords words(Undecided reason) {
@@ -33,6 +35,22 @@ UndecidedWords words(Undecided reason) {
   }
   return {"", nullptr};
 }
+
+Reason::Reason(Undecided reason, std::string_view behind) : text_(words(reason).words) { text_ += behind; }
+
+Reason Reason::at_pose(Undecided reason) {
+  Reason result;
+  result.text_ = words(reason).at_pose;
+  return result;
+}
+
+Reason Reason::preceded_by(std::string_view before) const {
+  Reason result = *this;
+  result.text_.insert(0, before);
+  return result;
+}
+
+std::ostream& operator<<(std::ostream& out, const Reason& reason) { return out << reason.text_; }
 
 std::string code(Undecided reason) { return "U" + std::to_string(static_cast<int>(reason) + 1); }
 

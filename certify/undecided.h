@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,25 @@ struct UndecidedWords {
   const char* at_pose;
 };
 [[nodiscard]] UndecidedWords words(Undecided reason);
+
+/// Why something stayed undecided, as certificates and messages say it: the words for one of the reasons, with what stands before and
+/// behind them. It can't be made of anything else, so that every reason that is told has a code.
+class Reason {
+ public:
+  Reason() = default;  ///< None: empty.
+  Reason(Undecided reason,
+         std::string_view behind = {});  // NOLINT(google-explicit-constructor): is one, without a place
+  /// Of a single pose. @pre There are such words.
+  [[nodiscard]] static Reason at_pose(Undecided reason);
+  [[nodiscard]] Reason preceded_by(std::string_view before) const;
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] bool empty() const { return text_.empty(); }
+  friend std::ostream& operator<<(std::ostream& out, const Reason& reason);
+
+ private:
+  std::string text_;
+};
 
 /// "U3"
 [[nodiscard]] std::string code(Undecided reason);

@@ -42,7 +42,7 @@ std::string text(const PathWitness& witness) {
 std::string text(const AuditStretch& stretch, const char* place_name) {
   std::string lines =
       fmt::format("  from {}\n    to {}\n", text(stretch.begin, place_name), text(stretch.end, place_name));
-  if (!stretch.inner) return lines + fmt::format("    open: {}\n", with_code(stretch.reason));
+  if (!stretch.inner) return lines + fmt::format("    open: {}\n", with_code(stretch.reason.text()));
   lines += fmt::format("    violated from {}: {}\n", text(stretch.inner_places->first, place_name),
                        text(stretch.inner->first));
   return lines + fmt::format("              to {}: {}\n", text(stretch.inner_places->second, place_name),
@@ -112,7 +112,7 @@ nlohmann::json summary(const Audit& audit, const PathSource& source, const nlohm
     }
     stretches.push_back({{"outer", {place_json(stretch.begin, place_name), place_json(stretch.end, place_name)}},
                          {"inner", inner},
-                         {"reason", stretch.inner ? nlohmann::json() : nlohmann::json(stretch.reason)}});
+                         {"reason", stretch.inner ? nlohmann::json() : nlohmann::json(stretch.reason.text())}});
   }
   return {{"verdict", name(audit.verdict)},
           {"interpolation", interpolation_name(source.law())},

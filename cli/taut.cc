@@ -70,7 +70,7 @@ std::string sentence(const Plan& plan) {
     }
     case Verdict::kUndecided: break;
   }
-  return fmt::format("undecided: {}.", with_code(proof.reason));
+  return fmt::format("undecided: {}.", with_code(proof.reason.text()));
 }
 
 /// What the search knows of its path.

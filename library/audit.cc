@@ -26,12 +26,9 @@ struct StatedGap {
 
 /// What is known of one segment, and what the files say of it.
 struct SegmentResult {
-  double tube = 0;
-  PoseTube pose_tube;
-  std::vector<InnerPose> inner_poses;
+  Segment segment;  ///< between waypoints of its batch
+  SegmentSurvey survey;
   std::size_t boxes = 0;  ///< proved
-  long boxes_judged = 0;
-  double tension_N = 0, length_m = 0, wrench_scale = 0;
   std::vector<StatedGap> gaps;
   std::string text;
 };
@@ -117,22 +114,16 @@ class BatchProver {
   [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i) const {
     Segment segment{law_, {}, 0};
     for (std::size_t c = 0; c < control_points(law_); ++c) segment.control[c] = &batch.waypoints[i + c].waypoint;
-    segment = prover_.prepared(segment);
-    const SegmentSurvey survey = prover_.survey(segment);
     SegmentResult result;
-    result.tube = segment.tube;
-    result.pose_tube = segment.pose_tube;
-    result.inner_poses = segment.inner_poses;
-    result.boxes_judged = survey.boxes_judged;
-    result.tension_N = survey.tension_N;
-    result.length_m = survey.length_m;
-    result.wrench_scale = survey.wrench_scale;
+    result.segment = prover_.prepared(segment);
+    result.survey = prover_.survey(result.segment);
+    const SegmentSurvey& survey = result.survey;
     const std::size_t number = batch.first_segment + i;
     std::vector<DyadicBox> proved;
     for (const SurveyedBox& box : survey.boxes) {
       if (box.kind == SurveyedBox::Kind::kProved) proved.push_back(box.box);
     }
-    for (Gap& gap : gaps(survey)) result.gaps.push_back(stated(segment, number, std::move(gap)));
+    for (Gap& gap : gaps(survey)) result.gaps.push_back(stated(result.segment, number, std::move(gap)));
     result.boxes = proved.size();
     const Margins margins =
         proved.empty() ? Margins{} : margins_below(survey.tension_N, survey.length_m, survey.wrench_scale);
@@ -175,18 +166,16 @@ class BatchWriter {
     }
     csv_(batch.csv);
     for (std::size_t i = 0; i < batch.segments.size(); ++i) {
-      const SegmentResult& segment = batch.segments[i];
+      const auto& [segment, survey, boxes, gaps, text] = batch.segments[i];
       if (has_tubes_) certificate_.add_tube(segment.tube);
       if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube, segment.inner_poses);
-      certificate_.add_segment(segment.text, segment.boxes);
-      result_.boxes += segment.boxes;
-      result_.boxes_judged += segment.boxes_judged;
-      if (segment.boxes > 0) {
-        tension_N_ = std::min(tension_N_, segment.tension_N);
-        length_m_ = std::min(length_m_, segment.length_m);
-        wrench_scale_ = std::min(wrench_scale_, segment.wrench_scale);
-      }
-      for (const StatedGap& gap : segment.gaps) add(batch, i, gap);
+      certificate_.add_segment(text, boxes);
+      result_.boxes += boxes;
+      result_.boxes_judged += survey.boxes_judged;
+      tension_N_ = std::min(tension_N_, survey.tension_N);
+      length_m_ = std::min(length_m_, survey.length_m);
+      wrench_scale_ = std::min(wrench_scale_, survey.wrench_scale);
+      for (const StatedGap& gap : gaps) add(batch, i, gap);
     }
     result_.segments += batch.segments.size();
   }
@@ -252,7 +241,7 @@ class BatchWriter {
         {{"outer",
           {place_json(stretch_->begin.segment, stretch_->begin.s), place_json(stretch_->end.segment, stretch_->end.s)}},
          {"inner", inner},
-         {"reason", stretch_->inner ? json() : json(stretch_->reason)}});
+         {"reason", stretch_->inner ? json() : json(stretch_->reason.text())}});
     ++(stretch_->inner ? result_.stretches_violated : result_.stretches_open);
     // A refuted audit shows a violation, whatever is open before it.
     const bool is_first_violation = stretch_->inner && result_.stretches_violated == 1;
@@ -322,7 +311,7 @@ json undecided_json(const Audit& audit) {
   if (audit.verdict != Verdict::kUndecided || audit.stretches.empty()) return nullptr;
   const AuditStretch& open = audit.stretches.front();
   const bool ends_there = open.end.segment == open.begin.segment;
-  return {{"reason", open.reason},
+  return {{"reason", open.reason.text()},
           {"segment", open.begin.segment},
           {"box", {open.begin.s.text(), ends_there ? open.end.s.text() : "1"}}};
 }

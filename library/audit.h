@@ -31,7 +31,7 @@ struct AuditStretch {
   AuditPlace begin, end;                                     ///< outside of them the path is proved
   std::optional<std::pair<PathWitness, PathWitness>> inner;  ///< the first and the last proved violation in it
   std::optional<std::pair<AuditPlace, AuditPlace>> inner_places;
-  std::string reason;  ///< of a stretch without violations: why it is open
+  Reason reason;  ///< of a stretch without violations: why it is open
 };
 
 struct Audit {

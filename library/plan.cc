@@ -232,7 +232,7 @@ std::string Planner::atlas_bytes() const { return AtlasFile::bytes_of(*atlas_, a
 std::optional<Plan> Planner::judge_query() const {
   for (std::size_t k = 0; k < query_.size(); ++k) {
     Plan answer;
-    std::string undecided;
+    Reason undecided;
     answer.proof.witness = refute_waypoint(prover_, query_[k], 0, undecided);
     if (answer.proof.witness) {
       answer.path.waypoints = {query_[k]};
@@ -241,7 +241,7 @@ std::optional<Plan> Planner::judge_query() const {
     }
     if (!undecided.empty()) {
       answer.path.waypoints = query_;
-      answer.proof.reason = fmt::format("waypoint {} of the query: {}", k, undecided);
+      answer.proof.reason = undecided.preceded_by(fmt::format("waypoint {} of the query: ", k));
       return answer;
     }
   }
@@ -251,7 +251,7 @@ std::optional<Plan> Planner::judge_query() const {
 /// A path through the query on edges that `edges` accepts; nothing, and the reason, where there is none.
 std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progress& progress,
                                                      const std::stop_token& stop, PlanStatistics& statistics,
-                                                     std::string& reason) {
+                                                     Reason& reason) {
   const auto distance = [&](const Coordinates& a, const Coordinates& b) { return length_.distance(a, b); };
   SearchProblem search_problem;
   // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search soon.
@@ -280,7 +280,7 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
     if (best.found.status != SearchStatus::kFound) {
       const bool ran_out = best.found.status == SearchStatus::kChartLimit || budget.over();
       statistics.budget_spent = ran_out && !stop.stop_requested();
-      reason = stop.stop_requested() ? words(Undecided::kInterrupted).words : no_path_reason(best.found, leg);
+      reason = stop.stop_requested() ? Undecided::kInterrupted : no_path_reason(best.found, leg);
       return std::nullopt;
     }
     if (stop.stop_requested()) statistics.budget_spent = false;
@@ -345,29 +345,31 @@ double Planner::seconds_for_leg(std::size_t leg) const {
   return (case_.planner.max_seconds - seconds_since(begin_)) / static_cast<double>(query_.size() - 1 - leg);
 }
 
-std::string Planner::no_path_reason(const SearchResult& result, std::size_t leg) const {
-  const std::string what = fmt::format("no path from waypoint {} to {} of the query", leg, leg + 1);
+Reason Planner::no_path_reason(const SearchResult& result, std::size_t leg) const {
+  const std::string what = fmt::format("no path from waypoint {} to {} of the query: ", leg, leg + 1);
   const std::string best = fmt::format(
-      "best so far: a chart whose distance to waypoint {} is {:.3g}, by the case's cost", leg + 1, result.nearest);
+      "; best so far: a chart whose distance to waypoint {} is {:.3g}, by the case's cost", leg + 1, result.nearest);
   switch (result.status) {
-    case SearchStatus::kExhausted:
-      return fmt::format(
-          "{}: {} {} charts of radius {}{} and the goal was not met; {}. That "
-          "is "
-          "evidence, not proof, that none exists; charts of a smaller planner.radius see finer",
-          what, words(Undecided::kNoPathFound).words, atlas_->size(), atlas_->options().radius,
+    case SearchStatus::kExhausted: {
+      const std::string charts = fmt::format(
+          " {} charts of radius {}{} and the goal was not met{}. That is evidence, not proof, that none exists; charts "
+          "of "
+          "a smaller planner.radius see finer",
+          atlas_->size(), atlas_->options().radius,
           manifold_->dimension() > Polytope::kMaxDimension ? ", as densely as sampled directions tell," : "", best);
+      return Reason(Undecided::kNoPathFound, charts).preceded_by(what);
+    }
     case SearchStatus::kChartLimit:
-      return fmt::format("{}: the budget of {} {}; {}", what, atlas_->options().max_charts,
-                         words(Undecided::kChartBudget).words, best);
+      return Reason(Undecided::kChartBudget, best)
+          .preceded_by(fmt::format("{}the budget of {} ", what, atlas_->options().max_charts));
     case SearchStatus::kInterrupted:
-      return fmt::format("{}: the budget of {}{}; {}", what, case_.planner.max_seconds,
-                         words(Undecided::kTimeBudget).words, best);
+      return Reason(Undecided::kTimeBudget, best)
+          .preceded_by(fmt::format("{}the budget of {}", what, case_.planner.max_seconds));
     case SearchStatus::kOutside:
-      return fmt::format("waypoint {} or {} {}", leg, leg + 1, words(Undecided::kOutsideManifold).words);
+      return Reason(Undecided::kOutsideManifold).preceded_by(fmt::format("waypoint {} or {} ", leg, leg + 1));
     case SearchStatus::kFound: break;
   }
-  return "";
+  return {};
 }
 
 Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
@@ -379,7 +381,8 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   Plan result;
   if (auto answer = judge_query()) {
     result = std::move(*answer);
-    if (result.proof.verdict == Verdict::kUndecided && stop.stop_requested()) result.proof.reason = "interrupted";
+    if (result.proof.verdict == Verdict::kUndecided && stop.stop_requested())
+      result.proof.reason = Undecided::kInterrupted;
     result.statistics.prove_seconds = seconds_since(start);
   } else {
     result.statistics.prove_seconds = seconds_since(start);

@@ -94,13 +94,13 @@ class Planner {
     std::vector<std::size_t> stops;  ///< of the path's waypoints, those of the query
   };
   [[nodiscard]] std::optional<FoundPath> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
-                                                   PlanStatistics& statistics, std::string& reason);
+                                                   PlanStatistics& statistics, Reason& reason);
   void round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const;
   [[nodiscard]] Leg find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics);
   [[nodiscard]] Leg pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
                               PlanStatistics& statistics) const;
   [[nodiscard]] double seconds_for_leg(std::size_t leg) const;
-  [[nodiscard]] std::string no_path_reason(const SearchResult& result, std::size_t leg) const;
+  [[nodiscard]] Reason no_path_reason(const SearchResult& result, std::size_t leg) const;
 
   const Case& case_;
   Prover prover_;

@@ -33,7 +33,7 @@ json streamed(const Problem& problem, const Path& path, const PathProof& proof, 
   if (proof.verdict == Verdict::kProved) ending.margins = proof.margins;
   if (proof.witness) ending.witness = to_json(*proof.witness);
   if (proof.verdict == Verdict::kUndecided) {
-    ending.undecided = {{"reason", proof.reason}, {"segment", nullptr}, {"box", nullptr}};
+    ending.undecided = {{"reason", proof.reason.text()}, {"segment", nullptr}, {"box", nullptr}};
   }
   std::string text;
   stream.finish(ending, [&](std::string_view piece) { text += piece; });

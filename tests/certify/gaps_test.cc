@@ -16,7 +16,7 @@ const Dyadic kEnd{1, 0};
 
 SurveyedBox part(Kind kind, DyadicBox box) {
   SurveyedBox result{std::move(box), kind, {}, {}};
-  if (kind == Kind::kOpen) result.reason = "because of " + result.box.lower().text();
+  if (kind == Kind::kOpen) result.reason = {Undecided::kDepth, " " + result.box.lower().text()};
   if (kind != Kind::kOpen && kind != Kind::kProved) {
     result.witness = SegmentWitness{kind == Kind::kSingular, {MarginKind::kLengthMin, 2}, result.box};
   }
@@ -52,9 +52,9 @@ TEST(Gaps, AnOpenOneHasTheReasonOfItsFirstBox) {
       {part(Kind::kOpen, {0, 2}), part(Kind::kOpen, {1, 2}), part(Kind::kProved, {2, 2}), part(Kind::kOpen, {3, 2})});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_FALSE(found[0].first.has_value());
-  EXPECT_EQ(found[0].reason, "because of 0");
+  EXPECT_EQ(found[0].reason.text(), "bisection depth reached at 0");
   EXPECT_EQ(found[0].end, (Dyadic{1, 1}));
-  EXPECT_EQ(found[1].reason, "because of 3/4");
+  EXPECT_EQ(found[1].reason.text(), "bisection depth reached at 3/4");
   EXPECT_EQ(found[1].end, kEnd);
 }
 
@@ -235,7 +235,7 @@ TEST(Gaps, WhatVanishesIsOpenAndHidesNothing) {
   const auto found = gaps(survey);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_FALSE(found[0].first.has_value());
-  EXPECT_NE(found[0].reason.find("is zero"), std::string::npos) << found[0].reason;
+  EXPECT_NE(found[0].reason.text().find("is zero"), std::string::npos) << found[0].reason;
   EXPECT_NEAR(found[0].begin.approx(), 1.0 / 3, 0x1p-10);
   EXPECT_NEAR(found[0].end.approx(), 1.0 / 3, 0x1p-10);
   ASSERT_TRUE(found[1].first.has_value());
@@ -298,7 +298,7 @@ TEST(Gaps, WhatABudgetLeavesIsOpen) {
   const SegmentSurvey survey = Prover(robot1_slice(), options).survey(Segment::straight(a, b));
   expect_cover(survey);
   EXPECT_EQ(survey.boxes.back().kind, Kind::kOpen);
-  EXPECT_EQ(survey.boxes.back().reason, "the budget of boxes is spent");
+  EXPECT_EQ(survey.boxes.back().reason.text(), "the budget of boxes is spent");
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ TEST(Prover, AnInterruptedProofIsUndecided) {
   prover.interrupt = &stop;
   const SegmentProof proof = prover.prove(kStart, kNearStart);
   EXPECT_EQ(proof.verdict, Verdict::kUndecided);
-  EXPECT_EQ(proof.reason, "interrupted");
+  EXPECT_EQ(proof.reason.text(), "interrupted");
 }
 
 TEST(Prover, AClearanceAsksForMoreThanTheClaim) {

@@ -228,7 +228,7 @@ class Judge {
         ++counts.undecided;
         if (options_.list_undecided && !violated_ && !trial_.has_bad_reference) {
           report("undecided", fmt::format("{} boxes; from s = {:.6g}, depth {}: {}", proof.boxes_judged,
-                                          proof.open_box.lower().approx(), proof.open_box.depth, proof.reason));
+                                          proof.open_box.lower().approx(), proof.open_box.depth, proof.reason.text()));
         }
         break;
     }

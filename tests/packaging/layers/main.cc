@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   const taut::Case robot = taut::load_case(argv[1]);
   const taut::Prover prover(robot.problem);
   for (const taut::Waypoint& waypoint : taut::query_waypoints(robot.problem)) {
-    std::string undecided;
+    taut::Reason undecided;
     if (taut::refute_waypoint(prover, waypoint, 0, undecided) || !undecided.empty()) return 1;
   }
   const taut::v0::Certificate certificate = taut::v0::plan(taut::v0::Case::load(argv[1]));
