@@ -16,6 +16,7 @@
 #include "library/recheck.h"
 #include "library/tolerance_table.h"
 #include "reports/html_report.h"
+#include "reports/sentences.h"
 
 namespace taut {
 namespace {
@@ -32,21 +33,14 @@ std::string text(const AuditPlace& place, const char* place_name) {
   return fmt::format("segment {} at s = {:.6g} ({}{})", place.segment, place.s.approx(), where, time);
 }
 
-std::string text(const PathWitness& witness) {
-  if (witness.singular) return "the force Jacobian becomes singular";
-  return fmt::format("{} of cable {} lies in [{}, {}], its limit is {}{}", name(witness.margin.kind),
-                     witness.margin.cable + 1, witness.value_lower, witness.value_upper, witness.limit,
-                     witness.deviation ? ", on a machine within the tolerances that the certificate states" : "");
-}
-
 std::string text(const AuditStretch& stretch, const char* place_name) {
   std::string lines =
       fmt::format("  from {}\n    to {}\n", text(stretch.begin, place_name), text(stretch.end, place_name));
   if (!stretch.inner) return lines + fmt::format("    open: {}\n", with_code(stretch.reason.text()));
   lines += fmt::format("    violated from {}: {}\n", text(stretch.inner_places->first, place_name),
-                       text(stretch.inner->first));
+                       violation_text(stretch.inner->first));
   return lines + fmt::format("              to {}: {}\n", text(stretch.inner_places->second, place_name),
-                             text(stretch.inner->second));
+                             violation_text(stretch.inner->second));
 }
 
 std::string counted(std::size_t n, std::string_view what) {

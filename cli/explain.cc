@@ -56,12 +56,19 @@ Explanation explained(Undecided reason) {
           "open: no single motion was proved to exist there (on the constraints, with the cables' lengths, or "
           "between orientations half a turn apart) [U4]");
     case Undecided::kSingular:
-      return entry("The force Jacobian is singular, or nearly so",
-                   "The determinant of the force Jacobian could not be told from zero. At a singular pose the cables "
-                   "can't balance every load.",
-                   "The path touches or grazes the singular locus (red in the report's plane), or runs along it.",
-                   "Lead the path around it. Tensions there are out of every limit in practice.",
-                   "undecided: waypoint 1 of the query: the force Jacobian is singular, or nearly so, there [U5].");
+      return entry(
+          "The force Jacobian is singular, or nearly so",
+          "The determinant of the force Jacobian could not be told from zero. At a singular pose the cables "
+          "can't balance every load.",
+          "The path touches or grazes the singular locus (red in the report's plane), or runs along it. At every "
+          "waypoint: an "
+          "arrangement of anchors that resists nothing in some direction, such as a level platform whose anchors are "
+          "the base's, scaled: no cable then keeps it from turning about the vertical.",
+          "Lead the path around it; tensions there are out of every limit in practice. If it is the arrangement, let "
+          "the "
+          "cables cross in pairs, as in the case that taut init writes: two from each of three places of the base, "
+          "to two different ones of the platform.",
+          "undecided: waypoint 1 of the query: the force Jacobian is singular, or nearly so, there [U5].");
     case Undecided::kTolerances:
       return entry(
           "The tolerances are too large for a proof here",

@@ -30,6 +30,7 @@
 #include "library/recheck.h"
 #include "library/tolerance_table.h"
 #include "reports/html_report.h"
+#include "reports/sentences.h"
 
 namespace taut {
 namespace {
@@ -60,13 +61,11 @@ std::string sentence(const Plan& plan) {
           proof.margins.tension_N, proof.margins.length_m, proof.margins.wrench_scale);
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;
-      if (w.singular) return "refuted: the force Jacobian is singular at some pose of the path.";
-      const std::string where = w.at.on_segment ? fmt::format("on segment {}", w.at.index) : "at a pose of the query";
-      return fmt::format(
-          "refuted: {}, {} of cable {} is violated{}: the quantity lies in [{}, {}], its limit is {} [N, m].", where,
-          name(w.margin.kind), w.margin.cable + 1,
-          w.deviation ? ", on a machine within the tolerances that the certificate states" : "", w.value_lower,
-          w.value_upper, w.limit);
+      const std::string where = plan.refuted_waypoint
+                                    ? fmt::format("at waypoint {} of the query", *plan.refuted_waypoint)
+                                : w.at.on_segment ? fmt::format("on segment {} of the path", w.at.index)
+                                                  : fmt::format("at waypoint {} of the path", w.at.index);
+      return fmt::format("refuted: {} {}.", where, violation_text(w));
     }
     case Verdict::kUndecided: break;
   }

@@ -236,6 +236,7 @@ std::optional<Plan> Planner::judge_query() const {
     answer.proof.witness = refute_waypoint(prover_, query_[k], 0, undecided);
     if (answer.proof.witness) {
       answer.path.waypoints = {query_[k]};
+      answer.refuted_waypoint = k;
       answer.proof.verdict = Verdict::kRefuted;
       return answer;
     }

@@ -45,6 +45,7 @@ struct Plan {
   Path path;  ///< found path; or the waypoint that refutes; or the waypoints of the query where there is no path
   PathProof proof;
   PlanStatistics statistics;
+  std::optional<std::size_t> refuted_waypoint;  ///< of the query: the one that `path` then is
 };
 
 struct MotionLengths {

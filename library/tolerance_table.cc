@@ -17,6 +17,22 @@ const char* unit(ToleranceKind kind) {
   }
 }
 
+/// For people: millimetres and degrees.
+struct Shown {
+  const char* unit;
+  double factor;  ///< from SI
+};
+
+Shown shown(ToleranceKind kind) {
+  constexpr double kMillimetres = 1000;
+  constexpr double kDegrees = 57.295779513082320;  // a number below 180/π
+  switch (kind) {
+    case ToleranceKind::kLoad: return {unit(kind), 1};
+    case ToleranceKind::kOrientation: return {"deg", kDegrees};
+    default: return {"mm", kMillimetres};
+  }
+}
+
 /// Rounded towards 0: what is less than what was proved is proved.
 std::string below(double x) {
   if (!(x > 0)) return "0";
@@ -32,8 +48,10 @@ std::string tolerance_table(const std::vector<ToleranceLimit>& limits) {
   if (limits.empty()) return "";
   std::string lines = "Tolerances, and how far each could grow alone with the path still proved:\n";
   for (const ToleranceLimit& limit : limits) {
-    lines += fmt::format("  {:<17} {:>10.4g}  up to {:>8} {}\n", name(limit.kind), limit.stated, below(limit.proved),
-                         unit(limit.kind));
+    constexpr double kBelow = 1 - 1e-15;  // for the rounding of the product
+    const auto [unit, factor] = shown(limit.kind);
+    lines += fmt::format("  {:<17} {:>10.4g}  up to {:>8} {}\n", name(limit.kind), factor * limit.stated,
+                         below(kBelow * factor * limit.proved), unit);
   }
   return lines;
 }

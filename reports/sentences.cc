@@ -364,6 +364,21 @@ std::string violation_text(const WitnessView& witness) {
                      upper ? "not below" : "not above", upper ? "upper" : "lower", quantity(witness.limit, length));
 }
 
+std::string violation_text(const PathWitness& witness) {
+  WitnessView view;
+  if (witness.singular) {
+    view.to.emplace();
+    return violation_text(view);
+  }
+  view.kind = name(witness.margin.kind);
+  view.cable = static_cast<int>(witness.margin.cable) + 1;
+  view.value_lower = witness.value_lower;
+  view.value_upper = witness.value_upper;
+  view.limit = witness.limit;
+  view.deviates = witness.deviation != nullptr;
+  return violation_text(view);
+}
+
 std::vector<std::string> verdict_details(const Scene& scene) {
   if (scene.view.verdict == "proved") return proved_details(scene.view);
   return scene.view.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
