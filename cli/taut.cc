@@ -170,9 +170,14 @@ int run(int argc, char** argv) {
   CLI::App app("Plans motions of cable-driven hexapods and proves what it plans.", "taut");
   app.set_version_flag("--version", std::string("taut ") + TAUT_VERSION);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
-    return fmt::format("{} [{}]\nRun with --help for more information: {} --help\n", error.what(),
-                       code(InputKind::kUse), failed->get_name());
+  app.failure_message([argc, argv](const CLI::App* failed, const CLI::Error& error) {
+    std::string message = error.what();
+    if (failed->get_parent() == nullptr && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+      message = argc > 1 ? fmt::format("got '{}', expected a command:", argv[1]) : "expected a command:";
+      for (const CLI::App* command : failed->get_subcommands({})) message += " " + command->get_name();
+    }
+    return fmt::format("{} [{}]\nRun with --help for more information: {} --help\n", message, code(InputKind::kUse),
+                       failed->get_name());
   });
   app.footer("Exit codes: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or untrustworthy machine.");
 

@@ -277,6 +277,7 @@ DecimalText read_quantity(const Field& field, const Unit& bare) {
   const std::string expected = fmt::format("a {}: a decimal number, bare ({}) or with one of the units {}",
                                            dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
   const auto [value, unit] = read_with_unit(field, bare, expected);
+  if (value.find(' ') != std::string::npos) field.fail(expected);  // a unit that there isn't, or no one number
   return in_field(field, [&, v = value, u = unit] { return decimal_to_si(v, u); });
 }
 

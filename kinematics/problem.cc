@@ -421,8 +421,8 @@ void validate_query(const Problem& problem) {
       const double slack = kSlack * std::max(std::abs(lower), std::abs(upper));
       if (value < lower - slack || value > upper + slack) {
         throw FieldError(place, "'" + waypoint[j] + "'",
-                         fmt::format("expected a value in the parameter's range [{}, {}]", parameters[j].range_lower,
-                                     parameters[j].range_upper));
+                         fmt::format("expected a value in the parameter's range [{}, {}] (SI: m, rad)",
+                                     parameters[j].range_lower, parameters[j].range_upper));
       }
     }
     validate_pose_at(problem.space, k, values);
