@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "certify/path_proof.h"
 #include "reports/cable_use.h"
 #include "reports/report_options.h"
 #include "reports/scene.h"
