@@ -165,11 +165,11 @@ int run_audit(const AuditArguments& arguments) {
 
   const std::filesystem::path out = out_folder(arguments.out, request.path.name);
   make_directories(out);
+  const Interruption interruption;  // before there is a file that a signal could leave behind
+  PathAudit audited;
   NewFile certificate(out / "certificate.json");
   NewFile csv(out / "path.csv");
-  PathAudit audited;
   {
-    const Interruption interruption;
     ProgressLine line(!arguments.json);
     const auto begin = std::chrono::steady_clock::now();
     const auto progress = [&](std::size_t done) {
@@ -194,7 +194,6 @@ int run_audit(const AuditArguments& arguments) {
   std::optional<NewFile> report;
   Recheck rechecked;
   if (result.segments <= kMostReported) {
-    const Interruption interruption;
     const std::string written = certificate.temporary().string();
     const std::size_t witnesses = 2 * (result.stretches_violated + result.stretches_open);
     rechecked = recheck(read_whole(written), result.boxes + witnesses, source.problem().tolerances.has_value(),

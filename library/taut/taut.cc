@@ -363,8 +363,8 @@ std::vector<Stretch> Certificate::stretches() const {
       copy.begin = outer(stretch.begin);
       copy.end = outer(stretch.end);
       if (stretch.first) copy.violations = {outer(*stretch.first), outer(*stretch.last)};
-      copy.reason = stretch.reason.text();
-      copy.reason_code = code_of(copy.reason);
+      copy.reason = stretch.reason;
+      copy.reason_code = code_of(stretch.reason);
     }
     return result;
   });

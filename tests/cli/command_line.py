@@ -2,9 +2,11 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TAUT, CHECK, SOURCE = sys.argv[1:4]
@@ -14,6 +16,21 @@ EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
 
 def run(*arguments, **options):
     return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, check=False, **options)
+
+
+def interrupt(process, after):
+    """Sends Ctrl-C's signal, so many seconds after the process has begun to heed it, which on a busy machine may take a while."""
+    def heeds():
+        with open(f"/proc/{process.pid}/status", encoding="utf-8") as file:
+            caught = re.search(r"^SigCgt:\s*(\w+)", file.read(), re.M).group(1)
+        return int(caught, 16) >> (signal.SIGINT - 1) & 1
+
+    while process.poll() is None and not heeds():
+        time.sleep(0.01)
+    time.sleep(after)
+    if process.poll() is not None:
+        raise AssertionError(f"it should take longer than {after} s")
+    process.send_signal(signal.SIGINT)
 
 
 def text_of(path):

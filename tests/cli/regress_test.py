@@ -7,12 +7,11 @@ import json
 import os
 import re
 import shutil
-import signal
 import subprocess
 import time
 import xml.etree.ElementTree
 
-from command_line import CASES, InFolder, TAUT, main, run, text_of
+from command_line import CASES, InFolder, TAUT, interrupt, main, run, text_of
 
 QUICK = "robot2-sphere-q1-q2.yaml"
 
@@ -155,8 +154,7 @@ class Regress(InFolder):
             self.add(f"{number}.yaml", "robot2-free-q2-q3-astar.yaml", planner="{strategy: astar, max_seconds: 100}")
         with subprocess.Popen([TAUT, "regress", self.cases, "--junit", self.path("j.xml")], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
-            time.sleep(0.7)
-            process.send_signal(signal.SIGINT)  # to taut alone, as a CI runner's would be
+            interrupt(process, 0.5)  # taut alone, as a CI runner would
             _, said = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 2, said)
         self.assertIn("interrupted", said)

@@ -8,12 +8,12 @@ import json
 import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+from command_line import interrupt
 
 TAUT, CHECK, SOURCE = sys.argv[1:4]
 CASE = os.path.join(SOURCE, "cases", "robot1-slice-qs-qg.yaml")
@@ -154,8 +154,7 @@ class Report(unittest.TestCase):
         os.chmod(browser, 0o755)
         with subprocess.Popen([TAUT, "report", self.certificate, "--pdf", "--no-check"], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, env={**os.environ, "TAUT_BROWSER": browser}) as process:
-            time.sleep(1)
-            process.send_signal(signal.SIGINT)
+            interrupt(process, 0.5)
             _, said = process.communicate(timeout=30)
         self.assertEqual((process.returncode, said), (2, "taut: interrupted: nothing was written\n"))
         self.assertEqual(subprocess.run(["pgrep", "-f", f"sleep {mark}"], capture_output=True, check=False).stdout, b"")
