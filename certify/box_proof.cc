@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "certify/held_motion.h"
 #include "certify/neumann.h"
@@ -88,13 +89,37 @@ bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
   return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->held_by_lengths);
 }
 
-/// Whether the undisturbed margins are positive on all of T.
+// One kind of margin each, from what is known over a box. A new kind of margin is a new one of these.
+
 template <class I>
-bool is_within_limits(const Model<I>& model, const BoxEnclosure<I>& box) {
-  MarginList<I> margins;
-  length_margins(model, box, margins);
-  tension_margins(model, box, margins);
-  return std::all_of(margins.begin(), margins.end(), [](const auto& x) { return certainly_positive(x.value.range); });
+void add_length_margins(const Model<I>& model, BoxEnclosure<I>& box) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const int cable = static_cast<int>(i);
+    box.margins.add({MarginKind::kLengthMin, cable}, box.length[i] - model.length_lower[i]);
+    box.margins.add({MarginKind::kLengthMax, cable}, -box.length[i] + model.length_upper[i]);
+  }
+}
+
+template <class I>
+void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const int cable = static_cast<int>(i);
+    box.margins.add({MarginKind::kTensionMin, cable}, box.low[i] - model.tension_lower[i]);
+    box.margins.add({MarginKind::kTensionMax, cable}, -box.high[i] + model.tension_upper[i]);
+  }
+}
+
+/// How far a deviation may change a margin.
+template <class I>
+UpperOf<I> change_of(MarginId id, const Disturbance<I>& disturbance) {
+  const auto i = static_cast<std::size_t>(id.cable);
+  switch (id.kind) {
+    case MarginKind::kTensionMin: return disturbance.tension[i][0];
+    case MarginKind::kTensionMax: return disturbance.tension[i][1];
+    case MarginKind::kLengthMin:
+    case MarginKind::kLengthMax: return disturbance.length[i];
+  }
+  throw std::logic_error("a margin of no kind");
 }
 
 }  // namespace
@@ -128,6 +153,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     result.length[i] = length(geometry.p_AB_W[i]);
     result.length[i].tighten(offset);
   }
+  add_length_margins(model, result);
 
   // C ≈ D(m)^-1.
   Matrix6<Point> mid;
@@ -234,13 +260,22 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     if (!certainly_positive(squares[i].range)) return result;  // the box is too wide
     result.variation[i] = sqrt(squares[i]);
     result.variation[i].tighten(offset);
+    result.low[i] = result.length[i] * (result.density[i] - result.variation[i]);
+    result.high[i] = result.length[i] * (result.density[i] + result.variation[i]);
+    result.low[i].tighten(offset);
+    result.high[i].tighten(offset);
   }
   result.regular = true;
-  if (problem.tolerance && is_within_limits(model, result)) {
-    const bool held = is_held_by_lengths(problem, segment);
-    result.disturbance =
-        disturbance<I>({model, motion, geometry, result.length, result.density, result.variation, root, c, q, held},
-                       *problem.tolerance, parts);
+  add_tension_margins(model, result);
+  if (!problem.tolerance || !result.margins.are_positive()) return result;
+
+  const bool held = is_held_by_lengths(problem, segment);
+  result.disturbance =
+      disturbance<I>({model, motion, geometry, result.length, result.density, result.variation, root, c, q, held},
+                     *problem.tolerance, parts);
+  if (!result.disturbance) return result;
+  for (auto& margin : result.margins) {
+    margin.disturbed = margin.disturbed + Scalars<I>::symmetric(change_of(margin.id, *result.disturbance));
   }
   return result;
 }
@@ -252,37 +287,7 @@ template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInter
 template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&, int);
 template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&, int);
 
-// ---- Margins ---------------------------------------------------------------------------------------------------------
-
-template <class I>
-void length_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins) {
-  for (int i = 0; i < kCables; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const UpperOf<I> change = box.disturbance ? box.disturbance->length[n] : UpperOf<I>(0.0);
-    margins.add({MarginKind::kLengthMin, i}, box.length[n] - model.length_lower[n], change);
-    margins.add({MarginKind::kLengthMax, i}, -box.length[n] + model.length_upper[n], change);
-  }
-}
-
-template <class I>
-void tension_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins) {
-  if (!box.regular) return;
-  for (int i = 0; i < kCables; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    Centered<I> low = box.length[n] * (box.density[n] - box.variation[n]) - model.tension_lower[n];
-    Centered<I> high = -(box.length[n] * (box.density[n] + box.variation[n])) + model.tension_upper[n];
-    low.tighten(box.offset);
-    high.tighten(box.offset);
-    if (box.disturbance) {
-      const auto& [change_low, change_high] = box.disturbance->tension[n];
-      margins.add({MarginKind::kTensionMin, i}, low, change_low);
-      margins.add({MarginKind::kTensionMax, i}, high, change_high);
-    } else {
-      margins.add({MarginKind::kTensionMin, i}, low);
-      margins.add({MarginKind::kTensionMax, i}, high);
-    }
-  }
-}
+// ---- The verdict -----------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -299,7 +304,6 @@ double half_range(const Model<I>& model, MarginId id) {
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
                  int parts) {
-  static constexpr std::array<MarginSource<I>, 2> kSources = {length_margins<I>, tension_margins<I>};
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
   const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, parts);
@@ -311,8 +315,6 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     case Status::kRangeWide:
     case Status::kKnown: break;
   }
-  MarginList<I> margins;
-  for (const MarginSource<I> source : kSources) source(problem.model, enclosure, margins);
 
   verdict.tension_N = verdict.length_m = verdict.wrench_scale = std::numeric_limits<double>::infinity();
   bool all_positive = true;
@@ -323,7 +325,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   MarginId refuted_id;
   bool all_positive_undisturbed = true;
   bool within_tolerance = !problem.tolerance || enclosure.disturbance;
-  for (const auto& [id, value, disturbed] : margins) {
+  for (const auto& [id, value, disturbed] : enclosure.margins) {
     const double bound = lower_bound(disturbed);
     const double required =
         clearance > 0 ? clearance * half_range(problem.model, id) : 0.0;  // >= 0: limits are ordered

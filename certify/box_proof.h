@@ -12,6 +12,7 @@
 // Proof of each step: docs/theory.md, "A box".
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -47,18 +48,43 @@ template <class I>
 [[nodiscard]] MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment,
                                                     const EnclosedBox<I>& s, const I& offset);
 
-/// What is known over one box.
+/// Margins of one box: positive throughout if the claim holds on it.
+template <class I>
+struct MarginList {
+  static constexpr std::size_t kCapacity = std::size_t{4} * kCables;
+  struct Entry {
+    MarginId id;
+    Centered<I> value;  ///< [N] or [m], of the undisturbed machine
+    I disturbed;        ///< over all of T, for every deviation that BoxEnclosure::disturbance knows of
+  };
+  std::array<Entry, kCapacity> entries;
+  std::size_t size = 0;
+
+  void add(MarginId id, const Centered<I>& value) { entries[size++] = {id, value, value.range}; }
+  [[nodiscard]] Entry* begin() { return entries.data(); }
+  [[nodiscard]] Entry* end() { return entries.data() + size; }
+  [[nodiscard]] const Entry* begin() const { return entries.data(); }
+  [[nodiscard]] const Entry* end() const { return entries.data() + size; }
+
+  /// Whether every margin is positive on all of T, as far as disturbances are known.
+  [[nodiscard]] bool are_positive() const {
+    return std::all_of(begin(), end(), [](const Entry& margin) { return certainly_positive(margin.disturbed); });
+  }
+};
+
+/// What is known over one box, of the undisturbed machine but for `disturbance`.
 template <class I>
 struct BoxEnclosure {
   typename MotionEnclosure<I>::Status motion;  ///< nothing below is set where the motion is unproved
   bool regular = false;                        ///< ρ < 1: J is non-singular on all of T, given positive lengths
   std::array<Centered<I>, kCables> length;     ///< d_i [m]
-  std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; only where regular
-  std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]; only where regular
+  std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; this and what follows only where regular
+  std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]
+  std::array<Centered<I>, kCables> low, high;  ///< f0_i − v_ii, f0_i + v_ii [N]
   I offset;                                    ///< contains t − m for all t in T
+  MarginList<I> margins;                       ///< those of lengths, and where regular those of tensions
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of T, and for
-  /// every deviation the commanded pose is proved to exist, and J to be non-singular. All of the above is about the undisturbed
-  /// machine.
+  /// every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<Disturbance<I>> disturbance;
 };
 
@@ -67,36 +93,6 @@ struct BoxEnclosure {
 template <class I>
 [[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
                                           int parts = 1);
-
-/// Several margins of one box; positive throughout if the claim holds on it.
-template <class I>
-struct MarginList {
-  static constexpr std::size_t kCapacity = 64;
-  struct Entry {
-    MarginId id;
-    Centered<I> value;  ///< [N] or [m], of the undisturbed machine
-    I disturbed;        ///< over all of T, for every deviation
-  };
-  std::array<Entry, kCapacity> entries;
-  std::size_t size = 0;
-
-  void add(MarginId id, const Centered<I>& value) { entries[size++] = {id, value, value.range}; }
-  void add(MarginId id, const Centered<I>& value, const UpperOf<I>& change) {
-    entries[size++] = {id, value, value.range + Scalars<I>::symmetric(change)};
-  }
-  [[nodiscard]] const Entry* begin() const { return entries.data(); }
-  [[nodiscard]] const Entry* end() const { return entries.data() + size; }
-};
-
-/// One kind of margin, from what is known over a box. A new kind is a new source in margin_sources().
-template <class I>
-using MarginSource = void (*)(const Model<I>&, const BoxEnclosure<I>&, MarginList<I>&);
-
-template <class I>
-void length_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins);
-/// Nothing unless `box` is regular.
-template <class I>
-void tension_margins(const Model<I>& model, const BoxEnclosure<I>& box, MarginList<I>& margins);
 
 /// What the prover concludes from one box with one scalar.
 struct BoxVerdict {

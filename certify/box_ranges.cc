@@ -8,11 +8,6 @@
 namespace taut {
 namespace {
 
-template <class I>
-Range outward(const I& x) {
-  return {lower_bound(x), upper_bound(x)};
-}
-
 /// How far a centred form may exceed the function that it encloses, about.
 template <class I>
 double excess(const Centered<I>& x, double radius) {
@@ -20,59 +15,47 @@ double excess(const Centered<I>& x, double radius) {
 }
 
 template <class I>
-std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
-                                 int parts) {
-  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, parts);
-  const bool is_known = enclosure.motion == MotionEnclosure<I>::Status::kKnown && enclosure.regular;
-  if (!is_known || (problem.tolerance && !enclosure.disturbance)) return std::nullopt;
-  const Model<I>& model = problem.model;
+bool is_known(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure) {
+  return enclosure.motion == MotionEnclosure<I>::Status::kKnown && enclosure.regular &&
+         (!problem.tolerance || enclosure.disturbance);
+}
+
+template <class I>
+BoxRanges ranges_of(const Model<I>& model, const BoxEnclosure<I>& enclosure, const DyadicBox& box) {
   BoxRanges ranges;
   ranges.box = box;
   const double radius = box.radius();
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Centered<I>& length = enclosure.length[i];
-    Centered<I> low = length * (enclosure.density[i] - enclosure.variation[i]);
-    Centered<I> high = length * (enclosure.density[i] + enclosure.variation[i]);
-    low.tighten(enclosure.offset);
-    high.tighten(enclosure.offset);
-    I length_range = length.range;
+    I low = enclosure.low[i].range;
+    I high = enclosure.high[i].range;
+    I length = enclosure.length[i].range;
     if (enclosure.disturbance) {
       const auto& [change_low, change_high] = enclosure.disturbance->tension[i];
-      low.range = low.range + Scalars<I>::symmetric(change_low);
-      high.range = high.range + Scalars<I>::symmetric(change_high);
-      length_range = length_range + Scalars<I>::symmetric(enclosure.disturbance->length[i]);
+      low = low + Scalars<I>::symmetric(change_low);
+      high = high + Scalars<I>::symmetric(change_high);
+      length = length + Scalars<I>::symmetric(enclosure.disturbance->length[i]);
     }
-    ranges.tension[i] = {lower_bound(low.range), upper_bound(high.range)};
-    ranges.length[i] = outward(length_range);
+    ranges.tension[i] = {lower_bound(low), upper_bound(high)};
+    ranges.length[i] = {lower_bound(length), upper_bound(length)};
     const double tension_width = upper_bound(model.tension_upper[i]) - lower_bound(model.tension_lower[i]);
     const double length_width = upper_bound(model.length_upper[i]) - lower_bound(model.length_lower[i]);
-    ranges.excess = std::max({ranges.excess, excess(low, radius) / tension_width, excess(high, radius) / tension_width,
-                              excess(length, radius) / length_width});
+    ranges.excess = std::max({ranges.excess, excess(enclosure.low[i], radius) / tension_width,
+                              excess(enclosure.high[i], radius) / tension_width,
+                              excess(enclosure.length[i], radius) / length_width});
   }
   return ranges;
-}
-
-template <class I>
-bool is_within_limits(const Model<I>& model, const BoxRanges& ranges) {
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const auto is_between = [](const Range& x, const I& lower, const I& upper) {
-      return upper_bound(lower) < x.lower && x.upper < lower_bound(upper);
-    };
-    if (!is_between(ranges.tension[i], model.tension_lower[i], model.tension_upper[i]) ||
-        !is_between(ranges.length[i], model.length_lower[i], model.length_upper[i])) {
-      return false;
-    }
-  }
-  return true;
 }
 
 /// With as many parts of deviations as it takes to show what was proved.
 template <class I>
 std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
-  std::optional<BoxRanges> ranges = enclose(problem, segment, box, 1);
-  if (!problem.tolerance || (ranges && is_within_limits(problem.model, *ranges))) return ranges;
-  if (std::optional<BoxRanges> tighter = enclose(problem, segment, box, kMostParts)) return tighter;
-  return ranges;
+  BoxEnclosure<I> enclosure = enclose_box(problem, segment, box);
+  if (problem.tolerance && !(is_known(problem, enclosure) && enclosure.margins.are_positive())) {
+    BoxEnclosure<I> tighter = enclose_box(problem, segment, box, kMostParts);
+    if (is_known(problem, tighter)) enclosure = std::move(tighter);
+  }
+  if (!is_known(problem, enclosure)) return std::nullopt;
+  return ranges_of(problem.model, enclosure, box);
 }
 
 /// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take

@@ -204,16 +204,10 @@ Reason at(Undecided reason, MarginId margin, std::string_view detail = {}) {
 std::optional<Centered<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
                                                 const DyadicBox& box, MarginId id) {
   const BoxEnclosure<MpInterval> enclosure = enclose_box(model, segment, box);
-  if (enclosure.motion == MotionEnclosure<MpInterval>::Status::kUnproved ||
-      enclosure.motion == MotionEnclosure<MpInterval>::Status::kAcross) {
-    return std::nullopt;
+  for (const auto& margin : enclosure.margins) {
+    if (margin.id == id) return margin.value;
   }
-  MarginList<MpInterval> margins;
-  length_margins(model.model, enclosure, margins);
-  tension_margins(model.model, enclosure, margins);
-  const auto* const found = std::find_if(margins.begin(), margins.end(), [&](const auto& x) { return x.id == id; });
-  if (found == margins.end()) return std::nullopt;
-  return found->value;
+  return std::nullopt;
 }
 
 BigFloat middle(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.lower(), x.upper()); }
@@ -524,11 +518,11 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
     MpInterval room;
     switch (margin.kind) {
       case MarginKind::kTensionMin:
-        quantity = length * (enclosure.density[n].at_mid - enclosure.variation[n].at_mid);
+        quantity = enclosure.low[n].at_mid;
         room = *quantity - model.tension_lower[n];
         break;
       case MarginKind::kTensionMax:
-        quantity = length * (enclosure.density[n].at_mid + enclosure.variation[n].at_mid);
+        quantity = enclosure.high[n].at_mid;
         room = model.tension_upper[n] - *quantity;
         break;
       case MarginKind::kLengthMin:

@@ -1,8 +1,5 @@
 #include "certify/tolerance.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace taut {
 
 namespace {
@@ -66,30 +63,18 @@ struct Change {
   std::array<Upper, 3> load_point;
   Square<Upper> s;  ///< |S − I|
 
-  /// Sets each number to function(a's, b's).
-  template <class A, class B, class F>
-  void set(const Change<A>& a, const Change<B>& b, F function) {
+  /// Calls visit(ours, a's, b's) for each number.
+  template <class Visit>
+  void with(const Change& a, const Change& b, const Visit& visit) {
     for (std::size_t i = 0; i < kCables; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        d[i][k] = function(a.d[i][k], b.d[i][k]);
-        reach[i][k] = function(a.reach[i][k], b.reach[i][k]);
-        arm[i][k] = function(a.arm[i][k], b.arm[i][k]);
+        visit(d[i][k], a.d[i][k], b.d[i][k]);
+        visit(reach[i][k], a.reach[i][k], b.reach[i][k]);
+        visit(arm[i][k], a.arm[i][k], b.arm[i][k]);
       }
-      for (std::size_t k = 0; k < kCables; ++k) s[i][k] = function(a.s[i][k], b.s[i][k]);
+      for (std::size_t k = 0; k < kCables; ++k) visit(s[i][k], a.s[i][k], b.s[i][k]);
     }
-    for (std::size_t k = 0; k < 3; ++k) load_point[k] = function(a.load_point[k], b.load_point[k]);
-  }
-
-  /// Whether each number is positive, and not less than the other's.
-  [[nodiscard]] bool covers(const Change& other) const {
-    bool result = true;
-    const Upper zero(0.0);
-    Change unused;
-    unused.set(*this, other, [&](const Upper& ours, const Upper& theirs) {
-      if (!(zero < ours) || !(theirs < ours)) result = false;  // also a NaN
-      return ours;
-    });
-    return result;
+    for (std::size_t k = 0; k < 3; ++k) visit(load_point[k], a.load_point[k], b.load_point[k]);
   }
 };
 
@@ -314,8 +299,7 @@ class States {
 
   /// At τ = 0.
   States(const Origin<I>& origin, const ToleranceModel<I>& tolerance) : origin_(origin), tolerance_(tolerance) {
-    const Upper zero(0.0);
-    reached_.set(reached_, reached_, [&](const Upper&, const Upper&) { return zero; });
+    reached_.with(reached_, reached_, [](Upper& x, const Upper&, const Upper&) { x = Upper(0.0); });
     rate_ = rates(origin, tolerance, reached_, errors_);
   }
 
@@ -326,12 +310,17 @@ class States {
     constexpr double kHopeless = 8;
     constexpr double kLeast = 0x1p-200;  // so that every guess is positive
     for (int k = 0; k < kMostGuesses; ++k) {
-      guess_.set(reached_, rate_,
-                 [&](const Upper& from, const Upper& by) { return from + Upper(kRoom * share) * by + Upper(kLeast); });
+      guess_.with(reached_, rate_, [&](Upper& x, const Upper& from, const Upper& by) {
+        x = from + Upper(kRoom * share) * by + Upper(kLeast);
+      });
       rate_ = rates(origin_, tolerance_, guess_, errors_);
       Change<Upper> moved;
-      moved.set(reached_, rate_, [&](const Upper& from, const Upper& by) { return from + Upper(share) * by; });
-      if (guess_.covers(moved)) {
+      bool holds = true;
+      moved.with(reached_, rate_, [&](Upper& x, const Upper& from, const Upper& by) { x = from + Upper(share) * by; });
+      moved.with(moved, guess_, [&](const Upper&, const Upper& x, const Upper& guessed) {
+        if (!(x < guessed)) holds = false;  // also a NaN
+      });
+      if (holds) {
         reached_ = moved;
         return true;
       }

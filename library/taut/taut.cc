@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <immintrin.h>
+#include <mpfr.h>
 #include <tbb/task_arena.h>
 
 #include <cfenv>
@@ -70,6 +71,14 @@ class DefaultFloatingPoint {
   std::fenv_t environment_{};
 };
 
+/// MPFR keeps constants for each thread: those of a caller's thread go when it ends.
+struct MpfrConstants {
+  MpfrConstants() = default;
+  ~MpfrConstants() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+  MpfrConstants(const MpfrConstants&) = delete;
+  MpfrConstants& operator=(const MpfrConstants&) = delete;
+};
+
 void test_rounding_once() {
   static std::once_flag tested;
   std::call_once(tested, rounding_self_test);
@@ -112,6 +121,7 @@ class Relay {
 template <class Work>
 auto within(InputKind kind, const Work& work) {
   const DefaultFloatingPoint environment;
+  thread_local const MpfrConstants constants;
   try {
     tbb::task_arena threads;  // begins with this thread's environment, whatever that of the caller's own tasks is
     return threads.execute(work);

@@ -100,13 +100,8 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
                             ::testing::PrintToString(a.half_turns) + ::testing::PrintToString(b.half_turns);
   ++tally.boxes;
   BoxEnclosure<I> enclosure;
-  MarginList<I> margins;
   BoxVerdict verdict;
-  const bool sound = A::run([&] {
-    enclosure = enclose_box(model, Segment::straight(a, b), box);
-    length_margins(model.model, enclosure, margins);
-    tension_margins(model.model, enclosure, margins);
-  });
+  const bool sound = A::run([&] { enclosure = enclose_box(model, Segment::straight(a, b), box); });
   (void)A::run([&] { verdict = judge_box(model, Segment::straight(a, b), box); });
   if (!sound) {
     ++tally.faults;
@@ -123,7 +118,7 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
     samples.push_back(sample(space, a, b, operands.inside({lower, upper})));
   }
   tally.regular += enclosure.regular ? 1 : 0;
-  ASSERT_EQ(margins.size, enclosure.regular ? 24u : 12u);
+  ASSERT_EQ(enclosure.margins.size, enclosure.regular ? 24u : 12u);
   for (std::size_t i = 0; i < 6; ++i) {
     const std::string cable = where + ", cable " + std::to_string(i + 1);
     const auto component = [i](oracle::Big6 Sample::*member) {
@@ -134,7 +129,7 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
     expect_form<I>(enclosure.density[i], samples, component(&Sample::density), cable + ", density");
     expect_form<I>(enclosure.variation[i], samples, component(&Sample::variation), cable + ", variation");
   }
-  for (const auto& entry : margins) {
+  for (const auto& entry : enclosure.margins) {
     const auto value = [&entry](const Sample& x) -> const BigFloat& {
       return margin(x, entry.id.kind)[static_cast<std::size_t>(entry.id.cable)];
     };
