@@ -78,12 +78,18 @@ const ProofModel<MpInterval>& Prover::fine(std::size_t k) const {
 
 namespace {
 
-bool has_inner_poses_in_order(const Segment& segment) {
+bool contains(const PoseTube& a, const PoseTube& b) { return b.position <= a.position && b.turn <= a.turn; }
+
+/// In order, and of two successive tubes one contains the other: else the pieces' motions may be of different assemblies.
+bool has_joined_pieces(const Segment& segment) {
   double last = 0;
+  PoseTube tube = segment.pose_tube;
   for (const InnerPose& inner : segment.inner_poses) {
     const bool is_number = std::ranges::all_of(inner.x, [](double x) { return std::isfinite(x); });
     if (!(last < inner.s && inner.s < 1) || !is_number) return false;
+    if (!contains(tube, inner.tube) && !contains(inner.tube, tube)) return false;
     last = inner.s;
+    tube = inner.tube;
   }
   return true;
 }
@@ -98,7 +104,7 @@ bool Prover::may_follow(const Segment& segment) const {
                                return waypoint->x.size() == pose_numbers(segment.law) &&
                                       std::ranges::all_of(waypoint->x, is_finite);
                              }) &&
-         has_inner_poses_in_order(segment);
+         has_joined_pieces(segment);
 }
 
 bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
@@ -286,6 +292,13 @@ bool Prover::is_singular_between_ends(const Segment& segment, const DyadicBox& b
   return false;
 }
 
+bool Prover::is_proved_inside(Walk& walk, const Task& task) const {
+  constexpr int kNarrower = 10;  // halvings
+  const DyadicBox narrow{(task.box.k << kNarrower) + (1 << (kNarrower - 1)), task.box.depth + kNarrower};
+  ++walk.judged;
+  return judge_at(task.rung, walk.segment, narrow, walk.clearance, task.parts).kind == BoxVerdict::Kind::kProved;
+}
+
 Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   using Kind = BoxVerdict::Kind;
   constexpr int kHastyMotionDepth = 5;      // where all means failed once, they are not tried again
@@ -315,7 +328,10 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       return give_up(at(Undecided::kDepth, verdict.worst));
     case Kind::kTolerance:
       if (parts == 1) return refine;
-      if (box.depth < options_.tolerance_depth) return split;
+      if (box.depth < options_.tolerance_depth) {
+        const bool parts_are_too_few = parts < kMostParts && !is_proved_inside(walk, task);
+        return parts_are_too_few ? refine : split;
+      }
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
       if (walk.deviation_found && box.upper() != Dyadic{1, 0})
         return give_up(at(Undecided::kTolerances, verdict.worst));

@@ -1,4 +1,5 @@
-// Proves or refutes one segment, or says of each of its parts which: boxes from box_proof.h, bisection, a ladder of precisions.
+// Proves or refutes one segment, or says of each of its parts which: boxes from box_proof.h, bisection, a ladder of
+// precisions.
 //
 // Each box is first judged in binary64 intervals; where the midpoint itself can't be told apart from its limit, in MPFR
 // intervals of 128, 256, 512, … bits. Before it climbs, a box looks for the point where the margin is least, by secants: that
@@ -32,7 +33,8 @@ struct ProofOptions {
   int motion_depth = 12;
   /// Depth from which a box that can't be inverted climbs the ladder and is examined for a change of sign of det J.
   int singular_depth = 16;
-  /// Depth from which a box is given up whose margin deviations may exceed: a smaller box would hardly narrow what they may do.
+  /// Depth from which a box is given up whose margin deviations may exceed: a smaller box would hardly narrow what they
+  /// may do.
   int tolerance_depth = 6;
 };
 
@@ -104,23 +106,24 @@ class Prover {
   /// `segment` with the tubes that it needs; under the law of cable lengths with inner poses, too (held_reference.h).
   [[nodiscard]] Segment prepared(Segment segment) const;
 
-  /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay in their closed
-  /// ranges, and for every wrench in K at γ(s), J is non-singular and all tensions and lengths are strictly inside their limits. With a clearance (judge_box) the proof also fails, as
-  /// undecided, where the segment comes closer to a limit than that. Thread-safe; restores the caller's rounding mode.
+  /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay
+  /// in their closed ranges, and for every wrench in K at γ(s), J is non-singular and all tensions and lengths are
+  /// strictly inside their limits. With a clearance (judge_box) the proof also fails, as undecided, where the segment
+  /// comes closer to a limit than that. Thread-safe; restores the caller's rounding mode.
   [[nodiscard]] SegmentProof prove(const Segment& segment, double clearance = 0) const;
   [[nodiscard]] SegmentProof prove(const Waypoint& a, const Waypoint& b, double clearance = 0) const {
     return prove(segment(a, b), clearance);
   }
 
-  /// The claim of prove() box by box, where it does not stop at what it can't prove: for paths of which all violations are asked
-  /// for. A segment that is proved costs what prove() takes.
+  /// The claim of prove() box by box, where it does not stop at what it can't prove: for paths of which all violations
+  /// are asked for. A segment that is proved costs what prove() takes.
   [[nodiscard]] SegmentSurvey survey(const Segment& segment, const SurveyOptions& options = {}) const;
 
   /// One box, at the cheapest rung that decides it.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;
 
-  /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the least precision at which the
-  /// margin is seen not to be positive, else at the highest that works.
+  /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the least precision at
+  /// which the margin is seen not to be positive, else at the highest that works.
   /// @throws std::logic_error if there is none.
   [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const;
   /// The same, of a machine that deviates.
@@ -151,6 +154,8 @@ class Prover {
                                     int parts) const;
   [[nodiscard]] Step examine(Walk& walk, const Task& task) const;
   [[nodiscard]] Step settle(Walk& walk, const Task& task, MarginId margin) const;
+  /// Whether a box would do that is much narrower, in the middle, with deviations in as many parts.
+  [[nodiscard]] bool is_proved_inside(Walk& walk, const Task& task) const;
   [[nodiscard]] bool is_singular_between_ends(const Segment& segment, const DyadicBox& box) const;
 
   /// A deviation that breaks `margin` at the midpoint of a box, proved; null if the worst to first order does not.

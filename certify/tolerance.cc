@@ -495,8 +495,8 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
     const std::optional<OnAll<I>> x = states.enclosed(Upper(share * part), result.length);
     if (!x) return std::nullopt;
     for (std::size_t r = 0; r < kCables; ++r) {
-      const std::array<Upper, 2> rates = tension_rates(origin, tolerance, *x, r);
-      for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rates[side];
+      const std::array<Upper, 2> rate = tension_rates(origin, tolerance, *x, r);
+      for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rate[side];
     }
   }
   return result;

@@ -845,10 +845,6 @@ std::string leading_comment(const std::string& text) {
   return comment;
 }
 
-}  // namespace
-
-namespace {
-
 Case parse(const std::string& text, const std::string& name, const CaseCheck& check) {
   Places places(name);
   if (text.size() > kMaxFileBytes) {

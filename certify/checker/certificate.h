@@ -195,8 +195,9 @@ struct Certificate {
 [[nodiscard]] const nlohmann::json& coordinate_space();
 
 /// Reads and checks form: keys, types, counts, digests, claim text, boxes that tile [0, 1], limits in order, E
-/// symmetric, boxes and stretches that tile the path, periodic parameters along which pose and constraints close, normals and tubes of the right sizes, the
-/// top-level margins those of the worst segments. Proves nothing about the robot.
+/// symmetric, boxes and stretches that tile the path, periodic parameters along which pose and constraints close,
+/// normals and tubes of the right sizes, the top-level margins those of the worst segments. Proves nothing about the
+/// robot.
 /// @throws Malformed naming the key.
 [[nodiscard]] Certificate read_certificate(const nlohmann::json& json);
 

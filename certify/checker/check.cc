@@ -21,7 +21,8 @@ constexpr std::array<int, 6> kPrecisions = {128, 256, 512, 1024, 2048, 4096};
 /// that was claimed to 15 digits a second-order enclosure needs some 25 halvings.
 constexpr int kMostHalvings = 60;
 constexpr int kMaxPieces = 2000;
-/// Pieces that all boxes together may need on the average, beyond those that one may: so the work is bounded by a file's size.
+/// Pieces that all boxes together may need on the average, beyond those that one may: so the work is bounded by a
+/// file's size.
 constexpr std::size_t kMeanPieces = 50;
 /// Parts of the way to a deviation (deviation.h): 4^h after h halvings of a box, up to this, which is the prover's most, too.
 constexpr int kMostParts = 16;
@@ -107,9 +108,10 @@ class Checker {
     }
   }
 
-  /// Shows something for every s of the box, of segment k: of each of finitely many pieces that cover it, none of which reaches
-  /// across an inner pose of the reference, by `prove`, which is given a piece and the number of halvings that led to it, and throws Undefined where it fails. Where it fails of the middle of a
-  /// piece alone, which is as small as pieces get, halving would not help: then this throws Undefined, too.
+  /// Shows something for every s of the box, of segment k: of each of finitely many pieces that cover it, none of which
+  /// reaches across an inner pose of the reference, by `prove`, which is given a piece and the number of halvings that
+  /// led to it, and throws Undefined where it fails. Where it fails of the middle of a piece alone, which is as small
+  /// as pieces get, halving would not help: then this throws Undefined, too.
   template <class Prove>
   void cover(std::size_t k, const Box& box, const std::string& where, const Prove& prove) {
     struct Piece {
@@ -407,8 +409,9 @@ class Checker {
     }
   }
 
-  /// Where the space has constraints, the pose reached at the path's waypoint k, which is on them, is next to the case's waypoint c:
-  /// normals and tube are the certificate's own choice, and could lead anywhere. "The query" in docs/certificate-format.md.
+  /// Where the space has constraints, the pose reached at the path's waypoint k, which is on them, is next to the
+  /// case's waypoint c: normals and tube are the certificate's own choice, and could lead anywhere. "The query" in
+  /// docs/certificate-format.md.
   void require_reached(std::size_t k, std::size_t c) {
     if (certificate_.problem.constraints.empty()) return;
     const Path& path = certificate_.path;

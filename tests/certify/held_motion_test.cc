@@ -171,6 +171,10 @@ TEST(HeldMotion, WrongInnerPosesProveNothing) {
   expect_undecided("no tube", [](Poses& poses) { poses[1].tube = {}; });
   expect_undecided("a tube too narrow", [](Poses& poses) { poses[1].tube = {0x1p-40, 0x1p-40}; });
   expect_undecided("a tube too wide", [](Poses& poses) { poses[1].tube = {0.5, 1}; });
+  expect_undecided("tubes of which neither contains the other", [&](Poses& poses) {
+    const PoseTube& before = poses[0].tube;
+    poses[1].tube = {before.position * 1.01, before.turn * 0.99};
+  });
 }
 
 TEST(HeldMotion, WhereNoPoseHasTheLengthsOneShortPieceIsLeftOpen) {
