@@ -1,8 +1,8 @@
 // Margins: what a claim is a conjunction of.
 //
-// A margin is a function of the pose that must be positive. The prover knows no particular ones: it walks a list of margin
-// sources (box_proof.h), each of which turns the enclosures of a box into margins. More kinds (clearance
-// between bodies, inertial wrenches) are more sources.
+// A margin is a function of the pose that must be positive. The prover knows no particular ones: it walks the list that comes
+// with a box's enclosure (MarginList in box_proof.h). More kinds (clearance between bodies, inertial wrenches) are more
+// functions that add to it, and what deviations change of them.
 #pragma once
 
 #include <array>

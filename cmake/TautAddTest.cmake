@@ -1,7 +1,10 @@
 # taut_add_test(<folder> <header> LABELS <label>… LIBS <target>…)
-# builds tests/<folder>/<header>_test.cc and registers one ctest entry, <folder>.<header>.
+# builds tests/<folder>/<header>_test.cc and registers one ctest entry, <folder>.<header>. Those labelled laws only with TAUT_LAWS.
 function(taut_add_test folder name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;LIBS;SOURCES" ${ARGN})
+  if(laws IN_LIST ARG_LABELS AND NOT TAUT_LAWS)
+    return()
+  endif()
   set(target ${folder}_${name}_test)
   add_executable(${target} ${folder}/${name}_test.cc ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE taut_common ${ARG_LIBS} GTest::gtest_main GTest::gmock)

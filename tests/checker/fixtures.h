@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,14 +24,20 @@ inline std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// tests/certificates/<folder>/*.json, in order.
+/// Sanitizers take ten times as long: of what is proved again and again they see a part.
+inline bool is_sanitized() { return std::getenv("TAUT_SANITIZED") != nullptr; }
+
+/// tests/certificates/<folder>/*.json, in order; under sanitizers all that are malformed, and every fourth of the others.
 inline std::vector<std::filesystem::path> certificates(const std::string& folder) {
   std::vector<std::filesystem::path> result;
   for (const auto& entry : std::filesystem::directory_iterator(TAUT_SOURCE_DIR "/tests/certificates/" + folder)) {
     if (entry.path().extension() == ".json") result.push_back(entry.path());
   }
   std::sort(result.begin(), result.end());
-  return result;
+  if (!is_sanitized() || folder == "malformed") return result;
+  std::vector<std::filesystem::path> part;
+  for (std::size_t k = 0; k < result.size(); k += 4) part.push_back(result[k]);
+  return part;
 }
 
 inline nlohmann::json accepted(const std::string& name) {

@@ -28,6 +28,7 @@
 #include <map>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include "tests/soundness/trial.h"
 
@@ -324,10 +325,21 @@ class Judge {
 
   template <class F>
   static double golden_section(F value, double low, double high) {
+    constexpr double kRatio = 0.6180339887498949;
+    double s1 = high - kRatio * (high - low);
+    double s2 = low + kRatio * (high - low);
+    double value1 = value(s1);
+    double value2 = value(s2);
     for (int k = 0; k < 40; ++k) {
-      const double s1 = low + 0.381966 * (high - low);
-      const double s2 = low + 0.618034 * (high - low);
-      (value(s1) < value(s2) ? high : low) = value(s1) < value(s2) ? s2 : s1;
+      if (value1 < value2) {
+        high = std::exchange(s2, s1);
+        value2 = value1;
+        value1 = value(s1 = high - kRatio * (high - low));
+      } else {
+        low = std::exchange(s1, s2);
+        value1 = value2;
+        value2 = value(s2 = low + kRatio * (high - low));
+      }
     }
     return 0.5 * (low + high);
   }
