@@ -1,6 +1,7 @@
 find_package(Threads REQUIRED)
 taut_add_test(library time_budget LABELS unit LIBS Threads::Threads)
 taut_add_test(library files LABELS unit LIBS taut::library Threads::Threads)
+taut_add_test(library tolerance_table LABELS unit LIBS taut::library)
 taut_add_test(library smooth LABELS unit LIBS taut::library)
 taut_add_test(library plan LABELS unit LIBS taut::library fmt::fmt)
 taut_add_test(library any_anchors LABELS unit LIBS taut::library taut::reports fmt::fmt)
