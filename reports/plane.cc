@@ -82,7 +82,8 @@ Span window(const Scene& scene, std::size_t j) {
 
 /// Fills in cells, and the pieces of det J = 0: marching squares on the cells' middles.
 void sample_grid(const Sampler& sampler, Plane& plane) {
-  const auto [x, y] = plane.window;
+  const Span x = plane.window[0];  // no structured binding: clang 14 can't capture those
+  const Span y = plane.window[1];
   const auto at = [&](double column, double row) -> std::array<double, 2> {
     return {x.lower + x.length() * (column + 0.5) / plane.columns, y.upper - y.length() * (row + 0.5) / plane.rows};
   };
