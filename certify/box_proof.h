@@ -60,7 +60,7 @@ struct MarginList {
   std::array<Entry, kCapacity> entries;
   std::size_t size = 0;
 
-  void add(MarginId id, const Centered<I>& value) { entries[size++] = {id, value, value.range}; }
+  void add(MarginId id, const Centered<I>& value) { entries.at(size++) = {id, value, value.range}; }
   [[nodiscard]] Entry* begin() { return entries.data(); }
   [[nodiscard]] Entry* end() { return entries.data() + size; }
   [[nodiscard]] const Entry* begin() const { return entries.data(); }

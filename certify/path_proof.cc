@@ -83,6 +83,7 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   const Undecided reason = verdict.kind == BoxVerdict::Kind::kNearSingular ? Undecided::kSingular
                            : verdict.kind == BoxVerdict::Kind::kNoMotion   ? Undecided::kNoMotion
                            : verdict.kind == BoxVerdict::Kind::kOutOfRange ? Undecided::kParameterRange
+                           : verdict.kind == BoxVerdict::Kind::kTolerance  ? Undecided::kTolerances
                            : verdict.kind == BoxVerdict::Kind::kFault      ? Undecided::kUndefined
                                                                            : Undecided::kPrecision;
   undecided = Reason::at_pose(reason);

@@ -121,6 +121,9 @@ bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
 
 namespace {
 
+/// Why may_follow() said no.
+Undecided not_followed(Interpolation law) { return has_poses(law) ? Undecided::kNoMotion : Undecided::kWaypointRange; }
+
 Undecided reason_of(BoxVerdict::Kind kind) {
   switch (kind) {
     case BoxVerdict::Kind::kFault: return Undecided::kUndefined;
@@ -371,7 +374,7 @@ SegmentProof Prover::prove(const Segment& segment, double clearance) const {
   SegmentProof proof;
   proof.tension_N = proof.length_m = proof.wrench_scale = std::numeric_limits<double>::infinity();
   if (!may_follow(segment)) {
-    proof.reason = Undecided::kWaypointRange;
+    proof.reason = not_followed(segment.law);
     return proof;
   }
   Walk walk{segment, clearance};
@@ -410,7 +413,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
   SegmentSurvey survey;
   survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
   if (!may_follow(segment)) {
-    survey.boxes.push_back({{}, Kind::kOpen, {}, Undecided::kWaypointRange});
+    survey.boxes.push_back({{}, Kind::kOpen, {}, not_followed(segment.law)});
     return survey;
   }
   Walk walk{segment};
@@ -522,14 +525,14 @@ std::shared_ptr<const Deviation> Prover::refuting_deviation(const Segment& segme
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
   const auto n = static_cast<std::size_t>(margin.cable);
-  const bool is_tension = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kTensionMax;
   std::optional<MpInterval> quantity;
   for (std::size_t k = 0; k < fine_.size(); ++k) {
     const PrecisionScope precision(bits_[k]);
     const Model<MpInterval>& model = fine(k).model;
     Faults<MpInterval>::clear();
     const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(k), segment, box);
-    if (Faults<MpInterval>::raised() || (is_tension && !enclosure.regular)) continue;
+    const bool is_known = std::ranges::any_of(enclosure.margins, [&](const auto& x) { return x.id == margin; });
+    if (Faults<MpInterval>::raised() || !is_known) continue;
     const MpInterval& length = enclosure.length[n].at_mid;
     MpInterval room;
     switch (margin.kind) {

@@ -144,7 +144,7 @@ long grow(const Growing& growing, const Path& path, const std::stop_token& stop)
     best = proved;
     at_best = std::make_unique<Prover>(growing.at(best), kTrial);
   }
-  return stop.stop_requested() ? growing.start() : best;
+  return best;
 }
 
 }  // namespace
@@ -175,6 +175,7 @@ std::vector<ToleranceLimit> tolerance_limits(const Problem& problem, const Path&
     if (growing.is_possible())
       limits[i].proved = std::max(growing.stated(), growing.size_at(grow(growing, path, stop)));
   });
+  if (stop.stop_requested()) return {};  // they might have grown further
   return limits;
 }
 

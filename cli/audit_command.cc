@@ -198,6 +198,7 @@ int run_audit(const AuditArguments& arguments) {
     const std::size_t witnesses = 2 * (result.stretches_violated + result.stretches_open);
     rechecked = recheck(read_whole(written), result.boxes + witnesses, source.problem().tolerances.has_value(),
                         arguments.check, interruption.token());
+    require_confirmed(rechecked);
     report.emplace(report_path);
     report->write(html_report(read_certificate(written), {"", "", report_date(), rechecked}));
     report->finish();
@@ -224,7 +225,6 @@ int run_audit(const AuditArguments& arguments) {
           kMostReported, (out / "certificate.json").string());
     }
   }
-  require_confirmed(rechecked);
   return exit_code(result.verdict);
 }
 

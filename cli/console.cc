@@ -15,7 +15,10 @@ namespace taut {
 namespace {
 
 std::atomic<bool> interrupt_requested = false;
-extern "C" void request_interrupt(int /*signal*/) { interrupt_requested = true; }
+extern "C" void request_interrupt(int signal) {
+  interrupt_requested = true;
+  std::signal(signal, SIG_DFL);  // a second one ends the program at once
+}
 
 }  // namespace
 

@@ -112,8 +112,8 @@ Explanation explained(Undecided reason) {
                    "undecided: interrupted [U11].");
     case Undecided::kNoSegment:
       return entry("The path has no segment", "A single pose is no motion: nothing was claimed.",
-                   "A path file with one row, or rows that all repeat one pose.", "Give the path at least two poses.",
-                   "undecided: the path has no segment [U12].");
+                   "A path with fewer waypoints than its law takes, made by other means than taut's commands.",
+                   "Give the path as many waypoints as its law takes.", "undecided: the path has no segment [U12].");
     case Undecided::kNoPathFound:
       return entry(
           "No path was found: all that can be reached was searched",

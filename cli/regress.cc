@@ -154,6 +154,12 @@ void recheck(const fs::path& file, const fs::path& out, const RegressOptions& op
       run_program({checker_program(), (out / "certificate.json").string(), file.string()}, stop, options.most_seconds);
   const int expected = result.measurement->verdict == "undecided" ? kUndecidedExit : kProvedExit;
   if (checked.exit_code == expected) return;
+  if (checked.timed_out || checked.exit_code > kUndecidedExit) {
+    result.error = checked.timed_out ? fmt::format("taut-check took longer than {} s", options.most_seconds)
+                                     : fmt::format("taut-check ended with {}: {}", checked.exit_code,
+                                                   last_lines(checked.out + checked.err));
+    return;
+  }
   result.differences.push_back(fmt::format("taut-check ended with {}, expected {}: {}", checked.exit_code, expected,
                                            last_lines(checked.out + checked.err)));
 }

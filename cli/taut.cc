@@ -108,6 +108,7 @@ int run_plan(const PlanArguments& arguments) {
   const std::string text = certificate_text(certificate);
   const Recheck rechecked = recheck(text, static_cast<std::size_t>(result.proof.boxes),
                                     case_.problem.tolerances.has_value(), arguments.check, interruption.token());
+  require_confirmed(rechecked);
   std::vector<FileContent> files = {
       {out / "path.csv", path_csv(case_.problem, result.path)},
       {out / "certificate.json", text},
@@ -162,7 +163,6 @@ int run_plan(const PlanArguments& arguments) {
                  planned.whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
     }
   }
-  require_confirmed(rechecked);
   return exit_code(result.proof.verdict);
 }
 
@@ -172,12 +172,16 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message([argc, argv](const CLI::App* failed, const CLI::Error& error) {
     std::string message = error.what();
-    if (failed->get_parent() == nullptr && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-      message = argc > 1 ? fmt::format("got '{}', expected a command:", argv[1]) : "expected a command:";
-      for (const CLI::App* command : failed->get_subcommands({})) message += " " + command->get_name();
+    std::string command;
+    for (const CLI::App* known : failed->get_subcommands({})) {
+      if (known->parsed()) command = " " + known->get_name();
     }
-    return fmt::format("{} [{}]\nRun with --help for more information: {} --help\n", message, code(InputKind::kUse),
-                       failed->get_name());
+    if (command.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+      message = argc > 1 ? fmt::format("got '{}', expected a command:", argv[1]) : "expected a command:";
+      for (const CLI::App* known : failed->get_subcommands({})) message += " " + known->get_name();
+    }
+    return fmt::format("{} [{}]\nRun with --help for more information: {}{} --help\n", message, code(InputKind::kUse),
+                       failed->get_name(), command);
   });
   app.footer("Exit codes: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or untrustworthy machine.");
 

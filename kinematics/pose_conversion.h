@@ -37,9 +37,9 @@ struct TiltAndTorsion {
 /// |p + R b_i − a_i| [m]
 [[nodiscard]] std::array<double, kCables> cable_lengths(const Model<double>& model, const RigidPose& pose);
 
-/// The pose with those lengths that is reached from `start` as its lengths change to them at constant rates, in steps that are
-/// short enough for the way's next pose to be the one that Newton's method finds, however near a singular one; nothing where the way
-/// ends at a singular pose. q is followed, too: it is −q after a whole turn.
+/// The pose with those lengths that is reached from `start` as its lengths change to them at constant rates, in floating point, in
+/// steps short enough for Newton's method to contract well from the first: a good guess, and no proof, that it is the way's next
+/// pose. Nothing where that fails, as where the way ends at a singular pose. q is followed, too: it is −q after a whole turn.
 [[nodiscard]] std::optional<RigidPose> pose_of_lengths(const Model<double>& model,
                                                        const std::array<double, kCables>& lengths,
                                                        const RigidPose& start);

@@ -130,10 +130,14 @@ void require_writable(const std::filesystem::path& path) {
 }
 
 std::string read_whole(const std::filesystem::path& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) fail(path, "read", std::filesystem::exists(path) ? EISDIR : ENOENT);
+  if (!file) fail(path, "read", errno != 0 ? errno : ENOENT);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail(path, "read", EISDIR);
   std::ostringstream content;
   content << file.rdbuf();
+  if (file.bad()) fail(path, "read", errno != 0 ? errno : EIO);
   return content.str();
 }
 

@@ -56,6 +56,8 @@ PathAudit audit_path(PathSource& source, const PathAuditOptions& options, const 
   CertificateStream::Ending ending;
   if (audit.verdict == Verdict::kProved && source.problem().tolerances && audit.segments <= kMostReported) {
     result.tolerance_limits = tolerance_limits(source.problem(), source.whole_path(), stop);
+    result.audit.interrupted = stop.stop_requested();
+    if (audit.interrupted) return result;
     ending.illustration = {{"kind", "audit"}, {"tolerance_limits", to_json(result.tolerance_limits)}};
   }
   result.witness = witness_json(audit);

@@ -1,6 +1,7 @@
 #include "library/proved_path.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -126,16 +127,21 @@ nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits,
   ProofOptions options;
   options.max_bits = max_bits;
   Prover prover(audited, options);
-  path.tubes.clear();
-  path.pose_tubes.clear();
-  for (std::size_t k = 0; k < path.segments(); ++k) {
-    const Segment prepared = prover.prepared(path.segment(k));
-    if (!audited.space.constraints.empty()) path.tubes.push_back(prepared.tube);
-    if (law == Interpolation::kCableLengths) path.pose_tubes.push_back(prepared.pose_tube);
-  }
   std::atomic<bool> interrupted = false;
   prover.interrupt = &interrupted;
   const std::stop_callback on_stop(stop, [&] { interrupted = true; });
+  const std::size_t segments = path.segments();
+  path.tubes.assign(audited.space.constraints.empty() ? 0 : segments, 0);
+  path.pose_tubes.assign(law == Interpolation::kCableLengths ? segments : 0, {});
+  path.inner_poses.assign(path.pose_tubes.size(), {});
+  tbb::parallel_for(std::size_t{0}, segments, [&](std::size_t k) {
+    if (interrupted) return;
+    Segment prepared = prover.prepared(path.segment(k));
+    if (!path.tubes.empty()) path.tubes[k] = prepared.tube;
+    if (path.pose_tubes.empty()) return;
+    path.pose_tubes[k] = prepared.pose_tube;
+    path.inner_poses[k] = std::move(prepared.inner_poses);
+  });
   return make_certificate(audited, path, prove_path(prover, path), nullptr);
 }
 

@@ -90,8 +90,8 @@ nlohmann::json to_json(const Recheck& recheck) {
 
 void require_confirmed(const Recheck& recheck) {
   if (recheck.result == Recheck::Result::kRejected) {
-    throw std::logic_error(
-        fmt::format("the certificate just written is rejected by {}: {}", recheck.checker, recheck.message));
+    throw std::logic_error(fmt::format("a certificate was made that {} rejects, and nothing was written: {}",
+                                       recheck.checker, recheck.message));
   }
 }
 

@@ -8,7 +8,7 @@
 // everywhere.
 //
 // Errors. That something is not proved is a verdict, no error. Exceptions: InputError where what was given is wrong in some way,
-// Interrupted where the caller asked to stop, UntrustworthyMachine where directed rounding fails, InternalError where taut does.
+// Interrupted where the caller asked to stop, UntrustworthyMachine where directed rounding fails or numbers have no decimal point, InternalError where taut does.
 // What a progress callback throws comes through as it is.
 //
 // Threads. Everything may be called from any thread, in any rounding mode, which is as it was on return. A const object may be
@@ -70,7 +70,7 @@ class TAUT_EXPORT Interrupted : public std::runtime_error {
   ~Interrupted() override;
 };
 
-/// This machine does not round as told: nothing can be proved on it.
+/// This machine does not round as told, or the process has an LC_NUMERIC without a decimal point: nothing can be proved.
 class TAUT_EXPORT UntrustworthyMachine : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -20,7 +20,7 @@ struct Mutant {
 };
 
 /// Of so many alterations one is tried.
-int share() { return is_sanitized() ? 8 : 1; }
+int share() { return is_sampled() ? 8 : 1; }
 
 /// Calls `visit` with every one-place alteration of `original`.
 void for_each_mutant(const Json& original, const std::function<void(const Mutant&)>& visit) {

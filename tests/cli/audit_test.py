@@ -59,7 +59,7 @@ class Audit(InFolder):
             if not name.endswith(".yaml"):
                 continue
             case = os.path.join(AUDITS, name)
-            if "TAUT_SANITIZED" in os.environ and "\ntolerances:" in text_of(case):
+            if "TAUT_SAMPLED" in os.environ and "\ntolerances:" in text_of(case):
                 continue  # how far each can grow takes minutes
             with self.subTest(case=name):
                 path = re.search(r"^audit: \{path: (.*)\}$", text_of(case), re.M).group(1)

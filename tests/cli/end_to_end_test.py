@@ -259,6 +259,20 @@ class EndToEnd(InFolder):
                 self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
                 self.assertNotEqual(result.stderr, "")
 
+    def test_a_command_without_what_it_takes_is_told_so(self):
+        said = run(TAUT, "plan").stderr
+        self.assertIn("CASE is required", said)
+        self.assertIn("taut plan --help", said)
+        self.assertNotIn("expected a command", said)
+        self.assertIn("got 'fly', expected a command: plan", run(TAUT, "fly").stderr)
+
+    def test_a_waypoint_may_be_lost_to_tolerances(self):
+        text = text_of(os.path.join(CASES, "tutorial/04-tolerances.yaml"))
+        case = self.write("loose.yaml", re.sub(r"tolerances: {base_anchors: 0.1,", "tolerances: {base_anchors: 5,", text))
+        said = run(TAUT, "plan", case, "--out", self.out)
+        self.assertEqual(said.returncode, 2, said.stdout + said.stderr)
+        self.assertIn("waypoint 0 of the query: the tolerances are too large for a proof there [U6]", said.stdout)
+
     def test_an_interrupted_plan_is_undecided_and_leaves_whole_files(self):
         good = text_of(os.path.join(CASES, "robot2-sphere-q1-q2-q3.yaml"))
         case = self.write("long.yaml", re.sub(r"radius: 0.15, epsilon: 0.15", "radius: 0.0007, epsilon: 0.0007", good))
