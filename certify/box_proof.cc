@@ -104,6 +104,10 @@ template <class I>
 void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
   for (std::size_t i = 0; i < kCables; ++i) {
     const int cable = static_cast<int>(i);
+    box.low[i] = box.length[i] * (box.density[i] - box.variation[i]);
+    box.high[i] = box.length[i] * (box.density[i] + box.variation[i]);
+    box.low[i].tighten(box.offset);
+    box.high[i].tighten(box.offset);
     box.margins.add({MarginKind::kTensionMin, cable}, box.low[i] - model.tension_lower[i]);
     box.margins.add({MarginKind::kTensionMax, cable}, -box.high[i] + model.tension_upper[i]);
   }
@@ -260,10 +264,6 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     if (!certainly_positive(squares[i].range)) return result;  // the box is too wide
     result.variation[i] = sqrt(squares[i]);
     result.variation[i].tighten(offset);
-    result.low[i] = result.length[i] * (result.density[i] - result.variation[i]);
-    result.high[i] = result.length[i] * (result.density[i] + result.variation[i]);
-    result.low[i].tighten(offset);
-    result.high[i].tighten(offset);
   }
   result.regular = true;
   add_tension_margins(model, result);

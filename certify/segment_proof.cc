@@ -317,23 +317,23 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   if (rung > 0) ++walk.multiprecision;
   const BoxVerdict verdict = judge_at(rung, walk.segment, box, walk.clearance, parts);
   const auto give_up = [&](Reason reason) { return Step{Step::Kind::kGiveUp, verdict, {}, std::move(reason)}; };
-  const Step split{Step::Kind::kSplit, verdict};
-  const Step climb{Step::Kind::kClimb, verdict};
-  const Step refine{Step::Kind::kRefine, verdict};
+  const auto split = [&] { return Step{Step::Kind::kSplit, verdict}; };
+  const auto climb = [&] { return Step{Step::Kind::kClimb, verdict}; };
+  const auto refine = [&] { return Step{Step::Kind::kRefine, verdict}; };
   const bool higher_rung = rung < fine_.size() && !is_hopeless;
   switch (verdict.kind) {
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box}};
     case Kind::kTooClose: return give_up(Undecided::kClearance);
     case Kind::kSplit:
-      if (box.depth < deepest(rung, bits_)) return split;
+      if (box.depth < deepest(rung, bits_)) return split();
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up(at(Undecided::kDepth, verdict.worst));
     case Kind::kTolerance:
-      if (parts == 1) return refine;
+      if (parts == 1) return refine();
       if (box.depth < options_.tolerance_depth) {
         const bool parts_are_too_few = parts < kMostParts && !is_proved_inside(walk, task);
-        return parts_are_too_few ? refine : split;
+        return parts_are_too_few ? refine() : split();
       }
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
       if (walk.deviation_found && box.upper() != Dyadic{1, 0})
@@ -342,31 +342,31 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
         walk.deviation_found = true;
         return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
       }
-      if (parts < kMostParts) return refine;
+      if (parts < kMostParts) return refine();
       return give_up(at(Undecided::kTolerances, verdict.worst));
     case Kind::kPrecision:
       if (higher_rung) return settle(walk, task, verdict.worst);
       return give_up(at(Undecided::kPrecision, verdict.worst, ": it vanishes or nearly so"));
     case Kind::kOutOfRange: return give_up(Undecided::kParameterRange);
     case Kind::kAcross:
-      if (box.depth < DyadicBox::kMaxDepth) return split;
+      if (box.depth < DyadicBox::kMaxDepth) return split();
       return give_up(Undecided::kNoMotion);  // the inner pose is at no end of a box
     case Kind::kNoMotion:
       // The tube does not shrink with the box: what still fails here seldom succeeds in smaller boxes.
-      if (box.depth < (walk.motion_given_up ? kHastyMotionDepth : options_.motion_depth)) return split;
-      if (higher_rung && rung < kSingularRung && !walk.motion_given_up) return climb;
+      if (box.depth < (walk.motion_given_up ? kHastyMotionDepth : options_.motion_depth)) return split();
+      if (higher_rung && rung < kSingularRung && !walk.motion_given_up) return climb();
       walk.motion_given_up = true;
       return give_up(reason_of(verdict.kind));
     case Kind::kNearSingular:
     case Kind::kFault: break;
   }
-  if (box.depth < options_.singular_depth) return split;
+  if (box.depth < options_.singular_depth) return split();
   if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth && rung == 0 &&
       is_singular_between_ends(walk.segment, box)) {
     return {Step::Kind::kRefuted, verdict, SegmentWitness{true, {}, box}};
   }
-  if (higher_rung && rung < kSingularRung) return climb;
-  if (box.depth < 2 * options_.singular_depth && !is_hopeless) return split;
+  if (higher_rung && rung < kSingularRung) return climb();
+  if (box.depth < 2 * options_.singular_depth && !is_hopeless) return split();
   return give_up(reason_of(verdict.kind));
 }
 
