@@ -25,7 +25,7 @@ struct Shown {
 
 Shown shown(ToleranceKind kind) {
   constexpr double kMillimetres = 1000;
-  constexpr double kDegrees = 57.295779513082320;  // a number below 180/π
+  constexpr double kDegrees = 57.295779513082320;  // 180/π, to within an ulp
   switch (kind) {
     case ToleranceKind::kLoad: return {unit(kind), 1};
     case ToleranceKind::kOrientation: return {"deg", kDegrees};
@@ -48,7 +48,7 @@ std::string tolerance_table(const std::vector<ToleranceLimit>& limits) {
   if (limits.empty()) return "";
   std::string lines = "Tolerances, and how far each could grow alone with the path still proved:\n";
   for (const ToleranceLimit& limit : limits) {
-    constexpr double kBelow = 1 - 1e-15;  // for the rounding of the product
+    constexpr double kBelow = 1 - 1e-15;  // for the rounding of the factor and of the products
     const auto [unit, factor] = shown(limit.kind);
     lines += fmt::format("  {:<17} {:>10.4g}  up to {:>8} {}\n", name(limit.kind), factor * limit.stated,
                          below(kBelow * factor * limit.proved), unit);
