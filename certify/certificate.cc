@@ -51,6 +51,7 @@ json to_json(const PathWitness& w) {
     result["deviation"] = {{"base_anchors_m", d.base_anchors_m}, {"platform_anchors_m", d.platform_anchors_m},
                            {"load_point_m", d.load_point_m},     {"wrench", d.wrench},
                            {"position_m", d.position_m},         {"turn", d.turn}};
+    if (d.cable_lengths_m) result["deviation"]["cable_lengths_m"] = *d.cable_lengths_m;
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "certify/held_motion.h"
 #include "certify/interval.h"
 #include "kinematics/quaternion.h"
 #include "kinematics/statics.h"
@@ -17,6 +18,12 @@ namespace {
 struct Machine {
   Model<double> model;
   RigidPose pose;
+  std::optional<std::array<double, kCables>> held = std::nullopt;  ///< the lengths that it holds, if it does
+
+  /// To the pose that anchors and lengths lead to.
+  void follow() {
+    if (held) pose = pose_of_lengths(model, *held, pose).value_or(pose);
+  }
 };
 
 /// How far inside its limit a margin is [N or m].
@@ -70,17 +77,33 @@ Vector3<MpInterval> vector(const std::array<DecimalText, 3>& text) {
 
 Deviation worst_deviation(const TolerancesText& tolerances, const Model<double>& model, const RigidPose& commanded,
                           MarginId margin, bool held_by_lengths) {
-  const Machine machine{model, commanded};
+  Machine machine{model, commanded};
+  if (held_by_lengths) machine.held = cable_lengths(model, commanded);
   const double step = 1e-6 * model.characteristic_length;
   constexpr double kAngleStep = 1e-6;
   Deviation result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const double base = held_by_lengths ? 0.0 : number(tolerances.base_anchor_m[i]);
-    const double platform = held_by_lengths ? 0.0 : number(tolerances.platform_anchor_m[i]);
     result.base_anchors_m[i] =
-        downhill(machine, margin, base, step, [i](Machine& m, const Vector3<double>& x) { m.model.p_WA[i] += x; });
-    result.platform_anchors_m[i] =
-        downhill(machine, margin, platform, step, [i](Machine& m, const Vector3<double>& x) { m.model.p_PB[i] += x; });
+        downhill(machine, margin, number(tolerances.base_anchor_m[i]), step, [i](Machine& m, const Vector3<double>& x) {
+          m.model.p_WA[i] += x;
+          m.follow();
+        });
+    result.platform_anchors_m[i] = downhill(machine, margin, number(tolerances.platform_anchor_m[i]), step,
+                                            [i](Machine& m, const Vector3<double>& x) {
+                                              m.model.p_PB[i] += x;
+                                              m.follow();
+                                            });
+  }
+  if (held_by_lengths) {
+    result.cable_lengths_m.emplace().fill("0");
+    for (std::size_t i = 0; tolerances.cable_length_m && i < kCables; ++i) {
+      // Along the first axis, which stands for the length.
+      (*result.cable_lengths_m)[i] = downhill(machine, margin, number((*tolerances.cable_length_m)[i]), step,
+                                              [i](Machine& m, const Vector3<double>& x) {
+                                                (*m.held)[i] += x(0);
+                                                m.follow();
+                                              })[0];
+    }
   }
   result.load_point_m = downhill(machine, margin, number(tolerances.load_point_m), step,
                                  [](Machine& m, const Vector3<double>& x) { m.model.p_PM += x; });
@@ -116,13 +139,29 @@ MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesTex
   for (int k = 0; k < 6; ++k) {
     deviated.wrench(k) += load * ScalarTraits<I>::from_decimal(tolerances.wrench[static_cast<std::size_t>(k)]);
   }
+  PoseEnclosure commanded{p_WP, r_WP};
+  if (deviation.cable_lengths_m) {
+    std::array<I, kCables> errors;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      errors[i] = ScalarTraits<I>::from_decimal((*deviation.cable_lengths_m)[i]);
+    }
+    const auto led = deviated_pose(model, commanded, deviated, errors);
+    if (!led) {
+      Faults<I>::raise();
+      return I(0.0);
+    }
+    commanded = *led;
+  }
   const Vector3<I> u = vector(deviation.turn);
   const Matrix3<I> turn = rotation(Quaternion<I>{u(0), u(1), u(2), I(1.0)});
   Matrix3<I> r;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) r(i, j) = turn(i, 0) * r_WP(0, j) + turn(i, 1) * r_WP(1, j) + turn(i, 2) * r_WP(2, j);
+    for (int j = 0; j < 3; ++j) {
+      r(i, j) =
+          turn(i, 0) * commanded.r_WP(0, j) + turn(i, 1) * commanded.r_WP(1, j) + turn(i, 2) * commanded.r_WP(2, j);
+    }
   }
-  const Statics<I> s = statics(deviated, Vector3<I>(p_WP + vector(deviation.position_m)), r);
+  const Statics<I> s = statics(deviated, Vector3<I>(commanded.p_WP + vector(deviation.position_m)), r);
   const auto i = static_cast<std::size_t>(margin.cable);
   const bool of_length = margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
   if (of_length) return s.length[i];

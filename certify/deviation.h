@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "certify/margin.h"
 #include "certify/mp_interval.h"
@@ -18,15 +19,18 @@ struct Deviation {
   DecimalText wrench;                     ///< τ
   std::array<DecimalText, 3> position_m;  ///< tracking
   std::array<DecimalText, 3> turn;        ///< u of the rotation R(u, 1) by 2 atan |u|
+  /// Of a machine that is held by lengths: their errors.
+  std::optional<std::array<DecimalText, kCables>> cable_lengths_m = std::nullopt;
 };
 
 /// The one within `tolerances` that brings a margin down furthest, to first order, in floating point: a proposal. It keeps a
-/// billionth off the tolerances. Anchors and lengths of a machine that is held by lengths do not deviate.
+/// billionth off the tolerances.
 [[nodiscard]] Deviation worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
                                         const RigidPose& commanded, MarginId margin, bool held_by_lengths);
 
-/// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the commanded
-/// pose. Void if a fault is raised. At working_precision().
+/// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the pose (p, R)
+/// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (held_motion.h): a fault where that
+/// is not proved. Void if a fault is raised. At working_precision().
 [[nodiscard]] MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                                            const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
                                            const Deviation& deviation, MarginId margin);

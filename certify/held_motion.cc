@@ -1,5 +1,6 @@
 #include "certify/held_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -254,6 +255,97 @@ MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const Segment& segment
   std::array<Centered<I>, kUnknowns> z;
   if (!ImpliedZero<kUnknowns, I, System>(system, offset, 1.0).enclose(z)) return {};
   return system.pose(z);
+}
+
+namespace {
+
+/// Does not move, as what is deviated moves about it.
+Reference<MpInterval> still(const PoseEnclosure& pose, const PoseTube& tube) {
+  const MpInterval zero(0.0);
+  Reference<MpInterval> result;
+  result.tube = tube;
+  for (int i = 0; i < 3; ++i) {
+    result.p(i) = {pose.p_WP(i), zero, pose.p_WP(i)};
+    for (int j = 0; j < 3; ++j) {
+      result.r_mid(i, j) = result.r_range(i, j) = pose.r_WP(i, j);
+      result.r_slope(i, j) = result.r_bend(i, j) = zero;
+    }
+  }
+  return result;
+}
+
+/// The only pose in the reference's tube that has such lengths, for all that they and the model enclose.
+std::optional<PoseEnclosure> only_pose(const Model<MpInterval>& model, const Reference<MpInterval>& reference,
+                                       const std::array<MpInterval, kCables>& lengths) {
+  using System = LengthSystem<MpInterval>;
+  const MpInterval zero(0.0);
+  Lengths<MpInterval> constant;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    constant[i] = {lengths[i], zero, lengths[i]};
+    if (!certainly_positive(lengths[i])) return std::nullopt;
+  }
+  const System system(model, reference, constant, zero);
+  std::array<Centered<MpInterval>, kUnknowns> z;
+  if (!ImpliedZero<kUnknowns, MpInterval, System>(system, zero, 1.0).enclose(z)) return std::nullopt;
+  const MotionEnclosure<MpInterval> found = system.pose(z);
+  const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
+  return PoseEnclosure{found.p_WP.unaryExpr(at_mid), found.r_WP.unaryExpr(at_mid)};
+}
+
+}  // namespace
+
+std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const PoseEnclosure& pose,
+                                           const Model<MpInterval>& deviated,
+                                           const std::array<MpInterval, kCables>& length_error) {
+  std::array<MpInterval, kCables> stated_lengths;
+  double size = 0;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vector3<MpInterval> reach = apply(pose.r_WP, model.p_PB[i]);
+    MpInterval square(0.0);
+    for (int k = 0; k < 3; ++k) {
+      square = square + sqr(MpInterval(pose.p_WP(k) + reach(k) - model.p_WA[i](k)));
+      size = std::max(size, std::abs(upper_bound(model.p_PB[i](k))));
+    }
+    stated_lengths[i] = sqrt(square);
+  }
+  if (!(size > 0 && std::isfinite(size))) return std::nullopt;
+  // The only pose in a tube around `here` of all machines that deviate τ times as much, τ in `part`.
+  const auto pose_in_tube = [&](const PoseEnclosure& here, const PoseTube& tube, const MpInterval& part) {
+    Model<MpInterval> machine = model;
+    std::array<MpInterval, kCables> lengths;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        machine.p_WA[i](k) += part * (deviated.p_WA[i](k) - model.p_WA[i](k));
+        machine.p_PB[i](k) += part * (deviated.p_PB[i](k) - model.p_PB[i](k));
+      }
+      lengths[i] = stated_lengths[i] + part * length_error[i];
+    }
+    return only_pose(machine, still(here, tube), lengths);
+  };
+  // In the largest tube in which both tests succeed.
+  const auto follow = [&](const PoseEnclosure& here, double from, double to) -> std::optional<PoseEnclosure> {
+    constexpr int kSizes = 16;
+    for (int k = 1; k <= kSizes; ++k) {
+      const double turn = std::ldexp(1.0, -2 * k);
+      const PoseTube tube{turn * size, turn};
+      if (!pose_in_tube(here, tube, MpInterval(from, to))) continue;
+      if (auto found = pose_in_tube(here, tube, MpInterval(to))) return found;
+    }
+    return std::nullopt;
+  };
+  PoseEnclosure here = pose;
+  constexpr double kLeastStep = 1.0 / 16;
+  double step = 1;
+  for (double at = 0; at < 1;) {  // all of these are dyadic, hence exact
+    if (auto next = follow(here, at, at + step)) {
+      here = *std::move(next);
+      at += step;
+    } else {
+      step *= 0.5;
+      if (step < kLeastStep) return std::nullopt;
+    }
+  }
+  return here;
 }
 
 template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const Segment&, const Interval&,

@@ -5,8 +5,12 @@
 //   p = p_ref + r_p z_p,  R = R(u, 1) R_ref,  u = r_u z_u,  z in [−1, 1]^6,                                            (h)
 // as the zero of g_i(z, t) = (|d_i|^2 − L_i(t)^2) / 2, d_i = p + R b_i − a_i, by the Krawczyk operator (implied_zero.h) with
 //   ∂g_i/∂z_p = r_p d_i,   ∂g_i/∂z_u = r_u (2 / (1 + |u|^2)) (x_i + x_i × u),  x_i = R b_i × d_i.
-// Proof: docs/theory.md, "Held by lengths". This is the machine as typed; poses of deviations are tolerance.h's.
+// Proof: docs/theory.md, "Held by lengths". This is the machine as typed; where deviations lead all at once is tolerance.h's, where
+// a single one leads is deviated_pose()'s, by the same operator.
 #pragma once
+
+#include <array>
+#include <optional>
 
 #include "certify/motion.h"
 #include "kinematics/model.h"
@@ -20,6 +24,20 @@ namespace taut {
 template <class I>
 [[nodiscard]] MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const Segment& segment, const I& range,
                                                  const I& mid, const I& offset);
+
+/// A pose [m], enclosed.
+struct PoseEnclosure {
+  Vector3<MpInterval> p_WP;
+  Matrix3<MpInterval> r_WP;
+};
+
+/// The pose to which one deviation leads a machine that is held by lengths: as anchors and lengths change from those that
+/// `model` has at `pose` to those of `deviated` and to lengths longer by `length_error` [m], steadily and all at a time, the pose
+/// is proved to move continuously and past no singular one.
+/// @returns nothing where a proof failed. Void if a fault was raised. At working_precision().
+[[nodiscard]] std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const PoseEnclosure& pose,
+                                                         const Model<MpInterval>& deviated,
+                                                         const std::array<MpInterval, kCables>& length_error);
 
 extern template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const Segment&, const Interval&,
                                                           const Interval&, const Interval&);

@@ -130,6 +130,7 @@ WitnessView read_witness(const json& witness, const Path& path) {
   result.value_upper = witness.at("value").at(1).get<std::string>();
   result.limit = witness.at("limit").get<std::string>();
   result.deviates = witness.contains("deviation");
+  result.is_led = result.deviates && witness["deviation"].contains("cable_lengths_m");
   return result;
 }
 

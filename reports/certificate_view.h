@@ -43,6 +43,7 @@ struct WitnessView {
   std::string value_upper;
   std::string limit;
   bool deviates = false;  ///< the machine is not the stated one, but within the tolerances
+  bool is_led = false;    ///< its lengths hold it where its deviation leads
 };
 
 /// Where an audited path is not proved.

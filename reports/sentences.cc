@@ -121,12 +121,16 @@ std::vector<std::string> refuted_details(const Scene& scene) {
                        length ? rounded_down(1000 * beyond, 3) + " mm" : rounded_down(beyond, 3) + " N",
                        limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
     }
-    result.push_back(
-        fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by, place_text(scene, witness.at.position),
-                    point_text(view, witness.at), pose_at(witness.at.position),
-                    witness.deviates ? " The machine there is not quite the stated one: it deviates within the "
-                                       "tolerances, as the certificate says."
-                                     : ""));
+    std::string machine;
+    if (witness.deviates) {
+      machine = fmt::format(
+          " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate "
+          "says{}.",
+          witness.is_led ? ", and the lengths of its cables hold it where that leads from this pose" : "");
+    }
+    result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
+                                 place_text(scene, witness.at.position), point_text(view, witness.at),
+                                 pose_at(witness.at.position), machine));
   }
   if (view.path.segments() == 0) {
     result.emplace_back("Every path of the query passes this pose, so that none is feasible.");

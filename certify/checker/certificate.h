@@ -152,6 +152,8 @@ struct WitnessDeviation {
   mpq_class wrench;  ///< how many times the tolerance of the wrench
   std::array<mpq_class, 3> position;
   std::array<mpq_class, 3> turn;  ///< u: the rotation of the quaternion (u, 1)
+  /// Where the machine is held by lengths: what is added to these [m].
+  std::optional<std::array<mpq_class, kCables>> cable_lengths = std::nullopt;
 };
 
 struct Witness {

@@ -279,10 +279,20 @@ class Checker {
     require_within(by.load_point, within.load_point, "the load point");
     require_within({by.wrench, 0, 0}, 1, "the wrench");
     require_within(by.position, within.position, "the position");
+    for (std::size_t c = 0; c < 3; ++c) problem.load_point[c] += by.load_point[c];
+    deviant.emplace(problem, model.bits());
     Frame pose = stated.pose;
+    if (by.cable_lengths) {
+      Vector6<Interval> errors;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        const mpq_class& error = (*by.cable_lengths)[i];
+        require_within({error, 0, 0}, within.cable_length ? (*within.cable_length)[i] : 0, "a cable's length");
+        errors[i] = Interval(error);
+      }
+      pose = deviated_pose(model, stated.pose, stated.geometry.length, *deviant, errors);
+    }
     Vector3<Form> u;
     for (std::size_t c = 0; c < 3; ++c) {
-      problem.load_point[c] += by.load_point[c];
       pose.p[c] += Form(Interval(by.position[c]));
       u[c] = Form(Interval(by.turn[c]));
     }
@@ -290,7 +300,6 @@ class Checker {
     require(is_nonnegative(model.deviation()->angle - angle),
             "the witness's deviation is within the tolerance of the angle");
     pose.R = multiply(rotation({u[0], u[1], u[2], Form(Interval(1))}), pose.R);
-    deviant.emplace(problem, model.bits());
     return deviant->geometry(pose);
   }
 

@@ -1,5 +1,7 @@
 #include "certify/checker/held.h"
 
+#include <cmath>
+
 #include "certify/checker/krawczyk.h"
 
 namespace taut::checker {
@@ -146,6 +148,49 @@ Frame held_by_lengths(const Model& model, const Reference& reference, const Vect
   Vector6<Form> z;
   for (std::size_t i = 0; i < 6; ++i) z[i] = Form::enclose(mid.y[i], range.slope[i], range.y[i]);
   return over_box.pose(z);
+}
+
+Frame deviated_pose(const Model& stated, const Frame& pose, const Vector6<Form>& L, const Model& deviant,
+                    const Vector6<Interval>& errors) {
+  const double size = mpfr_get_d(stated.platform_size().lower(), MPFR_RNDN);
+  if (!std::isfinite(size)) throw Undefined("a platform without a size");
+  Frame here = pose;
+  mpq_class t = 0;
+  mpq_class step = 1;
+  const mpq_class least_step(1, 16);
+  while (t < 1) {
+    const mpq_class next = t + step < 1 ? mpq_class(t + step) : mpq_class(1);
+    const Interval on_the_way = hull(Interval(t), Interval(next));
+    Vector6<Form> L_on_the_way;
+    Vector6<Form> L_next;
+    for (std::size_t i = 0; i < 6; ++i) {
+      L_on_the_way[i] = Form(L[i].range + on_the_way * errors[i]);
+      L_next[i] = Form(L[i].range + Interval(next) * errors[i]);
+    }
+    const Model machines = stated.towards(deviant, on_the_way);
+    const Model machine = stated.towards(deviant, Interval(next));
+    Reference still = at_middle({here, {}, {}});
+    bool is_followed = false;
+    constexpr int kTubes = 16;
+    for (int k = 1; !is_followed && k <= kTubes; ++k) {  // the first that does, from the widest on
+      still.tube.turn = std::ldexp(1.0, -2 * k);
+      still.tube.position = size * still.tube.turn;
+      try {
+        (void)held_by_lengths(machines, still, L_on_the_way);
+        here = held_by_lengths(machine, still, L_next);
+        is_followed = true;
+      } catch (const Undefined&) {
+        continue;
+      }
+    }
+    if (is_followed) {
+      t = next;
+    } else {
+      step /= 2;
+      if (step < least_step) throw Undefined("the pose to which the deviation leads");
+    }
+  }
+  return here;
 }
 
 }  // namespace taut::checker

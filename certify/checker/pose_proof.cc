@@ -110,6 +110,17 @@ Model::Model(const Problem& problem, int bits) : bits_(bits) {
   deviation.angle = abs(tolerances.orientation.evaluate({}).range);
 }
 
+Model Model::towards(const Model& other, const Interval& part) const {
+  Model result = *this;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.base_[i][c] += part * (other.base_[i][c] - base_[i][c]);
+      result.platform_[i][c] += part * (other.platform_[i][c] - platform_[i][c]);
+    }
+  }
+  return result;
+}
+
 Interval Model::platform_size() const {
   Interval sum;
   for (const Vector3<Interval>& b : platform_) sum += sqrt(squared_norm(b));

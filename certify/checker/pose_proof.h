@@ -91,6 +91,8 @@ class Model {
 
   /// The mean of |b_i| [m].
   [[nodiscard]] Interval platform_size() const;
+  /// This machine with its anchors moved towards the other's, by a part of the way.
+  [[nodiscard]] Model towards(const Model& other, const Interval& part) const;
 
   // At the working precision, which should be bits(). Each throws Undefined where the box has to be split.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;

@@ -420,6 +420,7 @@ def main():
     motions_between_poses()
     tolerated()
     stretches()
+    held_deviations()
     grazing()
 
 
@@ -1561,9 +1562,10 @@ def stretches():
     malform('stretches_null_but_boxes', 'Without stretches a refuted certificate proves nothing.', 'segments: expected an array of 0',
             lambda c: c.update(stretches=None), across)
     malform('deviation_without_tolerances', 'Nothing may deviate.', 'tolerances to be within', lambda c: c['problem'].update(tolerances=None), deviating)
-    malform('deviation_of_held_anchors', 'Anchors do not deviate where the machine is held by lengths.', 'anchors that do not deviate',
-            lambda c: (c['problem']['tolerances'].update(cable_length_m=['0'] * 6),
-                       c['witness']['deviation']['base_anchors_m'].__setitem__(0, ['0.001', '0', '0'])), deviating)
+    malform('deviation_of_lengths_not_held', 'Lengths deviate only where the machine is held by them.', "no key 'cable_lengths_m'",
+            lambda c: c['witness']['deviation'].update(cable_lengths_m=['0'] * 6), deviating)
+    malform('deviation_held_without_lengths', 'The length errors are stated where the machine is held by lengths.', "the key 'cable_lengths_m'",
+            lambda c: c['problem']['tolerances'].update(cable_length_m=['0'] * 6), deviating)
     malform('tolerance_negative', 'Tolerances are >= 0.', 'a tolerance >= 0', lambda c: c['problem']['tolerances'].update(position_m='-0.001'), deviating)
     malform('tolerance_of_a_turn', 'Angles are below 1 rad.', 'an angle from 0 to below 1', lambda c: c['problem']['tolerances'].update(orientation_rad='1'),
             deviating)
@@ -1571,6 +1573,128 @@ def stretches():
             lambda c: c['problem']['tolerances'].update(orientation_rad='-pi/180'), deviating)
     malform('tolerance_missing', 'All keys are there.', "the key 'load_point_m'", lambda c: c['problem']['tolerances'].pop('load_point_m'), deviating)
     malform('tolerance_of_five_anchors', 'One an anchor.', 'array of 6', lambda c: c['problem']['tolerances']['base_anchor_m'].pop(), deviating)
+
+
+def held_deviations():
+    """Machines that are held by lengths and deviate: refuted at the pose to which the deviation leads."""
+    sigma = 34 * pi / 180
+    start, end = ([0, 0, 0.35], quaternion(-2.3, 1.6, sigma)), ([0.001, 0, 0.351], quaternion(-2.27, 1.58, sigma))
+    free = audited('robot1-poses')
+    slice_audit = audited('robot1-slice', space=SLICE)
+    a, b = waypoint([-2.3, 1.6]), waypoint([-2.2, 1.55])
+    lengths_of = lambda at: geometry(free, (at[0], rotation(at[1])))[1]
+    winches = poses('straight-in-cable-lengths', *[pose(*at, lengths_of(at)) for at in (start, end)], pose_tubes=[(2**-9, 2**-8)])
+
+    def middle_of(pr, pa):
+        return frame(pr, parameters(pr, pa, 0, 0.5))
+
+    def led(pr, pa, deviation):
+        """The deviating machine, and the pose to which it is led."""
+        return deviant(dict(pr, held=True), middle_of(pr, pa), deviation)
+
+    def stated(deviation):
+        row = lambda key, i, size=3: ['%.9g' % x for x in deviation.get((key, i), [0.0] * size)[:size]]
+        return {'base_anchors_m': [row('base_anchor_m', i) for i in range(6)],
+                'platform_anchors_m': [row('platform_anchor_m', i) for i in range(6)], 'load_point_m': row('load_point_m', None),
+                'wrench': row('wrench', None, 1)[0], 'position_m': row('position_m', None), 'turn': ['0', '0', '0'],
+                'cable_lengths_m': [row('cable_length_m', i, 1)[0] for i in range(6)]}
+
+    def witness(kind, i, limit, value, deviation):
+        return {'at': {'segment': 0, 's': '1/2'}, 'kind': kind, 'cable': i + 1, 'value': enclosing(value), 'limit': limit,
+                'deviation': stated(deviation)}
+
+    def refuted(pr, pa, deviation):
+        """One lower limit is between the tension of the machine as stated and that of the deviating one."""
+        _, f0, v, _ = statics(pr, middle_of(pr, pa))
+        _, g0, w, _ = statics(*led(pr, pa, deviation))
+        i = max(range(6), key=lambda n: (f0[n] - v[n]) - (g0[n] - w[n]))
+        before, after = f0[i] - v[i], g0[i] - w[i]
+        assert before - after > 1e-5 and (before + after) / 2 > 1e-4, (before, after)
+        pr = copy.deepcopy(pr)
+        pr['robot']['tension_N'][i] = ['%.7f' % ((before + after) / 2), '0.5']
+        return certificate(pr, pa, 'refuted', witness=witness('tension_min', i, pr['robot']['tension_N'][i][0], after, deviation))
+
+    def only(i, size):
+        return ['0'] * i + [size] + ['0'] * (5 - i)
+    anchors = {('base_anchor_m', 2): [6e-5, 0, 8e-5], ('platform_anchor_m', 4): [0, -8e-5, 6e-5]}
+    errors = {('cable_length_m', i): [1e-4 * sign] for i, sign in enumerate((1, -1, 1, 1, -1, 1))}
+    of_anchors = dict(base_anchor_m=only(2, '0.0001'), platform_anchor_m=only(4, '0.0001'))
+    of_lengths = dict(cable_length_m=['0.0001'] * 6)
+    tracked = {('position_m', None): [0, 0, -1e-4], ('wrench', None): [-1]}
+    of_both = dict(of_anchors, **of_lengths, position_m='0.0001', wrench=['0', '0', '0.01', '0', '0', '0'])
+    both = {**anchors, **errors, **tracked}
+
+    def with_tolerances(pr, **kinds):
+        return dict(copy.deepcopy(pr), tolerances=tolerances(**kinds))
+    write('accepted', 'refuted_by_held_anchors', refuted(with_tolerances(slice_audit, cable_length_m=['0'] * 6, **of_anchors), straight(a, b), anchors),
+          'Lengths are held exactly; anchors that deviate move the platform to where a cable is too slack.')
+    by_lengths = refuted(with_tolerances(slice_audit, **of_lengths), straight(a, b), errors)
+    write('accepted', 'refuted_by_held_lengths', by_lengths, 'Lengths that are not quite those commanded.')
+    by_both = refuted(with_tolerances(free, **of_both), winches, both)
+    write('accepted', 'refuted_by_held_anchors_and_lengths', by_both, 'Anchors, lengths, load and tracking deviate, under the law of cable lengths.')
+    write('accepted', 'refuted_by_held_anchors_of_lengths', refuted(with_tolerances(free, **of_anchors), winches, anchors),
+          'Lengths that are straight and held exactly, and anchors that deviate.')
+    write('accepted', 'refuted_by_held_lengths_of_a_geodesic', refuted(with_tolerances(free, **of_both),
+          poses('geodesic', pose(*start), pose(*end)), both), 'A geodesic, followed by lengths that are off.')
+
+    # False.
+    def edited(kind, edit):
+        return lambda c: edit(c['witness']['deviation'][kind])
+    reject('held_deviation_of_a_length_too_large', by_lengths, 'The deviation is outside of its tolerance.', "a cable's length",
+           edited('cable_lengths_m', lambda x: x.__setitem__(1, '-0.000100001')))
+    reject('held_deviation_of_a_length_that_is_exact', by_both, 'Without a tolerance of them lengths are exact.', "a cable's length",
+           lambda c: c['problem']['tolerances'].update(cable_length_m=None))
+    reject('held_deviation_of_an_anchor_too_large', by_both, 'The deviation is outside of its tolerance.', 'a base anchor',
+           edited('base_anchors_m', lambda x: x.__setitem__(2, ['0.00006', '0.00001', '0.00008'])))
+    reject('held_deviation_of_a_platform_anchor_too_large', by_both, 'The deviation is outside of its tolerance.', 'a platform anchor',
+           edited('platform_anchors_m', lambda x: x.__setitem__(4, ['0', '-0.00008', '0.0000601'])))
+    reject('held_deviation_not_the_one_of_the_value', by_both, 'The value is that of another machine.', 'witness',
+           edited('cable_lengths_m', lambda x: x.__setitem__(0, '-0.0001')))
+    i = by_both['witness']['cable'] - 1
+    machine, _ = led(by_both['problem'], winches, both)
+    _, f0, v, _ = statics(machine, middle_of(by_both['problem'], winches))
+    reject('held_deviation_that_does_not_move_the_platform', by_both, 'The value is that of the deviating machine at the pose of the stated one.', 'witness',
+           lambda c: c['witness'].update(value=enclosing(f0[i] - v[i])))
+    # The mirror image through the plane of the base has the same lengths, and there cables would have to push.
+    machine, (p, R) = led(by_lengths['problem'], straight(a, b), errors)
+    flip = [1, 1, -1]
+    image = [p[0], p[1], -p[2]], [[flip[r] * flip[c] * R[r][c] for c in range(3)] for r in range(3)]
+    assert max(abs(x - y) for x, y in zip(geometry(machine, image)[1], geometry(machine, (p, R))[1])) < 1e-12
+    lengths, f0, v, _ = statics(machine, image)
+    i = min(range(6), key=lambda n: f0[n] - v[n])
+    assert f0[i] - v[i] < -0.01
+    reject('held_deviation_to_another_assembly', by_lengths, 'The value is that of the mirror image, which has the same lengths.', 'violates',
+           lambda c: c['witness'].update(witness('tension_min', i, c['problem']['robot']['tension_N'][i][0], f0[i] - v[i], errors)))
+    # With the lengths of a pose at which det J has the other sign: whatever the way leads to, it is not that one.
+    here = middle_of(slice_audit, straight(a, b))
+    det = lambda at: statics(slice_audit, at)[3]
+    there = next(at for phi in range(-3, 4) for theta in (0.5, 1, 1.5) for at in [frame(slice_audit, [phi, theta])] if det(here) * det(at) < 0)
+    far = {('cable_length_m', n): [float('%.9g' % (y - x))] for n, (x, y) in
+           enumerate(zip(geometry(slice_audit, here)[1], geometry(slice_audit, there)[1]))}
+    _, f0, v, _ = statics(slice_audit, there)
+    i = min(range(6), key=lambda n: f0[n] - v[n])
+    reject('held_deviation_past_a_singular_pose', by_lengths, 'On its way the platform would pass a singular pose.',
+           'the pose to which the deviation leads', lambda c: (c['problem']['tolerances'].update(cable_length_m=['0.5'] * 6),
+           c['witness'].update(witness('tension_min', i, c['problem']['robot']['tension_N'][i][0], f0[i] - v[i], far))))
+    # The base turns by half a turn, by straight ways; the lengths are those of the pose as it is. Half-way all base anchors are in one line.
+    around = {('base_anchor_m', n): [-2 * float(x[0]), -2 * float(x[1]), 0] for n, x in enumerate(slice_audit['robot']['base_anchors_m'])}
+    machine = dict(slice_audit, robot=dict(slice_audit['robot'], base_anchors_m=[[-float(x), -float(y), float(z)] for x, y, z in
+                                                                                 slice_audit['robot']['base_anchors_m']]))
+    around.update({('cable_length_m', n): [float('%.9g' % (y - x))] for n, (x, y) in enumerate(zip(geometry(slice_audit, here)[1], geometry(machine, here)[1]))})
+    _, f0, v, _ = statics(machine, here)
+    i = min(range(6), key=lambda n: f0[n] - v[n])
+    assert f0[i] - v[i] < 0
+    reject('held_deviation_through_a_singular_machine', by_lengths, 'Pose and machine are regular at the end, but not on the way.',
+           'the pose to which the deviation leads', lambda c: (
+           c['problem']['tolerances'].update(cable_length_m=['0.5'] * 6, base_anchor_m=['0.5'] * 6),
+           c['witness'].update(witness('tension_min', i, c['problem']['robot']['tension_N'][i][0], f0[i] - v[i], around))))
+
+    # Against the format.
+    malform('deviation_of_five_lengths', 'One a cable.', 'cable_lengths_m: expected an array of 6', edited('cable_lengths_m', lambda x: x.pop()), by_lengths)
+    malform('deviation_of_lengths_missing', 'Under the law of cable lengths all machines are held by them.', "the key 'cable_lengths_m'",
+            lambda c: c['witness']['deviation'].pop('cable_lengths_m'), by_both)
+    malform('deviation_of_a_pose_by_lengths', 'A machine that is not held by lengths has no length errors.', "no key 'cable_lengths_m'",
+            lambda c: c['problem']['tolerances'].update(cable_length_m=None), by_lengths)
 
 
 def grazing():

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "certify/path_proof.h"
 #include "certify/segment_proof.h"
 #include "kinematics/pose_conversion.h"
+#include "kinematics/quaternion.h"
+#include "kinematics/statics.h"
 #include "tests/support/robots.h"
 
 namespace taut {
@@ -149,6 +152,137 @@ TEST(HeldMotion, ABoxAcrossAnInnerPoseIsSplit) {
     for (const InnerPose& inner : step.segment.inner_poses) {
       EXPECT_FALSE(box.lower().approx() < inner.s && inner.s < box.upper().approx());
     }
+  }
+}
+
+/// Robot 1's machine and a pose, enclosed, and what deviates.
+struct Deviating {
+  static RigidPose in_slice(double phi, double theta) { return rigid_pose({{0, 0, 0.35}, phi, theta, 0.6}); }
+  static PoseEnclosure enclosed(const RigidPose& pose) {
+    const auto of = [](double x) { return MpInterval(x); };
+    PoseEnclosure result;
+    result.p_WP = pose.p.unaryExpr(of);
+    const Eigen::Vector4d q = pose.q.coeffs();
+    // Not quite of length 1; R(u, 1) with u = v / w always is a rotation.
+    const MpInterval w(q(3));
+    result.r_WP = rotation(Quaternion<MpInterval>{of(q(0)) / w, of(q(1)) / w, of(q(2)) / w, of(1.0)});
+    return result;
+  }
+  /// From `from`; the deviating machine's lengths are those that the stated one has there, plus these errors.
+  [[nodiscard]] std::optional<PoseEnclosure> led(const RigidPose& from) const {
+    std::array<MpInterval, kCables> errors;
+    for (std::size_t i = 0; i < kCables; ++i) errors[i] = MpInterval(length_error[i]);
+    Model<MpInterval> deviated = exact;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        deviated.p_WA[i](k) += MpInterval(base[i](k));
+        deviated.p_PB[i](k) += MpInterval(platform[i](k));
+      }
+    }
+    return deviated_pose(exact, enclosed(from), deviated, errors);
+  }
+  [[nodiscard]] Model<double> deviated_approx() const {
+    Model<double> result = approx;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      result.p_WA[i] += base[i];
+      result.p_PB[i] += platform[i];
+    }
+    return result;
+  }
+  /// Such that the deviating machine has `to` among its poses.
+  void lead(const RigidPose& from, const RigidPose& to) {
+    const auto before = cable_lengths(approx, from);
+    const auto after = cable_lengths(deviated_approx(), to);
+    for (std::size_t i = 0; i < kCables; ++i) length_error[i] = after[i] - before[i];
+  }
+  [[nodiscard]] double determinant(const RigidPose& pose) const {
+    return statics(approx, pose.p, Matrix3<double>(pose.q.toRotationMatrix())).determinant;
+  }
+
+  PrecisionScope precision{128};
+  Problem problem = testing::robot1_slice();
+  Model<MpInterval> exact = make_model<MpInterval>(problem);
+  Model<double> approx = make_model<double>(problem);
+  std::array<Vector3<double>, kCables> base = zeros(), platform = zeros();
+  std::array<double, kCables> length_error{};
+
+  static std::array<Vector3<double>, kCables> zeros() {
+    std::array<Vector3<double>, kCables> result;
+    result.fill(Vector3<double>::Zero());
+    return result;
+  }
+};
+
+TEST(HeldMotion, ADeviationLeadsWhereThePoseFollowsIt) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 12; ++trial) {
+    Deviating machine;
+    const double size = std::pow(10.0, -4 - trial % 6);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        machine.base[i](k) = size * uniform(random);
+        machine.platform[i](k) = size * uniform(random);
+      }
+      machine.length_error[i] = size * uniform(random);
+    }
+    const RigidPose from = Deviating::in_slice(-2.3 + 0.05 * trial, 1.6 - 0.05 * trial);
+    const auto led = machine.led(from);
+    ASSERT_TRUE(led) << trial;
+    std::array<double, kCables> lengths = cable_lengths(machine.approx, from);
+    for (std::size_t i = 0; i < kCables; ++i) lengths[i] += machine.length_error[i];
+    const auto expected = pose_of_lengths(machine.deviated_approx(), lengths, from);
+    ASSERT_TRUE(expected) << trial;
+    EXPECT_GT((expected->p - from.p).norm(), 0.05 * size) << trial;
+    const Matrix3<double> r = expected->q.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(midpoint_approx(led->p_WP(i)), expected->p(i), 1e-12) << trial;
+      EXPECT_LT(upper_bound(led->p_WP(i)) - lower_bound(led->p_WP(i)), 1e-15) << trial;
+      for (int j = 0; j < 3; ++j) EXPECT_NEAR(midpoint_approx(led->r_WP(i, j)), r(i, j), 1e-11) << trial;
+    }
+  }
+}
+
+TEST(HeldMotion, NoDeviationLeadsNowhereElse) {
+  const RigidPose from = Deviating::in_slice(-2.3, 1.6);
+  const auto led = Deviating().led(from);
+  ASSERT_TRUE(led);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(midpoint_approx(led->p_WP(i)), from.p(i), 1e-15);
+}
+
+TEST(HeldMotion, ADeviationPastASingularPoseIsNotFollowed) {
+  Deviating machine;
+  const RigidPose from = Deviating::in_slice(-2.3, 1.6);
+  const bool sign = machine.determinant(from) > 0;
+  int tried = 0;
+  for (int k = 1; k < 60; ++k) {
+    const RigidPose to = Deviating::in_slice(-2.3 + 0.1 * k, 1.6);
+    if ((machine.determinant(to) > 0) == sign) continue;
+    machine.lead(from, to);
+    EXPECT_FALSE(machine.led(from)) << k;
+    // Nor across the singular poses that are next.
+    const RigidPose before = Deviating::in_slice(-2.3 + 0.1 * (k - 1), 1.6);
+    if ((machine.determinant(before) > 0) == sign) {
+      machine.lead(before, to);
+      EXPECT_FALSE(machine.led(before)) << k;
+    }
+    ++tried;
+  }
+  EXPECT_GT(tried, 3);
+}
+
+/// The base turns by half a turn, each anchor by a straight way: half-way all are on one line, and the machine is singular. At the
+/// end it is regular again, and at the pose at which it began.
+TEST(HeldMotion, ADeviationThroughASingularMachineIsNotFollowed) {
+  const RigidPose from = Deviating::in_slice(-2.3, 1.6);
+  for (const double part : {0.001, 1.0}) {
+    Deviating machine;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Vector3<double>& a = machine.approx.p_WA[i];
+      machine.base[i] = Vector3<double>(-2 * part * a(0), -2 * part * a(1), 0);
+    }
+    machine.lead(from, from);
+    EXPECT_EQ(machine.led(from).has_value(), part < 0.5) << part;
   }
 }
 

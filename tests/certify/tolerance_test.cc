@@ -334,12 +334,41 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
            {"platform", [](TolerancesText& t) { t.platform_anchor_m.fill("0.012"); }},
            {"orientation", [](TolerancesText& t) { t.orientation_rad = "0.2"; }},
            {"load point", [](TolerancesText& t) { t.load_point_m = "0.03"; }},
-           {"load", [](TolerancesText& t) { t.wrench[2] = "0.5"; }}}) {
+           {"load", [](TolerancesText& t) { t.wrench[2] = "0.5"; }},
+           {"base, held by lengths",
+            [](TolerancesText& t) {
+              t.cable_length_m.emplace().fill("0");
+              t.base_anchor_m.fill("0.0005");
+            }},
+           {"platform, held by lengths",
+            [](TolerancesText& t) {
+              t.cable_length_m.emplace().fill("0");
+              t.platform_anchor_m.fill("0.0005");
+            }},
+           {"lengths", [](TolerancesText& t) { t.cable_length_m.emplace().fill("0.0005"); }},
+           {"all of these, and tracking",
+            [](TolerancesText& t) {
+              t.cable_length_m.emplace().fill("0.0002");
+              t.base_anchor_m.fill("0.0002");
+              t.platform_anchor_m.fill("0.0002");
+              t.position_m = "0.0002";
+              t.wrench[2] = "0.1";
+            }}}) {
     Problem problem = robot1_slice();
     edit(problem.tolerances.emplace());
-    const Prover prover(problem);
     Path path;
     path.waypoints = {at({0.5, 0.2}), at({0.56, 0.27})};
+    if (problem.tolerances->cable_length_m) {
+      // Far less is tolerated then: limits are next to what a platform that stays needs.
+      path.waypoints[1] = path.waypoints[0];
+      const RigidPose pose = PoseSampler(problem).rigid_pose(path.segment(0), 0);
+      const Statics<double> still =
+          statics(make_model<double>(problem), pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
+      for (std::size_t i = 0; i < kCables; ++i) {
+        problem.robot.tension_N[i].lower = fmt::format("{:.9f}", still.tension[i] - still.variation[i] - 1e-4);
+      }
+    }
+    const Prover prover(problem);
     const PathProof proof = prove_path(prover, path);
     ASSERT_EQ(proof.verdict, Verdict::kRefuted) << name << ": " << proof.reason;
     ASSERT_TRUE(proof.witness->deviation) << name;
@@ -350,6 +379,7 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
     };
     Deviated deviated{make_model<double>(problem)};
     const TolerancesText& t = *problem.tolerances;
+    double moved = 0;  // what a machine held by lengths follows
     EXPECT_LE(vector(d.load_point_m).norm(), number(t.load_point_m));
     EXPECT_LE(vector(d.position_m).norm(), number(t.position_m));
     EXPECT_LE(2 * std::atan(vector(d.turn).norm()), evaluate_constant<double>(t.orientation_rad));
@@ -360,7 +390,14 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
       deviated.model.p_WA[i] += vector(d.base_anchors_m[i]);
       deviated.model.p_PB[i] += vector(d.platform_anchors_m[i]);
       deviated.model.p_MB[i] = deviated.model.p_PB[i] - deviated.model.p_PM;
+      ASSERT_EQ(d.cable_lengths_m.has_value(), t.cable_length_m.has_value());
+      if (!d.cable_lengths_m) continue;
+      deviated.length_error[i] = number((*d.cable_lengths_m)[i]);
+      EXPECT_LE(std::abs(deviated.length_error[i]), number((*t.cable_length_m)[i]));
+      moved += std::abs(deviated.length_error[i]) + vector(d.base_anchors_m[i]).norm() +
+               vector(d.platform_anchors_m[i]).norm();
     }
+    if (d.cable_lengths_m) EXPECT_GT(moved, 1e-4) << name;
     for (int k = 0; k < 6; ++k) {
       deviated.model.wrench(k) += number(d.wrench) * number(t.wrench[static_cast<std::size_t>(k)]);
     }

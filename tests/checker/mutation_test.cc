@@ -77,9 +77,10 @@ void for_each_mutant(const Json& original, const std::function<void(const Mutant
 }
 
 TEST(Mutation, WithoutNewDigestsNothingPasses) {
-  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped",
-                           "implied_start_is_goal", "refuted_implied_singular", "geodesic_still", "lengths_still",
-                           "lengths_inner_still", "tight_position", "refuted_by_a_deviation"}) {
+  for (const char* name :
+       {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped", "implied_start_is_goal",
+        "refuted_implied_singular", "geodesic_still", "lengths_still", "lengths_inner_still", "tight_position",
+        "refuted_by_a_deviation", "refuted_by_held_anchors_and_lengths"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
       EXPECT_EQ(check_certificate(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
@@ -191,6 +192,9 @@ TEST(Mutation, OfTolerancesOnlyTrueStatementsPass) {
       "tight_position", "/problem/tolerances",
       {minus_zero, tiny, {"The machine as it is stated.", std::regex("/problem/tolerances: becomes null")}});
   expect_accepted_mutants("refuted_by_a_deviation", "/witness/deviation", {minus_zero});
+  const Rule no_load = {"No load deviates.", std::regex("/witness/deviation/wrench: becomes 1e-400")};
+  expect_accepted_mutants("refuted_by_held_lengths", "/witness/deviation", {minus_zero, no_load});
+  expect_accepted_mutants("refuted_by_held_anchors", "/witness/deviation", {minus_zero, no_load});
 }
 
 TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {

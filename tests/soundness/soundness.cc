@@ -165,8 +165,8 @@ struct Counts {
 
 struct Tally {
   /// δ/range exactly on a path, and by lengths; δ/effect with tolerances that are mild, and with others; δ/range by lengths
-  /// with a bad reference.
-  std::array<Decades, 5> decades;
+  /// with a bad reference, and with a lost row.
+  std::array<Decades, 6> decades;
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
   Count wrong{0}, looked_at{0}, violated_elsewhere{0};
 };
@@ -252,6 +252,7 @@ class Judge {
 
   [[nodiscard]] std::size_t table() const {
     if (trial_.has_bad_reference) return 4;
+    if (trial_.has_lost_row) return 5;
     if (has_tolerances()) return effect_ < kMild ? 2 : 3;
     return trial_.law == Law::kCableLengths ? 1 : 0;
   }
@@ -372,7 +373,7 @@ class Judge {
     limit(trial_.problem, id_) = decimal(quantity(*at, id_) + shift);
     exact_limits_.emplace(trial_.problem);
     approx_limits_.emplace(trial_.problem);
-    if (has_tolerances() && !trial_.has_bad_reference) {
+    if (has_tolerances() && !trial_.has_bad_reference && !trial_.has_lost_row) {
       const double effect = std::abs(objective(best_s_, Deviation(), id_) - objective(best_s_, worst_, id_));
       const double decade =
           std::floor(std::log10(delta_ / effect)) - kLeastEffect;  // infinite where there is no effect
@@ -544,6 +545,9 @@ class Judge {
     const auto at = witness.deviation ? exact_->statics(s, *witness.deviation) : exact_->statics(s, Deviation());
     if (!at) return breach("refuted where there is no pose");
     if (exact_limits_->margin(*at, witness.margin) > BigFloat(0.0)) breach("refuted by a false witness");
+    if (witness.deviation && trial_.is_held() && (at->determinant > BigFloat(0.0)) != sign_) {
+      breach("refuted by a deviation beyond a singular pose");
+    }
   }
 
   std::uint64_t seed_;
@@ -631,6 +635,10 @@ int run(const Options& options, double budget) {
       print_decades(tally.decades[3], "With larger ones", "effect", kLeastEffect, -1)};
   print_decades(tally.decades[4], "Paths of cable lengths with a bad reference, with and without tolerances", "range",
                 -kDecades, -9);
+  print_decades(
+      tally.decades[5],
+      "Paths of cable lengths with a lost row (a singular pose on the way to it), with and without tolerances", "range",
+      -kDecades, -9);
   fmt::print("\n{} segments, seed {}: {:.1f} s, {:.0f} a second, {:.2f} ms of processor time each\n", done,
              options.seed, elapsed, static_cast<double>(done) / elapsed,
              1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done));

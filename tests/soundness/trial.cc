@@ -277,6 +277,8 @@ void choose_lengths(Trial& trial, Random& random) {
         x = {pose->p(0), pose->p(1), pose->p(2), pose->q.x(), pose->q.y(), pose->q.z(), pose->q.w()};
       } else if (k == 0) {
         trial.has_bad_reference = true;  // next to a singular pose nothing near need have these lengths
+      } else {
+        trial.has_lost_row = true;
       }
     }
     x.insert(x.end(), wanted.begin(), wanted.end());
@@ -499,14 +501,17 @@ bool Motion<S>::is_within(const taut::Deviation& witness) const {
     const Vec<S> x = vector<S>(text);
     return dot(x, x) <= tolerance * tolerance;
   };
+  if (witness.cable_lengths_m.has_value() != trial_.is_held()) return false;
   bool fit = fits(witness.load_point_m, tolerances_.load_point) && fits(witness.position_m, tolerances_.position) &&
              magnitude(number<S>(witness.wrench)) <= S(1.0);
   const Vec<S> u = vector<S>(witness.turn);
   fit = fit && S(2.0) * angle(root(dot(u, u)), S(1.0)) <= tolerances_.turn;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const S zero(0.0);
-    fit = fit && fits(witness.base_anchors_m[i], trial_.is_held() ? zero : tolerances_.a[i]) &&
-          fits(witness.platform_anchors_m[i], trial_.is_held() ? zero : tolerances_.b[i]);
+    fit = fit && fits(witness.base_anchors_m[i], tolerances_.a[i]) &&
+          fits(witness.platform_anchors_m[i], tolerances_.b[i]);
+    if (witness.cable_lengths_m) {
+      fit = fit && fits({(*witness.cable_lengths_m)[i], "0", "0"}, tolerances_.length[i]);
+    }
   }
   return fit;
 }
@@ -514,17 +519,26 @@ bool Motion<S>::is_within(const taut::Deviation& witness) const {
 template <class S>
 std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation& witness) const {
   std::optional<RigidPose<S>> pose = commanded(s, Deviation());
+  constexpr int kParts = 16;
+  constexpr int kNewtonSteps = 25;
+  Machine<S> machine;
+  for (int part = 1; part <= kParts && pose; ++part) {  // which the pose follows
+    const S grown = S(static_cast<double>(part)) / S(static_cast<double>(kParts));
+    machine = machine_;
+    machine.load_point = machine.load_point + vector<S>(witness.load_point_m);
+    Six<S> wanted = commanded_lengths(s, Deviation());
+    for (std::size_t i = 0; i < kCables; ++i) {
+      machine.a[i] = machine.a[i] + grown * vector<S>(witness.base_anchors_m[i]);
+      machine.b[i] = machine.b[i] + grown * vector<S>(witness.platform_anchors_m[i]);
+      machine.wrench[i] = machine.wrench[i] + number<S>(witness.wrench) * tolerances_.wrench[i];
+      if (witness.cable_lengths_m) wanted[i] = wanted[i] + grown * number<S>((*witness.cable_lengths_m)[i]);
+    }
+    if (trial_.is_held()) pose = hold(machine, *pose, wanted, kNewtonSteps);
+  }
   if (!pose) return std::nullopt;
   const Vec<S> u = vector<S>(witness.turn);
   pose->p = pose->p + vector<S>(witness.position_m);
   pose->r = rotation(Quaternion<S>{u[0], u[1], u[2], S(1.0)}) * pose->r;
-  Machine<S> machine = machine_;
-  machine.load_point = machine.load_point + vector<S>(witness.load_point_m);
-  for (std::size_t i = 0; i < kCables; ++i) {
-    machine.a[i] = machine.a[i] + vector<S>(witness.base_anchors_m[i]);
-    machine.b[i] = machine.b[i] + vector<S>(witness.platform_anchors_m[i]);
-    machine.wrench[i] = machine.wrench[i] + number<S>(witness.wrench) * tolerances_.wrench[i];
-  }
   return campaign::statics(machine, *pose);
 }
 
