@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -43,10 +44,8 @@ double margin_value(Machine machine, MarginId id) {
 
 using Move = std::function<void(Machine&, const Vector3<double>&)>;
 
-/// Downhill by `size`, as decimals; none where nothing may move.
-std::array<DecimalText, 3> downhill(
-    const Machine& machine, MarginId id, double size, double step, const Move& move,
-    const std::function<double(double)>& scale = [](double x) { return x; }) {
+/// Downhill by `size`; nowhere where nothing may move.
+Vector3<double> downhill(const Machine& machine, MarginId id, double size, double step, const Move& move) {
   constexpr double kInside = 1 - 1e-9;  // far more than twelve digits may be off
   Vector3<double> slope = Vector3<double>::Zero();
   for (int k = 0; size > 0 && k < 3; ++k) {
@@ -58,13 +57,13 @@ std::array<DecimalText, 3> downhill(
     slope(k) = at(step) - at(-step);
   }
   const double norm = slope.norm();
-  std::array<DecimalText, 3> result = {"0", "0", "0"};
-  if (!(norm > 0) || !std::isfinite(norm)) return result;
-  for (int k = 0; k < 3; ++k) {
-    result[static_cast<std::size_t>(k)] = fmt::format("{:.12g}", -slope(k) / norm * scale(kInside * size));
-  }
-  return result;
+  if (!(norm > 0) || !std::isfinite(norm)) return Vector3<double>::Zero();
+  return -slope / norm * (kInside * size);
 }
+
+DecimalText decimal(double x) { return fmt::format("{:.12g}", x + 0.0); }
+
+std::array<DecimalText, 3> decimals(const Vector3<double>& x) { return {decimal(x(0)), decimal(x(1)), decimal(x(2))}; }
 
 double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
 
@@ -75,52 +74,59 @@ Vector3<MpInterval> vector(const std::array<DecimalText, 3>& text) {
 
 }  // namespace
 
-Deviation worst_deviation(const TolerancesText& tolerances, const Model<double>& model, const RigidPose& commanded,
-                          MarginId margin, bool held_by_lengths) {
+std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
+                                         const RigidPose& commanded, MarginId margin, bool held_by_lengths) {
   Machine machine{model, commanded};
   if (held_by_lengths) machine.held = cable_lengths(model, commanded);
   const double step = 1e-6 * model.characteristic_length;
   constexpr double kAngleStep = 1e-6;
+  Machine worst = machine;
+  const auto worsen = [&](double size, double by, const Move& move) {
+    const Vector3<double> x = downhill(machine, margin, size, by, move);
+    if (!x.isZero(0)) move(worst, x);
+    return x;
+  };
   Deviation result;
   for (std::size_t i = 0; i < kCables; ++i) {
     result.base_anchors_m[i] =
-        downhill(machine, margin, number(tolerances.base_anchor_m[i]), step, [i](Machine& m, const Vector3<double>& x) {
+        decimals(worsen(number(tolerances.base_anchor_m[i]), step, [i](Machine& m, const Vector3<double>& x) {
           m.model.p_WA[i] += x;
           m.follow();
-        });
-    result.platform_anchors_m[i] = downhill(machine, margin, number(tolerances.platform_anchor_m[i]), step,
-                                            [i](Machine& m, const Vector3<double>& x) {
-                                              m.model.p_PB[i] += x;
-                                              m.follow();
-                                            });
+        }));
+    result.platform_anchors_m[i] =
+        decimals(worsen(number(tolerances.platform_anchor_m[i]), step, [i](Machine& m, const Vector3<double>& x) {
+          m.model.p_PB[i] += x;
+          m.follow();
+        }));
   }
   if (held_by_lengths) {
     result.cable_lengths_m.emplace().fill("0");
     for (std::size_t i = 0; tolerances.cable_length_m && i < kCables; ++i) {
       // Along the first axis, which stands for the length.
-      (*result.cable_lengths_m)[i] = downhill(machine, margin, number((*tolerances.cable_length_m)[i]), step,
-                                              [i](Machine& m, const Vector3<double>& x) {
-                                                (*m.held)[i] += x(0);
-                                                m.follow();
-                                              })[0];
+      (*result.cable_lengths_m)[i] =
+          decimal(worsen(number((*tolerances.cable_length_m)[i]), step, [i](Machine& m, const Vector3<double>& x) {
+            (*m.held)[i] += x(0);
+            m.follow();
+          })(0));
     }
   }
-  result.load_point_m = downhill(machine, margin, number(tolerances.load_point_m), step,
-                                 [](Machine& m, const Vector3<double>& x) { m.model.p_PM += x; });
-  result.position_m = downhill(machine, margin, number(tolerances.position_m), step,
-                               [](Machine& m, const Vector3<double>& x) { m.pose.p += x; });
-  result.turn = downhill(
-      machine, margin, evaluate_constant<double>(tolerances.orientation_rad), kAngleStep,
-      [](Machine& m, const Vector3<double>& x) {
+  result.load_point_m = decimals(
+      worsen(number(tolerances.load_point_m), step, [](Machine& m, const Vector3<double>& x) { m.model.p_PM += x; }));
+  result.position_m = decimals(
+      worsen(number(tolerances.position_m), step, [](Machine& m, const Vector3<double>& x) { m.pose.p += x; }));
+  const Vector3<double> turn = worsen(
+      evaluate_constant<double>(tolerances.orientation_rad), kAngleStep, [](Machine& m, const Vector3<double>& x) {
         m.pose.q = Eigen::Quaterniond(Eigen::AngleAxisd(x.norm(), x.normalized())) * m.pose.q;
-      },
-      [](double angle) { return std::tan(0.5 * angle); });
+      });
+  result.turn = decimals(std::tan(0.5 * turn.norm()) * turn.normalized());
   const auto loaded = [&](double part) {
-    Machine moved = machine;
+    Machine moved = worst;
     for (int k = 0; k < 6; ++k) moved.model.wrench(k) += part * number(tolerances.wrench[static_cast<std::size_t>(k)]);
     return margin_value(std::move(moved), margin);
   };
   result.wrench = loaded(1) < loaded(-1) ? "1" : "-1";
+  constexpr double kNothing = 1e-9;  // floating point may be off
+  if (std::min(loaded(1), loaded(-1)) > kNothing * margin_value(std::move(machine), margin)) return std::nullopt;
   return result;
 }
 

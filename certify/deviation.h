@@ -24,9 +24,10 @@ struct Deviation {
 };
 
 /// The one within `tolerances` that brings a margin down furthest, to first order, in floating point: a proposal. It keeps a
-/// billionth off the tolerances.
-[[nodiscard]] Deviation worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
-                                        const RigidPose& commanded, MarginId margin, bool held_by_lengths);
+/// billionth off the tolerances. Nothing where the margin stays positive.
+[[nodiscard]] std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
+                                                       const RigidPose& commanded, MarginId margin,
+                                                       bool held_by_lengths);
 
 /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the pose (p, R)
 /// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (held_motion.h): a fault where that

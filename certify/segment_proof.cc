@@ -502,8 +502,10 @@ std::shared_ptr<const Deviation> Prover::refuting_deviation(const Segment& segme
   if (fine_.size() <= kDeviationRung) return nullptr;
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const RigidPose pose = sampler_->rigid_pose(segment, box.mid().approx());
-  auto deviation = std::make_shared<const Deviation>(
-      worst_deviation(*problem_.tolerances, sampler_->model(), pose, margin, is_held_by_lengths(segment.law)));
+  const std::optional<Deviation> worst =
+      worst_deviation(*problem_.tolerances, sampler_->model(), pose, margin, is_held_by_lengths(segment.law));
+  if (!worst) return nullptr;
+  auto deviation = std::make_shared<const Deviation>(*worst);
   const PrecisionScope precision(bits_[kDeviationRung]);
   const Model<MpInterval>& model = fine(kDeviationRung).model;
   MpInterval quantity;

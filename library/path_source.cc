@@ -14,6 +14,7 @@
 #include "certify/sha256.h"
 #include "kinematics/shown.h"
 #include "library/certificate_file.h"
+#include "library/files.h"
 
 namespace taut {
 namespace {
@@ -33,6 +34,15 @@ void require_poses(const Path& path, const std::string& file) {
       throw InputError(fmt::format("{}: path.waypoints[{}].lengths: got one that is not above 0", file, k));
     }
   }
+}
+
+/// A path is read more than once, which a pipe can't be.
+PathInput kept_if_pipe(PathInput input) {
+  std::error_code ignored;
+  if (!input.text && std::filesystem::is_fifo(input.name, ignored)) {
+    input.text = std::make_shared<const std::string>(read_whole(input.name));
+  }
+  return input;
 }
 
 std::string sha256_of(const PathInput& input) {
@@ -79,7 +89,7 @@ std::string meaning(Interpolation law, const Problem& problem) {
 
 PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law,
                        PathFileOptions options)
-    : input_(std::move(input)), case_problem_(problem), options_(options) {
+    : input_(kept_if_pipe(std::move(input))), case_problem_(problem), options_(options) {
   if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();

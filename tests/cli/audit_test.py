@@ -145,6 +145,13 @@ class Audit(InFolder):
         slack = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n0,91.7\n"))
         self.assertEqual(slack["verdict"], "refuted")
 
+    def test_a_path_may_come_through_a_pipe(self):
+        path = os.path.join(AUDITS, "robot1-bridging.csv")
+        result = run(TAUT, "audit", ROBOT1, "/dev/stdin", "--out", self.path("piped"), input=text_of(path))
+        self.assertEqual(result.returncode, EXIT["refuted"], result.stderr)
+        self.audit(ROBOT1, path, out="read")
+        self.assertEqual(self.certificate("piped")["path_sha256"], self.certificate("read")["path_sha256"])
+
     def test_bad_paths_are_refused_with_their_place(self):
         self.refused("phi[deg],theta[deg]\n1,2\n3,nan\n", "path.csv:3: theta: got 'nan', expected a decimal number")
         self.refused("phi[deg],theta[deg]\n1,2\n1,2\n", "path.csv:3: got the pose of line 2 again", "--allow-repeats")
