@@ -27,19 +27,12 @@ struct Machine {
   }
 };
 
-/// How far inside its limit a margin is [N or m].
 double margin_value(Machine machine, MarginId id) {
   Model<double>& model = machine.model;
   for (std::size_t i = 0; i < kCables; ++i) model.p_MB[i] = model.p_PB[i] - model.p_PM;
-  const auto i = static_cast<std::size_t>(id.cable);
-  const Statics<double> s = statics(model, machine.pose.p, Matrix3<double>(machine.pose.q.toRotationMatrix()));
-  switch (id.kind) {
-    case MarginKind::kTensionMin: return s.tension[i] - s.variation[i] - model.tension_lower[i];
-    case MarginKind::kTensionMax: return model.tension_upper[i] - s.tension[i] - s.variation[i];
-    case MarginKind::kLengthMin: return s.length[i] - model.length_lower[i];
-    case MarginKind::kLengthMax: break;
-  }
-  return model.length_upper[i] - s.length[i];
+  return room(model,
+              limited_quantity(statics(model, machine.pose.p, Matrix3<double>(machine.pose.q.toRotationMatrix())), id),
+              id);
 }
 
 using Move = std::function<void(Machine&, const Vector3<double>&)>;
@@ -48,7 +41,8 @@ using Move = std::function<void(Machine&, const Vector3<double>&)>;
 Vector3<double> downhill(const Machine& machine, MarginId id, double size, double step, const Move& move) {
   constexpr double kInside = 1 - 1e-9;  // far more than twelve digits may be off
   Vector3<double> slope = Vector3<double>::Zero();
-  for (int k = 0; size > 0 && k < 3; ++k) {
+  constexpr double kLeast = 1e-300;  // below, a billionth off it is not below it
+  for (int k = 0; size > kLeast && k < 3; ++k) {
     const auto at = [&](double x) {
       Machine moved = machine;
       move(moved, x * Vector3<double>::Unit(k));
@@ -75,14 +69,15 @@ Vector3<MpInterval> vector(const std::array<DecimalText, 3>& text) {
 }  // namespace
 
 std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
-                                         const RigidPose& commanded, MarginId margin, bool held_by_lengths) {
+                                         const RigidPose& commanded, MarginId margin, bool held_by_lengths,
+                                         double part) {
   Machine machine{model, commanded};
   if (held_by_lengths) machine.held = cable_lengths(model, commanded);
   const double step = 1e-6 * model.characteristic_length;
   constexpr double kAngleStep = 1e-6;
   Machine worst = machine;
   const auto worsen = [&](double size, double by, const Move& move) {
-    const Vector3<double> x = downhill(machine, margin, size, by, move);
+    const Vector3<double> x = downhill(machine, margin, part * size, by, move);
     if (!x.isZero(0)) move(worst, x);
     return x;
   };
@@ -119,16 +114,30 @@ std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const
         m.pose.q = Eigen::Quaterniond(Eigen::AngleAxisd(x.norm(), x.normalized())) * m.pose.q;
       });
   result.turn = decimals(std::tan(0.5 * turn.norm()) * turn.normalized());
-  const auto loaded = [&](double part) {
+  const auto loaded = [&](double by) {
     Machine moved = worst;
-    for (int k = 0; k < 6; ++k) moved.model.wrench(k) += part * number(tolerances.wrench[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 6; ++k) moved.model.wrench(k) += by * number(tolerances.wrench[static_cast<std::size_t>(k)]);
     return margin_value(std::move(moved), margin);
   };
-  result.wrench = loaded(1) < loaded(-1) ? "1" : "-1";
+  result.wrench = decimal(loaded(part) < loaded(-part) ? part : -part);
   constexpr double kNothing = 1e-9;  // floating point may be off
-  if (std::min(loaded(1), loaded(-1)) > kNothing * margin_value(std::move(machine), margin)) return std::nullopt;
+  if (std::min(loaded(part), loaded(-part)) > kNothing * margin_value(std::move(machine), margin)) return std::nullopt;
   return result;
 }
+
+namespace {
+
+bool moves_held_platform(const Deviation& deviation) {
+  if (!deviation.cable_lengths_m) return false;
+  const auto is_zero = [](const DecimalText& x) { return x == "0"; };
+  const auto are_zero = [&](const auto& rows) {
+    return std::ranges::all_of(rows, [&](const auto& row) { return std::ranges::all_of(row, is_zero); });
+  };
+  return !are_zero(deviation.base_anchors_m) || !are_zero(deviation.platform_anchors_m) ||
+         !std::ranges::all_of(*deviation.cable_lengths_m, is_zero);
+}
+
+}  // namespace
 
 MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                              const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
@@ -146,7 +155,7 @@ MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesTex
     deviated.wrench(k) += load * ScalarTraits<I>::from_decimal(tolerances.wrench[static_cast<std::size_t>(k)]);
   }
   PoseEnclosure commanded{p_WP, r_WP};
-  if (deviation.cable_lengths_m) {
+  if (moves_held_platform(deviation)) {
     std::array<I, kCables> errors;
     for (std::size_t i = 0; i < kCables; ++i) {
       errors[i] = ScalarTraits<I>::from_decimal((*deviation.cable_lengths_m)[i]);
@@ -168,14 +177,9 @@ MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesTex
     }
   }
   const Statics<I> s = statics(deviated, Vector3<I>(commanded.p_WP + vector(deviation.position_m)), r);
-  const auto i = static_cast<std::size_t>(margin.cable);
-  const bool of_length = margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
-  if (of_length) return s.length[i];
-  if (!s.regular) {
-    Faults<I>::raise();
-    return I(0.0);
-  }
-  return margin.kind == MarginKind::kTensionMin ? I(s.tension[i] - s.variation[i]) : I(s.tension[i] + s.variation[i]);
+  const bool is_of_length = margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
+  if (!is_of_length && !s.regular) Faults<I>::raise();
+  return limited_quantity(s, margin);
 }
 
 }  // namespace taut

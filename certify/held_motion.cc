@@ -334,7 +334,7 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
     return std::nullopt;
   };
   PoseEnclosure here = pose;
-  constexpr double kLeastStep = 1.0 / 16;
+  constexpr double kLeastStep = 1.0 / 8;  // the checker goes further down, so that it follows where this does
   double step = 1;
   for (double at = 0; at < 1;) {  // all of these are dyadic, hence exact
     if (auto next = follow(here, at, at + step)) {

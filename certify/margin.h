@@ -5,8 +5,8 @@
 // functions that add to it, and what deviations change of them.
 #pragma once
 
-#include <array>
-#include <string>
+#include "kinematics/model.h"
+#include "kinematics/statics.h"
 
 namespace taut {
 
@@ -20,5 +20,31 @@ struct MarginId {
 
 /// "tension_min", "tension_max", "length_min", "length_max".
 [[nodiscard]] const char* name(MarginKind kind);
+
+/// What a margin keeps inside a limit: f0 − v, f0 + v [N] or d [m].
+template <class S>
+[[nodiscard]] S limited_quantity(const Statics<S>& statics, MarginId margin) {
+  const auto i = static_cast<std::size_t>(margin.cable);
+  switch (margin.kind) {
+    case MarginKind::kTensionMin: return statics.tension[i] - statics.variation[i];
+    case MarginKind::kTensionMax: return statics.tension[i] + statics.variation[i];
+    case MarginKind::kLengthMin:
+    case MarginKind::kLengthMax: break;
+  }
+  return statics.length[i];
+}
+
+/// How far inside.
+template <class S>
+[[nodiscard]] S room(const Model<S>& model, const S& quantity, MarginId margin) {
+  const auto i = static_cast<std::size_t>(margin.cable);
+  switch (margin.kind) {
+    case MarginKind::kTensionMin: return quantity - model.tension_lower[i];
+    case MarginKind::kTensionMax: return model.tension_upper[i] - quantity;
+    case MarginKind::kLengthMin: return quantity - model.length_lower[i];
+    case MarginKind::kLengthMax: break;
+  }
+  return model.length_upper[i] - quantity;
+}
 
 }  // namespace taut

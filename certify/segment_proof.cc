@@ -160,8 +160,9 @@ struct Prover::Walk {
   std::vector<Task> stack = {Task{}};
   int judged = 0;
   int multiprecision = 0;
-  bool motion_given_up = false;  ///< somewhere on the segment, with all means
-  bool deviation_found = false;  ///< that refutes it
+  bool motion_given_up = false;   ///< somewhere on the segment, with all means
+  bool deviation_found = false;   ///< that refutes it
+  bool deviation_failed = false;  ///< one that would refute it, if it were proved where that leads: not tried again
   Task next() {
     const Task task = std::move(stack.back());
     stack.pop_back();
@@ -338,7 +339,7 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
       if (walk.deviation_found && box.upper() != Dyadic{1, 0})
         return give_up(at(Undecided::kTolerances, verdict.worst));
-      if (auto deviation = refuting_deviation(walk.segment, box, verdict.worst)) {
+      if (auto deviation = refuting_deviation(walk, box, verdict.worst)) {
         walk.deviation_found = true;
         return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
       }
@@ -398,6 +399,16 @@ SegmentProof Prover::prove(const Segment& segment, double clearance) const {
       case Step::Kind::kClimb: walk.stack.push_back({task.box, task.rung + 1}); break;
       case Step::Kind::kRefine: walk.refine(task); break;
       case Step::Kind::kGiveUp:
+        // What is not seen here may be elsewhere. Behind an inner pose it is of the path only if what leads there is proved.
+        if (step.verdict.kind == BoxVerdict::Kind::kTolerance && segment.inner_poses.empty()) {
+          const DyadicBox weakest = weakest_box(segment, step.verdict.worst);
+          if (auto deviation = refuting_deviation(walk, weakest, step.verdict.worst)) {
+            proof.verdict = Verdict::kRefuted;
+            proof.witness = SegmentWitness{false, step.verdict.worst, weakest, std::move(deviation)};
+            return proof;
+          }
+        }
+        [[fallthrough]];
       case Step::Kind::kStop:
         proof.open_box = task.box;
         proof.reason = std::move(step.reason);
@@ -497,32 +508,42 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
   return quantity;
 }
 
-std::shared_ptr<const Deviation> Prover::refuting_deviation(const Segment& segment, const DyadicBox& box,
-                                                            MarginId margin) const {
-  if (fine_.size() <= kDeviationRung) return nullptr;
+DyadicBox Prover::weakest_box(const Segment& segment, MarginId margin) const {
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
-  const RigidPose pose = sampler_->rigid_pose(segment, box.mid().approx());
-  const std::optional<Deviation> worst =
-      worst_deviation(*problem_.tolerances, sampler_->model(), pose, margin, is_held_by_lengths(segment.law));
-  if (!worst) return nullptr;
-  auto deviation = std::make_shared<const Deviation>(*worst);
+  DyadicBox weakest;
+  double least = std::numeric_limits<double>::infinity();
+  for (DyadicBox box{0, options_.tolerance_depth}; box.upper() <= Dyadic{1, 0}; ++box.k) {
+    const Statics<double> statics = sampler_->statics(sampler_->rigid_pose(segment, box.mid().approx()));
+    const double here = room(sampler_->model(), limited_quantity(statics, margin), margin);
+    if (statics.regular && here < least) {
+      least = here;
+      weakest = box;
+    }
+  }
+  return weakest;
+}
+
+std::shared_ptr<const Deviation> Prover::refuting_deviation(Walk& walk, const DyadicBox& box, MarginId margin) const {
+  constexpr std::array kParts = {1.0, 0.5, 0.25};  // a smaller deviation may be followed where a larger one is not
+  if (fine_.size() <= kDeviationRung || walk.deviation_failed) return nullptr;
+  std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
+  const RigidPose pose = sampler_->rigid_pose(walk.segment, box.mid().approx());
   const PrecisionScope precision(bits_[kDeviationRung]);
   const Model<MpInterval>& model = fine(kDeviationRung).model;
-  MpInterval quantity;
-  try {
-    quantity = quantity_at_mid(segment, box, margin, *deviation);
-  } catch (const std::logic_error&) {
-    return nullptr;
+  bool has_failed = false;
+  for (const double part : kParts) {
+    const std::optional<Deviation> worst = worst_deviation(*problem_.tolerances, sampler_->model(), pose, margin,
+                                                           is_held_by_lengths(walk.segment.law), part);
+    if (!worst) break;
+    try {
+      const MpInterval quantity = quantity_at_mid(walk.segment, box, margin, *worst);
+      if (certainly_nonpositive(room(model, quantity, margin))) return std::make_shared<const Deviation>(*worst);
+    } catch (const std::logic_error&) {
+      has_failed = true;
+    }
   }
-  const auto n = static_cast<std::size_t>(margin.cable);
-  MpInterval room;
-  switch (margin.kind) {
-    case MarginKind::kTensionMin: room = quantity - model.tension_lower[n]; break;
-    case MarginKind::kTensionMax: room = model.tension_upper[n] - quantity; break;
-    case MarginKind::kLengthMin: room = quantity - model.length_lower[n]; break;
-    case MarginKind::kLengthMax: room = model.length_upper[n] - quantity; break;
-  }
-  return certainly_nonpositive(room) ? deviation : nullptr;
+  walk.deviation_failed = has_failed;
+  return nullptr;
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
@@ -535,27 +556,13 @@ MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box,
     const BoxEnclosure<MpInterval> enclosure = enclose_box(fine(k), segment, box);
     const bool is_known = std::ranges::any_of(enclosure.margins, [&](const auto& x) { return x.id == margin; });
     if (Faults<MpInterval>::raised() || !is_known) continue;
-    const MpInterval& length = enclosure.length[n].at_mid;
-    MpInterval room;
     switch (margin.kind) {
-      case MarginKind::kTensionMin:
-        quantity = enclosure.low[n].at_mid;
-        room = *quantity - model.tension_lower[n];
-        break;
-      case MarginKind::kTensionMax:
-        quantity = enclosure.high[n].at_mid;
-        room = model.tension_upper[n] - *quantity;
-        break;
+      case MarginKind::kTensionMin: quantity = enclosure.low[n].at_mid; break;
+      case MarginKind::kTensionMax: quantity = enclosure.high[n].at_mid; break;
       case MarginKind::kLengthMin:
-        quantity = length;
-        room = length - model.length_lower[n];
-        break;
-      case MarginKind::kLengthMax:
-        quantity = length;
-        room = model.length_upper[n] - length;
-        break;
+      case MarginKind::kLengthMax: quantity = enclosure.length[n].at_mid; break;
     }
-    if (certainly_nonpositive(room)) break;
+    if (certainly_nonpositive(room(model, *quantity, margin))) break;
   }
   if (!quantity) throw std::logic_error("a refuted midpoint has no enclosure");
   return *quantity;

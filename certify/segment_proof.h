@@ -158,8 +158,10 @@ class Prover {
   [[nodiscard]] bool is_proved_inside(Walk& walk, const Task& task) const;
   [[nodiscard]] bool is_singular_between_ends(const Segment& segment, const DyadicBox& box) const;
 
+  /// That box of tolerance_depth in whose middle an undisturbed `margin` is least, in floating point.
+  [[nodiscard]] DyadicBox weakest_box(const Segment& segment, MarginId margin) const;
   /// A deviation that breaks `margin` at the midpoint of a box, proved; null if the worst to first order does not.
-  [[nodiscard]] std::shared_ptr<const Deviation> refuting_deviation(const Segment& segment, const DyadicBox& box,
+  [[nodiscard]] std::shared_ptr<const Deviation> refuting_deviation(Walk& walk, const DyadicBox& box,
                                                                     MarginId margin) const;
 
   Problem problem_;

@@ -126,7 +126,8 @@ std::vector<std::string> refuted_details(const Scene& scene) {
       machine = fmt::format(
           " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate "
           "says{}.",
-          witness.is_led ? ", and the lengths of its cables hold it where that leads from this pose" : "");
+          witness.is_led ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
+                         : "");
     }
     result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
                                  place_text(scene, witness.at.position), point_text(view, witness.at),
@@ -299,8 +300,9 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
 
 namespace {
 
-std::string assumptions_text(const Problem& problem) {
-  const bool is_held = problem.tolerances && problem.tolerances->cable_length_m;
+std::string assumptions_text(const Problem& problem, Interpolation law) {
+  const bool is_held =
+      law == Interpolation::kCableLengths || (problem.tolerances && problem.tolerances->cable_length_m);
   return fmt::format(
       "Cables are massless, straight and inextensible and end in points. The motion is slow: inertia counts only as "
       "far as the set of loads contains it. The machine is as stated{}; {}, between waypoints too.",
@@ -427,7 +429,7 @@ std::vector<Statement> statements(const Scene& scene, const Recheck& recheck) {
           {"load", "Loads", load_text(problem.load)},
           {"limits", "Limits", limits_text(problem.robot)},
           {"tolerances", "Tolerances", tolerances_text(problem.tolerances)},
-          {"assumptions", "Assumptions", assumptions_text(problem)},
+          {"assumptions", "Assumptions", assumptions_text(problem, view.path.interpolation)},
           {"not_covered", "Not covered", not_covered_text(problem)},
           {"proof", "Proof", proof + "."},
           {"recheck", "Re-check", recheck_text(recheck)}};

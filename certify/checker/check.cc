@@ -87,6 +87,10 @@ class Checker {
     }
   }
 
+  void heed_stop() const {
+    if (stop_.stop_requested()) throw Interrupted("interrupted");
+  }
+
   /// The boxes of all segments.
   void prove_segments() {
     for (std::size_t k = 0; k < certificate_.segments.size(); ++k) {
@@ -135,7 +139,7 @@ class Checker {
     const auto at_first = static_cast<int>(open.size());
     int pieces = 0;
     while (!open.empty()) {
-      if (stop_.stop_requested()) throw Interrupted("interrupted");
+      heed_stop();
       const Piece piece = open.back();
       open.pop_back();
       try {
@@ -247,12 +251,23 @@ class Checker {
 
   void confirm_witness(const Witness& witness, const std::string& name) {
     escalate([&](const Model& model) {
+      heed_stop();
       if (witness.kind == WitnessKind::kSingular) {
         confirm_sign_change(model, witness, name);
       } else {
         confirm_violation(model, witness, name);
       }
     });
+  }
+
+  /// Whether anchors or lengths deviate: else a machine that is held by lengths stays where it is.
+  static bool moves_platform(const WitnessDeviation& by) {
+    const auto is_zero = [](const mpq_class& x) { return x == 0; };
+    const auto are_zero = [&](const auto& rows) {
+      return std::ranges::all_of(rows, [&](const auto& row) { return std::ranges::all_of(row, is_zero); });
+    };
+    return !are_zero(by.base_anchors) || !are_zero(by.platform_anchors) ||
+           !std::ranges::all_of(*by.cable_lengths, is_zero);
   }
 
   /// The geometry of the machine that a witness is about, by `deviant`, which gets that machine's numbers.
@@ -280,6 +295,11 @@ class Checker {
     require_within({by.wrench, 0, 0}, 1, "the wrench");
     require_within(by.position, within.position, "the position");
     for (std::size_t c = 0; c < 3; ++c) problem.load_point[c] += by.load_point[c];
+    Vector3<Form> u;
+    for (std::size_t c = 0; c < 3; ++c) u[c] = Form(Interval(by.turn[c]));
+    const Interval angle = Interval(2) * atan(sqrt(squared_norm(u).range));
+    require(is_nonnegative(model.deviation()->angle - angle),
+            "the witness's deviation is within the tolerance of the angle");
     deviant.emplace(problem, model.bits());
     Frame pose = stated.pose;
     if (by.cable_lengths) {
@@ -289,16 +309,11 @@ class Checker {
         require_within({error, 0, 0}, within.cable_length ? (*within.cable_length)[i] : 0, "a cable's length");
         errors[i] = Interval(error);
       }
-      pose = deviated_pose(model, stated.pose, stated.geometry.length, *deviant, errors);
+      if (moves_platform(by)) {
+        pose = deviated_pose(model, stated.pose, stated.geometry.length, *deviant, errors, [this] { heed_stop(); });
+      }
     }
-    Vector3<Form> u;
-    for (std::size_t c = 0; c < 3; ++c) {
-      pose.p[c] += Form(Interval(by.position[c]));
-      u[c] = Form(Interval(by.turn[c]));
-    }
-    const Interval angle = Interval(2) * atan(sqrt(squared_norm(u).range));
-    require(is_nonnegative(model.deviation()->angle - angle),
-            "the witness's deviation is within the tolerance of the angle");
+    for (std::size_t c = 0; c < 3; ++c) pose.p[c] += Form(Interval(by.position[c]));
     pose.R = multiply(rotation({u[0], u[1], u[2], Form(Interval(1))}), pose.R);
     return deviant->geometry(pose);
   }

@@ -18,8 +18,9 @@ inline constexpr const char* kRefutedClaim =
     "The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension outside its "
     "open limits, or a cable length is outside its open limits, or the force Jacobian J is singular at some pose "
     "between the two witness poses. Robot and load are there as the problem states them, or differ by the deviation "
-    "that "
-    "the witness states, which is within the tolerances. Where stretches are listed, the claim of a proved path holds "
+    "that the witness states, which is within the tolerances. The pose of a machine that deviates is the one to which "
+    "its deviation leads: where it holds its cables' lengths, as anchors and lengths deviate more and more from "
+    "nothing on; and then by the deviation in tracking. Where stretches are listed, the claim of a proved path holds "
     "outside of them, and each stretch that has witnesses is violated at both of them.";
 
 inline constexpr const char* kUndecidedClaim =

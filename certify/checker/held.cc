@@ -151,14 +151,15 @@ Frame held_by_lengths(const Model& model, const Reference& reference, const Vect
 }
 
 Frame deviated_pose(const Model& stated, const Frame& pose, const Vector6<Form>& L, const Model& deviant,
-                    const Vector6<Interval>& errors) {
+                    const Vector6<Interval>& errors, const std::function<void()>& before_step) {
   const double size = mpfr_get_d(stated.platform_size().lower(), MPFR_RNDN);
   if (!std::isfinite(size)) throw Undefined("a platform without a size");
   Frame here = pose;
   mpq_class t = 0;
   mpq_class step = 1;
-  const mpq_class least_step(1, 16);
+  const mpq_class least_step(1, 64);
   while (t < 1) {
+    before_step();
     const mpq_class next = t + step < 1 ? mpq_class(t + step) : mpq_class(1);
     const Interval on_the_way = hull(Interval(t), Interval(next));
     Vector6<Form> L_on_the_way;

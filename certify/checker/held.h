@@ -19,6 +19,8 @@
 // singular: at t1 it is the pose to which the way leads, and the next step begins there. At t = 1 the deviation has led to it.
 #pragma once
 
+#include <functional>
+
 #include "certify/checker/motion.h"
 #include "certify/checker/pose_proof.h"
 
@@ -29,8 +31,8 @@ namespace taut::checker {
 [[nodiscard]] Frame held_by_lengths(const Model& model, const Reference& reference, const Vector6<Form>& L);
 
 /// At one place of the path: the pose to which a deviation leads the stated machine from its `pose`, where it has the lengths L;
-/// then it has `deviant`'s anchors and its lengths are L + errors [m]. @throws Undefined unless that is proved.
+/// then it has `deviant`'s anchors and its lengths are L + errors [m]. `before_step` may throw. @throws Undefined unless that is proved.
 [[nodiscard]] Frame deviated_pose(const Model& stated, const Frame& pose, const Vector6<Form>& L, const Model& deviant,
-                                  const Vector6<Interval>& errors);
+                                  const Vector6<Interval>& errors, const std::function<void()>& before_step);
 
 }  // namespace taut::checker

@@ -7,7 +7,7 @@ checker's message must contain. Only Python's standard library. Usage: make_cert
 """
 import copy, hashlib, json, math, os
 from fractions import Fraction
-from math import cos, sin, pi, sqrt
+from math import cos, sin, tan, pi, sqrt
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -25,9 +25,11 @@ CLAIMS = {
               'needs a tension outside its open limits, or a cable length is outside its open limits, '
               'or the force Jacobian J is singular at some pose between the two witness poses. Robot '
               'and load are there as the problem states them, or differ by the deviation that the '
-              'witness states, which is within the tolerances. Where stretches are listed, the claim '
-              'of a proved path holds outside of them, and each stretch that has witnesses is violated '
-              'at both of them.',
+              'witness states, which is within the tolerances. The pose of a machine that deviates is '
+              'the one to which its deviation leads: where it holds its cables\' lengths, as anchors and '
+              'lengths deviate more and more from nothing on; and then by the deviation in tracking. '
+              'Where stretches are listed, the claim of a proved path holds outside of them, and each '
+              'stretch that has witnesses is violated at both of them.',
     'undecided': 'Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.',
 }
 
@@ -1594,9 +1596,11 @@ def held_deviations():
 
     def stated(deviation):
         row = lambda key, i, size=3: ['%.9g' % x for x in deviation.get((key, i), [0.0] * size)[:size]]
+        u = deviation.get(('orientation_rad', None), [0.0] * 3)
+        angle = sqrt(sum(x * x for x in u)) or 1
         return {'base_anchors_m': [row('base_anchor_m', i) for i in range(6)],
                 'platform_anchors_m': [row('platform_anchor_m', i) for i in range(6)], 'load_point_m': row('load_point_m', None),
-                'wrench': row('wrench', None, 1)[0], 'position_m': row('position_m', None), 'turn': ['0', '0', '0'],
+                'wrench': row('wrench', None, 1)[0], 'position_m': row('position_m', None), 'turn': ['%.9g' % (x / angle * tan(angle / 2)) for x in u],
                 'cable_lengths_m': [row('cable_length_m', i, 1)[0] for i in range(6)]}
 
     def witness(kind, i, limit, value, deviation):
@@ -1617,11 +1621,12 @@ def held_deviations():
     def only(i, size):
         return ['0'] * i + [size] + ['0'] * (5 - i)
     anchors = {('base_anchor_m', 2): [6e-5, 0, 8e-5], ('platform_anchor_m', 4): [0, -8e-5, 6e-5]}
-    errors = {('cable_length_m', i): [1e-4 * sign] for i, sign in enumerate((1, -1, 1, 1, -1, 1))}
+    errors = {('cable_length_m', i): [1e-6 * e] for i, e in enumerate((100, -110, 120, 130, -140, 150))}
     of_anchors = dict(base_anchor_m=only(2, '0.0001'), platform_anchor_m=only(4, '0.0001'))
-    of_lengths = dict(cable_length_m=['0.0001'] * 6)
-    tracked = {('position_m', None): [0, 0, -1e-4], ('wrench', None): [-1]}
-    of_both = dict(of_anchors, **of_lengths, position_m='0.0001', wrench=['0', '0', '0.01', '0', '0', '0'])
+    of_lengths = dict(cable_length_m=['0.00010', '0.00011', '0.00012', '0.00013', '0.00014', '0.00015'])
+    tracked = {('position_m', None): [0, 0, -1e-4], ('orientation_rad', None): [6e-4, 0, -8e-4], ('load_point_m', None): [3e-4, 4e-4, 0],
+               ('wrench', None): [-1]}
+    of_both = dict(of_anchors, **of_lengths, position_m='0.0001', orientation_rad='0.0011', load_point_m='0.0005', wrench=['0', '0', '0.01', '0', '0', '0'])
     both = {**anchors, **errors, **tracked}
 
     def with_tolerances(pr, **kinds):
@@ -1637,11 +1642,21 @@ def held_deviations():
     write('accepted', 'refuted_by_held_lengths_of_a_geodesic', refuted(with_tolerances(free, **of_both),
           poses('geodesic', pose(*start), pose(*end)), both), 'A geodesic, followed by lengths that are off.')
 
+    inner = bent(free, start, end, 2, (2**-9, 2**-8))
+    write('accepted', 'refuted_by_held_lengths_at_an_inner_pose', refuted(with_tolerances(free, **of_both), inner, both),
+          'At an inner pose, where one piece of the reference ends.')
+    # A cable's length itself: the error is what the winch is off by, whatever anchors and platform do.
+    far_pr = with_tolerances(slice_audit, **of_lengths)
+    longest = geometry(far_pr, led(far_pr, straight(a, b), errors)[1])[1][5]
+    far_pr['robot'] = dict(far_pr['robot'], length_m=far_pr['robot']['length_m'][:5] + [['0.1', '%.9f' % (longest - 1e-4)]])
+    write('accepted', 'refuted_by_held_lengths_too_long', certificate(far_pr, straight(a, b), 'refuted', witness=witness(
+          'length_max', 5, far_pr['robot']['length_m'][5][1], longest, errors)), 'A cable is longer than it was commanded, and than it may be.')
+
     # False.
     def edited(kind, edit):
         return lambda c: edit(c['witness']['deviation'][kind])
     reject('held_deviation_of_a_length_too_large', by_lengths, 'The deviation is outside of its tolerance.', "a cable's length",
-           edited('cable_lengths_m', lambda x: x.__setitem__(1, '-0.000100001')))
+           edited('cable_lengths_m', lambda x: x.__setitem__(1, '-0.000110001')))
     reject('held_deviation_of_a_length_that_is_exact', by_both, 'Without a tolerance of them lengths are exact.', "a cable's length",
            lambda c: c['problem']['tolerances'].update(cable_length_m=None))
     reject('held_deviation_of_an_anchor_too_large', by_both, 'The deviation is outside of its tolerance.', 'a base anchor',
@@ -1688,6 +1703,28 @@ def held_deviations():
            'the pose to which the deviation leads', lambda c: (
            c['problem']['tolerances'].update(cable_length_m=['0.5'] * 6, base_anchor_m=['0.5'] * 6),
            c['witness'].update(witness('tension_min', i, c['problem']['robot']['tension_N'][i][0], f0[i] - v[i], around))))
+
+    # Ways on which no length changes, regular at both ends, singular half-way: anchors pass the platform's plane, or turn about.
+    level = straight(waypoint([0, 0]), waypoint([0.001, 0]))
+    for name, base, platform, why in (
+            ('base_anchors', lambda x: [0, 0, 0.7], None, 'Base anchors rise through the plane of the platform.'),
+            ('platform_anchors', None, lambda x: [0, 0, -0.7], 'Platform anchors sink through the plane of the base.'),
+            ('all_anchors', lambda x: [-2 * x[0], -2 * x[1], 0], lambda x: [-2 * x[0], -2 * x[1], 0], 'Both rings turn by half a turn.')):
+        numbers = lambda key: [[float(v) for v in x] for x in slice_audit['robot'][key]]
+        moved = {**({('base_anchor_m', n): base(x) for n, x in enumerate(numbers('base_anchors_m'))} if base else {}),
+                 **({('platform_anchor_m', n): platform(x) for n, x in enumerate(numbers('platform_anchors_m'))} if platform else {})}
+        loose = with_tolerances(slice_audit, cable_length_m=['0'] * 6, base_anchor_m=['1'] * 6, platform_anchor_m=['1'] * 6)
+        at = middle_of(loose, level)
+        add = lambda key, kind: [['%.9g' % (u + v) for u, v in zip(x, moved.get((kind, n), [0] * 3))] for n, x in enumerate(numbers(key))]
+        machine = dict(slice_audit, robot=dict(slice_audit['robot'], base_anchors_m=add('base_anchors_m', 'base_anchor_m'),
+                                               platform_anchors_m=add('platform_anchors_m', 'platform_anchor_m')))
+        lengths, f0, v, _ = statics(machine, at)
+        i = min(range(6), key=lambda n: f0[n] - v[n])
+        loose['robot'] = dict(loose['robot'], tension_N=[list(x) for x in loose['robot']['tension_N']])
+        reject('held_deviation_of_%s_through_a_singular_machine' % name,
+               certificate(loose, level, 'refuted', witness=witness('tension_min', i, '%.9g' % (abs(f0[i] - v[i]) + 1), f0[i] - v[i], moved)),
+               why, 'the pose to which the deviation leads',
+               lambda c: c['problem']['robot']['tension_N'][i].__setitem__(slice(0, 2), [c['witness']['limit'], '1000']))
 
     # Against the format.
     malform('deviation_of_five_lengths', 'One a cable.', 'cable_lengths_m: expected an array of 6', edited('cable_lengths_m', lambda x: x.pop()), by_lengths)

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "certify/path_proof.h"
 #include "certify/segment_proof.h"
@@ -283,6 +285,30 @@ TEST(HeldMotion, ADeviationThroughASingularMachineIsNotFollowed) {
     }
     machine.lead(from, from);
     EXPECT_EQ(machine.led(from).has_value(), part < 0.5) << part;
+  }
+}
+
+/// Ways on which no length changes and the machine is regular at both ends, and singular half-way: so that it takes the anchors
+/// in between to see it. Pulled up to above the platform, which hangs level, base anchors pass its plane; and so on.
+TEST(HeldMotion, AnchorsOnTheWayCount) {
+  const RigidPose level = rigid_pose({{0, 0, 0.35}, 0, 0, 34 * std::acos(-1.0) / 180});
+  for (const auto& [moves_base, moves_platform, by] :
+       {std::tuple(true, false, 0.7), std::tuple(false, true, -0.7), std::tuple(true, true, 0.0)}) {
+    for (const double part : {0.001, 1.0}) {
+      Deviating machine;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        const auto along = [&](const Vector3<double>& x) -> Vector3<double> {
+          if (by != 0) return {0, 0, part * by};
+          return {-2 * part * x(0), -2 * part * x(1), 0};  // both rings turn by half a turn
+        };
+        if (moves_base) machine.base[i] = along(machine.approx.p_WA[i]);
+        if (moves_platform) machine.platform[i] = along(machine.approx.p_PB[i]);
+      }
+      machine.lead(level, level);
+      EXPECT_TRUE(part < 0.5 || machine.length_error == Deviating().length_error ||
+                  std::ranges::all_of(machine.length_error, [](double e) { return std::abs(e) < 1e-9; }));
+      EXPECT_EQ(machine.led(level).has_value(), part < 0.5) << by << " " << part;
+    }
   }
 }
 

@@ -195,6 +195,10 @@ TEST(Mutation, OfTolerancesOnlyTrueStatementsPass) {
   const Rule no_load = {"No load deviates.", std::regex("/witness/deviation/wrench: becomes 1e-400")};
   expect_accepted_mutants("refuted_by_held_lengths", "/witness/deviation", {minus_zero, no_load});
   expect_accepted_mutants("refuted_by_held_anchors", "/witness/deviation", {minus_zero, no_load});
+  const Rule larger = {"A larger tolerance allows the deviation, too.",
+                       std::regex("/problem/tolerances/.*: (becomes -?1e400|gets a leading .)")};
+  const Rule needless = {"Only lengths deviate.", std::regex("/problem/tolerances/(?!cable_length).*: becomes 1e-400")};
+  expect_accepted_mutants("refuted_by_held_lengths", "/problem/tolerances", {minus_zero, larger, needless});
 }
 
 TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {

@@ -145,6 +145,20 @@ class Audit(InFolder):
         slack = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n0,91.7\n"))
         self.assertEqual(slack["verdict"], "refuted")
 
+    def test_the_checker_follows_deviations_as_far_as_the_prover(self):
+        """From next to a singular pose, where it is about how small the steps are."""
+        text = re.sub(r"tension: .*", "tension: [" + "[0, 600], " * 5 + "[0.175769929, 600]]", text_of(ROBOT1))
+        text = re.sub(r"length: \[.*", "length: [1, 5500]", text.split("\nquery:")[0] + "\n")
+        verdicts = []
+        path = self.write("path.csv", "phi[rad],theta[rad]\n-2.366581387,1.440598576\n-2.366580387,1.440598576\n")
+        for size in (1.8, 1.86, 1.9, 2.2, 3, 6):
+            case = self.write("case.yaml", f"{text}tolerances: {{cable_length: 0, platform_anchors: {size}}}\n")
+            verdicts.append(self.audit(case, path)["verdict"])
+            result = run(CHECK, self.path("out", "certificate.json"), case)
+            self.assertEqual(result.returncode, EXIT[verdicts[-1]], result.stdout + result.stderr)
+        self.assertEqual(verdicts[0], "refuted")
+        self.assertNotIn("proved", verdicts)
+
     def test_a_path_may_come_through_a_pipe(self):
         path = os.path.join(AUDITS, "robot1-bridging.csv")
         result = run(TAUT, "audit", ROBOT1, "/dev/stdin", "--out", self.path("piped"), input=text_of(path))

@@ -522,7 +522,8 @@ std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation
   constexpr int kParts = 16;
   constexpr int kNewtonSteps = 25;
   Machine<S> machine;
-  for (int part = 1; part <= kParts && pose; ++part) {  // which the pose follows
+  bool last_sign = false;
+  for (int part = trial_.is_held() ? 1 : kParts; part <= kParts && pose; ++part) {  // which the pose follows
     const S grown = S(static_cast<double>(part)) / S(static_cast<double>(kParts));
     machine = machine_;
     machine.load_point = machine.load_point + vector<S>(witness.load_point_m);
@@ -533,7 +534,12 @@ std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation
       machine.wrench[i] = machine.wrench[i] + number<S>(witness.wrench) * tolerances_.wrench[i];
       if (witness.cable_lengths_m) wanted[i] = wanted[i] + grown * number<S>((*witness.cable_lengths_m)[i]);
     }
-    if (trial_.is_held()) pose = hold(machine, *pose, wanted, kNewtonSteps);
+    if (!trial_.is_held()) break;
+    pose = hold(machine, *pose, wanted, kNewtonSteps);
+    if (!pose) return std::nullopt;
+    const bool sign = campaign::statics(machine, *pose).determinant > S(0.0);
+    if (part > 1 && sign != last_sign) return std::nullopt;  // it has passed a singular pose
+    last_sign = sign;
   }
   if (!pose) return std::nullopt;
   const Vec<S> u = vector<S>(witness.turn);
