@@ -155,7 +155,7 @@ class Audit(InFolder):
             case = self.write("case.yaml", f"{text}tolerances: {{cable_length: 0, platform_anchors: {size}}}\n")
             verdicts.append(self.audit(case, path)["verdict"])
             result = run(CHECK, self.path("out", "certificate.json"), case)
-            self.assertEqual(result.returncode, EXIT[verdicts[-1]], result.stdout + result.stderr)
+            self.assertEqual(result.returncode, 2 if verdicts[-1] == "undecided" else 0, result.stdout + result.stderr)
         self.assertEqual(verdicts[0], "refuted")
         self.assertNotIn("proved", verdicts)
 

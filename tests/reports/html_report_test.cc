@@ -202,8 +202,9 @@ TEST(HtmlReport, SaysThatAWitnessDeviates) {
                         "reaches at least 0.8123 N"));
   EXPECT_THAT(report(certificate), Not(HasSubstr("the lengths of its cables lead")));
   certificate["witness"]["deviation"]["cable_lengths_m"] = {"0", "0", "0", "0", "0", "0.001"};
-  EXPECT_THAT(report(certificate), HasSubstr("it deviates within the tolerances, as the certificate says, and it is at the "
-                                             "pose to which that and the lengths of its cables lead from this one."));
+  EXPECT_THAT(report(certificate),
+              HasSubstr("it deviates within the tolerances, as the certificate says, and it is at the "
+                        "pose to which that and the lengths of its cables lead from this one."));
 }
 
 TEST(HtmlReport, ClaimsNothingOfThePathWhereBoxesAreMissing) {
