@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "certify/held_motion.h"
 #include "certify/interval.h"
@@ -21,9 +22,15 @@ struct Machine {
   RigidPose pose;
   std::optional<std::array<double, kCables>> held = std::nullopt;  ///< the lengths that it holds, if it does
 
-  /// To the pose that anchors and lengths lead to.
+  /// To the pose that anchors and lengths lead to; nowhere, in NaNs, where none is found.
   void follow() {
-    if (held) pose = pose_of_lengths(model, *held, pose).value_or(pose);
+    if (!held) return;
+    const std::optional<RigidPose> found = pose_of_lengths(model, *held, pose);
+    if (found) {
+      pose = *found;
+    } else {
+      pose.p.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
   }
 };
 

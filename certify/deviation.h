@@ -23,8 +23,8 @@ struct Deviation {
   std::optional<std::array<DecimalText, kCables>> cable_lengths_m = std::nullopt;
 };
 
-/// The one within a `part` of the `tolerances` that brings a margin down furthest, to first order, in floating point: a proposal. It keeps a
-/// billionth off the tolerances. Nothing where the margin stays positive.
+/// The one within a `part` of the `tolerances` that brings a margin down furthest, to first order, in floating point: a
+/// proposal. It keeps a billionth off the tolerances. Nothing where it can be followed and the margin stays positive.
 [[nodiscard]] std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
                                                        const RigidPose& commanded, MarginId margin,
                                                        bool held_by_lengths, double part);

@@ -5,6 +5,8 @@
 // functions that add to it, and what deviations change of them.
 #pragma once
 
+#include <array>
+
 #include "kinematics/model.h"
 #include "kinematics/statics.h"
 
@@ -20,6 +22,16 @@ struct MarginId {
 
 /// "tension_min", "tension_max", "length_min", "length_max".
 [[nodiscard]] const char* name(MarginKind kind);
+
+[[nodiscard]] constexpr std::array<MarginId, 4 * kCables> all_margins() {
+  std::array<MarginId, 4 * kCables> result;
+  std::size_t n = 0;
+  for (const MarginKind kind :
+       {MarginKind::kTensionMin, MarginKind::kTensionMax, MarginKind::kLengthMin, MarginKind::kLengthMax}) {
+    for (int cable = 0; cable < static_cast<int>(kCables); ++cable) result[n++] = {kind, cable};
+  }
+  return result;
+}
 
 /// What a margin keeps inside a limit: f0 − v, f0 + v [N] or d [m].
 template <class S>

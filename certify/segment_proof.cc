@@ -339,9 +339,9 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       // One deviation refutes; for the ends of a stretch the first and the last are looked for, which are costly.
       if (walk.deviation_found && box.upper() != Dyadic{1, 0})
         return give_up(at(Undecided::kTolerances, verdict.worst));
-      if (auto deviation = refuting_deviation(walk, box, verdict.worst)) {
+      if (auto witness = refuting_deviation(walk, box, verdict.worst)) {
         walk.deviation_found = true;
-        return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, box, std::move(deviation)}};
+        return {Step::Kind::kRefuted, verdict, std::move(witness)};
       }
       if (parts < kMostParts) return refine();
       return give_up(at(Undecided::kTolerances, verdict.worst));
@@ -401,10 +401,9 @@ SegmentProof Prover::prove(const Segment& segment, double clearance) const {
       case Step::Kind::kGiveUp:
         // What is not seen here may be elsewhere. Behind an inner pose it is of the path only if what leads there is proved.
         if (step.verdict.kind == BoxVerdict::Kind::kTolerance && segment.inner_poses.empty()) {
-          const DyadicBox weakest = weakest_box(segment, step.verdict.worst);
-          if (auto deviation = refuting_deviation(walk, weakest, step.verdict.worst)) {
+          proof.witness = refuting_deviation(walk, weakest_box(segment, step.verdict.worst), step.verdict.worst);
+          if (proof.witness) {
             proof.verdict = Verdict::kRefuted;
-            proof.witness = SegmentWitness{false, step.verdict.worst, weakest, std::move(deviation)};
             return proof;
           }
         }
@@ -490,22 +489,26 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
   return survey;
 }
 
-MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
-                                   const Deviation& deviation) const {
+std::optional<MpInterval> Prover::deviated_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
+                                                  const Deviation& deviation) const {
   const PrecisionScope precision(bits_[kDeviationRung]);
   const ProofModel<MpInterval>& model = fine(kDeviationRung);
   Faults<MpInterval>::clear();
   const auto mid = enclose<MpInterval>(box.mid());
   const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
+  if (commanded.status != MotionEnclosure<MpInterval>::Status::kKnown) return std::nullopt;
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
-  MpInterval quantity;
-  const bool is_known = commanded.status == MotionEnclosure<MpInterval>::Status::kKnown;
-  if (is_known) {
-    quantity = deviated_quantity(model.model, *problem_.tolerances, commanded.p_WP.unaryExpr(at_mid),
-                                 commanded.r_WP.unaryExpr(at_mid), deviation, margin);
-  }
-  if (!is_known || Faults<MpInterval>::raised()) throw std::logic_error("a deviation has no enclosure");
+  MpInterval quantity = deviated_quantity(model.model, *problem_.tolerances, commanded.p_WP.unaryExpr(at_mid),
+                                          commanded.r_WP.unaryExpr(at_mid), deviation, margin);
+  if (Faults<MpInterval>::raised()) return std::nullopt;
   return quantity;
+}
+
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
+                                   const Deviation& deviation) const {
+  std::optional<MpInterval> quantity = deviated_at_mid(segment, box, margin, deviation);
+  if (!quantity) throw std::logic_error("a deviation has no enclosure");
+  return *std::move(quantity);
 }
 
 DyadicBox Prover::weakest_box(const Segment& segment, MarginId margin) const {
@@ -523,27 +526,40 @@ DyadicBox Prover::weakest_box(const Segment& segment, MarginId margin) const {
   return weakest;
 }
 
-std::shared_ptr<const Deviation> Prover::refuting_deviation(Walk& walk, const DyadicBox& box, MarginId margin) const {
-  constexpr std::array kParts = {1.0, 0.5, 0.25};  // a smaller deviation may be followed where a larger one is not
-  if (fine_.size() <= kDeviationRung || walk.deviation_failed) return nullptr;
+std::optional<SegmentWitness> Prover::refuting_deviation(Walk& walk, const DyadicBox& box, MarginId margin) const {
+  if (fine_.size() <= kDeviationRung || walk.deviation_failed) return std::nullopt;
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const RigidPose pose = sampler_->rigid_pose(walk.segment, box.mid().approx());
-  const PrecisionScope precision(bits_[kDeviationRung]);
-  const Model<MpInterval>& model = fine(kDeviationRung).model;
-  bool has_failed = false;
-  for (const double part : kParts) {
-    const std::optional<Deviation> worst = worst_deviation(*problem_.tolerances, sampler_->model(), pose, margin,
-                                                           is_held_by_lengths(walk.segment.law), part);
-    if (!worst) break;
-    try {
-      const MpInterval quantity = quantity_at_mid(walk.segment, box, margin, *worst);
-      if (certainly_nonpositive(room(model, quantity, margin))) return std::make_shared<const Deviation>(*worst);
-    } catch (const std::logic_error&) {
-      has_failed = true;
-    }
+  const auto worst_within = [&](double part, MarginId of) {
+    return worst_deviation(*problem_.tolerances, sampler_->model(), pose, of, is_held_by_lengths(walk.segment.law),
+                           part);
+  };
+  const auto refutes = [&](const Deviation& deviation, MarginId of) {
+    const std::optional<MpInterval> quantity = deviated_at_mid(walk.segment, box, of, deviation);
+    walk.deviation_failed = !quantity;
+    const PrecisionScope precision(bits_[kDeviationRung]);
+    return quantity && certainly_nonpositive(room(fine(kDeviationRung).model, *quantity, of));
+  };
+  std::optional<Deviation> worst = worst_within(1, margin);
+  if (!worst) return std::nullopt;
+  if (!refutes(*worst, margin)) {
+    if (!walk.deviation_failed) return std::nullopt;
+    // Where it can't be followed, the least one that breaks any margin may be.
+    const auto break_any = [&](double part) {
+      for (MarginId of : all_margins()) {
+        std::optional<Deviation> smaller = worst_within(part, of);
+        if (!smaller) continue;
+        worst = std::move(smaller);
+        margin = of;
+        return true;
+      }
+      return false;
+    };
+    constexpr double kLeast = 0x1p-20;
+    for (double part = 0.5; part >= kLeast && break_any(part);) part *= 0.5;
+    if (!refutes(*worst, margin)) return std::nullopt;
   }
-  walk.deviation_failed = has_failed;
-  return nullptr;
+  return SegmentWitness{false, margin, box, std::make_shared<const Deviation>(*worst)};
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {

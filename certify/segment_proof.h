@@ -160,9 +160,13 @@ class Prover {
 
   /// That box of tolerance_depth in whose middle an undisturbed `margin` is least, in floating point.
   [[nodiscard]] DyadicBox weakest_box(const Segment& segment, MarginId margin) const;
-  /// A deviation that breaks `margin` at the midpoint of a box, proved; null if the worst to first order does not.
-  [[nodiscard]] std::shared_ptr<const Deviation> refuting_deviation(Walk& walk, const DyadicBox& box,
-                                                                    MarginId margin) const;
+  /// quantity_at_mid() of a machine that deviates; nothing where that is not proved.
+  [[nodiscard]] std::optional<MpInterval> deviated_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
+                                                          const Deviation& deviation) const;
+  /// A deviation that breaks `margin` at the midpoint of a box, proved; a smaller one that breaks any margin, where the worst (to
+  /// first order) can't be followed. Nothing if the worst breaks none.
+  [[nodiscard]] std::optional<SegmentWitness> refuting_deviation(Walk& walk, const DyadicBox& box,
+                                                                 MarginId margin) const;
 
   Problem problem_;
   ProofOptions options_;
