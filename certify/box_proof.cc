@@ -301,6 +301,21 @@ double half_range(const Model<I>& model, MarginId id) {
                              : 0.5 * (lower_bound(model.length_upper[n]) - upper_bound(model.length_lower[n]));
 }
 
+/// The margin of the least lower bound, over half its range.
+template <class I>
+MarginId weakest(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure) {
+  MarginId weakest;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& [id, value, disturbed] : enclosure.margins) {
+    const double relative = lower_bound(disturbed) / half_range(problem.model, id);
+    if (relative < lowest) {
+      lowest = relative;
+      weakest = id;
+    }
+  }
+  return weakest;
+}
+
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
                  int parts) {
@@ -321,7 +336,6 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   bool midpoint_positive = true;
   bool refuted = false;
   bool too_close = false;
-  double lowest = std::numeric_limits<double>::infinity();
   MarginId refuted_id;
   bool all_positive_undisturbed = true;
   bool within_tolerance = !problem.tolerance || enclosure.disturbance;
@@ -343,10 +357,6 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
         refuted_id = id;
         verdict.throughout = throughout;
       }
-    }
-    if (bound < lowest) {
-      lowest = bound;
-      verdict.worst = id;
     }
     if (is_tension(id.kind)) {
       verdict.tension_N = std::min(verdict.tension_N, bound);
@@ -376,6 +386,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   } else {
     verdict.kind = within_tolerance || !all_positive_undisturbed ? Kind::kSplit : Kind::kTolerance;
   }
+  if (verdict.kind != Kind::kRefuted && verdict.kind != Kind::kProved) verdict.worst = weakest(problem, enclosure);
   return verdict;
 }
 

@@ -165,6 +165,8 @@ int run_audit(const AuditArguments& arguments) {
 
   const std::filesystem::path out = out_folder(arguments.out, request.path.name);
   make_directories(out);
+  for (const char* name : {"path.csv", "certificate.json", "report.html"})
+    require_another(out / name, request.path.name);
   const Interruption interruption;  // before there is a file that a signal could leave behind
   PathAudit audited;
   NewFile certificate(out / "certificate.json");

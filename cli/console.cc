@@ -65,6 +65,8 @@ void ProgressLine::print(const std::string& text) {
 Interruption::Interruption() {
   std::signal(SIGINT, request_interrupt);
   std::signal(SIGTERM, request_interrupt);
+  if (std::signal(SIGHUP, request_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as under nohup
+  std::signal(SIGXFSZ, SIG_IGN);  // then it is an error of writing
   watcher_ = std::jthread([this](const std::stop_token& finished) {
     std::mutex mutex;
     std::unique_lock lock(mutex);

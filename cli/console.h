@@ -46,7 +46,7 @@ class ProgressLine {
   std::chrono::steady_clock::time_point last_;
 };
 
-/// Turns SIGINT and SIGTERM into a stop request, which a signal handler may not make itself.
+/// Turns SIGINT, SIGTERM and SIGHUP into a stop request, which a signal handler may not make itself.
 class Interruption {
  public:
   Interruption();

@@ -284,6 +284,7 @@ int run_explain(const ExplainArguments& arguments) {
     return kProvedExit;
   }
   std::string wanted = arguments.code;
+  if (wanted.starts_with('[') && wanted.ends_with(']')) wanted = wanted.substr(1, wanted.size() - 2);  // as it is shown
   for (char& c : wanted) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   const auto found = std::ranges::find(explanations(), wanted, &Explanation::code);
   if (found == explanations().end()) {

@@ -178,7 +178,7 @@ void run(const fs::path& file, const fs::path& out, const RegressOptions& option
     return;
   }
   result.expected = name(declared.expect);
-  result.has_budget = options.budget.has_value() || declared.planner.has_budget;
+  result.has_budget = !declared.audit && (options.budget.has_value() || declared.planner.has_budget);
   const FinishedProgram ran = run_program(command_for(declared, file, options, out), stop, options.most_seconds);
   result.seconds = ran.seconds;
   if (ran.timed_out) {
@@ -233,7 +233,8 @@ void collect_cases(const fs::path& folder, std::set<fs::path>& seen, std::vector
     if (entry.path().filename().string().starts_with(".")) continue;
     if (entry.is_directory()) {
       collect_cases(entry.path(), seen, cases);
-    } else if (entry.path().extension() == ".yaml" && (entry.is_regular_file() || !entry.exists())) {
+    } else if (const fs::path extension = entry.path().extension();
+               (extension == ".yaml" || extension == ".yml") && (entry.is_regular_file() || !entry.exists())) {
       cases.push_back(entry.path());  // a link to nothing is bad input, not nothing
     }
   }

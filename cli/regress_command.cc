@@ -52,6 +52,13 @@ std::string positive_number(const std::string& text) {
              : "got '" + text + "', expected a number above 0";
 }
 
+std::string part(const std::string& text) {
+  double value = 0;
+  return CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 1
+             ? ""
+             : "got '" + text + "', expected a number from 0 to 1";
+}
+
 }  // namespace
 
 void add_regress_options(CLI::App& command, RegressArguments& arguments) {
@@ -62,7 +69,7 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments) {
   command.add_flag("--update", arguments.update, "write the baseline instead of comparing with it")->needs(baseline);
   command
       .add_option("--tolerance", arguments.tolerance, "relative change for the worse that is let pass (default: 0.05)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(part);
   command.add_option("--jobs", arguments.options.jobs, "cases at a time (default: one a core)")
       ->check(CLI::Range(1, 1024));
   command.add_option("--timeout", arguments.options.most_seconds, "seconds for one case (default: 600)")
@@ -126,6 +133,10 @@ int run_regress(RegressArguments arguments) {
     return code;
   }
   print_table(cases);
+  const auto on_budget = std::ranges::count_if(cases, &RegressedCase::has_budget);
+  if (baseline && on_budget > 0) {
+    fmt::print("{} of them plan on a budget: only their verdicts are compared with the baseline.\n", on_budget);
+  }
   for (const std::string& name : gone) fmt::print("{}: is in the baseline, and is no more\n", name);
   fmt::print("{} of {} cases as declared, in {:.1f} s.\n", as_declared, cases.size(), seconds.count());
   for (const FileContent& file : written) fmt::print("Written: {}\n", file.path.string());

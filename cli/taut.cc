@@ -89,7 +89,10 @@ int run_plan(const PlanArguments& arguments) {
   }
   const std::filesystem::path out = out_folder(arguments.out, arguments.case_path);
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
-  if (!arguments.save_atlas.empty()) require_writable(arguments.save_atlas);
+  if (!arguments.save_atlas.empty()) {
+    require_writable(arguments.save_atlas);
+    require_another(arguments.save_atlas, arguments.case_path);
+  }
   Planner planner(case_, arguments.atlas);
   make_directories(out);
 
@@ -109,16 +112,19 @@ int run_plan(const PlanArguments& arguments) {
   const Recheck rechecked = recheck(text, static_cast<std::size_t>(result.proof.boxes),
                                     case_.problem.tolerances.has_value(), arguments.check, interruption.token());
   require_confirmed(rechecked);
+  const bool is_proved = result.proof.verdict == Verdict::kProved;
   std::vector<FileContent> files = {
-      {out / "path.csv", path_csv(case_.problem, result.path)},
       {out / "certificate.json", text},
       {out / "report.html", html_report(certificate, {"", "", report_date(), rechecked})}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
+  // What is not proved is not for a machine to follow.
+  const std::filesystem::path path_file = out / "path.csv";
+  if (is_proved) files.push_back({path_file, path_csv(case_.problem, result.path)});
   write_whole(files);
+  if (!is_proved) std::filesystem::remove(path_file);  // of an earlier plan
 
   const PlanStatistics& s = result.statistics;
-  const bool is_proved = result.proof.verdict == Verdict::kProved;
   const MotionLengths lengths = is_proved ? planner.measure(result.path) : MotionLengths{};
   if (arguments.json) {
     const nlohmann::json summary = {{"verdict", certificate["verdict"]},
@@ -133,8 +139,8 @@ int run_plan(const PlanArguments& arguments) {
                                     {"cost_found", s.cost_found},
                                     {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nullptr},
                                     {"budget_spent", s.budget_spent},
-                                    {"length_m", lengths.length_m},
-                                    {"angle_rad", lengths.angle_rad},
+                                    {"length_m", is_proved ? nlohmann::json(lengths.length_m) : nullptr},
+                                    {"angle_rad", is_proved ? nlohmann::json(lengths.angle_rad) : nullptr},
                                     {"plan_seconds", s.plan_seconds},
                                     {"smooth_seconds", s.smooth_seconds},
                                     {"prove_seconds", s.prove_seconds},
@@ -148,16 +154,19 @@ int run_plan(const PlanArguments& arguments) {
   } else {
     fmt::print("{}\n", sentence(result));
     if (s.charts > 0) {
-      fmt::print(
-          "{} charts, {} expanded; {} edges looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n"
-          "On its way the platform's origin moves {:.4g} m, and the platform turns {:.4g} rad.\n"
-          "Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n",
-          s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found, lengths.length_m,
-          lengths.angle_rad, 1e3 * s.plan_seconds, 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
+      fmt::print("{} charts, {} expanded; {} edges looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n",
+                 s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found);
+      if (is_proved) {
+        fmt::print("On its way the platform's origin moves {:.4g} m, and the platform turns {:.4g} rad.\n",
+                   lengths.length_m, lengths.angle_rad);
+      }
+      fmt::print("Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n", 1e3 * s.plan_seconds,
+                 1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
       if (is_proved) fmt::print("{}.\n", length_sentence(s));
       fmt::print("{}", tolerance_table(limits));
     }
-    fmt::print("{}\nWritten to {}: path.csv, certificate.json, report.html\n", sentence(rechecked), out.string());
+    fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(rechecked), out.string(),
+               is_proved ? "path.csv, " : "");
     if (saves_atlas) {
       fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
                  planned.whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);

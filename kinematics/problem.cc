@@ -420,7 +420,7 @@ void validate_query(const Problem& problem) {
       constexpr double kSlack = 1e-12;  // well above the rounding of a short expression
       const double slack = kSlack * std::max(std::abs(lower), std::abs(upper));
       if (value < lower - slack || value > upper + slack) {
-        throw FieldError(place, "'" + waypoint[j] + "'",
+        throw FieldError(place, fmt::format("'{}', which is {:.6g}", waypoint[j], value),
                          fmt::format("expected a value in the parameter's range [{}, {}] (SI: m, rad)",
                                      parameters[j].range_lower, parameters[j].range_upper));
       }

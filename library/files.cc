@@ -67,6 +67,14 @@ void remove_leftovers(const std::filesystem::path& path) {
 }  // namespace
 
 NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code error;
+  if (std::filesystem::is_symlink(path_, error)) {
+    const std::filesystem::path target = std::filesystem::canonical(path_, error);
+    if (!error) path_ = target;
+  }
+  const std::filesystem::file_status status = std::filesystem::status(path_, error);
+  if (std::filesystem::is_other(status))
+    fail(path_, "write", EINVAL);  // a device or pipe, which no file should replace
   remove_leftovers(path_);
   do {
     temporary_ = temporary_name(path_);
@@ -127,6 +135,14 @@ void require_writable(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) fail(path, "write", EISDIR);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) != 0) fail(path, "write", errno);
+}
+
+void require_another(const std::filesystem::path& written, const std::filesystem::path& read) {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(written, read, ignored)) return;
+  throw InputErrorOfKind(InputKind::kUse,
+                         fmt::format("{}: got the file that is read, expected another to be written", written.string()),
+                         {written.string()});
 }
 
 std::string read_whole(const std::filesystem::path& path) {

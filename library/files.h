@@ -14,7 +14,7 @@ struct FileContent {
 };
 
 /// A file that is written piece by piece under a temporary name beside its own; it vanishes unless it is renamed into place.
-/// Any number of them may be of one path at once, in any threads and processes; the last to be renamed stays.
+/// Links are followed; devices and pipes are refused. Any number of them may be of one path at once, in any threads and processes; the last to be renamed stays.
 /// What earlier runs that were killed left of it is removed.
 /// Everything throws InputError naming the path and the system's reason.
 class NewFile {
@@ -49,6 +49,9 @@ void write_whole(const std::vector<FileContent>& files);
 
 /// That a file may be written here, as far as can be told before it is. @throws InputError if not.
 void require_writable(const std::filesystem::path& path);
+
+/// That what is to be written is not the file that is read. @throws InputError if it is.
+void require_another(const std::filesystem::path& written, const std::filesystem::path& read);
 
 /// @throws InputError naming the path and the system's reason.
 [[nodiscard]] std::string read_whole(const std::filesystem::path& path);

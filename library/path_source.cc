@@ -112,7 +112,8 @@ PathSource::PathSource(const Problem& problem, PathInput input, std::optional<In
         fmt::format("{}: got {} waypoints, expected at least {} of a spline", path_, waypoints_, control_points(law_)),
         {path_});
   }
-  if (waypoints_ == 1) description_ += "  one pose only: the platform stays there\n";
+  stays_ = waypoints_ == 1;
+  if (stays_) description_ += "  one pose only: the platform stays there\n";
   waypoints_ = std::max<std::size_t>(waypoints_, 2);
   sha256_ = sha256_of(input_);
   open();
@@ -152,7 +153,7 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const bool fits = std::ranges::all_of(certificate_->waypoints, [&](const Waypoint& waypoint) {
     return has_poses(law_) || (waypoint.x.size() == parameters && waypoint.normals.size() == normals);
   });
-  if (!fits || (has_times() && certificate_->times.size() != certificate_->waypoints.size())) {
+  if (!fits || (!certificate_->times.empty() && certificate_->times.size() != certificate_->waypoints.size())) {
     throw InputError(path_ + ": path: got waypoints or times of another size, expected those of the space", {path_});
   }
 }
@@ -177,7 +178,10 @@ void PathSource::open() {
   maker_ = std::make_unique<WaypointMaker>(case_problem_, *header_, law_, path_);
 }
 
-bool PathSource::has_times() const { return certificate_ ? !certificate_->times.empty() : header_->time.has_value(); }
+bool PathSource::has_times() const {
+  if (stays_) return false;
+  return certificate_ ? !certificate_->times.empty() : header_->time.has_value();
+}
 
 bool PathSource::next(SourceWaypoint& result) {
   if (next_ == waypoints_) {
@@ -203,7 +207,7 @@ bool PathSource::next(SourceWaypoint& result) {
   result.waypoint = maker_->next(row, file_->start());
   if (k == 0) require_start(row.line);
   result.line = row.line;
-  result.time_s = row.time_s;
+  if (has_times()) result.time_s = row.time_s;
   return true;
 }
 

@@ -74,6 +74,7 @@ class PathSource {
 
   PathInput input_;
   const std::string& path_ = input_.name;
+  bool stays_ = false;  ///< one pose, which takes no time
   Problem case_problem_;
   Problem problem_;
   PathFileOptions options_;

@@ -19,7 +19,7 @@ namespace {
 /// About.
 double recheck_seconds(std::size_t boxes, bool has_tolerances) {
   constexpr double kPerBox = 0.002;            // [s]: a piece takes a millisecond, and a box is two pieces or so
-  constexpr double kPerBoxTolerances = 0.050;  // deviations are taken in up to eight parts
+  constexpr double kPerBoxTolerances = 0.050;  // deviations are taken in up to 16 parts
   return static_cast<double>(boxes) * (has_tolerances ? kPerBoxTolerances : kPerBox);
 }
 

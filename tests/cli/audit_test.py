@@ -166,6 +166,26 @@ class Audit(InFolder):
         self.audit(ROBOT1, path, out="read")
         self.assertEqual(self.certificate("piped")["path_sha256"], self.certificate("read")["path_sha256"])
 
+    def test_one_pose_takes_no_time(self):
+        for name, text in [("row.csv", "t[s],phi[deg],theta[deg]\n1,-88.9,80.2\n"),
+                           ("row.tum", "0 0 0 0.35 0 0 0 1\n"),
+                           ("repeated.csv", "t[s],phi[deg],theta[deg]\n1,-88.9,80.2\n2,-88.9,80.2\n")]:
+            options = ["--allow-repeats"] if name.startswith("repeated") else []
+            self.assertEqual(self.audit(ROBOT1, self.write(name, text), *options)["segments"], 1, name)
+            self.assertIsNone(self.certificate()["path"]["times"])
+            self.assertIn(run(CHECK, self.path("out", "certificate.json")).returncode, (0, 2))
+
+    def test_what_is_read_is_not_overwritten(self):
+        text = "phi[deg],theta[deg]\n-88.9,80.2\n-88,80.2\n"
+        for folder in (".", "link"):
+            os.symlink(self.out, self.path("link")) if folder == "link" else None
+            path = self.write("path.csv", text)
+            result = run(TAUT, "audit", ROBOT1, path, "--out", self.path(folder))
+            self.assertEqual(result.returncode, 3, result.stdout)
+            self.assertIn("path.csv: got the file that is read, expected another to be written", result.stderr)
+            self.assertEqual(text_of(path), text)
+            self.assertFalse(os.path.exists(self.path("certificate.json")))
+
     def test_bad_paths_are_refused_with_their_place(self):
         self.refused("phi[deg],theta[deg]\n1,2\n3,nan\n", "path.csv:3: theta: got 'nan', expected a decimal number")
         self.refused("phi[deg],theta[deg]\n1,2\n1,2\n", "path.csv:3: got the pose of line 2 again", "--allow-repeats")

@@ -174,6 +174,19 @@ class EndToEnd(InFolder):
                 self.assertRegex(result.stdout, f"undecided: .*the budget of {budget} is spent; best so far: ")
                 self.assertEqual(self.certificate()["verdict"], "undecided")
 
+    def test_only_what_is_proved_is_left_for_a_machine_to_follow(self):
+        proved = run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        self.assertIn("path.csv", proved.stdout)
+        self.assertTrue(os.path.exists(self.path("path.csv")))
+        undecided = run(TAUT, "plan", self.budgeted("max_charts: 1", "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        self.assertEqual(undecided.returncode, 2, undecided.stdout + undecided.stderr)
+        self.assertNotIn("path.csv", undecided.stdout)
+        self.assertNotIn("0 rad", undecided.stdout)
+        self.assertFalse(os.path.exists(self.path("path.csv")))
+
+    def test_codes_are_explained_as_they_are_shown(self):
+        self.assertEqual(run(TAUT, "explain", "[U7]").stdout, run(TAUT, "explain", "u7").stdout)
+
     def test_a_budget_of_charts_gives_the_best_path_within_it(self):
         summary = {}
         for charts in (60, 600):
@@ -338,6 +351,14 @@ class EndToEnd(InFolder):
                 self.assertIn(place, refused.stderr)
                 self.assertFalse(os.path.exists(self.path("b", "path.csv")))
         self.assertEqual(run(TAUT, "plan", case, "--out", self.path("b"), "--grow").returncode, 3)
+
+    def test_the_case_is_not_overwritten(self):
+        case = self.write("case.yaml", text_of(os.path.join(CASES, "robot1-slice-qs1-qg.yaml")))
+        before = text_of(case)
+        refused = run(TAUT, "plan", case, "--out", self.path("b"), "--save-atlas", case)
+        self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
+        self.assertIn("got the file that is read, expected another to be written", refused.stderr)
+        self.assertEqual(text_of(case), before)
 
     def test_concurrent_writers_leave_one_whole_atlas(self):
         atlas, case = self.path("atlas"), os.path.join(CASES, "robot1-slice-qs1-qg.yaml")

@@ -121,6 +121,7 @@ class Regress(InFolder):
         changed("tension_margin", 1.04, 0)
         self.assertRegex(changed("length", 0.9, 1), r"length is \S+, in the baseline")
         changed("length", 1.5, 0)
+        self.regress("--baseline", baseline, "--tolerance", "nan", code=3)
         with open(baseline, "w", encoding="utf-8") as file:
             json.dump(content, file)
         os.remove(self.path("cases", "b.yaml"))

@@ -9,6 +9,7 @@ import json
 import os
 import random
 import shutil
+import stat
 import subprocess
 import time
 import unittest
@@ -92,6 +93,20 @@ class Robustness(InFolder):
                       self.path("disk", "out"))
             self.assertEqual(ran.returncode, 3, ran.stdout + ran.stderr)
             self.assertIn("Read-only file system", ran.stderr)
+
+    def test_pipes_are_not_replaced_and_links_are_followed(self):
+        planned = run(TAUT, "plan", CASE, "--out", self.path("out"))
+        self.assertEqual(planned.returncode, 0, planned.stderr)
+        certificate = self.path("out", "certificate.json")
+        os.mkfifo(self.path("pipe"))
+        refused = run(TAUT, "report", certificate, "--text", "--out", self.path("pipe"))
+        self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode))
+        real = self.write("real.txt", "")
+        os.symlink(real, self.path("link"))
+        self.assertEqual(run(TAUT, "report", certificate, "--text", "--out", self.path("link")).returncode, 0)
+        self.assertTrue(os.path.islink(self.path("link")))
+        self.assertIn("PROVED", text_of(real).upper())
 
     def test_a_file_where_the_folder_should_be_is_said(self):
         self.write("out", "mine")
