@@ -206,7 +206,7 @@ int run_audit(const AuditArguments& arguments) {
     report->finish();
     files.push_back(&*report);
   }
-  for (NewFile* file : files) file->rename_into_place();
+  rename_into_place(files);
   if (!report) std::filesystem::remove(report_path);  // of an earlier audit
 
   if (arguments.json) {

@@ -115,9 +115,44 @@ void NewFile::finish() {
   if (::fsync(descriptor_) != 0) fail(path_, "write", errno);
 }
 
+void NewFile::require_no_folder() const {
+  if (std::filesystem::is_directory(path_)) fail(path_, "write", EISDIR);
+}
+
 void NewFile::rename_into_place() {
+  require_no_folder();
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "rename into place", errno);
   temporary_.clear();
+}
+
+namespace {
+
+/// While it lives, no other thread or process has one of the same folder, as far as the file system has locks.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder)
+      : descriptor_(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ >= 0) static_cast<void>(::flock(descriptor_, LOCK_EX));
+  }
+  ~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  FolderLock(FolderLock&&) = delete;
+  FolderLock& operator=(FolderLock&&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
+void rename_into_place(std::span<NewFile* const> files) {
+  for (const NewFile* file : files) file->require_no_folder();
+  if (files.empty()) return;
+  const FolderLock lock(files.front()->temporary().parent_path());
+  for (NewFile* file : files) file->rename_into_place();
 }
 
 void write_whole(const std::vector<FileContent>& files) {
@@ -128,7 +163,10 @@ void write_whole(const std::vector<FileContent>& files) {
     next.write(file.content);
     next.finish();
   }
-  for (NewFile& file : written) file.rename_into_place();
+  std::vector<NewFile*> all;
+  all.reserve(written.size());
+  for (NewFile& file : written) all.push_back(&file);
+  rename_into_place(all);
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,8 @@ class NewFile {
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   /// Replaces any file of that name. @pre finish() was called last.
   void rename_into_place();
+  /// @throws InputError where a folder has its name.
+  void require_no_folder() const;
 
  private:
   void write_out();
@@ -42,6 +45,10 @@ class NewFile {
   int descriptor_ = -1;
   std::string buffer_;
 };
+
+/// All of them, none where a folder has one's name; of sets that threads and processes rename into one folder, the last stays
+/// whole.
+void rename_into_place(std::span<NewFile* const> files);
 
 /// Writes all of them beside their paths, flushes them to disk, and only then renames: none is replaced unless all could be
 /// written. @throws InputError naming the path and the system's reason.

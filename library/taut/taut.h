@@ -227,7 +227,7 @@ class TAUT_EXPORT Certificate {
   [[nodiscard]] const std::string& reason() const;       ///< only if undecided
   [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty
   [[nodiscard]] Path path() const;                       ///< bit for bit
-  [[nodiscard]] std::string path_csv() const;  ///< as `taut plan` writes it: for the machine that is to follow it
+  [[nodiscard]] std::string path_csv() const;  ///< as `taut plan` writes it of a proved path, for a machine to follow
   [[nodiscard]] std::size_t segments() const;
   [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
 

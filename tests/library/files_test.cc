@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <thread>
 
@@ -45,6 +46,27 @@ TEST_F(Files, AppearWholeOrNotAtAll) {
   EXPECT_EQ(count(), 2U);
   EXPECT_THROW(write_whole({{path, "new"}, {in_folder("none/b"), "too"}}), InputError);
   EXPECT_EQ(read_whole(path), "whole");
+  EXPECT_EQ(count(), 2U);
+}
+
+TEST_F(Files, ASetIsOfOneWriter) {
+  const std::array<fs::path, 3> paths = {in_folder("a"), in_folder("b"), in_folder("c")};
+  for (int round = 0; round < 50; ++round) {
+    const auto write = [&](const std::string& text) {
+      write_whole({{paths[0], text}, {paths[1], text}, {paths[2], text}});
+    };
+    std::thread other(write, "other");
+    write("this");
+    other.join();
+    for (const fs::path& path : paths) EXPECT_EQ(read_whole(path), read_whole(paths[0])) << round;
+  }
+}
+
+TEST_F(Files, NoneIsReplacedWhereAFolderHasTheNameOfOne) {
+  write_whole({{in_folder("a"), "before"}});
+  fs::create_directory(in_folder("b"));
+  EXPECT_THROW(write_whole({{in_folder("a"), "after"}, {in_folder("b"), "after"}}), InputError);
+  EXPECT_EQ(read_whole(in_folder("a")), "before");
   EXPECT_EQ(count(), 2U);
 }
 
