@@ -34,6 +34,7 @@ struct Machine {
   }
 };
 
+/// How far inside its limit a margin is [N or m].
 double margin_value(Machine machine, MarginId id) {
   Model<double>& model = machine.model;
   for (std::size_t i = 0; i < kCables; ++i) model.p_MB[i] = model.p_PB[i] - model.p_PM;

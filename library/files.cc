@@ -120,7 +120,6 @@ void NewFile::require_no_folder() const {
 }
 
 void NewFile::rename_into_place() {
-  require_no_folder();
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "rename into place", errno);
   temporary_.clear();
 }
