@@ -145,12 +145,37 @@ bool moves_held_platform(const Deviation& deviation) {
          !std::ranges::all_of(*deviation.cable_lengths_m, is_zero);
 }
 
+/// Whether it is certainly within the tolerances, all of them.
+bool is_within(const Deviation& deviation, const TolerancesText& tolerances) {
+  using I = MpInterval;
+  const auto exact = [](const DecimalText& x) { return ScalarTraits<I>::from_decimal(x); };
+  const auto squared_norm = [](const Vector3<I>& x) { return I(sqr(x(0)) + sqr(x(1)) + sqr(x(2))); };
+  const auto fits = [&](const std::array<DecimalText, 3>& x, const DecimalText& tolerance) {
+    return certainly_nonpositive(I(squared_norm(vector(x)) - sqr(exact(tolerance))));
+  };
+  for (std::size_t i = 0; i < kCables; ++i) {
+    if (!fits(deviation.base_anchors_m[i], tolerances.base_anchor_m[i])) return false;
+    if (!fits(deviation.platform_anchors_m[i], tolerances.platform_anchor_m[i])) return false;
+    if (!deviation.cable_lengths_m) continue;
+    const DecimalText of_length = tolerances.cable_length_m ? (*tolerances.cable_length_m)[i] : "0";
+    if (!fits({(*deviation.cable_lengths_m)[i], "0", "0"}, of_length)) return false;
+  }
+  const I angle = I(2.0) * atan(sqrt(squared_norm(vector(deviation.turn))));
+  return fits(deviation.load_point_m, tolerances.load_point_m) && fits({deviation.wrench, "0", "0"}, "1") &&
+         fits(deviation.position_m, tolerances.position_m) &&
+         certainly_nonpositive(I(angle - evaluate_constant<I>(tolerances.orientation_rad)));
+}
+
 }  // namespace
 
 MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                              const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
                              const Deviation& deviation, MarginId margin) {
   using I = MpInterval;
+  if (!is_within(deviation, tolerances)) {
+    Faults<I>::raise();
+    return I(0.0);
+  }
   Model<I> deviated = model;
   deviated.p_PM += vector(deviation.load_point_m);
   for (std::size_t i = 0; i < kCables; ++i) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "certify/path_proof.h"
+#include "kinematics/quaternion.h"
 #include "tests/support/robots.h"
 
 namespace taut {
@@ -410,6 +411,49 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
     update(least, deviated.model, pose);
     EXPECT_LT(std::min(least.tension, least.length), 1e-12) << name;
   }
+}
+
+/// By a part in 1e30, which no floating point sees. (At the tolerance itself it is not certainly within; none is proposed there.)
+TEST(Tolerance, NothingIsKnownOfADeviationBeyondThem) {
+  const PrecisionScope precision(128);
+  const Problem problem = robot1_slice();
+  const Model<MpInterval> model = make_model<MpInterval>(problem);
+  TolerancesText tolerances;
+  tolerances.base_anchor_m[1] = tolerances.platform_anchor_m[2] = tolerances.load_point_m = tolerances.position_m =
+      "0.001";
+  tolerances.cable_length_m.emplace().fill("0.001");
+  tolerances.orientation_rad = "0.001";
+  tolerances.wrench[2] = "0.1";
+  Deviation none;
+  none.base_anchors_m.fill({"0", "0", "0"});
+  none.platform_anchors_m = none.base_anchors_m;
+  none.load_point_m = none.position_m = none.turn = {"0", "0", "0"};
+  none.wrench = "0";
+  none.cable_lengths_m.emplace().fill("0");
+  const auto is_known = [&](const auto& edit) {
+    Deviation deviation = none;
+    edit(deviation);
+    Faults<MpInterval>::clear();
+    const Vector3<MpInterval> p(MpInterval(0.0), MpInterval(0.0), MpInterval(0.35));
+    const Matrix3<MpInterval> r =
+        rotation(Quaternion<MpInterval>{MpInterval(0.0), MpInterval(0.0), MpInterval(0.3), MpInterval(1.0)});
+    (void)deviated_quantity(model, tolerances, p, r, deviation, {MarginKind::kLengthMin, 0});
+    return !Faults<MpInterval>::raised();
+  };
+  EXPECT_TRUE(is_known([](Deviation&) {}));
+  const DecimalText inside = "-0.000999999999";
+  const DecimalText beyond = "-0.001000000000000000000000000000001";
+  EXPECT_TRUE(is_known([&](Deviation& d) { d.base_anchors_m[1][0] = inside; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.base_anchors_m[1][0] = beyond; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.base_anchors_m[0][0] = inside; }));
+  EXPECT_TRUE(is_known([&](Deviation& d) { d.platform_anchors_m[2][1] = "0.00099"; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.platform_anchors_m[2][1] = beyond; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.load_point_m[2] = beyond; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.position_m = {"0.0008", "0", "0.00061"}; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { (*d.cable_lengths_m)[5] = beyond; }));
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.wrench = "1.000000000000000000000000000001"; }));
+  EXPECT_TRUE(is_known([&](Deviation& d) { d.turn[0] = "0.0005"; }));  // its arc tangent is less
+  EXPECT_FALSE(is_known([&](Deviation& d) { d.turn[0] = "0.000500001"; }));
 }
 
 TEST(Tolerance, ZerosChangeNothing) {
