@@ -7,19 +7,24 @@
 
 #include <mpfr.h>
 
+#include <array>
 #include <string>
 #include <utility>
 
 namespace taut {
 
+namespace big_float_detail {
+inline constinit thread_local mpfr_prec_t precision = 128;
+}
+
 /// Bits of every BigFloat that this thread makes from now on.
-[[nodiscard]] mpfr_prec_t working_precision();
+[[nodiscard]] inline mpfr_prec_t working_precision() { return big_float_detail::precision; }
 
 /// Sets working_precision() while in scope.
 class PrecisionScope {
  public:
-  explicit PrecisionScope(mpfr_prec_t bits);
-  ~PrecisionScope();
+  explicit PrecisionScope(mpfr_prec_t bits) : saved_(working_precision()) { big_float_detail::precision = bits; }
+  ~PrecisionScope() { big_float_detail::precision = saved_; }
   PrecisionScope(const PrecisionScope&) = delete;
   PrecisionScope& operator=(const PrecisionScope&) = delete;
 
@@ -27,38 +32,37 @@ class PrecisionScope {
   mpfr_prec_t saved_;
 };
 
+/// Numbers of up to kInPlaceBits live where they are declared, with no memory of their own to allocate, which would take a third
+/// of the time of a sum; longer ones live on the heap.
 class BigFloat {
  public:
+  static constexpr mpfr_prec_t kInPlaceBits = 256;
+
   BigFloat() {
-    mpfr_init2(x_, working_precision());
+    make(working_precision());
     mpfr_set_zero(x_, 1);
   }
   /// Exact where the working precision is at least 53 bits (it always is).
   explicit(false) BigFloat(double x) {
-    mpfr_init2(x_, working_precision());
+    make(working_precision());
     mpfr_set_d(x_, x, MPFR_RNDN);
   }
   explicit(false) BigFloat(int x) : BigFloat(static_cast<double>(x)) {}
-  BigFloat(const BigFloat& other) {
-    mpfr_init2(x_, mpfr_get_prec(other.x_));
-    mpfr_set(x_, other.x_, MPFR_RNDN);
-  }
-  BigFloat(BigFloat&& other) noexcept {
-    mpfr_init2(x_, MPFR_PREC_MIN);
-    mpfr_swap(x_, other.x_);
-  }
+  BigFloat(const BigFloat& other) { copy(other); }
+  BigFloat(BigFloat&& other) noexcept { take(other); }
   BigFloat& operator=(const BigFloat& other) {
-    if (this != &other) {
-      mpfr_set_prec(x_, mpfr_get_prec(other.x_));
-      mpfr_set(x_, other.x_, MPFR_RNDN);
-    }
+    if (this == &other) return *this;
+    clear();
+    copy(other);
     return *this;
   }
   BigFloat& operator=(BigFloat&& other) noexcept {
-    mpfr_swap(x_, other.x_);
+    if (this == &other) return *this;
+    clear();
+    take(other);
     return *this;
   }
-  ~BigFloat() { mpfr_clear(x_); }
+  ~BigFloat() { clear(); }
 
   [[nodiscard]] mpfr_srcptr get() const { return x_; }
   [[nodiscard]] mpfr_ptr get() { return x_; }
@@ -105,7 +109,41 @@ class BigFloat {
     return apply_rounded(MPFR_RNDN, function, args...);
   }
 
+  using Limbs = std::array<mp_limb_t, kInPlaceBits / (8 * sizeof(mp_limb_t))>;
+  static_assert(kInPlaceBits % (8 * sizeof(mp_limb_t)) == 0);
+
+  // MPFR's custom interface: it never moves or frees limbs that it was handed.
+  [[nodiscard]] bool is_in_place() const { return mpfr_get_prec(x_) <= kInPlaceBits; }
+  void make(mpfr_prec_t bits) {
+    if (bits <= kInPlaceBits) {
+      mpfr_custom_init_set(x_, MPFR_ZERO_KIND, 0, bits, limbs_.data());
+    } else {
+      mpfr_init2(x_, bits);
+    }
+  }
+  void clear() {
+    if (!is_in_place()) mpfr_clear(x_);
+  }
+  /// Into what holds no number yet.
+  void copy(const BigFloat& other) {
+    if (other.is_in_place()) {
+      x_[0] = other.x_[0];
+      limbs_ = other.limbs_;
+      mpfr_custom_move(x_, limbs_.data());
+    } else {
+      mpfr_init2(x_, mpfr_get_prec(other.x_));
+      mpfr_set(x_, other.x_, MPFR_RNDN);
+    }
+  }
+  /// Likewise; `other` holds another number after it.
+  void take(BigFloat& other) {
+    if (other.is_in_place()) return copy(other);
+    x_[0] = other.x_[0];
+    other.make(MPFR_PREC_MIN);
+  }
+
   mpfr_t x_;
+  Limbs limbs_{};
 };
 
 inline double lower_bound(const BigFloat& x) { return x.to_double(MPFR_RNDD); }

@@ -76,9 +76,9 @@ Vector3<MpInterval> vector(const std::array<DecimalText, 3>& text) {
 
 }  // namespace
 
-std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
-                                         const RigidPose& commanded, MarginId margin, bool held_by_lengths,
-                                         double part) {
+std::optional<ProposedDeviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
+                                                 const RigidPose& commanded, MarginId margin, bool held_by_lengths,
+                                                 double part) {
   Machine machine{model, commanded};
   if (held_by_lengths) machine.held = cable_lengths(model, commanded);
   const double step = 1e-6 * model.characteristic_length;
@@ -130,7 +130,7 @@ std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const
   result.wrench = decimal(loaded(part) < loaded(-part) ? part : -part);
   constexpr double kNothing = 1e-9;  // floating point may be off
   if (std::min(loaded(part), loaded(-part)) > kNothing * margin_value(std::move(machine), margin)) return std::nullopt;
-  return result;
+  return ProposedDeviation{std::move(result), !worst.pose.p.hasNaN()};
 }
 
 namespace {

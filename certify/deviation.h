@@ -23,11 +23,17 @@ struct Deviation {
   std::optional<std::array<DecimalText, kCables>> cable_lengths_m = std::nullopt;
 };
 
-/// The one within a `part` of the `tolerances` that brings a margin down furthest, to first order, in floating point: a
-/// proposal. It keeps a billionth off the tolerances. Nothing where it can be followed and the margin stays positive.
-[[nodiscard]] std::optional<Deviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
-                                                       const RigidPose& commanded, MarginId margin,
-                                                       bool held_by_lengths, double part);
+/// What may refute, as floating point sees it.
+struct ProposedDeviation {
+  Deviation deviation;
+  bool leads_to_pose = false;  ///< else floating point can't follow it
+};
+
+/// The one within a `part` of the `tolerances` that brings a margin down furthest, to first order, in floating point. It
+/// keeps a billionth off the tolerances. Nothing where it leads to a pose at which the margin stays positive.
+[[nodiscard]] std::optional<ProposedDeviation> worst_deviation(const TolerancesText& tolerances,
+                                                               const Model<double>& model, const RigidPose& commanded,
+                                                               MarginId margin, bool held_by_lengths, double part);
 
 /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the pose (p, R)
 /// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (held_motion.h): a fault where that

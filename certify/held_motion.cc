@@ -322,27 +322,43 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
     }
     return only_pose(machine, still(here, tube), lengths);
   };
-  // In the largest tube in which both tests succeed.
-  const auto follow = [&](const PoseEnclosure& here, double from, double to) -> std::optional<PoseEnclosure> {
-    constexpr int kSizes = 16;
-    for (int k = 1; k <= kSizes; ++k) {
-      const double turn = std::ldexp(1.0, -2 * k);
+  // In steps of 2^-h of the way, as large as can be proved. Towards singular poses both tests ask for narrower tubes, and
+  // smaller steps for narrower ones yet, so that is where they are sought.
+  constexpr int kMostHalvings = 6;  // the checker goes further down, so that it follows where this does
+  constexpr int kTubes = 8;
+  constexpr int kMoreTubes = 4;  // for each halving
+  constexpr int kNarrowest = 32;
+  constexpr int kSteady = 4;  // steps of a size before a larger one is tried
+  int widest = 1;
+  const auto follow = [&](const PoseEnclosure& here, double from, double to,
+                          int halvings) -> std::optional<PoseEnclosure> {
+    for (int k = widest; k < widest + kTubes + kMoreTubes * halvings && k <= kNarrowest; ++k) {
+      const double turn = std::ldexp(1.0, -k);
       const PoseTube tube{turn * size, turn};
       if (!pose_in_tube(here, tube, MpInterval(from, to))) continue;
-      if (auto found = pose_in_tube(here, tube, MpInterval(to))) return found;
+      if (auto found = pose_in_tube(here, tube, MpInterval(to))) {
+        widest = k;
+        return found;
+      }
     }
     return std::nullopt;
   };
   PoseEnclosure here = pose;
-  constexpr double kLeastStep = 1.0 / 8;  // the checker goes further down, so that it follows where this does
-  double step = 1;
+  int halvings = 0;
+  int steady = 0;
   for (double at = 0; at < 1;) {  // all of these are dyadic, hence exact
-    if (auto next = follow(here, at, at + step)) {
-      here = *std::move(next);
-      at += step;
+    const double next = std::min(1.0, at + std::ldexp(1.0, -halvings));
+    if (auto found = follow(here, at, next, halvings)) {
+      here = *std::move(found);
+      at = next;
+      if (++steady == kSteady) {
+        steady = 0;
+        halvings = std::max(0, halvings - 1);
+        widest = std::max(1, widest - 1);
+      }
     } else {
-      step *= 0.5;
-      if (step < kLeastStep) return std::nullopt;
+      steady = 0;
+      if (++halvings > kMostHalvings) return std::nullopt;
     }
   }
   return here;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "certify/held_reference.h"
 #include "kinematics/input_error.h"
@@ -160,9 +161,10 @@ struct Prover::Walk {
   std::vector<Task> stack = {Task{}};
   int judged = 0;
   int multiprecision = 0;
-  bool motion_given_up = false;   ///< somewhere on the segment, with all means
-  bool deviation_found = false;   ///< that refutes it
-  bool deviation_failed = false;  ///< one that would refute it, if it were proved where that leads: not tried again
+  bool motion_given_up = false;    ///< somewhere on the segment, with all means
+  bool deviation_found = false;    ///< that refutes it
+  bool all_margins_tried = false;  ///< by deviations
+  bool deviation_failed = false;   ///< one that would refute it, if it were proved where that leads: not tried again
   Task next() {
     const Task task = std::move(stack.back());
     stack.pop_back();
@@ -540,26 +542,52 @@ std::optional<SegmentWitness> Prover::refuting_deviation(Walk& walk, const Dyadi
     const PrecisionScope precision(bits_[kDeviationRung]);
     return quantity && certainly_nonpositive(room(fine(kDeviationRung).model, *quantity, of));
   };
-  std::optional<Deviation> worst = worst_within(1, margin);
-  if (!worst) return std::nullopt;
-  if (!refutes(*worst, margin)) {
-    if (!walk.deviation_failed) return std::nullopt;
-    // Where it can't be followed, the least one that breaks any margin may be.
-    const auto break_any = [&](double part) {
-      for (MarginId of : all_margins()) {
-        std::optional<Deviation> smaller = worst_within(part, of);
-        if (!smaller) continue;
-        worst = std::move(smaller);
+  constexpr auto kAll = all_margins();
+  std::vector<MarginId> breaking = {margin};
+  std::optional<ProposedDeviation> worst;
+  // Whether some deviation within this part of the tolerances breaks one of those, or leads nowhere; only such ones stay.
+  const auto breaks = [&](double part) {
+    std::vector<MarginId> still;
+    for (const MarginId of : breaking) {
+      std::optional<ProposedDeviation> found = worst_within(part, of);
+      if (!found) continue;
+      if (still.empty() || (found->leads_to_pose && !worst->leads_to_pose)) {
+        worst = std::move(found);
         margin = of;
-        return true;
       }
-      return false;
-    };
-    constexpr double kLeast = 0x1p-20;
-    for (double part = 0.5; part >= kLeast && break_any(part);) part *= 0.5;
-    if (!refutes(*worst, margin)) return std::nullopt;
+      still.push_back(of);
+    }
+    if (still.empty()) return false;
+    breaking = std::move(still);
+    return true;
+  };
+  if (!breaks(1)) {
+    // The weakest one undisturbed; others may be more sensitive. They are tried at the first such box, and at the last.
+    const bool is_last = box.upper() == Dyadic{1, 0};
+    if (std::exchange(walk.all_margins_tried, true) && !is_last) return std::nullopt;
+    breaking.assign(kAll.begin(), kAll.end());
+    if (!breaks(1)) return std::nullopt;
   }
-  return SegmentWitness{false, margin, box, std::make_shared<const Deviation>(*worst)};
+  if (!worst->leads_to_pose || !refutes(worst->deviation, margin)) {
+    if (worst->leads_to_pose && !walk.deviation_failed) return std::nullopt;
+    // It can't be followed, as towards a singular pose. On the way there some limit breaks first: halved until none does, bisected,
+    // and a little more, so that it can be proved.
+    breaking.assign(kAll.begin(), kAll.end());
+    constexpr double kLeast = 0x1p-20;
+    constexpr int kBisections = 8;
+    constexpr double kMore = 1 + 0x1p-5;
+    double most = 1;
+    while (most > kLeast && breaks(0.5 * most)) most *= 0.5;
+    double none = 0.5 * most;
+    for (int k = 0; k < kBisections; ++k) {
+      const double part = 0.5 * (none + most);
+      (breaks(part) ? most : none) = part;
+    }
+    walk.deviation_failed = true;
+    const bool is_found = breaks(std::min(1.0, kMore * most)) && worst->leads_to_pose;
+    if (!is_found || !refutes(worst->deviation, margin)) return std::nullopt;
+  }
+  return SegmentWitness{false, margin, box, std::make_shared<const Deviation>(std::move(worst->deviation))};
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {

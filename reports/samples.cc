@@ -5,21 +5,6 @@
 
 namespace taut {
 
-namespace {
-
-/// Keeps in `closest` the nearer of it and value's distances from both limits.
-void consider(std::optional<Closest>& closest, int cable, double low, double high, double lower, double upper,
-              double position) {
-  for (const bool is_upper : {false, true}) {
-    const double margin = is_upper ? upper - high : low - lower;
-    if (!closest || margin < closest->margin) {
-      closest = Closest{cable, is_upper, margin, margin / (upper - lower), position};
-    }
-  }
-}
-
-}  // namespace
-
 std::vector<double> resolved(const Waypoint& waypoint) {
   std::vector<double> result(waypoint.x);
   for (std::size_t j = 0; j < result.size(); ++j) result[j] += waypoint.half_turns[j] * ScalarTraits<double>::pi();
@@ -54,29 +39,42 @@ std::vector<PathSample> Sampler::along(const Path& path, std::size_t budget) con
   return samples;
 }
 
-std::optional<Closest> closest_tension(const Model<double>& model, const std::vector<PathSample>& samples) {
-  std::optional<Closest> closest;
+std::optional<SampledViolation> worst_violation(const Model<double>& model, const std::vector<PathSample>& samples) {
+  std::optional<SampledViolation> worst;
+  double furthest = 0;
   for (const PathSample& sample : samples) {
-    if (!sample.statics.regular) continue;
+    const Statics<double>& at = sample.statics;
     for (std::size_t i = 0; i < kCables; ++i) {
-      const double f0 = sample.statics.tension[i];
-      const double v = sample.statics.variation[i];
-      consider(closest, static_cast<int>(i), f0 - v, f0 + v, model.tension_lower[i], model.tension_upper[i],
-               sample.position);
+      const auto consider = [&](bool is_length, bool is_upper, double value, double beyond, double width) {
+        if (!(beyond >= furthest * width)) return;
+        furthest = beyond / width;
+        worst = SampledViolation{static_cast<int>(i), is_length, is_upper, value, sample.position};
+      };
+      const auto both = [&](bool is_length, double low, double high, double lower, double upper) {
+        consider(is_length, false, low, lower - low, upper - lower);
+        consider(is_length, true, high, high - upper, upper - lower);
+      };
+      both(true, at.length[i], at.length[i], model.length_lower[i], model.length_upper[i]);
+      if (!at.regular) continue;
+      both(false, at.tension[i] - at.variation[i], at.tension[i] + at.variation[i], model.tension_lower[i],
+           model.tension_upper[i]);
     }
   }
-  return closest;
+  return worst;
 }
 
-std::optional<Closest> closest_length(const Model<double>& model, const std::vector<PathSample>& samples) {
-  std::optional<Closest> closest;
+std::vector<double> sign_changes(const std::vector<PathSample>& samples) {
+  std::vector<double> changes;
+  bool is_positive = false;
+  bool has_sign = false;
   for (const PathSample& sample : samples) {
-    for (std::size_t i = 0; i < kCables; ++i) {
-      const double d = sample.statics.length[i];
-      consider(closest, static_cast<int>(i), d, d, model.length_lower[i], model.length_upper[i], sample.position);
-    }
+    if (!sample.statics.regular) continue;
+    const bool positive = sample.statics.determinant > 0;
+    if (has_sign && positive != is_positive) changes.push_back(sample.position);
+    is_positive = positive;
+    has_sign = true;
   }
-  return closest;
+  return changes;
 }
 
 Feasibility feasibility(const Model<double>& model, const Statics<double>& statics) {

@@ -36,17 +36,19 @@ class Sampler {
 /// λ = x + π half_turns.
 [[nodiscard]] std::vector<double> resolved(const Waypoint& waypoint);
 
-/// The cable that comes closest to one of its limits, in a sample.
-struct Closest {
-  int cable = 0;        ///< 0…5
-  bool upper = false;   ///< which limit
-  double margin = 0;    ///< distance from the limit [N, m]; negative outside
-  double fraction = 0;  ///< of the width of the limits [1]
+/// A quantity out of its limits, in a sample.
+struct SampledViolation {
+  int cable = 0;  ///< 0…5
+  bool is_length = false;
+  bool is_upper = false;  ///< which limit
+  double value = 0;       ///< [N, m]
   double position = 0;
 };
-[[nodiscard]] std::optional<Closest> closest_tension(const Model<double>& model,
-                                                     const std::vector<PathSample>& samples);
-[[nodiscard]] std::optional<Closest> closest_length(const Model<double>& model, const std::vector<PathSample>& samples);
+/// The one that is furthest beyond its limit, in widths between limits. Singular samples have no tensions.
+[[nodiscard]] std::optional<SampledViolation> worst_violation(const Model<double>& model,
+                                                              const std::vector<PathSample>& samples);
+/// Positions at which det J has another sign than at the sample before.
+[[nodiscard]] std::vector<double> sign_changes(const std::vector<PathSample>& samples);
 
 /// Which limits a pose keeps. A singular pose counts as a tension out of limits.
 enum class Feasibility { kInside, kTensionOut, kLengthOut, kBothOut };

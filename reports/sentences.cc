@@ -99,6 +99,32 @@ std::string stretches_text(const CertificateView& view) {
   return text + "; outside of these the path is proved.";
 }
 
+/// How bad it gets elsewhere: a proof of a violation ends at the first, and where it is often slight.
+std::vector<std::string> sampled_details(const Scene& scene) {
+  if (scene.view.path.segments() == 0 || found_no_path(scene.view)) return {};
+  const std::vector<double> changes = sign_changes(scene.samples);
+  if (!changes.empty()) {
+    return {fmt::format(
+        "Samples, in floating point, see det J change its sign {}, first {}: the platform passes a "
+        "singular pose there, next to which tensions grow without bound.",
+        changes.size() == 1 ? "once" : fmt::format("{} times", changes.size()), place_text(scene, changes.front()))};
+  }
+  const auto worst = worst_violation(scene.sampler.model(), scene.samples);
+  if (!worst) return {};
+  const double limit = [&] {
+    const auto i = static_cast<std::size_t>(worst->cable);
+    const Model<double>& model = scene.sampler.model();
+    if (worst->is_length) return worst->is_upper ? model.length_upper[i] : model.length_lower[i];
+    return worst->is_upper ? model.tension_upper[i] : model.tension_lower[i];
+  }();
+  const auto text = [&](double x) {
+    return worst->is_length ? fmt::format("{:.4g} mm", 1000 * x) : fmt::format("{:.4g} N", x);
+  };
+  return {fmt::format("Of samples, in floating point, the worst is {}: {} of cable {} is {} there; its {} limit is {}.",
+                      place_text(scene, worst->position), worst->is_length ? "the length" : "the tension",
+                      worst->cable + 1, text(worst->value), worst->is_upper ? "upper" : "lower", text(limit))};
+}
+
 std::vector<std::string> refuted_details(const Scene& scene) {
   const CertificateView& view = scene.view;
   const WitnessView& witness = *view.witness;
@@ -140,6 +166,7 @@ std::vector<std::string> refuted_details(const Scene& scene) {
   } else {
     result.emplace_back("There may be other violations: the proof ends at the first.");
   }
+  std::ranges::copy(sampled_details(scene), std::back_inserter(result));
   return result;
 }
 
@@ -159,6 +186,7 @@ std::vector<std::string> undecided_details(const Scene& scene) {
   if (!scene.view.stretches.empty()) {
     result.push_back(fmt::format("In all, {} could not be decided.", plural(scene.view.stretches.size(), "stretch")));
   }
+  std::ranges::copy(sampled_details(scene), std::back_inserter(result));
   return result;
 }
 

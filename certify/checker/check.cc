@@ -310,7 +310,13 @@ class Checker {
         errors[i] = Interval(error);
       }
       if (moves_platform(by)) {
-        pose = deviated_pose(model, stated.pose, stated.geometry.length, *deviant, errors, [this] { heed_stop(); });
+        try {
+          pose = deviated_pose(model, stated.pose, stated.geometry.length, *deviant, errors, [this] { heed_stop(); });
+        } catch (const Undefined& open) {
+          // Smaller steps would help, more bits hardly; each attempt may take seconds.
+          if (model.bits() > kPrecisions.front()) throw Rejected(std::string("not confirmed: ") + open.what());
+          throw;
+        }
       }
     }
     for (std::size_t c = 0; c < 3; ++c) pose.p[c] += Form(Interval(by.position[c]));

@@ -1,5 +1,6 @@
 #include "certify/checker/held.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "certify/checker/krawczyk.h"
@@ -155,12 +156,20 @@ Frame deviated_pose(const Model& stated, const Frame& pose, const Vector6<Form>&
   const double size = mpfr_get_d(stated.platform_size().lower(), MPFR_RNDN);
   if (!std::isfinite(size)) throw Undefined("a platform without a size");
   Frame here = pose;
+  // Steps of 2^-h of the way, each proved in some tube around where it begins; as large as can be proved.
+  constexpr int kMostHalvings = 8;
+  constexpr int kTubes = 8;
+  constexpr int kMoreTubes = 4;  // for each halving
+  constexpr int kNarrowest = 32;
+  constexpr int kSteady = 4;  // steps of a size before a larger one is tried
   mpq_class t = 0;
-  mpq_class step = 1;
-  const mpq_class least_step(1, 64);
+  int halvings = 0;
+  int widest = 1;
+  int steady = 0;
   while (t < 1) {
     before_step();
-    const mpq_class next = t + step < 1 ? mpq_class(t + step) : mpq_class(1);
+    mpq_class next = t + mpq_class(1, 1 << halvings);
+    if (next > 1) next = 1;
     const Interval on_the_way = hull(Interval(t), Interval(next));
     Vector6<Form> L_on_the_way;
     Vector6<Form> L_next;
@@ -172,23 +181,29 @@ Frame deviated_pose(const Model& stated, const Frame& pose, const Vector6<Form>&
     const Model machine = stated.towards(deviant, Interval(next));
     Reference still = at_middle({here, {}, {}});
     bool is_followed = false;
-    constexpr int kTubes = 16;
-    for (int k = 1; !is_followed && k <= kTubes; ++k) {  // the first that does, from the widest on
-      still.tube.turn = std::ldexp(1.0, -2 * k);
+    const int end = std::min(widest + kTubes + kMoreTubes * halvings, kNarrowest + 1);
+    for (int k = widest; !is_followed && k < end; ++k) {
+      still.tube.turn = std::ldexp(1.0, -k);
       still.tube.position = size * still.tube.turn;
       try {
         (void)held_by_lengths(machines, still, L_on_the_way);
         here = held_by_lengths(machine, still, L_next);
         is_followed = true;
+        widest = k;
       } catch (const Undefined&) {
         continue;
       }
     }
     if (is_followed) {
       t = next;
+      if (++steady == kSteady) {
+        steady = 0;
+        halvings = std::max(0, halvings - 1);
+        widest = std::max(1, widest - 1);
+      }
     } else {
-      step /= 2;
-      if (step < least_step) throw Undefined("the pose to which the deviation leads");
+      steady = 0;
+      if (++halvings > kMostHalvings) throw Undefined("the pose to which the deviation leads");
     }
   }
   return here;

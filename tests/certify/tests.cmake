@@ -1,3 +1,4 @@
+taut_add_test(certify big_float LABELS unit LIBS taut::certify)
 taut_add_test(certify segment_proof LABELS unit LIBS taut::certify)
 taut_add_test(certify path_proof LABELS unit LIBS taut::certify)
 taut_add_test(certify certificate LABELS unit LIBS taut::certify)

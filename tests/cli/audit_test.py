@@ -159,6 +159,22 @@ class Audit(InFolder):
         self.assertEqual(verdicts[0], "refuted")
         self.assertNotIn("proved", verdicts)
 
+    def test_tolerances_that_lead_past_singular_poses_are_refuted(self):
+        """By a deviation that breaks a limit before: one that can be followed."""
+        name = os.path.join(AUDITS, "robot1-cable-lengths-tolerances.yaml")
+        self.audit(name, os.path.join(AUDITS, "robot1-cable-lengths.csv"))
+        first, second = ([float.fromhex(x) for x in w["position"] + w["quaternion"] + w["lengths"]]
+                         for w in self.certificate()["path"]["waypoints"][14:16])
+        row = lambda x: ",".join(map(repr, x))
+        path = self.write("path.csv", "px[m],py[m],pz[m],qx,qy,qz,qw,l1[m],l2[m],l3[m],l4[m],l5[m],l6[m]\n"
+                          f"{row(first)}\n,,,,,,,{row(second[7:])}\n")
+        text = text_of(name)
+        for tolerance, verdict in [(0.01, "proved"), (3, "refuted"), (30, "refuted")]:
+            case = self.write("case.yaml", text.replace("cable_length: 0.01,", f"cable_length: {tolerance},"))
+            self.assertEqual(self.audit(case, path)["verdict"], verdict, tolerance)
+            result = run(CHECK, self.path("out", "certificate.json"), case)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
     def test_a_path_may_come_through_a_pipe(self):
         path = os.path.join(AUDITS, "robot1-bridging.csv")
         result = run(TAUT, "audit", ROBOT1, "/dev/stdin", "--out", self.path("piped"), input=text_of(path))

@@ -282,10 +282,19 @@ class EndToEnd(InFolder):
 
     def test_a_waypoint_may_be_lost_to_tolerances(self):
         text = text_of(os.path.join(CASES, "tutorial/04-tolerances.yaml"))
-        case = self.write("loose.yaml", re.sub(r"tolerances: {base_anchors: 0.1,", "tolerances: {base_anchors: 5,", text))
-        said = run(TAUT, "plan", case, "--out", self.out)
+
+        def plan(tolerance):
+            case = self.write("loose.yaml", text.replace("{base_anchors: 0.1,", f"{{base_anchors: {tolerance},"))
+            return run(TAUT, "plan", case, "--out", self.out)
+
+        said = plan(1.2)  # more than can be proved, less than is violated
         self.assertEqual(said.returncode, 2, said.stdout + said.stderr)
-        self.assertIn("waypoint 0 of the query: the tolerances are too large for a proof there [U6]", said.stdout)
+        self.assertRegex(said.stdout, r"waypoint \d of the query: the tolerances are too large for a proof there \[U6\]")
+        for far_too_large in (5, 100):
+            said = plan(far_too_large)
+            self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+            self.assertIn("on a machine that deviates within the tolerances", said.stdout)
+            self.assertIn("accepted", said.stdout)
 
     def test_an_interrupted_plan_is_undecided_and_leaves_whole_files(self):
         good = text_of(os.path.join(CASES, "robot2-sphere-q1-q2-q3.yaml"))

@@ -40,18 +40,57 @@ TEST(Samples, TellWhichLimitsAPoseBreaks) {
   EXPECT_EQ(at(-2.3, 3.0), Feasibility::kTensionOut);
 }
 
-TEST(Samples, FindTheClosestLimit) {
-  const CertificateView view = read_certificate(sample::proved());
-  Sampler sampler(view.problem);
-  PathSample sample = sampler.at(view.path, 0);
-  sample.statics.tension = {0.2, 0.2, 0.2, 0.45, 0.2, 0.2};
-  sample.statics.variation = {0.01, 0.01, 0.01, 0.02, 0.01, 0.01};
-  const std::optional<Closest> closest = closest_tension(sampler.model(), {sample});
-  ASSERT_TRUE(closest);
-  EXPECT_EQ(closest->cable, 3);
-  EXPECT_TRUE(closest->upper);
-  EXPECT_NEAR(closest->margin, 0.03, 1e-12);
-  EXPECT_NEAR(closest->fraction, 0.03 / 0.45, 1e-12);
+class SampledViolations : public ::testing::Test {
+ protected:
+  /// Tensions 0.2 ± 0.01 N within (0.05, 0.5) N; lengths as they are, within (0.1, 0.55) m.
+  [[nodiscard]] PathSample sample(double position) const {
+    PathSample sample = sampler_.at(view_.path, position);
+    sample.statics.tension.fill(0.2);
+    sample.statics.variation.fill(0.01);
+    sample.statics.determinant = 1;
+    return sample;
+  }
+  CertificateView view_ = read_certificate(sample::proved());
+  Sampler sampler_{view_.problem};
+};
+
+TEST_F(SampledViolations, AreNoneWithinLimits) {
+  EXPECT_FALSE(worst_violation(sampler_.model(), {sample(0), sample(1)}));
+}
+
+TEST_F(SampledViolations, AreComparedByTheWidthBetweenLimits) {
+  PathSample slack = sample(0.5);
+  slack.statics.tension[3] = 0.02;  // 0.01 N, 0.04 N below: 0.09 widths
+  PathSample longer = sample(1);
+  longer.statics.length[4] = 0.57;  // 0.02 m beyond: 0.04 widths
+  const auto worst = worst_violation(sampler_.model(), {longer, slack, sample(2)});
+  ASSERT_TRUE(worst);
+  EXPECT_EQ(worst->cable, 3);
+  EXPECT_FALSE(worst->is_length);
+  EXPECT_FALSE(worst->is_upper);
+  EXPECT_NEAR(worst->value, 0.01, 1e-12);
+  EXPECT_EQ(worst->position, 0.5);
+
+  const auto length = worst_violation(sampler_.model(), {longer});
+  ASSERT_TRUE(length);
+  EXPECT_TRUE(length->is_length);
+  EXPECT_TRUE(length->is_upper);
+  EXPECT_EQ(length->cable, 4);
+}
+
+TEST_F(SampledViolations, AtASingularPoseAreOfLengthsOnly) {
+  PathSample singular = sample(0);
+  singular.statics.regular = false;
+  singular.statics.tension[0] = -1e9;
+  EXPECT_FALSE(worst_violation(sampler_.model(), {singular}));
+}
+
+TEST_F(SampledViolations, BetweenSignsOfTheDeterminantAreSingularPoses) {
+  std::vector<PathSample> samples = {sample(0), sample(0.5), sample(1), sample(1.5), sample(2)};
+  EXPECT_TRUE(sign_changes(samples).empty());
+  samples[2].statics.determinant = -1;
+  samples[3].statics.regular = false;  // no sign: 0, or near it
+  EXPECT_EQ(sign_changes(samples), (std::vector<double>{1, 2}));
 }
 
 }  // namespace
