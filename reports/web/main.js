@@ -43,22 +43,23 @@ const PATH_KEYS = {
 };
 
 const panels = [];
+let axis = axes[0];
+
+/// They answer as soon as they are drawn.
 function panelsAt(name, make, keys) {
   const holder = place(name);
   if (!holder || data.samples.position.length === 0) return;
   const made = make(data);
   panels.push(...made);
-  for (const panel of made) panel.redraw(axes[0]);
+  for (const panel of made) panel.redraw(axis);
   holder.append(legend(...keys, ...marked), element("div", { class: made.length === 2 ? "panels two" : "panels" }, ...made.map((panel) => panel.figure)));
+  connect(made, cursor, data.samples);
+  if (cursor.position !== undefined) cursor.position = cursor.position;
+  if (panels.length === made.length) offerAxes();
 }
 
-function joinPlots() {
-  if (panels.length === 0) return;
-  connect(panels, cursor, data.samples);
-  offerAxes();
-}
-
-function redraw(axis) {
+function redraw(chosen) {
+  axis = chosen;
   for (const panel of panels) panel.redraw(axis);
   if (cursor.position !== undefined) cursor.position = cursor.position;
 }
@@ -68,11 +69,11 @@ function offerAxes() {
   if (axes.length < 2) return;
   const words = { time: "time", distance: "distance", turned: "angle turned", segment: "segments" };
   const choice = element("fieldset", { class: "axis-choice" }, element("legend", {}, "Plots along"));
-  axes.forEach((axis, k) => {
-    const input = element("input", { type: "radio", name: "axis", value: axis.name });
+  axes.forEach((offered, k) => {
+    const input = element("input", { type: "radio", name: "axis", value: offered.name });
     input.checked = k === 0;
-    input.addEventListener("change", () => redraw(axis));
-    choice.append(element("label", {}, input, ` ${words[axis.name]}`));
+    input.addEventListener("change", () => redraw(offered));
+    choice.append(element("label", {}, input, ` ${words[offered.name]}`));
   });
   document.querySelector("[data-plot] .panels").closest("[data-plot]").prepend(choice);
 }
@@ -141,14 +142,13 @@ function drawRobot() {
 const jobs = [
   furnishMove,
   () => panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]),
+  () => performance.mark("interactive"), // of what is read first; the rest answers as it is drawn
   () => panelsAt("lengths", lengthPanels, [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]),
   () => data.margins.from.length > 0 &&
     panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]),
   () => panelsAt("pose", posePanels, []),
   () => data.plane && place("plane")?.append(planeFigure(data, cursor)),
   () => data.tolerances.length > 0 && place("tolerances")?.append(toleranceFigure(data)),
-  joinPlots,
-  () => performance.mark("interactive"),
   drawRobot,
 ];
 
