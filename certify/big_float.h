@@ -130,6 +130,7 @@ class BigFloat {
       x_[0] = other.x_[0];
       limbs_ = other.limbs_;
       mpfr_custom_move(x_, limbs_.data());
+      if (mpfr_nan_p(x_) != 0) mpfr_set_nanflag();  // as mpfr_set does: the flag is a fault's
     } else {
       mpfr_init2(x_, mpfr_get_prec(other.x_));
       mpfr_set(x_, other.x_, MPFR_RNDN);

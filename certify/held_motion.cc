@@ -324,7 +324,7 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
   };
   // In steps of 2^-h of the way, as large as can be proved. Towards singular poses both tests ask for narrower tubes, and
   // smaller steps for narrower ones yet, so that is where they are sought.
-  constexpr int kMostHalvings = 6;  // the checker goes further down, so that it follows where this does
+  constexpr int kMostHalvings = 6;  // the checker goes further down, so that it should follow where this does
   constexpr int kTubes = 8;
   constexpr int kMoreTubes = 4;  // for each halving
   constexpr int kNarrowest = 32;
@@ -358,6 +358,7 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
       }
     } else {
       steady = 0;
+      widest = std::max(1, widest - 2);
       if (++halvings > kMostHalvings) return std::nullopt;
     }
   }

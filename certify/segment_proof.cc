@@ -13,8 +13,8 @@ namespace taut {
 
 namespace {
 
-/// Rung of the ladder at which deviations are examined.
-constexpr std::size_t kDeviationRung = 0;
+/// Rung of the ladder at which deviations are examined, where there are so many: their ways cost digits with each step.
+constexpr std::size_t kDeviationRung = 1;
 
 constexpr mpfr_prec_t kFirstRung = 128;
 
@@ -164,7 +164,7 @@ struct Prover::Walk {
   bool motion_given_up = false;    ///< somewhere on the segment, with all means
   bool deviation_found = false;    ///< that refutes it
   bool all_margins_tried = false;  ///< by deviations
-  bool deviation_failed = false;   ///< one that would refute it, if it were proved where that leads: not tried again
+  bool deviation_failed = false;   ///< none was found that can be followed to where it refutes: not sought again
   Task next() {
     const Task task = std::move(stack.back());
     stack.pop_back();
@@ -493,8 +493,9 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
 
 std::optional<MpInterval> Prover::deviated_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
                                                   const Deviation& deviation) const {
-  const PrecisionScope precision(bits_[kDeviationRung]);
-  const ProofModel<MpInterval>& model = fine(kDeviationRung);
+  const std::size_t rung = std::min(kDeviationRung, fine_.size() - 1);
+  const PrecisionScope precision(bits_[rung]);
+  const ProofModel<MpInterval>& model = fine(rung);
   Faults<MpInterval>::clear();
   const auto mid = enclose<MpInterval>(box.mid());
   const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
@@ -529,65 +530,77 @@ DyadicBox Prover::weakest_box(const Segment& segment, MarginId margin) const {
 }
 
 std::optional<SegmentWitness> Prover::refuting_deviation(Walk& walk, const DyadicBox& box, MarginId margin) const {
-  if (fine_.size() <= kDeviationRung || walk.deviation_failed) return std::nullopt;
+  if (fine_.empty() || walk.deviation_failed) return std::nullopt;
   std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
   const RigidPose pose = sampler_->rigid_pose(walk.segment, box.mid().approx());
-  const auto worst_within = [&](double part, MarginId of) {
-    return worst_deviation(*problem_.tolerances, sampler_->model(), pose, of, is_held_by_lengths(walk.segment.law),
-                           part);
+  using Proposal = std::pair<MarginId, ProposedDeviation>;
+  // Of those margins, what breaks them within this part of the tolerances, or leads nowhere.
+  const auto breaking = [&](const std::vector<MarginId>& margins, double part) {
+    std::vector<Proposal> result;
+    for (const MarginId of : margins) {
+      auto worst = worst_deviation(*problem_.tolerances, sampler_->model(), pose, of,
+                                   is_held_by_lengths(walk.segment.law), part);
+      if (worst) result.emplace_back(of, *std::move(worst));
+    }
+    return result;
   };
-  const auto refutes = [&](const Deviation& deviation, MarginId of) {
-    const std::optional<MpInterval> quantity = deviated_at_mid(walk.segment, box, of, deviation);
-    walk.deviation_failed = !quantity;
-    const PrecisionScope precision(bits_[kDeviationRung]);
-    return quantity && certainly_nonpositive(room(fine(kDeviationRung).model, *quantity, of));
+  enum class Outcome { kRefutes, kHarmless, kNotFollowed };
+  const auto attempt = [&](const Proposal& proposal) {
+    const auto& [of, proposed] = proposal;
+    if (!proposed.leads_to_pose) return Outcome::kNotFollowed;
+    const std::optional<MpInterval> quantity = deviated_at_mid(walk.segment, box, of, proposed.deviation);
+    if (!quantity) return Outcome::kNotFollowed;
+    const std::size_t rung = std::min(kDeviationRung, fine_.size() - 1);
+    const PrecisionScope precision(bits_[rung]);
+    return certainly_nonpositive(room(fine(rung).model, *quantity, of)) ? Outcome::kRefutes : Outcome::kHarmless;
+  };
+  const auto witness = [&](const Proposal& proposal) {
+    return SegmentWitness{false, proposal.first, box, std::make_shared<const Deviation>(proposal.second.deviation)};
   };
   constexpr auto kAll = all_margins();
-  std::vector<MarginId> breaking = {margin};
-  std::optional<ProposedDeviation> worst;
-  // Whether some deviation within this part of the tolerances breaks one of those, or leads nowhere; only such ones stay.
-  const auto breaks = [&](double part) {
-    std::vector<MarginId> still;
-    for (const MarginId of : breaking) {
-      std::optional<ProposedDeviation> found = worst_within(part, of);
-      if (!found) continue;
-      if (still.empty() || (found->leads_to_pose && !worst->leads_to_pose)) {
-        worst = std::move(found);
-        margin = of;
-      }
-      still.push_back(of);
-    }
-    if (still.empty()) return false;
-    breaking = std::move(still);
-    return true;
-  };
-  if (!breaks(1)) {
-    // The weakest one undisturbed; others may be more sensitive. They are tried at the first such box, and at the last.
+  const std::vector<MarginId> all(kAll.begin(), kAll.end());
+  std::vector<Proposal> proposals = breaking({margin}, 1);
+  if (proposals.empty()) {
+    // That is the weakest one undisturbed. Others may be more sensitive: tried where this is first asked, and at the segment's end.
     const bool is_last = box.upper() == Dyadic{1, 0};
     if (std::exchange(walk.all_margins_tried, true) && !is_last) return std::nullopt;
-    breaking.assign(kAll.begin(), kAll.end());
-    if (!breaks(1)) return std::nullopt;
+    proposals = breaking(all, 1);
+    if (proposals.empty()) return std::nullopt;
   }
-  if (!worst->leads_to_pose || !refutes(worst->deviation, margin)) {
-    if (worst->leads_to_pose && !walk.deviation_failed) return std::nullopt;
-    // It can't be followed, as towards a singular pose. On the way there some limit breaks first: halved until none does, bisected,
-    // and a little more, so that it can be proved.
-    breaking.assign(kAll.begin(), kAll.end());
-    constexpr double kLeast = 0x1p-20;
-    constexpr int kBisections = 8;
-    constexpr double kMore = 1 + 0x1p-5;
-    double most = 1;
-    while (most > kLeast && breaks(0.5 * most)) most *= 0.5;
-    double none = 0.5 * most;
-    for (int k = 0; k < kBisections; ++k) {
-      const double part = 0.5 * (none + most);
-      (breaks(part) ? most : none) = part;
-    }
-    walk.deviation_failed = true;
-    const bool is_found = breaks(std::min(1.0, kMore * most)) && worst->leads_to_pose;
-    if (!is_found || !refutes(worst->deviation, margin)) return std::nullopt;
+  switch (attempt(proposals.front())) {
+    case Outcome::kRefutes: return witness(proposals.front());
+    case Outcome::kHarmless: return std::nullopt;
+    case Outcome::kNotFollowed: break;
   }
-  return SegmentWitness{false, margin, box, std::make_shared<const Deviation>(std::move(worst->deviation))};
+  // As towards a singular pose. On the way there some limit breaks first: the part is halved until none does, bisected, and
+  // taken a little larger, so that it can be proved.
+  constexpr double kLeast = 0x1p-20;
+  constexpr int kBisections = 8;
+  constexpr double kMore = 1 + 0x1p-5;
+  std::vector<MarginId> margins = all;
+  const auto breaks = [&](double part) {
+    std::vector<Proposal> found = breaking(margins, part);
+    if (found.empty()) return false;
+    margins.clear();
+    for (const Proposal& proposal : found) margins.push_back(proposal.first);
+    return true;
+  };
+  double most = 1;
+  while (most > kLeast && breaks(0.5 * most)) most *= 0.5;
+  double none = 0.5 * most;
+  for (int k = 0; k < kBisections; ++k) {
+    const double part = 0.5 * (none + most);
+    (breaks(part) ? most : none) = part;
+  }
+  constexpr int kAttempts = 2;  // a proof of a way takes long
+  int attempts = 0;
+  for (const Proposal& proposal : breaking(margins, std::min(1.0, kMore * most))) {
+    if (!proposal.second.leads_to_pose || attempts == kAttempts) continue;
+    ++attempts;
+    if (attempt(proposal) == Outcome::kRefutes) return witness(proposal);
+  }
+  walk.deviation_failed = true;
+  return std::nullopt;
 }
 
 MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {

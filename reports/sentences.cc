@@ -99,30 +99,42 @@ std::string stretches_text(const CertificateView& view) {
   return text + "; outside of these the path is proved.";
 }
 
-/// How bad it gets elsewhere: a proof of a violation ends at the first, and where it is often slight.
+/// How bad it gets elsewhere: a violation is proved where it begins, and there it is slight. Not where poses are only implied:
+/// samples of them may be of no pose of the motion.
 std::vector<std::string> sampled_details(const Scene& scene) {
-  if (scene.view.path.segments() == 0 || found_no_path(scene.view)) return {};
+  const CertificateView& view = scene.view;
+  if (view.path.segments() == 0 || found_no_path(view) || view.path.interpolation == Interpolation::kCableLengths) {
+    return {};
+  }
   const std::vector<double> changes = sign_changes(scene.samples);
   if (!changes.empty()) {
     return {fmt::format(
-        "Samples, in floating point, see det J change its sign {}, first {}: the platform passes a "
-        "singular pose there, next to which tensions grow without bound.",
+        "In samples, which are floating point, det J changes its sign {}, as first seen {}: "
+        "that suggests singular poses, next to which tensions grow without bound.",
         changes.size() == 1 ? "once" : fmt::format("{} times", changes.size()), place_text(scene, changes.front()))};
+  }
+  const auto singular = std::ranges::find_if(scene.samples, [](const PathSample& s) { return !s.statics.regular; });
+  if (singular != scene.samples.end()) {
+    return {
+        fmt::format("A sample, in floating point, is at a singular pose: {}.", place_text(scene, singular->position))};
   }
   const auto worst = worst_violation(scene.sampler.model(), scene.samples);
   if (!worst) return {};
-  const double limit = [&] {
-    const auto i = static_cast<std::size_t>(worst->cable);
-    const Model<double>& model = scene.sampler.model();
-    if (worst->is_length) return worst->is_upper ? model.length_upper[i] : model.length_lower[i];
-    return worst->is_upper ? model.tension_upper[i] : model.tension_lower[i];
-  }();
-  const auto text = [&](double x) {
-    return worst->is_length ? fmt::format("{:.4g} mm", 1000 * x) : fmt::format("{:.4g} N", x);
+  const auto i = static_cast<std::size_t>(worst->cable);
+  const Limits& limits = (worst->is_length ? view.problem.robot.length_m : view.problem.robot.tension_N)[i];
+  const std::string limit = quantity(worst->is_upper ? limits.upper : limits.lower, worst->is_length);
+  const auto rounded = [&](int digits) {
+    return worst->is_length ? fmt::format("{:.{}g} mm", 1000 * worst->value, digits)
+                            : fmt::format("{:.{}g} N", worst->value, digits);
   };
-  return {fmt::format("Of samples, in floating point, the worst is {}: {} of cable {} is {} there; its {} limit is {}.",
-                      place_text(scene, worst->position), worst->is_length ? "the length" : "the tension",
-                      worst->cable + 1, text(worst->value), worst->is_upper ? "upper" : "lower", text(limit))};
+  std::string value = rounded(4);
+  for (int digits = 6; value == limit && digits <= 15; digits += 3) value = rounded(digits);
+  return {
+      fmt::format("Of samples of the stated machine, in floating point, the worst is {}: there the {} of cable {} {} "
+                  "{}{}. Its {} limit is {}.",
+                  place_text(scene, worst->position), worst->is_length ? "length" : "tension", worst->cable + 1,
+                  worst->is_upper ? "reaches" : "falls to", value,
+                  worst->is_length ? "" : " under a load that is covered", worst->is_upper ? "upper" : "lower", limit)};
 }
 
 std::vector<std::string> refuted_details(const Scene& scene) {

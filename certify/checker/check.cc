@@ -313,8 +313,9 @@ class Checker {
         try {
           pose = deviated_pose(model, stated.pose, stated.geometry.length, *deviant, errors, [this] { heed_stop(); });
         } catch (const Undefined& open) {
-          // Smaller steps would help, more bits hardly; each attempt may take seconds.
-          if (model.bits() > kPrecisions.front()) throw Rejected(std::string("not confirmed: ") + open.what());
+          // Each step costs digits, but no way costs so many: then it is smaller steps that would help. An attempt may take seconds.
+          constexpr int kEnough = 512;
+          if (model.bits() >= kEnough) throw Rejected(std::string("not confirmed: ") + open.what());
           throw;
         }
       }

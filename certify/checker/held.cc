@@ -203,6 +203,7 @@ Frame deviated_pose(const Model& stated, const Frame& pose, const Vector6<Form>&
       }
     } else {
       steady = 0;
+      widest = std::max(1, widest - 2);
       if (++halvings > kMostHalvings) throw Undefined("the pose to which the deviation leads");
     }
   }

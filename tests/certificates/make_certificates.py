@@ -1688,7 +1688,7 @@ def held_deviations():
            enumerate(zip(geometry(slice_audit, here)[1], geometry(slice_audit, there)[1]))}
     _, f0, v, _ = statics(slice_audit, there)
     i = min(range(6), key=lambda n: f0[n] - v[n])
-    reject('held_deviation_past_a_singular_pose', by_lengths, 'The lengths are those of a pose behind singular ones, and so is the value. The way leads elsewhere.',
+    reject('held_deviation_past_a_singular_pose', by_lengths, 'The lengths are those of a pose behind singular ones, and so is the value. The way leads elsewhere, by a nearly singular pose: further than can be followed.',
            'the pose to which the deviation leads', lambda c: (c['problem']['tolerances'].update(cable_length_m=['0.5'] * 6),
            c['witness'].update(witness('tension_min', i, c['problem']['robot']['tension_N'][i][0], f0[i] - v[i], far))))
     # The base turns by half a turn, by straight ways; the lengths are those of the pose as it is. Half-way all base anchors are in one line.
