@@ -13,8 +13,8 @@ namespace taut {
 
 namespace {
 
-/// Rung of the ladder at which deviations are examined, where there are so many: their ways cost digits with each step.
-constexpr std::size_t kDeviationRung = 1;
+/// Rung at which deviations are examined, of so many: their ways cost digits with each step.
+std::size_t deviation_rung(std::size_t rungs) { return std::min<std::size_t>(1, rungs - 1); }
 
 constexpr mpfr_prec_t kFirstRung = 128;
 
@@ -493,7 +493,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
 
 std::optional<MpInterval> Prover::deviated_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
                                                   const Deviation& deviation) const {
-  const std::size_t rung = std::min(kDeviationRung, fine_.size() - 1);
+  const std::size_t rung = deviation_rung(fine_.size());
   const PrecisionScope precision(bits_[rung]);
   const ProofModel<MpInterval>& model = fine(rung);
   Faults<MpInterval>::clear();
@@ -550,7 +550,7 @@ std::optional<SegmentWitness> Prover::refuting_deviation(Walk& walk, const Dyadi
     if (!proposed.leads_to_pose) return Outcome::kNotFollowed;
     const std::optional<MpInterval> quantity = deviated_at_mid(walk.segment, box, of, proposed.deviation);
     if (!quantity) return Outcome::kNotFollowed;
-    const std::size_t rung = std::min(kDeviationRung, fine_.size() - 1);
+    const std::size_t rung = deviation_rung(fine_.size());
     const PrecisionScope precision(bits_[rung]);
     return certainly_nonpositive(room(fine(rung).model, *quantity, of)) ? Outcome::kRefutes : Outcome::kHarmless;
   };
