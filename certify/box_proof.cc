@@ -351,7 +351,8 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
       within_tolerance = false;  // a smaller box would hardly do
     }
     if (certainly_nonpositive(value.at_mid)) {
-      const bool throughout = certainly_nonpositive(value.range);
+      // Where a parameter may be out of its range, the box holds poses that are no witnesses.
+      const bool throughout = enclosure.motion == Status::kKnown && certainly_nonpositive(value.range);
       if (!refuted || (throughout && !verdict.throughout)) {
         refuted = true;
         refuted_id = id;
@@ -408,11 +409,18 @@ BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segme
   return verdict;
 }
 
+bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box) {
+  Faults<MpInterval>::clear();
+  const MpInterval offset(-box.radius(), box.radius());
+  const auto motion = undisturbed_motion(problem, segment, enclose<MpInterval>(box), offset);
+  return motion.status == MotionEnclosure<MpInterval>::Status::kKnown && !Faults<MpInterval>::raised();
+}
+
 int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s) {
   Faults<MpInterval>::clear();
   const auto point = enclose<MpInterval>(s);
   const MotionEnclosure<MpInterval> motion = undisturbed_motion(problem, segment, {point, point}, MpInterval(0.0));
-  if (!motion.is_enclosed()) return 0;
+  if (motion.status != MotionEnclosure<MpInterval>::Status::kKnown) return 0;
   const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
   const Vector3<MpInterval> p_WP = motion.p_WP.unaryExpr(at_mid);
   const Matrix3<MpInterval> r_WP = motion.r_WP.unaryExpr(at_mid);

@@ -125,7 +125,11 @@ struct BoxVerdict {
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
                                    double clearance = 0, int parts = 1);
 
-/// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell.
+/// Whether on all of the box exactly one motion is proved to exist, with its parameters in their ranges.
+[[nodiscard]] bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box);
+
+/// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell, or where the motion
+/// is not known.
 [[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s);
 
 extern template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<Interval>&, const Segment&,

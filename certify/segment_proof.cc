@@ -293,7 +293,7 @@ bool Prover::is_singular_between_ends(const Segment& segment, const DyadicBox& b
     const PrecisionScope precision(bits_[k]);
     const int lower = determinant_sign(fine(k), segment, box.lower());
     const int upper = determinant_sign(fine(k), segment, box.upper());
-    if (lower != 0 && upper != 0) return lower != upper;
+    if (lower != 0 && upper != 0) return lower != upper && is_motion_known(fine(k), segment, box);
   }
   return false;
 }

@@ -9,7 +9,11 @@
 //   - a "refuted" must stand up to the oracle at its witness;
 //   - a "proved" must agree with the oracle at s*, at random points with random deviations, and where a search from there finds
 //     the worst ones; what is close in floating point is looked at in 200 bits. The determinant must keep its sign. Where the
-//     machine is held by lengths, there must be one pose in the tube, from wherever in it Newton's method is started.
+//     machine is held by lengths along the path, there must be one pose in the tube, from wherever in it Newton's method is
+//     started.
+// Segments along which det J changes its sign get limits that nothing reaches: they must never be "proved", and at the two points
+// of a witness the oracle must see the two signs. Every 16th segment is surveyed, too, as an audit does: its proved boxes and its
+// violations are held to the oracle.
 // Any breach is printed with its seed, and the program exits with 1. δ runs over the decades from 1e-13 to 1 of the range.
 //
 // Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--threads N] [--budget SECONDS]
@@ -97,6 +101,7 @@ struct LimitsOf {
 
 // ---- Deviations ------------------------------------------------------------------------------------------------------
 
+constexpr std::uint64_t kSurveyed = 16;  ///< of so many seeds, one
 constexpr double kWithin = 1 - 1e-12;  ///< so that rounding leaves no ball
 
 void scale_to(std::span<double> block, double size) {
@@ -169,6 +174,8 @@ struct Tally {
   std::array<Decades, 6> decades;
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
   Count wrong{0}, looked_at{0}, violated_elsewhere{0};
+  Count crossing{0}, crossing_refuted{0};  ///< segments along which det J changes its sign
+  Count surveyed{0};
 };
 
 // ---- A trial ---------------------------------------------------------------------------------------------------------
@@ -199,11 +206,13 @@ class Judge {
     if (trial_.law == Law::kCableLengths) propose_reference();
     if (!find_extremum() || !set_limits() || !choose_tube()) {
       ++counts.skipped;
+      if (crosses_ && !trial_.is_held()) judge_crossing();
       return;
     }
     const Prover prover(trial_.problem);
-    const Segment segment = trial_.law == Law::kCableLengths ? trial_.curve() : prover.prepared(trial_.curve());
+    const Segment segment = prepared(prover);
     const SegmentProof proof = prover.prove(segment);
+    if (seed_ % kSurveyed == 0) examine_survey(prover.survey(segment), proof.verdict);
     counts.boxes += proof.boxes_judged;
     counts.multiprecision += proof.boxes_multiprecision;
     Decades& decades = tally_.decades[table()];
@@ -248,6 +257,10 @@ class Judge {
                kind, what, seed_, kLawNames[static_cast<std::size_t>(trial_.law)],
                kToleranceNames[static_cast<std::size_t>(trial_.tolerances)], name(id_.kind), id_.cable + 1, delta_,
                decade_, effect_, best_s_);
+  }
+
+  [[nodiscard]] Segment prepared(const Prover& prover) const {
+    return trial_.law == Law::kCableLengths ? trial_.curve() : prover.prepared(trial_.curve());
   }
 
   [[nodiscard]] std::size_t table() const {
@@ -297,6 +310,7 @@ class Judge {
       const double s = static_cast<double>(k) / kSamples;
       const auto at = approx_->statics(s, Deviation());
       if (!at || !std::isfinite(at->determinant) || determinant_sign * at->determinant < 0 || at->determinant == 0) {
+        crosses_ = at && determinant_sign * at->determinant < 0;
         return false;
       }
       determinant_sign = at->determinant > 0 ? 1 : -1;
@@ -343,6 +357,37 @@ class Judge {
       }
     }
     return 0.5 * (low + high);
+  }
+
+  /// Of a path along which floating point sees the sign of det J change.
+  void judge_crossing() {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      trial_.problem.robot.tension_N[i] = {decimal(-1e30), decimal(1e30)};
+      trial_.problem.robot.length_m[i] = {decimal(1e-12 * trial_.size), decimal(1e12 * trial_.size)};
+    }
+    exact_limits_.emplace(trial_.problem);
+    const auto begin = exact_->statics(BigFloat(0.0), Deviation());
+    if (!begin) return;
+    sign_ = begin->determinant > BigFloat(0.0);
+    constexpr int kSamples = 48;
+    bool changes = false;
+    for (int k = 1; k <= kSamples && !changes; ++k) {
+      const auto at = exact_->statics(BigFloat(static_cast<double>(k) / kSamples), Deviation());
+      if (!at) return;
+      changes = (at->determinant > BigFloat(0.0)) != sign_;
+    }
+    if (!changes) return;
+    ++tally_.crossing;
+    const Prover prover(trial_.problem);
+    const SegmentProof proof = prover.prove(prepared(prover));
+    if (proof.verdict == Verdict::kProved) breach("proved, but det J changes its sign");
+    if (proof.verdict == Verdict::kUndecided && options_.list_undecided) {
+      report("undecided across det J = 0", fmt::format("from s = {:.6g}, depth {}: {}", proof.open_box.lower().approx(),
+                                                       proof.open_box.depth, proof.reason.text()));
+    }
+    if (proof.verdict != Verdict::kRefuted) return;
+    ++tally_.crossing_refuted;
+    examine_witness(*proof.witness);
   }
 
   void include(const StaticsAt<double>& at) {
@@ -538,9 +583,47 @@ class Judge {
     return false;
   }
 
+  static BigFloat number_of(const Dyadic& s) { return enclose<MpInterval>(s).lower(); }
+
+  /// What an audit says of the parts of a segment.
+  void examine_survey(const SegmentSurvey& survey, Verdict verdict) {
+    ++tally_.surveyed;
+    const BigFloat s_violated(best_s_);
+    Dyadic end{0, 0};
+    bool all_proved = true;
+    int looked_at = 0;
+    for (const SurveyedBox& part : survey.boxes) {
+      if (part.box.lower() != end) breach("surveyed with a hole or twice");
+      end = part.box.upper();
+      if (part.witness) examine_witness(*part.witness);
+      if (part.kind != SurveyedBox::Kind::kProved) {
+        all_proved = false;
+        continue;
+      }
+      const BigFloat lower = number_of(part.box.lower());
+      const BigFloat upper = number_of(part.box.upper());
+      if (violated_ && !(s_violated < lower) && !(upper < s_violated)) breach("surveyed as proved at s*");
+      constexpr int kBoxes = 8;
+      if (looked_at++ < kBoxes) {
+        const double s = uniform(random_, part.box.lower().approx(), part.box.upper().approx());
+        require_feasible(s, has_tolerances() ? random_deviation(random_) : Deviation(), "in a surveyed part");
+      }
+    }
+    if (end != Dyadic{1, 0}) breach("surveyed in part");
+    if (verdict == Verdict::kRefuted && all_proved) breach("refuted, but surveyed as proved");
+    if (verdict == Verdict::kProved && !all_proved) breach("proved, but not when surveyed");
+  }
+
   void examine_witness(const SegmentWitness& witness) {
-    if (witness.singular) return;
-    const BigFloat s = enclose<MpInterval>(witness.box.mid()).lower();
+    if (witness.singular) {
+      const auto lower = exact_->statics(number_of(witness.box.lower()), Deviation());
+      const auto upper = exact_->statics(number_of(witness.box.upper()), Deviation());
+      if (!lower || !upper || !(lower->determinant * upper->determinant < BigFloat(0.0))) {
+        breach("refuted by a singular pose that is not there");
+      }
+      return;
+    }
+    const BigFloat s = number_of(witness.box.mid());
     if (witness.deviation && !exact_->is_within(*witness.deviation)) breach("refuted by what is beyond the tolerances");
     const auto at = witness.deviation ? exact_->statics(s, *witness.deviation) : exact_->statics(s, Deviation());
     if (!at) return breach("refuted where there is no pose");
@@ -563,7 +646,8 @@ class Judge {
   double best_s_ = 0;
   Deviation worst_;
   bool violated_ = false;
-  bool sign_ = false;  ///< of the determinant
+  bool sign_ = false;     ///< of the determinant
+  bool crosses_ = false;  ///< it changes
   int decade_ = 0;
   double effect_ = 0;  ///< of the tolerances, see largest_effect()
   double delta_ = 0;
@@ -600,13 +684,13 @@ double print_decades(const Decades& table, const char* title, const char* unit, 
 
 int run(const Options& options, double budget) {
   rounding_self_test();
-  constexpr long kChunk = 512;
+  const long chunk = budget > 0 ? 512 : 65536;  // each ends on one thread
   Tally tally;
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   long done = 0;
   while (done < options.count && (budget <= 0 || seconds() < budget)) {
-    const long end = std::min(options.count, done + kChunk);
+    const long end = std::min(options.count, done + chunk);
     tbb::parallel_for(done, end, [&](long k) {
       const PrecisionScope precision(oracle::kBits);
       Judge(options.seed + static_cast<std::uint64_t>(k), options, tally).run();
@@ -643,6 +727,8 @@ int run(const Options& options, double budget) {
              options.seed, elapsed, static_cast<double>(done) / elapsed,
              1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done));
   fmt::print("{} points judged in 200 bits after proofs; {} WRONG\n", tally.looked_at.load(), tally.wrong.load());
+  fmt::print("{} segments surveyed; {} across det J = 0, {} of them refuted\n", tally.surveyed.load(), tally.crossing.load(),
+             tally.crossing_refuted.load());
   if (tally.violated_elsewhere > 0) {
     fmt::print("{} undecided left aside: some deviation leads to a singular pose or beyond another limit\n",
                tally.violated_elsewhere.load());
