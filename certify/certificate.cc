@@ -13,6 +13,7 @@
 #include "certify/checker/claims.h"
 #include "certify/sha256.h"
 #include "kinematics/input_error.h"
+#include "kinematics/shown.h"
 
 namespace taut {
 
@@ -209,10 +210,10 @@ std::vector<double> binary64s(const json& list) {
   std::vector<double> values;
   for (const json& text : list) {
     const auto literal = text.get<std::string>();
-    char* end = nullptr;
-    values.push_back(std::strtod(literal.c_str(), &end));
-    if (literal.empty() || *end != '\0' || !std::isfinite(values.back())) {
-      throw InputError(fmt::format("path: got '{}', expected a finite binary64", literal));
+    values.push_back(std::strtod(literal.c_str(), nullptr));
+    // As the checker reads it: one way to write each.
+    if (literal != hex_float(values.back()) || !std::isfinite(values.back())) {
+      throw InputError(fmt::format("path: got '{}', expected a finite binary64 such as 0x1.8p+1", shown(literal)));
     }
   }
   return values;
@@ -221,6 +222,17 @@ std::vector<double> binary64s(const json& list) {
 }  // namespace
 
 namespace {
+
+int half_turns_from_json(const json& turns) {
+  const bool fits = turns.is_number_unsigned()
+                        ? turns.get<std::uint64_t>() <= std::uint64_t{kMostHalfTurns}
+                        : turns.is_number_integer() && std::abs(turns.get<double>()) <= kMostHalfTurns;
+  if (!fits) {
+    throw InputError(
+        fmt::format("path: got half_turns of {}, expected whole numbers up to {}", turns.dump(), kMostHalfTurns));
+  }
+  return turns.get<int>();
+}
 
 Waypoint waypoint_from_json(Interpolation law, const json& entry) {
   Waypoint waypoint;
@@ -235,7 +247,7 @@ Waypoint waypoint_from_json(Interpolation law, const json& entry) {
     return waypoint;
   }
   waypoint.x = binary64s(entry.at("x"));
-  waypoint.half_turns = entry.at("half_turns").get<std::vector<int>>();
+  for (const json& turns : entry.at("half_turns")) waypoint.half_turns.push_back(half_turns_from_json(turns));
   if (waypoint.half_turns.size() != waypoint.x.size()) throw InputError("path: half_turns and x differ in length");
   if (entry.contains("normals")) waypoint.normals = binary64s(entry["normals"]);
   return waypoint;

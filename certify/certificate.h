@@ -34,6 +34,8 @@ inline constexpr int kCertificateVersion = 3;
 /// An entry of `path.pose_tubes`.
 [[nodiscard]] nlohmann::json pose_tube_json(const PoseTube& tube, std::span<const InnerPose> inner_poses);
 
+inline constexpr int kMostHalfTurns = 1'000'000;  ///< of a waypoint in a certificate, either way
+
 /// A certificate's `path`. @throws InputError for anything malformed.
 [[nodiscard]] Path path_from_json(const nlohmann::json& path);
 

@@ -107,8 +107,9 @@ double stated(LeastOf bound, const Proof& proof) {
 /// state less than there is. Stops where half of what a box's midpoint has is stated.
 class Sharpener {
  public:
-  Sharpener(const Prover& prover, const Path& path, std::vector<SegmentProof>& segments)
-      : prover_(prover), path_(path), segments_(segments), verdicts_(segments.size()) {}
+  Sharpener(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
+            std::vector<SegmentProof>& segments)
+      : prover_(prover), segment_(segment), segments_(segments), verdicts_(segments.size()) {}
 
   void raise(LeastOf bound) {
     constexpr double kEnough = 0.5;
@@ -117,7 +118,7 @@ class Sharpener {
       const auto least = std::ranges::min_element(
           segments_, [&](const SegmentProof& a, const SegmentProof& b) { return stated(bound, a) < stated(bound, b); });
       const auto k = static_cast<std::size_t>(least - segments_.begin());
-      const Segment segment = path_.segment(k);
+      const Segment segment = segment_(k);
       if (!judge_all(segment, k)) return;
       std::vector<BoxVerdict>& verdicts = verdicts_[k];
       const auto worst = std::ranges::min_element(
@@ -171,7 +172,7 @@ class Sharpener {
   }
 
   const Prover& prover_;
-  const Path& path_;
+  const std::function<Segment(std::size_t)>& segment_;
   std::vector<SegmentProof>& segments_;
   std::vector<std::vector<BoxVerdict>> verdicts_;  ///< of the boxes of those segments that were looked at
   int splits_ = 0;
@@ -181,6 +182,12 @@ class Sharpener {
 
 Margins margins_below(double tension_N, double length_m, double wrench_scale) {
   return {decimal_below(tension_N), decimal_below(length_m), decimal_below(wrench_scale)};
+}
+
+void sharpen(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
+             std::vector<SegmentProof>& segments) {
+  Sharpener sharpener(prover, segment, segments);
+  for (const LeastOf bound : {LeastOf::kTension, LeastOf::kScale, LeastOf::kLength}) sharpener.raise(bound);
 }
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known) {
@@ -197,8 +204,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k));
   });
   if (std::ranges::all_of(result.segments, [](const auto& x) { return x.verdict == Verdict::kProved; })) {
-    Sharpener sharpener(prover, path, result.segments);
-    for (const LeastOf bound : {LeastOf::kTension, LeastOf::kScale, LeastOf::kLength}) sharpener.raise(bound);
+    sharpen(prover, [&](std::size_t k) { return path.segment(k); }, result.segments);
   }
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {

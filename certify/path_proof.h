@@ -51,6 +51,12 @@ struct PathProof {
 /// The proof of a segment if it was made before, else null: so that a planner's proofs are not made twice.
 using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 
+/// Raises the least margins of a proved path, as said above.
+/// @param segment   number k of the path, ready to be proved about
+/// @param segments  their proofs, all "proved"; boxes and margins are replaced
+void sharpen(const Prover& prover, const std::function<Segment(std::size_t k)>& segment,
+             std::vector<SegmentProof>& segments);
+
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {});
 

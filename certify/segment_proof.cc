@@ -162,6 +162,7 @@ struct Prover::Walk {
   int judged = 0;
   int multiprecision = 0;
   bool motion_given_up = false;    ///< somewhere on the segment, with all means
+  int singular_open = 0;           ///< boxes next to singular poses, or where the pose is undefined, that all means left open
   bool deviation_found = false;    ///< that refutes it
   bool all_margins_tried = false;  ///< by deviations
   bool deviation_failed = false;   ///< none was found that can be followed to where it refutes: not sought again
@@ -308,6 +309,8 @@ bool Prover::is_proved_inside(Walk& walk, const Task& task) const {
 Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   using Kind = BoxVerdict::Kind;
   constexpr int kHastyMotionDepth = 5;      // where all means failed once, they are not tried again
+  constexpr int kMostSingular = 256;        // open boxes: likewise
+  constexpr int kHastySingularDepth = 8;
   constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
   const auto& [box, rung, is_hopeless, parts] = task;
   if (walk.judged >= options_.max_boxes || walk.multiprecision >= options_.max_multiprecision_boxes) {
@@ -363,6 +366,8 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
     case Kind::kNearSingular:
     case Kind::kFault: break;
   }
+  // A segment all along which the robot is singular (or the pose undefined) would cost all the budget.
+  if (walk.singular_open > kMostSingular && box.depth >= kHastySingularDepth) return give_up(reason_of(verdict.kind));
   if (box.depth < options_.singular_depth) return split();
   if (verdict.kind == Kind::kNearSingular && box.depth == options_.singular_depth && rung == 0 &&
       is_singular_between_ends(walk.segment, box)) {
@@ -476,6 +481,9 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
       case Step::Kind::kGiveUp:
         // There may be violations next to what can't be decided, but no ladder will help.
         task.is_hopeless = true;
+        if (step.verdict.kind == BoxVerdict::Kind::kNearSingular || step.verdict.kind == BoxVerdict::Kind::kFault) {
+          ++walk.singular_open;
+        }
         if (is_fine || step.verdict.kind == BoxVerdict::Kind::kTolerance ||
             step.verdict.kind == BoxVerdict::Kind::kNoMotion) {
           report(Kind::kOpen);

@@ -1,6 +1,8 @@
 #include "kinematics/pose_sampler.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "kinematics/motion_length.h"
 #include "kinematics/pose_conversion.h"
@@ -34,6 +36,34 @@ RigidPose PoseSampler::rigid_pose(const Segment& segment, double s) const {
     wanted[i] = (1 - s) * segment.control[0]->x[kFirstLength + i] + s * segment.control[1]->x[kFirstLength + i];
   }
   return pose_of_lengths(model_, wanted, reference).value_or(reference);
+}
+
+double PoseSampler::distance_to_constraints(const Segment& segment, bool at_end) const {
+  if (!constraints_) return 0;
+  const auto coordinates = [&](const std::vector<double>& parameters) {
+    const Pose<double> at = pose(parameters);
+    const double size = model_.characteristic_length;
+    return std::array<double, 6>{
+        at.p_WP(0) / size, at.p_WP(1) / size, at.p_WP(2) / size, at.phi, at.theta, at.sigma};
+  };
+  const std::array<double, 6> reached = coordinates(parameters(segment, at_end ? 1 : 0));
+  std::array<double, 6> lowest, highest;
+  lowest.fill(HUGE_VAL);
+  highest.fill(-HUGE_VAL);
+  auto stated = segment.controls().subspan(at_end ? 1 : 0, segment.controls().size() - 1);
+  for (const Waypoint* waypoint : stated) {
+    const std::array<double, 6> here =
+        coordinates(curve_parameters(Segment::straight(*waypoint, *waypoint), 0));
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      lowest[i] = std::min(lowest[i], here[i]);
+      highest[i] = std::max(highest[i], here[i]);
+    }
+  }
+  double distance = 0;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    distance = std::max({distance, lowest[i] - reached[i], reached[i] - highest[i]});
+  }
+  return distance;
 }
 
 double PoseSampler::clearance(const Statics<double>& statics) const {

@@ -36,6 +36,11 @@ class PoseSampler {
   }
   /// Of the motion under any law: where lengths are straight, the pose that has them (the reference, if none is found).
   [[nodiscard]] RigidPose rigid_pose(const Segment& segment, double s) const;
+  /// How far the pose on the constraints at a segment's begin, or its end, is beyond those of the control points that matter there
+  /// (one of a straight segment, three of a spline's): the largest difference of a coordinate, positions over the
+  /// platform's size (mean |b_i|), or angle [rad]. 0 without constraints, and where no pose on them is found.
+  [[nodiscard]] double distance_to_constraints(const Segment& segment, bool at_end) const;
+
   [[nodiscard]] Statics<double> statics(const RigidPose& pose) const {
     return taut::statics(model_, pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
   }

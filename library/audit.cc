@@ -33,6 +33,14 @@ struct SegmentResult {
   std::string text;
 };
 
+std::vector<DyadicBox> proved_boxes(const SegmentSurvey& survey) {
+  std::vector<DyadicBox> proved;
+  for (const SurveyedBox& box : survey.boxes) {
+    if (box.kind == SurveyedBox::Kind::kProved) proved.push_back(box.box);
+  }
+  return proved;
+}
+
 /// Some successive segments, on their way through the pipeline.
 struct Batch {
   std::size_t first_segment = 0;
@@ -41,6 +49,13 @@ struct Batch {
   std::vector<std::string> waypoint_texts;  ///< of the new ones
   std::string csv;
   std::vector<SegmentResult> segments;
+
+  /// Number i of the batch, which it refers to.
+  [[nodiscard]] Segment segment(Interpolation law, std::size_t i) const {
+    Segment segment{law, {}, 0};
+    for (std::size_t c = 0; c < control_points(law); ++c) segment.control[c] = &waypoints[i + c].waypoint;
+    return segment;
+  }
 };
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -57,9 +72,12 @@ json place_json(std::size_t segment, const Dyadic& s) { return {{"segment", segm
 class BatchReader {
  public:
   BatchReader(PathSource& source, std::size_t batch_segments)
-      : source_(source), batch_segments_(batch_segments), shared_(control_points(source.law()) - 1) {}
+      : source_(source),
+        batch_segments_(batch_segments),
+        shared_(control_points(source.law()) - 1),
+        sampler_(source.problem()) {}
 
-  /// Null behind the last.
+  /// Null behind the last. @throws InputError where a waypoint is off the space's constraints, and as PathSource::next().
   std::shared_ptr<Batch> next() {
     auto batch = std::make_shared<Batch>();
     batch->first_segment = next_segment_;
@@ -78,14 +96,34 @@ class BatchReader {
     const std::size_t segments = batch->waypoints.size() - shared_;
     batch->segments.resize(segments);
     next_segment_ += segments;
+    require_on_constraints(*batch);
     tail_.assign(batch->waypoints.end() - static_cast<std::ptrdiff_t>(shared_), batch->waypoints.end());
     return batch;
   }
 
  private:
+  /// What is proved is about the poses on the constraints: these have to be those of the file, but for its rounding.
+  void require_on_constraints(const Batch& batch) const {
+    if (!sampler_.constraints()) return;
+    for (std::size_t i = 0; i < batch.segments.size(); ++i) {
+      const Segment segment = batch.segment(source_.law(), i);
+      for (const bool at_end : {false, true}) {
+        const double off = sampler_.distance_to_constraints(segment, at_end);
+        if (off <= kWaypointTolerance) continue;
+        const std::size_t line = batch.waypoints[i + (at_end ? 1 : 0)].line;
+        throw InputError(
+            fmt::format("{}, {} {}: got a pose off the constraints, by {:.3g} of the platform's size or {:.3g} rad, "
+                        "expected at most {}: what is proved is the motion on the constraints",
+                        source_.name(), source_.place_name(), line, off, off, kWaypointTolerance),
+            {source_.name(), line});
+      }
+    }
+  }
+
   PathSource& source_;
   std::size_t batch_segments_;
   std::size_t shared_;
+  PoseSampler sampler_;
   std::size_t next_segment_ = 0;
   std::vector<SourceWaypoint> tail_;
 };
@@ -112,17 +150,12 @@ class BatchProver {
 
  private:
   [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i) const {
-    Segment segment{law_, {}, 0};
-    for (std::size_t c = 0; c < control_points(law_); ++c) segment.control[c] = &batch.waypoints[i + c].waypoint;
     SegmentResult result;
-    result.segment = prover_.prepared(segment);
+    result.segment = prover_.prepared(batch.segment(law_, i));
     result.survey = prover_.survey(result.segment);
     const SegmentSurvey& survey = result.survey;
     const std::size_t number = batch.first_segment + i;
-    std::vector<DyadicBox> proved;
-    for (const SurveyedBox& box : survey.boxes) {
-      if (box.kind == SurveyedBox::Kind::kProved) proved.push_back(box.box);
-    }
+    const std::vector<DyadicBox> proved = proved_boxes(survey);
     for (Gap& gap : gaps(survey)) result.gaps.push_back(stated(result.segment, number, std::move(gap)));
     result.boxes = proved.size();
     const Margins margins =
@@ -152,14 +185,18 @@ class BatchProver {
 /// Takes batches in order; keeps what a summary needs.
 class BatchWriter {
  public:
-  BatchWriter(const PathSource& source, CertificateStream& certificate, const WriteText& csv)
-      : has_times_(source.has_times()),
+  BatchWriter(const PathSource& source, const Prover& prover, CertificateStream& certificate, const WriteText& csv)
+      : prover_(prover),
+        law_(source.law()),
+        sharpens_(source.segments() <= kMostSharpened),
+        has_times_(source.has_times()),
         has_tubes_(!source.problem().space.constraints.empty()),
         has_pose_tubes_(source.law() == Interpolation::kCableLengths),
         certificate_(certificate),
         csv_(csv) {}
 
-  void write(const Batch& batch) {
+  void write(const std::shared_ptr<const Batch>& shared_batch) {
+    const Batch& batch = *shared_batch;
     for (const std::string& text : batch.waypoint_texts) certificate_.add_waypoint(text);
     for (std::size_t i = batch.old_waypoints; has_times_ && i < batch.waypoints.size(); ++i) {
       certificate_.add_time(time_text(batch.waypoints[i]));
@@ -169,7 +206,7 @@ class BatchWriter {
       const auto& [segment, survey, boxes, gaps, text] = batch.segments[i];
       if (has_tubes_) certificate_.add_tube(segment.tube);
       if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube, segment.inner_poses);
-      certificate_.add_segment(text, boxes);
+      if (!sharpens_) certificate_.add_segment(text, boxes);
       result_.boxes += boxes;
       result_.boxes_judged += survey.boxes_judged;
       tension_N_ = std::min(tension_N_, survey.tension_N);
@@ -178,11 +215,13 @@ class BatchWriter {
       for (const StatedGap& gap : gaps) add(batch, i, gap);
     }
     result_.segments += batch.segments.size();
+    if (sharpens_) kept_.push_back(shared_batch);
   }
 
   /// The summary, once all is written.
   [[nodiscard]] Audit finish() {
     close_stretch();
+    if (sharpens_) write_kept();
     if (result_.stretches_violated > 0) {
       result_.verdict = Verdict::kRefuted;
     } else if (result_.stretches_open == 0) {
@@ -208,6 +247,41 @@ class BatchWriter {
       place.time_s = from + s.approx() * (to - from);
     }
     return place;
+  }
+
+  /// The segments of a path that is short enough to be looked at once more: with sharper margins, if it is proved.
+  void write_kept() {
+    std::vector<const SegmentResult*> all;
+    for (const auto& batch : kept_) {
+      for (const SegmentResult& segment : batch->segments) all.push_back(&segment);
+    }
+    if (result_.stretches_violated + result_.stretches_open > 0) {
+      for (const SegmentResult* segment : all) certificate_.add_segment(segment->text, segment->boxes);
+      return;
+    }
+    std::vector<SegmentProof> proofs;
+    for (const SegmentResult* segment : all) {
+      const SegmentSurvey& survey = segment->survey;
+      SegmentProof& proof = proofs.emplace_back();
+      proof.verdict = Verdict::kProved;
+      proof.boxes = proved_boxes(survey);
+      proof.tension_N = survey.tension_N;
+      proof.length_m = survey.length_m;
+      proof.wrench_scale = survey.wrench_scale;
+    }
+    sharpen(prover_, [&](std::size_t k) { return all[k]->segment; }, proofs);
+    result_.boxes = 0;
+    tension_N_ = length_m_ = wrench_scale_ = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < proofs.size(); ++k) {
+      const SegmentProof& proof = proofs[k];
+      const Margins margins = margins_below(proof.tension_N, proof.length_m, proof.wrench_scale);
+      certificate_.add_segment(segment_text(k, k + control_points(law_) - 1, proof.boxes, &margins), proof.boxes.size());
+      result_.boxes += proof.boxes.size();
+      result_.boxes_judged += proof.boxes_judged;
+      tension_N_ = std::min(tension_N_, proof.tension_N);
+      length_m_ = std::min(length_m_, proof.length_m);
+      wrench_scale_ = std::min(wrench_scale_, proof.wrench_scale);
+    }
   }
 
   void add(const Batch& batch, std::size_t i, const StatedGap& stated) {
@@ -253,6 +327,12 @@ class BatchWriter {
     stretch_.reset();
   }
 
+  static constexpr std::size_t kMostSharpened = 5000;  ///< segments
+
+  const Prover& prover_;
+  Interpolation law_;
+  bool sharpens_;
+  std::vector<std::shared_ptr<const Batch>> kept_;  ///< whose segments are not written yet
   bool has_times_, has_tubes_, has_pose_tubes_;
   CertificateStream& certificate_;
   const WriteText& csv_;
@@ -275,7 +355,7 @@ Audit audit(const Prover& prover, PathSource& source, CertificateStream& certifi
       std::clamp<std::size_t>(source.segments() / (kBatchesPerThread * threads), 1, kMostSegments);
   BatchReader reader(source, batch_segments);
   const BatchProver batch_prover(prover, source);
-  BatchWriter writer(source, certificate, csv);
+  BatchWriter writer(source, prover, certificate, csv);
   csv(batch_prover.csv_header());
   std::size_t done = 0;
   using BatchPointer = std::shared_ptr<Batch>;
@@ -289,7 +369,7 @@ Audit audit(const Prover& prover, PathSource& source, CertificateStream& certifi
     return batch;
   };
   const auto write = [&](const BatchPointer& batch) {
-    writer.write(*batch);
+    writer.write(batch);
     done += batch->segments.size();
     progress(done);
   };

@@ -153,6 +153,26 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const bool fits = std::ranges::all_of(certificate_->waypoints, [&](const Waypoint& waypoint) {
     return has_poses(law_) || (waypoint.x.size() == parameters && waypoint.normals.size() == normals);
   });
+  for (std::size_t k = 0; k < certificate_->waypoints.size(); ++k) {
+    const std::vector<int>& turns = certificate_->waypoints[k].half_turns;
+    for (std::size_t j = 0; fits && j < turns.size(); ++j) {
+      const Parameter& parameter = problem_.space.parameters[j];
+      if (turns[j] == 0 || parameter.kind == ParameterKind::kPeriodic) continue;
+      throw InputError(fmt::format("{}: path.waypoints[{}].half_turns: got {} of '{}', expected 0, as it is not periodic",
+                                   path_, k, turns[j], parameter.name),
+                       {path_});
+    }
+  }
+  std::optional<Decimal> last;
+  for (std::size_t k = 0; k < certificate_->times.size(); ++k) {
+    const Decimal time = Decimal::parse(certificate_->times[k]);
+    if (last && !(time > *last)) {
+      throw InputError(fmt::format("{}: path.times[{}]: got {}, expected a time later than the one before", path_, k,
+                                   shown(certificate_->times[k])),
+                       {path_});
+    }
+    last = time;
+  }
   if (!fits || (!certificate_->times.empty() && certificate_->times.size() != certificate_->waypoints.size())) {
     throw InputError(path_ + ": path: got waypoints or times of another size, expected those of the space", {path_});
   }
@@ -244,7 +264,8 @@ std::string PathSource::remarks() const {
   }
   if (maker_ && maker_->lost_line()) {
     text += fmt::format(
-        "From line {} on no pose was found that has the cable lengths of the file and follows from those before.\n",
+        "At line {} no pose was found that has the cable lengths of the file and follows from those before; what is said of later "
+        "lines is about poses next to the last one found.\n",
         *maker_->lost_line());
   }
   return text;

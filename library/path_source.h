@@ -52,6 +52,7 @@ class PathSource {
   [[nodiscard]] std::size_t waypoints() const { return waypoints_; }  ///< with the copy of a single one
   [[nodiscard]] std::size_t segments() const { return waypoints_ - control_points(law_) + 1; }
   [[nodiscard]] bool has_times() const;
+  [[nodiscard]] const std::string& name() const { return path_; }
   /// "line" or "waypoint": what SourceWaypoint::line counts.
   [[nodiscard]] const char* place_name() const { return certificate_ ? "waypoint" : "line"; }
 

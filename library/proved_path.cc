@@ -19,7 +19,6 @@
 namespace taut {
 namespace {
 
-constexpr int kMostHalfTurns = 1'000'000;  // far within what certificates may say
 constexpr long kLeastBits = 128;
 constexpr long kMostBits = 1 << 20;
 
@@ -73,10 +72,25 @@ void require_times(const Path& path) {
   }
 }
 
+void require_on_constraints(const Path& path, const Problem& problem) {
+  if (problem.space.constraints.empty()) return;
+  const PoseSampler sampler(problem);
+  for (std::size_t k = 0; k <= path.segments(); ++k) {
+    const bool is_last = k == path.segments();
+    const double off = sampler.distance_to_constraints(path.segment(is_last ? k - 1 : k), is_last);
+    if (off > kWaypointTolerance) {
+      fail(fmt::format("waypoints[{}]", k),
+           fmt::format("got a pose {:.3g} of the platform's size, or [rad], off the constraints, expected at most {}", off,
+                       kWaypointTolerance));
+    }
+  }
+}
+
 /// Where a pose does not have the lengths beside it, the one next to it that has: what is sought around a rough pose is not found.
-/// The lengths, which are what is commanded, stay.
+/// The lengths, which are what is commanded, stay. One that is far off may be of another assembly of the robot, and is refused.
 void refine_references(Path& path, const Model<double>& model) {
   constexpr double kNearEnough = 1e-6;  // of the platform's size: proofs bear a hundred times as much
+  constexpr double kMostOff = 0.02;     // as an audit asks of a start pose
   std::optional<Eigen::Quaterniond> before;
   for (Waypoint& waypoint : path.waypoints) {
     std::vector<double>& x = waypoint.x;
@@ -87,6 +101,11 @@ void refine_references(Path& path, const Model<double>& model) {
     double off = 0;
     const std::array<double, kCables> has = cable_lengths(model, pose);
     for (std::size_t i = 0; i < kCables; ++i) off = std::max(off, std::abs(has[i] - lengths[i]));
+    if (off > kMostOff * model.characteristic_length) {
+      fail(fmt::format("waypoints[{}].x", &waypoint - path.waypoints.data()),
+           fmt::format("got a pose whose cables' lengths differ by up to {:.4g} m from those beside it, expected at most {:.4g} m", off,
+                       kMostOff * model.characteristic_length));
+    }
     if (off > kNearEnough * model.characteristic_length) {
       if (auto found = pose_of_lengths(model, lengths, pose)) {
         if (before && found->q.dot(*before) < 0) found->q.coeffs() = -found->q.coeffs();  // the shorter way
@@ -124,6 +143,7 @@ nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits,
     for (Waypoint& waypoint : path.waypoints) waypoint.normals = sampler.constraints()->normals(waypoint);
   }
   if (law == Interpolation::kCableLengths) refine_references(path, PoseSampler(problem).model());
+  require_on_constraints(path, audited);
   ProofOptions options;
   options.max_bits = max_bits;
   Prover prover(audited, options);

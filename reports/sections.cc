@@ -417,13 +417,13 @@ Html tolerances(const CertificateView& view) {
           : html(
                 "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
                 "still be "
-                "proved, bisected; of six the largest. It was proved by {} and is no part of the claim that taut-check "
-                "proves again.</p>\n",
+                "proved, bisected; of six the largest. {} says that it proved this; it is no part of the certificate's claim, "
+                "and taut-check does not prove it again.</p>\n",
                 view.generator);
   return section("tolerances", "Tolerances",
                  html("<p>The claim covers every machine within all of these at once.</p>\n") +
                      table(html("Tolerances"),
-                           {{html("Tolerance")}, {html("Stated"), true}, {html("Proved up to, alone"), true}}, rows) +
+                           {{html("Tolerance")}, {html("Stated"), true}, {html("Up to, alone (not re-checked)"), true}}, rows) +
                      note);
 }
 

@@ -653,6 +653,51 @@ std::string read_undecided(const Json& json, std::size_t segments) {
   return text(json["reason"], "undecided.reason");
 }
 
+/// What JSON would allow and a certificate must not have. Of a text that is no JSON it says nothing.
+class StrictReader : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(number_integer_t /*value*/) override { return true; }
+  bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override {
+    throw Malformed("a number that is no integer");
+  }
+  bool string(string_t& /*value*/) override { return true; }
+  bool binary(binary_t& /*value*/) override { return true; }
+  bool start_object(std::size_t /*size*/) override {
+    keys_.emplace_back();
+    return open();
+  }
+  bool key(string_t& name) override {
+    if (!keys_.back().insert(name).second) throw Malformed("the key '" + name + "' appears twice in one object");
+    return true;
+  }
+  bool end_object() override {
+    keys_.pop_back();
+    return close();
+  }
+  bool start_array(std::size_t /*size*/) override { return open(); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                   const nlohmann::detail::exception& /*error*/) override {
+    return false;
+  }
+
+ private:
+  bool open() {
+    if (++depth_ > kMaxNesting) throw Malformed("nested too deeply");
+    return true;
+  }
+  bool close() {
+    --depth_;
+    return true;
+  }
+
+  std::vector<std::set<std::string>> keys_;  ///< of the objects that are open
+  int depth_ = 0;
+};
+
 void require_digest(const Json& value, const Json& claimed, const std::string& where) {
   if (text(claimed, where) != digest(value)) fail(where, "the digest of what the file contains: it was altered");
 }
@@ -663,19 +708,11 @@ nlohmann::json parse_json(const std::string& text) {
   // The library would skip the one, and take the other for the end.
   if (text.starts_with("\xEF\xBB\xBF")) throw Malformed("no JSON: it begins with a byte order mark");
   if (text.find('\0') != std::string::npos) throw Malformed("no JSON: it contains a NUL byte");
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto inspect = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > kMaxNesting) throw Malformed("nested too deeply");
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second) {
-      throw Malformed("the key '" + value.get<std::string>() + "' appears twice in one object");
-    }
-    if (event == Json::parse_event_t::value && value.is_number_float()) throw Malformed("a number that is no integer");
-    return true;
-  };
   try {
-    return Json::parse(text, inspect);
+    // The library could ask us while it builds the value, but then looks at all of an array at the end of each of its objects.
+    StrictReader strict;
+    Json::sax_parse(text, &strict);
+    return Json::parse(text);
   } catch (const Json::exception& error) {
     throw Malformed(std::string("no JSON, or cut: ") + error.what());
   }

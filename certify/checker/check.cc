@@ -52,6 +52,7 @@ class Checker {
     require_waypoints_in_range();
     require_query();
     prove_segments();
+    require_near_waypoints();
   }
 
   void confirm_refuted() {
@@ -68,6 +69,7 @@ class Checker {
       }
     }
     prove_segments();
+    require_near_waypoints();
   }
 
  private:
@@ -440,29 +442,58 @@ class Checker {
     }
   }
 
-  /// Where the space has constraints, the pose reached at the path's waypoint k, which is on them, is next to the
-  /// case's waypoint c: normals and tube are the certificate's own choice, and could lead anywhere. "The query" in
-  /// docs/certificate-format.md.
+  /// In an audit the path itself is what was asked about: wherever a proved box begins or ends at a joint, the motion passes next
+  /// to what the path states there.
+  void require_near_waypoints() {
+    if (!certificate_.problem.query.empty() || certificate_.problem.constraints.empty()) return;
+    if (certificate_.path.interpolation == Interpolation::kGeodesic) return;  // no constraints: the reader asks for it
+    for (std::size_t k = 0; k < certificate_.segments.size(); ++k) {
+      const std::vector<Box>& boxes = certificate_.segments[k].boxes;
+      if (boxes.empty()) continue;
+      const std::string where = "segment " + std::to_string(k) + ": the pose on the constraints at its ";
+      if (boxes.front().begin == 0) require_near(k, {0, 0}, where + "begin");
+      if (boxes.back().end == 1) require_near(k, {1, 1}, where + "end");
+    }
+  }
+
+  /// The pose on the constraints where the path passes its waypoint k, the case's waypoint c.
   void require_reached(std::size_t k, std::size_t c) {
     if (certificate_.problem.constraints.empty()) return;
     const Path& path = certificate_.path;
     const bool is_end = k > 0 && k >= path.segments();
-    const std::size_t segment = is_end ? path.segments() - 1 : k;
-    const Box place = is_end ? Box{1, 1} : Box{0, 0};
+    const std::string what = "query waypoint " + std::to_string(c) + ": the pose on the constraints";
+    require_near(is_end ? path.segments() - 1 : k, is_end ? Box{1, 1} : Box{0, 0}, what);
+  }
+
+  /// Where the space has constraints, the pose reached at the begin or the end of segment k, which is on them, is next to what the
+  /// path states there: normals and tube are the certificate's own choice, and could lead anywhere. Each coordinate is
+  /// between those of the control points that matter there, or hardly beyond. "The query" in docs/certificate-format.md.
+  void require_near(std::size_t k, const Box& place, const std::string& what) {
+    const Path& path = certificate_.path;
+    const std::span<const Waypoint> controls = path.controls(k);
+    // Of a straight segment one matters at either end, of a spline's three; the one of a path that stays matters itself.
+    const std::size_t others = controls.size() == 1 ? 0 : 1;
+    const auto stated = controls.subspan(place.begin == 0 ? 0 : others, controls.size() - others);
+    const std::span<const Waypoint> near =
+        path.interpolation == Interpolation::kCubicBSpline ? stated : stated.first(1);
     escalate([&](const Model& model) {
-      std::vector<Form> typed;
-      for (std::size_t j = 0; j < path.waypoints[k].x.size(); ++j) {
-        typed.emplace_back(Interval{mpq_class(path.waypoints[k].x[j])} +
-                           Interval(path.waypoints[k].half_turns[j]) * Interval::pi());
-      }
-      const Vector6<Form> asked = coordinates(certificate_.problem, typed);
       const Vector6<Form> reached =
-          coordinates(certificate_.problem, parameters(certificate_.problem, path, segment, place));
+          coordinates(certificate_.problem, parameters(certificate_.problem, path, k, place));
+      std::vector<Vector6<Form>> asked;
+      for (const Waypoint& waypoint : near) {
+        asked.push_back(coordinates(certificate_.problem, stated_parameters(waypoint)));
+      }
       for (std::size_t i = 0; i < 6; ++i) {
-        const Interval size = i < 3 ? model.platform_size() : Interval(1);
-        const Interval room = Interval(mpq_class(1, 50)) * size - abs(reached[i].range - asked[i].range);
-        const std::string what = "query waypoint " + std::to_string(c) + ": the pose on the constraints is next to it";
-        require(is_nonnegative(room), what);
+        const Interval room = Interval(mpq_class(1, 50)) * (i < 3 ? model.platform_size() : Interval(1));
+        for (const bool is_above : {false, true}) {
+          Answer answer = Answer::kNo;  // whether some control point is as far on that side
+          for (const Vector6<Form>& other : asked) {
+            const Interval beyond = reached[i].range - other[i].range;
+            const Answer here = is_nonnegative(room + (is_above ? -beyond : beyond));
+            if (here == Answer::kYes || (here == Answer::kUnknown && answer == Answer::kNo)) answer = here;
+          }
+          require(answer, what + " is next to what the path states");
+        }
       }
     });
   }
@@ -584,6 +615,7 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
     result.signer = take_signature(json).value_or("");
     const Certificate certificate = read_certificate(json);
     result.verdict = json["verdict"].get<std::string>();
+    result.is_audit = certificate.problem.query.empty();
     result.segments = certificate.segments.size();
     result.boxes = certificate.boxes;
     result.is_trusted = std::ranges::find(trusted, result.signer) != trusted.end();

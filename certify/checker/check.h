@@ -28,6 +28,7 @@ struct CheckResult {
   std::string verdict;                          ///< the certificate's, once it was read
   std::string signer;                           ///< public key whose signature was verified, or empty
   bool is_trusted = false;                      ///< whether the signer is one of those asked for
+  bool is_audit = false;                        ///< the path itself is what was asked about
   std::size_t segments = 0;
   std::size_t boxes = 0;
   std::size_t pieces = 0;  ///< boxes after splitting: how many were proved at one go

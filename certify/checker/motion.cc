@@ -242,6 +242,14 @@ Frame frame(const Vector6<Form>& pose) {
             {-(sb * cg), sb * sg, cb}}}};
 }
 
+std::vector<Form> stated_parameters(const Waypoint& waypoint) {
+  std::vector<Form> result;
+  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
+    result.emplace_back(Interval{mpq_class(waypoint.x[j])} + Interval(waypoint.half_turns[j]) * Interval::pi());
+  }
+  return result;
+}
+
 Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters) {
   Vector6<Form> result;
   for (std::size_t c = 0; c < 6; ++c) result[c] = problem.pose[c].evaluate(parameters);

@@ -23,6 +23,9 @@ namespace taut::checker {
 /// the box.
 [[nodiscard]] std::vector<Form> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box);
 
+/// Of control point `waypoint` as it is stated, x + pi half_turns.
+[[nodiscard]] std::vector<Form> stated_parameters(const Waypoint& waypoint);
+
 /// px py pz [m], phi theta sigma [rad], by the case's expressions.
 [[nodiscard]] Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters);
 

@@ -84,7 +84,7 @@ int run(int argc, char** argv) {
   bool as_json = false;
   bool quiet = false;
   app.add_option("CERTIFICATE", certificate_path, "certificate.json")->required();
-  app.add_option("CASE", case_path, "case that the certificate must be about");
+  app.add_option("CASE", case_path, "case that the certificate must be about (an audit's path is its own)");
   app.add_option("--trust", key_paths, "reject what is not signed by this Ed25519 public key (PEM); repeatable")
       ->allow_extra_args(false);
   app.add_flag("--json", as_json, "print one JSON object");
@@ -108,6 +108,7 @@ int run(int argc, char** argv) {
     const nlohmann::json report = {{"outcome", name(result.outcome)},
                                    {"message", result.message},
                                    {"verdict", result.verdict},
+                                   {"audit", result.is_audit},
                                    {"segments", result.segments},
                                    {"boxes", result.boxes},
                                    {"pieces", result.pieces},

@@ -3,11 +3,13 @@
 
 Usage: audit_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
+import hashlib
 import json
 import math
 import os
 import re
 import subprocess
+import unittest
 
 from command_line import CHECK, EXIT, InFolder, SOURCE, TAUT, expected, interrupt, main, run, text_of
 
@@ -22,6 +24,38 @@ def fraction(text):
 
 def position(place):
     return place["segment"] + fraction(place["s"])
+
+
+MACHINE = """taut: 1
+name: constrained
+units: {length: mm}
+robot:
+  base_anchors: [[0, 300, 0],[0, 300, 0],[-259.8076, -150, 0],[-259.8076, -150, 0],[259.8076, -150, 0],[259.8076, -150, 0]]
+  platform_anchors: [[-129.9038, 75, 0],[129.9038, 75, 0],[0, -150, 0],[-129.9038, 75, 0],[129.9038, 75, 0],[0, -150, 0]]
+  tension: %s
+  length: [200, 600]
+load:
+  mass: 0.6
+  gravity: [0, 0, 9.81]
+  ellipsoid: {diagonal: [1e4, 1e4, 1e4, 1e4, 1e4, 1e4]}
+space: %s
+"""
+COLUMNS = "px[mm],py[mm],pz[mm],phi[rad],theta[rad],sigma[rad]\n"
+
+
+takes_minutes_sampled = unittest.skipIf("TAUT_SAMPLED" in os.environ, "with sanitizers it takes minutes")
+
+
+def digest(value):
+    return hashlib.sha256(json.dumps(value, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+
+def sealed(certificate):
+    """With the digests of what it says."""
+    certificate["path_sha256"] = digest(certificate["path"])
+    footer = certificate.pop("footer")
+    footer["sha256"] = digest(certificate)
+    return json.dumps({**certificate, "footer": footer})
 
 
 class Audit(InFolder):
@@ -145,6 +179,7 @@ class Audit(InFolder):
         slack = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n0,91.7\n"))
         self.assertEqual(slack["verdict"], "refuted")
 
+    @takes_minutes_sampled
     def test_the_checker_follows_deviations_as_far_as_the_prover(self):
         """From next to a singular pose, where it is about how small the steps are."""
         text = re.sub(r"tension: .*", "tension: [" + "[0, 600], " * 5 + "[0.175769929, 600]]", text_of(ROBOT1))
@@ -159,6 +194,7 @@ class Audit(InFolder):
         self.assertEqual(verdicts[0], "refuted")
         self.assertNotIn("proved", verdicts)
 
+    @takes_minutes_sampled
     def test_tolerances_that_lead_past_singular_poses_are_refuted(self):
         """By a deviation that breaks a limit before: one that can be followed."""
         name = os.path.join(AUDITS, "robot1-cable-lengths-tolerances.yaml")
@@ -215,6 +251,77 @@ class Audit(InFolder):
         self.assertEqual(missing.returncode, 3)
         self.assertIn("nowhere.csv", missing.stderr)
         self.assertFalse(os.path.exists(self.path("refused")))
+
+    def test_waypoints_are_on_the_constraints(self):
+        # What is proved is the motion on them: it must not be of other poses than those of the file.
+        case = self.write("case.yaml", MACHINE % ("[0.01, 60]", '{implicit: ["pz - 272"]}'))
+        rows = "0,-2,{z},0,0.1,0\n0,40,{z},0,0.1,0\n"
+        path = self.write("path.csv", COLUMNS + rows.format(z=276))
+        refused = run(TAUT, "audit", case, path, "--out", self.path("refused"))
+        self.assertEqual(refused.returncode, 3, refused.stdout)
+        self.assertIn("path.csv, line 2: got a pose off the constraints, by 0.0267 of the platform's size", refused.stderr)
+        near = self.audit(case, self.write("near.csv", COLUMNS + rows.format(z="272.5")))
+        self.assertEqual(near["verdict"], "proved")
+        # A certificate chooses its normals. These lead aside.
+        certificate = self.certificate()
+        for waypoint in certificate["path"]["waypoints"]:
+            waypoint["normals"][:3] = ["0x1p+3", "0x0p+0", "0x1p+0"]
+        certificate["path"]["tubes"] = ["0x1p-6"]
+        for segment in certificate["segments"]:
+            for margin, value in (("tension_N", "1e-9"), ("length_m", "1e-9"), ("wrench_scale", "1")):
+                segment["margins"][margin] = certificate["margins"][margin] = value
+        forged = self.write("forged.json", sealed(certificate))
+        checked = run(CHECK, forged)
+        self.assertEqual(checked.returncode, 1, checked.stdout + checked.stderr)
+        self.assertIn("the pose on the constraints at its begin is next to what the path states", checked.stdout)
+        self.assertEqual(run(TAUT, "audit", case, forged, "--out", self.path("forged")).returncode, 3)
+
+    def test_witnesses_are_where_parameters_are_in_their_ranges(self):
+        # The straight line stays in the range of px, the motion on the cylinder does not, and is violated inside and outside.
+        case = self.write("case.yaml", MACHINE % (
+            "[[0.01, 1.59]" + ", [0.01, 60]" * 5 + "]",
+            '{free: {px: [-100, 59], py: [-300, 300], pz: [50, 600]}, implicit: ["px^2 + py^2 - 60^2"]}'))
+        rows = "58,-15.362291495737216,272,0,0.1,0\n58,15.362291495737216,272,0,0.1,0\n"
+        summary = self.audit(case, self.write("path.csv", COLUMNS + rows), "--check")
+        self.assertEqual(summary["verdict"], "refuted")
+        checked = run(CHECK, self.path("out", "certificate.json"), case)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    def test_numbers_of_a_certificate_are_taken_as_they_stand_or_not_at_all(self):
+        path = self.write("path.csv", COLUMNS + "0,0,350,-2.3,1.6,0\n0,1,350,-2.3,1.6,0\n")
+        self.audit(ROBOT1, path)
+        for key, value, said in [("half_turns", 2**32, "got half_turns of 4294967296"),
+                                 ("half_turns", 2**64 - 1, "got half_turns of 18446744073709551615"),
+                                 ("half_turns", 0.5, "got half_turns of 0.5"),
+                                 ("half_turns", True, "got half_turns of true"),
+                                 ("x", "0.1", "got '0.1', expected a finite binary64"),
+                                 ("x", "0X1P+0", "got '0X1P+0'"),
+                                 ("x", "0x1p+0\0", "expected a finite binary64")]:
+            with self.subTest(key=key, value=value):
+                certificate = self.certificate()
+                certificate["path"]["waypoints"][1][key][3] = value
+                self.refused(sealed(certificate), said, name="certificate.json")
+        certificate = self.certificate()
+        certificate["path"]["waypoints"][1]["half_turns"][0] = 1
+        self.refused(sealed(certificate), "path.waypoints[1].half_turns: got 1 of 'px'", name="certificate.json")
+        certificate = self.certificate()
+        certificate["path"]["times"] = ["1", "0"]
+        self.refused(sealed(certificate), "path.times[1]: got 0", name="certificate.json")
+
+    def test_reserves_are_those_of_the_plan(self):
+        planned = json.loads(run(TAUT, "plan", ROBOT1, "--out", self.path("plan"), "--json").stdout)
+        audited = self.audit(ROBOT1, self.path("plan", "path.csv"))
+        self.assertEqual(audited["margins"], planned["margins"])
+
+    def test_a_robot_that_is_singular_everywhere_is_given_up_soon(self):
+        case = text_of(ROBOT1)
+        anchors = re.search(r"^  platform_anchors:.*?(?=^  \w)", case, re.M | re.S).group(0)
+        line = ", ".join(f"[{10 * k}, 0, 0]" for k in range(6))
+        path = self.write("path.csv", COLUMNS + "0,0,350,-2.3,1.6,0\n0,1,350,-2.2,1.6,0\n")
+        case = self.write("case.yaml", case.replace(anchors, f"  platform_anchors: [{line}]\n"))
+        summary = self.audit(case, path)
+        self.assertEqual(summary["verdict"], "undecided")
+        self.assertLess(summary["boxes_judged"], 20000)
 
     def test_repeats_are_dropped_where_allowed(self):
         path = self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n-88.9,80.2\n-88,80.2\n")
