@@ -878,7 +878,7 @@ def implied_motions():
     assert f0[i] - v[i] < 0.05
     write('rejected', 'implied_query_led_astray', certificate(led, path([astray], tubes=[4.0]), 'refuted', witness={
         'at': {'waypoint': 0}, 'kind': 'tension_min', 'cable': i + 1, 'value': enclosing(f0[i] - v[i]), 'limit': '0.05'}),
-        'A true refutation of a pose 2 rad from the waypoint, where a nearly tangent normal leads.', 'next to it')
+        'A true refutation of a pose 2 rad from the waypoint, where a nearly tangent normal leads.', 'next to what the path states')
 
     # Well formed, but false: no motion, or not the only one, or not where it has to be.
     unique, inside, exists = 'it may not be the only one in its tube', 'it may leave its tube', 'the motion on the constraints'
@@ -891,6 +891,9 @@ def implied_motions():
     reject('implied_double_zero', toy_c('x^2'), 'There is one zero; but it is double, so that rounding C would lose it.', exists)
     reject('implied_triple_zero', toy_c('x^3'), 'There is one zero, and it is singular.', exists)
     reject('implied_no_zero', toy_c('x^2 + 1e-30', normals=((0.5, 1),) * 2), 'There is no zero at all.', exists)
+    reject('implied_audit_led_astray', toy_c('x - 1/4', pose={'px': '0.04*x'}),
+           'A motion 10 mm from where the path says, in an audit, which has no query to compare with.', 'next to what the path states',
+           lambda c: c['problem'].update(query={'waypoints': []}))
     reject('implied_no_zero_in_the_tube', toy_c('x - 1', tubes=[0.875]), 'The zero is outside the tube.', inside)
     reject('implied_zero_at_the_end_of_the_tube', toy_c('x - 1', tubes=[1]), 'The zero is not inside the tube, but at its end.', inside)
     reject('implied_without_y', toy_c('t - t + 0*x'), 'The constraint says nothing of x: any is a zero.', exists)
