@@ -204,7 +204,8 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k));
   });
   if (std::ranges::all_of(result.segments, [](const auto& x) { return x.verdict == Verdict::kProved; })) {
-    sharpen(prover, [&](std::size_t k) { return path.segment(k); }, result.segments);
+    sharpen(
+        prover, [&](std::size_t k) { return path.segment(k); }, result.segments);
   }
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {

@@ -161,8 +161,8 @@ struct Prover::Walk {
   std::vector<Task> stack = {Task{}};
   int judged = 0;
   int multiprecision = 0;
-  bool motion_given_up = false;    ///< somewhere on the segment, with all means
-  int singular_open = 0;           ///< boxes next to singular poses, or where the pose is undefined, that all means left open
+  bool motion_given_up = false;  ///< somewhere on the segment, with all means
+  int singular_open = 0;  ///< boxes next to singular poses, or where the pose is undefined, that all means left open
   bool deviation_found = false;    ///< that refutes it
   bool all_margins_tried = false;  ///< by deviations
   bool deviation_failed = false;   ///< none was found that can be followed to where it refutes: not sought again
@@ -308,8 +308,8 @@ bool Prover::is_proved_inside(Walk& walk, const Task& task) const {
 
 Prover::Step Prover::examine(Walk& walk, const Task& task) const {
   using Kind = BoxVerdict::Kind;
-  constexpr int kHastyMotionDepth = 5;      // where all means failed once, they are not tried again
-  constexpr int kMostSingular = 256;        // open boxes: likewise
+  constexpr int kHastyMotionDepth = 5;  // where all means failed once, they are not tried again
+  constexpr int kMostSingular = 256;    // open boxes: likewise
   constexpr int kHastySingularDepth = 8;
   constexpr std::size_t kSingularRung = 3;  // more bits show nothing about a Jacobian that is nearly singular
   const auto& [box, rung, is_hopeless, parts] = task;

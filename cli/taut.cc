@@ -193,8 +193,10 @@ int run(int argc, char** argv) {
                        failed->get_name(), command);
   });
   app.footer(
-      "Exit codes of plan and audit: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or untrustworthy machine. "
-      "Of the others: 0 done (report: and where asked, accepted), 1 not accepted or not as expected, 2 interrupted, 3 and 4 likewise.");
+      "Exit codes of plan and audit: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or "
+      "untrustworthy machine. "
+      "Of the others: 0 done (report: and where asked, accepted), 1 not accepted or not as expected, 2 interrupted, 3 "
+      "and 4 likewise.");
 
   PlanArguments plan_arguments;
   CLI::App* plan_command = app.add_subcommand("plan", "plan, prove, write path.csv, certificate.json, report.html");

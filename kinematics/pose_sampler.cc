@@ -43,8 +43,7 @@ double PoseSampler::distance_to_constraints(const Segment& segment, bool at_end)
   const auto coordinates = [&](const std::vector<double>& parameters) {
     const Pose<double> at = pose(parameters);
     const double size = model_.characteristic_length;
-    return std::array<double, 6>{
-        at.p_WP(0) / size, at.p_WP(1) / size, at.p_WP(2) / size, at.phi, at.theta, at.sigma};
+    return std::array<double, 6>{at.p_WP(0) / size, at.p_WP(1) / size, at.p_WP(2) / size, at.phi, at.theta, at.sigma};
   };
   const std::array<double, 6> reached = coordinates(parameters(segment, at_end ? 1 : 0));
   std::array<double, 6> lowest, highest;
@@ -52,8 +51,7 @@ double PoseSampler::distance_to_constraints(const Segment& segment, bool at_end)
   highest.fill(-HUGE_VAL);
   auto stated = segment.controls().subspan(at_end ? 1 : 0, segment.controls().size() - 1);
   for (const Waypoint* waypoint : stated) {
-    const std::array<double, 6> here =
-        coordinates(curve_parameters(Segment::straight(*waypoint, *waypoint), 0));
+    const std::array<double, 6> here = coordinates(curve_parameters(Segment::straight(*waypoint, *waypoint), 0));
     for (std::size_t i = 0; i < here.size(); ++i) {
       lowest[i] = std::min(lowest[i], here[i]);
       highest[i] = std::max(highest[i], here[i]);

@@ -269,13 +269,15 @@ class BatchWriter {
       proof.length_m = survey.length_m;
       proof.wrench_scale = survey.wrench_scale;
     }
-    sharpen(prover_, [&](std::size_t k) { return all[k]->segment; }, proofs);
+    sharpen(
+        prover_, [&](std::size_t k) { return all[k]->segment; }, proofs);
     result_.boxes = 0;
     tension_N_ = length_m_ = wrench_scale_ = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < proofs.size(); ++k) {
       const SegmentProof& proof = proofs[k];
       const Margins margins = margins_below(proof.tension_N, proof.length_m, proof.wrench_scale);
-      certificate_.add_segment(segment_text(k, k + control_points(law_) - 1, proof.boxes, &margins), proof.boxes.size());
+      certificate_.add_segment(segment_text(k, k + control_points(law_) - 1, proof.boxes, &margins),
+                               proof.boxes.size());
       result_.boxes += proof.boxes.size();
       result_.boxes_judged += proof.boxes_judged;
       tension_N_ = std::min(tension_N_, proof.tension_N);

@@ -158,9 +158,10 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
     for (std::size_t j = 0; fits && j < turns.size(); ++j) {
       const Parameter& parameter = problem_.space.parameters[j];
       if (turns[j] == 0 || parameter.kind == ParameterKind::kPeriodic) continue;
-      throw InputError(fmt::format("{}: path.waypoints[{}].half_turns: got {} of '{}', expected 0, as it is not periodic",
-                                   path_, k, turns[j], parameter.name),
-                       {path_});
+      throw InputError(
+          fmt::format("{}: path.waypoints[{}].half_turns: got {} of '{}', expected 0, as it is not periodic", path_, k,
+                      turns[j], parameter.name),
+          {path_});
     }
   }
   std::optional<Decimal> last;
@@ -264,7 +265,8 @@ std::string PathSource::remarks() const {
   }
   if (maker_ && maker_->lost_line()) {
     text += fmt::format(
-        "At line {} no pose was found that has the cable lengths of the file and follows from those before; what is said of later "
+        "At line {} no pose was found that has the cable lengths of the file and follows from those before; what is "
+        "said of later "
         "lines is about poses next to the last one found.\n",
         *maker_->lost_line());
   }

@@ -80,8 +80,8 @@ void require_on_constraints(const Path& path, const Problem& problem) {
     const double off = sampler.distance_to_constraints(path.segment(is_last ? k - 1 : k), is_last);
     if (off > kWaypointTolerance) {
       fail(fmt::format("waypoints[{}]", k),
-           fmt::format("got a pose {:.3g} of the platform's size, or [rad], off the constraints, expected at most {}", off,
-                       kWaypointTolerance));
+           fmt::format("got a pose {:.3g} of the platform's size, or [rad], off the constraints, expected at most {}",
+                       off, kWaypointTolerance));
     }
   }
 }
@@ -103,8 +103,9 @@ void refine_references(Path& path, const Model<double>& model) {
     for (std::size_t i = 0; i < kCables; ++i) off = std::max(off, std::abs(has[i] - lengths[i]));
     if (off > kMostOff * model.characteristic_length) {
       fail(fmt::format("waypoints[{}].x", &waypoint - path.waypoints.data()),
-           fmt::format("got a pose whose cables' lengths differ by up to {:.4g} m from those beside it, expected at most {:.4g} m", off,
-                       kMostOff * model.characteristic_length));
+           fmt::format("got a pose whose cables' lengths differ by up to {:.4g} m from those beside it, expected at "
+                       "most {:.4g} m",
+                       off, kMostOff * model.characteristic_length));
     }
     if (off > kNearEnough * model.characteristic_length) {
       if (auto found = pose_of_lengths(model, lengths, pose)) {

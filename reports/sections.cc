@@ -417,14 +417,16 @@ Html tolerances(const CertificateView& view) {
           : html(
                 "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
                 "still be "
-                "proved, bisected; of six the largest. {} says that it proved this; it is no part of the certificate's claim, "
+                "proved, bisected; of six the largest. {} says that it proved this; it is no part of the certificate's "
+                "claim, "
                 "and taut-check does not prove it again.</p>\n",
                 view.generator);
-  return section("tolerances", "Tolerances",
-                 html("<p>The claim covers every machine within all of these at once.</p>\n") +
-                     table(html("Tolerances"),
-                           {{html("Tolerance")}, {html("Stated"), true}, {html("Up to, alone (not re-checked)"), true}}, rows) +
-                     note);
+  return section(
+      "tolerances", "Tolerances",
+      html("<p>The claim covers every machine within all of these at once.</p>\n") +
+          table(html("Tolerances"),
+                {{html("Tolerance")}, {html("Stated"), true}, {html("Up to, alone (not re-checked)"), true}}, rows) +
+          note);
 }
 
 Html inputs(const CertificateView& view) {

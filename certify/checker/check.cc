@@ -477,8 +477,7 @@ class Checker {
     const std::span<const Waypoint> near =
         path.interpolation == Interpolation::kCubicBSpline ? stated : stated.first(1);
     escalate([&](const Model& model) {
-      const Vector6<Form> reached =
-          coordinates(certificate_.problem, parameters(certificate_.problem, path, k, place));
+      const Vector6<Form> reached = coordinates(certificate_.problem, parameters(certificate_.problem, path, k, place));
       std::vector<Vector6<Form>> asked;
       for (const Waypoint& waypoint : near) {
         asked.push_back(coordinates(certificate_.problem, stated_parameters(waypoint)));

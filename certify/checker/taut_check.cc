@@ -105,16 +105,11 @@ int run(int argc, char** argv) {
     if (!result.signer.empty()) {
       signature = {{"key", fingerprint(result.signer)}, {"public_key", result.signer}, {"trusted", result.is_trusted}};
     }
-    const nlohmann::json report = {{"outcome", name(result.outcome)},
-                                   {"message", result.message},
-                                   {"verdict", result.verdict},
-                                   {"audit", result.is_audit},
-                                   {"segments", result.segments},
-                                   {"boxes", result.boxes},
-                                   {"pieces", result.pieces},
-                                   {"bits", result.bits},
-                                   {"signature", signature},
-                                   {"seconds", seconds}};
+    const nlohmann::json report = {{"outcome", name(result.outcome)}, {"message", result.message},
+                                   {"verdict", result.verdict},       {"audit", result.is_audit},
+                                   {"segments", result.segments},     {"boxes", result.boxes},
+                                   {"pieces", result.pieces},         {"bits", result.bits},
+                                   {"signature", signature},          {"seconds", seconds}};
     std::cout << report.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
   } else if (!quiet && result.outcome != Outcome::kMalformed) {
     char time[32];

@@ -102,7 +102,7 @@ struct LimitsOf {
 // ---- Deviations ------------------------------------------------------------------------------------------------------
 
 constexpr std::uint64_t kSurveyed = 16;  ///< of so many seeds, one
-constexpr double kWithin = 1 - 1e-12;  ///< so that rounding leaves no ball
+constexpr double kWithin = 1 - 1e-12;    ///< so that rounding leaves no ball
 
 void scale_to(std::span<double> block, double size) {
   double square = 0;
@@ -727,8 +727,8 @@ int run(const Options& options, double budget) {
              options.seed, elapsed, static_cast<double>(done) / elapsed,
              1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done));
   fmt::print("{} points judged in 200 bits after proofs; {} WRONG\n", tally.looked_at.load(), tally.wrong.load());
-  fmt::print("{} segments surveyed; {} across det J = 0, {} of them refuted\n", tally.surveyed.load(), tally.crossing.load(),
-             tally.crossing_refuted.load());
+  fmt::print("{} segments surveyed; {} across det J = 0, {} of them refuted\n", tally.surveyed.load(),
+             tally.crossing.load(), tally.crossing_refuted.load());
   if (tally.violated_elsewhere > 0) {
     fmt::print("{} undecided left aside: some deviation leads to a singular pose or beyond another limit\n",
                tally.violated_elsewhere.load());
