@@ -11,12 +11,12 @@
 //     the worst ones; what is close in floating point is looked at in 200 bits. The determinant must keep its sign. Where the
 //     machine is held by lengths along the path, there must be one pose in the tube, from wherever in it Newton's method is
 //     started.
-// Segments along which det J changes its sign get limits that nothing reaches: they must never be "proved", and at the two points
-// of a witness the oracle must see the two signs. Every 16th segment is surveyed, too, as an audit does: its proved boxes and its
-// violations are held to the oracle.
+// Of every 16 seeds (--surveys) one is looked at more closely. Segments along which det J changes its sign get limits that nothing
+// reaches: they must never be "proved", and at the two points of a witness the oracle must see the two signs. Others are surveyed,
+// as an audit does: proved boxes and violations are held to the oracle.
 // Any breach is printed with its seed, and the program exits with 1. δ runs over the decades from 1e-13 to 1 of the range.
 //
-// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--threads N] [--budget SECONDS]
+// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--surveys N] [--threads N] [--budget SECONDS]
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -101,8 +101,7 @@ struct LimitsOf {
 
 // ---- Deviations ------------------------------------------------------------------------------------------------------
 
-constexpr std::uint64_t kSurveyed = 16;  ///< of so many seeds, one
-constexpr double kWithin = 1 - 1e-12;    ///< so that rounding leaves no ball
+constexpr double kWithin = 1 - 1e-12;  ///< so that rounding leaves no ball
 
 void scale_to(std::span<double> block, double size) {
   double square = 0;
@@ -186,6 +185,8 @@ struct Options {
   std::optional<Law> law;
   std::optional<ToleranceKind> tolerances;
   bool list_undecided = false;
+  std::uint64_t surveys =
+      16;  ///< of so many seeds one is surveyed, and judged if det J changes its sign: a hundred times the work
 };
 
 class Judge {
@@ -206,13 +207,13 @@ class Judge {
     if (trial_.law == Law::kCableLengths) propose_reference();
     if (!find_extremum() || !set_limits() || !choose_tube()) {
       ++counts.skipped;
-      if (crosses_ && !trial_.is_held()) judge_crossing();
+      if (is_surveyed() && crosses_ && !trial_.is_held()) judge_crossing();
       return;
     }
     const Prover prover(trial_.problem);
     const Segment segment = prepared(prover);
     const SegmentProof proof = prover.prove(segment);
-    if (seed_ % kSurveyed == 0) examine_survey(prover.survey(segment), proof.verdict);
+    if (is_surveyed()) examine_survey(prover.survey(segment), proof.verdict);
     counts.boxes += proof.boxes_judged;
     counts.multiprecision += proof.boxes_multiprecision;
     Decades& decades = tally_.decades[table()];
@@ -259,6 +260,7 @@ class Judge {
                decade_, effect_, best_s_);
   }
 
+  [[nodiscard]] bool is_surveyed() const { return seed_ % options_.surveys == 0; }
   [[nodiscard]] Segment prepared(const Prover& prover) const {
     return trial_.law == Law::kCableLengths ? trial_.curve() : prover.prepared(trial_.curve());
   }
@@ -762,6 +764,9 @@ int main(int argc, char** argv) {
   app.add_option("--tolerances", tolerances, "one kind only")
       ->transform(CLI::CheckedTransformer(by_name(kToleranceNames)));
   app.add_flag("--undecided", options.list_undecided, "list the clear ones that are not decided, with their reasons");
+  app.add_option("--surveys", options.surveys,
+                 "of so many seeds one is surveyed as an audit does, and judged also if it crosses det J = 0 (16)")
+      ->check(CLI::PositiveNumber);
   app.add_option("--threads", threads, "0: all");
   app.add_option("--budget", budget, "stop after so many seconds");
   CLI11_PARSE(app, argc, argv);
