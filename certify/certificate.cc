@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <stdexcept>
+#include <system_error>
 
 #include "certify/checker/claims.h"
 #include "certify/sha256.h"
-#include "kinematics/input_error.h"
-#include "kinematics/shown.h"
+#include "kinematics/placed_json.h"
 
 namespace taut {
 
@@ -206,115 +206,103 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
 
 namespace {
 
-std::vector<double> binary64s(const json& list) {
+double binary64(const PlacedJson& field) {
+  const std::string& literal = field.text();
+  const double value = std::strtod(literal.c_str(), nullptr);
+  // As the checker reads it: one way to write each.
+  if (literal != hex_float(value) || !std::isfinite(value)) field.fail("a finite binary64 such as \"0x1.8p+1\"");
+  return value;
+}
+
+std::vector<double> binary64s(const PlacedJson& list) {
   std::vector<double> values;
-  for (const json& text : list) {
-    const auto literal = text.get<std::string>();
-    values.push_back(std::strtod(literal.c_str(), nullptr));
-    // As the checker reads it: one way to write each.
-    if (literal != hex_float(values.back()) || !std::isfinite(values.back())) {
-      throw InputError(fmt::format("path: got '{}', expected a finite binary64 such as 0x1.8p+1", shown(literal)));
-    }
-  }
+  for (std::size_t i = 0; i < list.size(); ++i) values.push_back(binary64(list.at(i)));
   return values;
 }
 
-}  // namespace
-
-namespace {
-
-int half_turns_from_json(const json& turns) {
-  const bool fits = turns.is_number_unsigned()
-                        ? turns.get<std::uint64_t>() <= std::uint64_t{kMostHalfTurns}
-                        : turns.is_number_integer() && std::abs(turns.get<double>()) <= kMostHalfTurns;
-  if (!fits) {
-    throw InputError(
-        fmt::format("path: got half_turns of {}, expected whole numbers up to {}", turns.dump(), kMostHalfTurns));
-  }
-  return turns.get<int>();
+std::vector<double> binary64s(const PlacedJson& list, std::size_t size) {
+  if (list.size() != size) list.fail(fmt::format("a list of {}", size));
+  return binary64s(list);
 }
 
-Waypoint waypoint_from_json(Interpolation law, const json& entry) {
+Waypoint waypoint_from_json(Interpolation law, const PlacedJson& entry) {
   Waypoint waypoint;
   if (has_poses(law)) {
-    waypoint.x = binary64s(entry.at("position"));
-    const auto append = [&](const json& list) {
-      for (const double value : binary64s(list)) waypoint.x.push_back(value);
+    const auto append = [&](const PlacedJson& list, std::size_t size) {
+      for (const double value : binary64s(list, size)) waypoint.x.push_back(value);
     };
-    append(entry.at("quaternion"));
-    if (law == Interpolation::kCableLengths) append(entry.at("lengths"));
-    if (waypoint.x.size() != pose_numbers(law)) throw InputError("path: a waypoint has too few or too many numbers");
+    append(entry.at("position"), 3);
+    append(entry.at("quaternion"), 4);
+    if (law == Interpolation::kCableLengths) append(entry.at("lengths"), kCables);
     return waypoint;
   }
   waypoint.x = binary64s(entry.at("x"));
-  for (const json& turns : entry.at("half_turns")) waypoint.half_turns.push_back(half_turns_from_json(turns));
-  if (waypoint.half_turns.size() != waypoint.x.size()) throw InputError("path: half_turns and x differ in length");
-  if (entry.contains("normals")) waypoint.normals = binary64s(entry["normals"]);
+  for (const PlacedJson& turns : entry.at("half_turns").elements(waypoint.x.size())) {
+    waypoint.half_turns.push_back(static_cast<int>(turns.integer(-kMostHalfTurns, kMostHalfTurns)));
+  }
+  if (entry.contains("normals")) waypoint.normals = binary64s(entry.at("normals"));
   return waypoint;
 }
 
-PoseTube tube_from_json(const json& tube) {
-  const std::vector<double> sizes = binary64s(json::array({tube.at("position"), tube.at("turn")}));
-  return {sizes[0], sizes[1]};
-}
+PoseTube tube_from_json(const PlacedJson& tube) { return {binary64(tube.at("position")), binary64(tube.at("turn"))}; }
 
 /// Of "k/m" with m a power of two, at most 2^52.
-double number_from_dyadic(const std::string& text) {
+double number_from_dyadic(const PlacedJson& field) {
   constexpr std::uint64_t kMostParts = std::uint64_t{1} << 52U;
-  const std::size_t slash = text.find('/');
-  if (slash != std::string::npos) {
-    const std::uint64_t k = std::stoull(text.substr(0, slash));
-    const std::uint64_t m = std::stoull(text.substr(slash + 1));
-    if (k < m && m <= kMostParts && std::has_single_bit(m)) return static_cast<double>(k) / static_cast<double>(m);
+  const std::string& text = field.text();
+  std::uint64_t k = 0;
+  std::uint64_t m = 0;
+  const char* const end = text.data() + text.size();
+  const auto [slash, no_k] = std::from_chars(text.data(), end, k);
+  if (no_k == std::errc() && slash != end && *slash == '/') {
+    const auto [last, no_m] = std::from_chars(slash + 1, end, m);
+    if (no_m == std::errc() && last == end && k < m && m <= kMostParts && std::has_single_bit(m)) {
+      return static_cast<double>(k) / static_cast<double>(m);
+    }
   }
-  throw InputError(fmt::format("path: got an inner pose at '{}', expected k/m with m a power of two up to 2^52", text));
+  field.fail("\"k/m\" with m a power of two up to 2^52");
 }
 
-InnerPose inner_pose_from_json(const json& entry) {
+InnerPose inner_pose_from_json(const PlacedJson& entry) {
   InnerPose inner;
-  inner.s = number_from_dyadic(entry.at("s").get<std::string>());
-  const std::vector<double> position = binary64s(entry.at("position"));
-  const std::vector<double> quaternion = binary64s(entry.at("quaternion"));
-  if (position.size() != 3 || quaternion.size() != 4) {
-    throw InputError("path: an inner pose has too few or too many numbers");
-  }
+  inner.s = number_from_dyadic(entry.at("s"));
+  const std::vector<double> position = binary64s(entry.at("position"), 3);
+  const std::vector<double> quaternion = binary64s(entry.at("quaternion"), 4);
   std::ranges::copy(quaternion, std::ranges::copy(position, inner.x.begin()).out);
   inner.tube = tube_from_json(entry.at("tube"));
   return inner;
 }
 
-Interpolation interpolation_from_json(const json& law) {
+Interpolation interpolation_from_json(const PlacedJson& law) {
+  std::vector<std::string> names;
   for (const Interpolation known : {Interpolation::kStraight, Interpolation::kCubicBSpline, Interpolation::kGeodesic,
                                     Interpolation::kCableLengths}) {
-    if (law == interpolation_name(known)) return known;
+    if (law.value() == interpolation_name(known)) return known;
+    names.emplace_back(interpolation_name(known));
   }
-  throw InputError("path.interpolation: got " + law.dump());
+  law.fail(fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 }  // namespace
 
-Path path_from_json(const json& path) {
-  try {
-    Path result;
-    result.interpolation = interpolation_from_json(path.at("interpolation"));
-    for (const json& entry : path.at("waypoints")) {
-      result.waypoints.push_back(waypoint_from_json(result.interpolation, entry));
-    }
-    result.tubes = binary64s(path.at("tubes"));
-    for (const json& tube : path.at("pose_tubes")) {
-      result.pose_tubes.push_back(tube_from_json(tube));
-      std::vector<InnerPose>& inner = result.inner_poses.emplace_back();
-      if (tube.contains("inner")) {
-        for (const json& pose : tube["inner"]) inner.push_back(inner_pose_from_json(pose));
-      }
-    }
-    if (const json& times = path.at("times"); !times.is_null()) result.times = times.get<std::vector<std::string>>();
-    return result;
-  } catch (const json::exception& error) {
-    throw InputError(std::string("path: ") + error.what());
-  } catch (const std::logic_error& error) {
-    throw InputError(std::string("path: not a number: ") + error.what());
+Path path_from_json(const json& value) {
+  const PlacedJson path(value, "path");
+  Path result;
+  result.interpolation = interpolation_from_json(path.at("interpolation"));
+  for (const PlacedJson& entry : path.at("waypoints").elements()) {
+    result.waypoints.push_back(waypoint_from_json(result.interpolation, entry));
   }
+  result.tubes = binary64s(path.at("tubes"));
+  for (const PlacedJson& tube : path.at("pose_tubes").elements()) {
+    result.pose_tubes.push_back(tube_from_json(tube));
+    std::vector<InnerPose>& inner = result.inner_poses.emplace_back();
+    if (!tube.contains("inner")) continue;
+    for (const PlacedJson& pose : tube.at("inner").elements()) inner.push_back(inner_pose_from_json(pose));
+  }
+  if (const PlacedJson times = path.at("times"); !times.is_null()) {
+    for (const PlacedJson& time : times.elements()) result.times.push_back(time.text());
+  }
+  return result;
 }
 
 }  // namespace taut

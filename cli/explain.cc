@@ -156,13 +156,13 @@ Explanation explained(InputKind kind) {
     case InputKind::kUse:
       return entry("The command line", "An option or argument is not what the command takes; nothing was done.",
                    "A misspelt option; two that exclude each other; a value of another kind.",
-                   "taut COMMAND --help lists what there is.", "--bits: 12 not in range 128 - 1048576 [E1]");
+                   "taut COMMAND --help lists what there is.", "--bits: Value 12 not in range 128 to 1048576 [E1]");
     case InputKind::kFile:
       return entry(
           "A file can't be read or written", "The system refused; it says why.",
           "A wrong name, a folder without write permission, a full disk.",
           "Correct the name or the folder. Files are written whole or not at all: what was there before still is.",
-          "taut: out/x/certificate.json: could not write: No space left on device [E2]");
+          "taut: crane.yaml: could not read: No such file or directory [E2]");
     case InputKind::kCase:
       return entry(
           "The case is wrong",
@@ -172,14 +172,14 @@ Explanation explained(InputKind kind) {
           "definite; a query outside its space.",
           "docs/case-format.md has every key; taut show prints what was understood; taut init writes a case that is "
           "right.",
-          "taut: crane.yaml:12: load.mass: got 'NaN', expected a positive decimal [E3]");
+          "taut: crane.yaml:38:9: load.mass: got 'NaN', expected a decimal number such as 0.05 or 1e-4 [E3]");
     case InputKind::kPath:
       return entry(
           "The path file is wrong", "The path to be audited can't be read, or does not fit the case.",
           "A column without a unit or with an unknown name; a row with a missing number; a repeated pose; lengths "
           "whose first row is not at the start pose.",
           "docs/audits.md lists the forms of files. --allow-repeats drops repeated rows.",
-          "taut: path.csv:17: l3: got 'x', expected a number [E4]");
+          "taut: path.csv:2: theta: got 'x', expected a decimal number such as 0.05 or 1e-4 [E4]");
     case InputKind::kCertificate:
       return entry(
           "No certificate, or not this one",
@@ -188,19 +188,20 @@ Explanation explained(InputKind kind) {
           "Another file; an edited one; one from a newer or older taut.",
           "Take the file as it was written. One of another version is checked by the taut-check that came with "
           "the taut which made it.",
-          "taut: certificate: version: got 2, expected 3: only the taut that made it can make its report, or "
+          "taut: certificate.json: version: got 2, expected 3: only the taut that made it can make its report, or "
           "one of that time [E5]");
     case InputKind::kAtlas:
-      return entry("The atlas file is refused",
-                   "The file belongs to another robot, load, space or planner, or is damaged.",
-                   "The case was changed since the atlas was saved.",
-                   "Save it again: taut plan CASE --save-atlas FILE. docs/atlas-file.md says what a file belongs to.",
-                   "taut: robot1.atlas: made for another problem, expected the case's [E6]");
+      return entry(
+          "The atlas file is refused", "The file belongs to another robot, load, space or planner, or is damaged.",
+          "The case was changed since the atlas was saved.",
+          "Save it again: taut plan CASE --save-atlas FILE. docs/atlas-file.md says what a file belongs to.",
+          "taut: robot1.atlas: the atlas is of another problem: its robot, load or space is not the case's [E6]");
     case InputKind::kKey:
       return entry("The key can't sign", "The file of --sign holds no unencrypted Ed25519 private key in PEM.",
                    "A public key; an RSA key; a key with a passphrase.",
                    "openssl genpkey -algorithm ed25519 -out key.pem",
-                   "taut: key.pem: got an RSA key, expected an unencrypted Ed25519 private key in PEM [E7]");
+                   "taut: key.pem: got a private key of type RSA, expected an unencrypted Ed25519 private key in PEM "
+                   "(openssl genpkey -algorithm ed25519) [E7]");
     case InputKind::kBrowser:
       return entry("There is no browser to print with",
                    "taut report --pdf prints the page by a Chromium that you have, and found none.",

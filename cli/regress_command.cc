@@ -90,8 +90,11 @@ int run_regress(RegressArguments arguments) {
     baseline->tolerance = arguments.tolerance;
   }
   for (const std::string& written : {arguments.junit, arguments.update ? arguments.baseline : std::string()}) {
-    if (!written.empty()) require_writable(written);
+    if (written.empty()) continue;
+    require_writable(written);
+    for (const std::filesystem::path& file : files) require_another(written, file);
   }
+  if (!arguments.junit.empty() && !arguments.baseline.empty()) require_another(arguments.junit, arguments.baseline);
   arguments.options.out = arguments.out;
   if (arguments.budget > 0) arguments.options.budget = arguments.budget;
 

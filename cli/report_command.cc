@@ -75,7 +75,9 @@ int run_report(const ReportArguments& arguments) {
   ReportOptions options{
       arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
   options.recheck = recheck(read_whole(arguments.certificate_path), certificate, arguments.check, interruption.token());
-  const std::optional<Rendered> made = render(arguments, certificate, options, interruption.token());
+  const std::optional<Rendered> made = reading(InputKind::kCertificate, arguments.certificate_path, [&] {
+    return render(arguments, certificate, options, interruption.token());
+  });
   if (!made || interruption.token().stop_requested()) {
     fmt::print(stderr, "taut: interrupted: nothing was written\n");
     return kUndecidedExit;

@@ -25,6 +25,7 @@ int run_show(const ShowArguments& arguments) {
     throw InputErrorOfKind(InputKind::kUse,
                            fmt::format("--out: got '{}', expected a file that ends in .svg", shown(arguments.out)));
   }
+  if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
   const Case case_ = load_case(arguments.case_path);
   const CaseSummary summary(case_);
   if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summary)}});

@@ -5,6 +5,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <numeric>
 #include <optional>
@@ -865,10 +867,12 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
 }
 
 Case load(const std::string& path, const CaseCheck& check) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxFileBytes + 1, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && !file.eof()) {
-    throw InputError(fmt::format("{}: got no readable file, expected a case file", path), {path});
+    const char* reason = errno != 0 ? std::strerror(errno) : "no reason is known";
+    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path, reason), {path});
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parse(text, path, check);

@@ -49,4 +49,20 @@ decltype(auto) reading(InputKind kind, Read read) {
   }
 }
 
+/// The same of what came from a file: its name begins the message, unless the error names one.
+template <class Read>
+decltype(auto) reading(InputKind kind, const std::string& file, Read read) {
+  return reading(kind, [&]() -> decltype(auto) {
+    try {
+      return read();
+    } catch (const InputErrorOfKind&) {
+      throw;
+    } catch (const InputError& error) {
+      const InputPlace& place = error.place();
+      if (!place.file.empty()) throw;
+      throw InputError(file + ": " + error.what(), {file, place.line, place.field});
+    }
+  });
+}
+
 }  // namespace taut

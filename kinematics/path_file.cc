@@ -12,6 +12,7 @@
 #include <map>
 #include <utility>
 
+#include "kinematics/input_kind.h"
 #include "kinematics/scalar.h"
 #include "kinematics/shown.h"
 
@@ -632,7 +633,9 @@ std::unique_ptr<std::istream> open(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw InputError(fmt::format("{}: got a directory, expected a path file", path), {path});
   }
-  if (!*file) throw InputError(fmt::format("{}: could not read: {}", path, std::strerror(errno)), {path});
+  if (!*file) {
+    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path, std::strerror(errno)), {path});
+  }
   return file;
 }
 

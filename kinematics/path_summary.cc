@@ -61,7 +61,7 @@ void PathSummary::add(const PathRow& row) {
     first_ = row;
     lower_ = upper_ = x;
   } else {
-    origin_length_m_ += (origin - origin_).norm();
+    origin_length_m_ += (origin - origin_).stableNorm();
     bool jumps = false;
     for (std::size_t j = 0; j < x.size(); ++j) {
       lower_[j] = std::min(lower_[j], x[j]);

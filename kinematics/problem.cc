@@ -11,6 +11,7 @@
 #include "kinematics/decimal.h"
 #include "kinematics/expression.h"
 #include "kinematics/input_error.h"
+#include "kinematics/placed_json.h"
 
 namespace taut {
 namespace {
@@ -21,122 +22,94 @@ using nlohmann::json;
 
 [[noreturn]] void fail(const std::string& where, const std::string& expected) { throw FieldError(where, "", expected); }
 
-[[noreturn]] void fail_value(const std::string& where, const json& value, const std::string& expected) {
-  constexpr std::size_t kShown = 60;
-  std::string seen = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (seen.size() > kShown) seen = seen.substr(0, kShown) + "…";
-  throw FieldError(where, seen, "expected " + expected);
-}
-
-/// Checks that `value` is an object with exactly `keys`.
-void expect_keys(const json& value, const std::string& where, std::initializer_list<const char*> keys) {
-  if (!value.is_object()) fail_value(where, value, "an object");
-  for (const char* key : keys) {
-    if (!value.contains(key)) fail(where, fmt::format("expected the key '{}'", key));
-  }
-  for (const auto& [key, member] : value.items()) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      throw FieldError(where, "'" + key + "'", "expected only known keys");
-  }
-}
-
-void read(const json& value, const std::string& where, std::string& out) {
-  if (!value.is_string()) fail_value(where, value, "a string");
-  out = value.get<std::string>();
-}
+void read(const PlacedJson& value, std::string& out) { out = value.text(); }
 
 template <class T, std::size_t N>
-void read(const json& value, const std::string& where, std::array<T, N>& out);
-void read(const json& value, const std::string& where, Limits& out) {
+void read(const PlacedJson& value, std::array<T, N>& out);
+void read(const PlacedJson& value, Limits& out) {
   std::array<DecimalText, 2> pair;
-  read(value, where, pair);
+  read(value, pair);
   out = {pair[0], pair[1]};
 }
 
 template <class T, std::size_t N>
-void read(const json& value, const std::string& where, std::array<T, N>& out) {
-  if (!value.is_array() || value.size() != N) fail_value(where, value, fmt::format("a list of {}", N));
-  for (std::size_t i = 0; i < N; ++i) read(value[i], fmt::format("{}[{}]", where, i), out[i]);
+void read(const PlacedJson& value, std::array<T, N>& out) {
+  const std::vector<PlacedJson> elements = value.elements(N);
+  for (std::size_t i = 0; i < N; ++i) read(elements[i], out[i]);
 }
 
-Parameter read_parameter(const json& value, const std::string& where) {
-  const bool has_range = value.is_object() && value.contains("range");
+Parameter read_parameter(const PlacedJson& value) {
+  const bool has_range = value.contains("range");
   if (has_range) {
-    expect_keys(value, where, {"name", "kind", "range"});
+    value.expect_keys({"name", "kind", "range"});
   } else {
-    expect_keys(value, where, {"name", "kind"});
+    value.expect_keys({"name", "kind"});
   }
   Parameter parameter;
-  read(value["name"], where + ".name", parameter.name);
-  const json& kind = value["kind"];
-  if (kind == "real") {
+  read(value.at("name"), parameter.name);
+  const PlacedJson kind = value.at("kind");
+  if (kind.value() == "real") {
     parameter.kind = ParameterKind::kReal;
-  } else if (kind == "periodic") {
+  } else if (kind.value() == "periodic") {
     parameter.kind = ParameterKind::kPeriodic;
-  } else if (kind == "range") {
+  } else if (kind.value() == "range") {
     parameter.kind = ParameterKind::kRange;
   } else {
-    fail_value(where + ".kind", kind, "\"real\", \"periodic\" or \"range\"");
+    kind.fail("\"real\", \"periodic\" or \"range\"");
   }
   if (has_range != (parameter.kind == ParameterKind::kRange)) {
-    fail(where, "expected 'range' exactly where the kind is \"range\"");
+    fail(value.where(), "expected 'range' exactly where the kind is \"range\"");
   }
   if (has_range) {
     std::array<ExpressionText, 2> range;
-    read(value["range"], where + ".range", range);
+    read(value.at("range"), range);
     std::tie(parameter.range_lower, parameter.range_upper) = std::tie(range[0], range[1]);
   }
   return parameter;
 }
 
-const json& expect_list(const json& value, const std::string& where) {
-  if (!value.is_array()) fail_value(where, value, "a list");
-  return value;
-}
-
-TolerancesText read_tolerances(const json& value) {
-  expect_keys(value, "tolerances",
-              {"base_anchor_m", "platform_anchor_m", "load_point_m", "wrench", "position_m", "orientation_rad",
-               "cable_length_m"});
+TolerancesText read_tolerances(const PlacedJson& value) {
+  value.expect_keys({"base_anchor_m", "platform_anchor_m", "load_point_m", "wrench", "position_m", "orientation_rad",
+                     "cable_length_m"});
   TolerancesText result;
-  read(value["base_anchor_m"], "tolerances.base_anchor_m", result.base_anchor_m);
-  read(value["platform_anchor_m"], "tolerances.platform_anchor_m", result.platform_anchor_m);
-  read(value["load_point_m"], "tolerances.load_point_m", result.load_point_m);
-  read(value["wrench"], "tolerances.wrench", result.wrench);
-  read(value["position_m"], "tolerances.position_m", result.position_m);
-  read(value["orientation_rad"], "tolerances.orientation_rad", result.orientation_rad);
-  if (const json& length = value["cable_length_m"]; !length.is_null()) {
-    read(length, "tolerances.cable_length_m", result.cable_length_m.emplace());
+  read(value.at("base_anchor_m"), result.base_anchor_m);
+  read(value.at("platform_anchor_m"), result.platform_anchor_m);
+  read(value.at("load_point_m"), result.load_point_m);
+  read(value.at("wrench"), result.wrench);
+  read(value.at("position_m"), result.position_m);
+  read(value.at("orientation_rad"), result.orientation_rad);
+  if (const PlacedJson length = value.at("cable_length_m"); !length.is_null()) {
+    read(length, result.cable_length_m.emplace());
   }
   return result;
 }
 
-SpaceText read_space(const json& value) {
-  expect_keys(value, "space", {"parameters", "constants", "flip", "pose", "constraints"});
+SpaceText read_space(const PlacedJson& value) {
+  value.expect_keys({"parameters", "constants", "flip", "pose", "constraints"});
   SpaceText space;
-  for (const json& parameter : expect_list(value["parameters"], "space.parameters")) {
-    space.parameters.push_back(read_parameter(parameter, fmt::format("space.parameters[{}]", space.parameters.size())));
+  for (const PlacedJson& parameter : value.at("parameters").elements()) {
+    space.parameters.push_back(read_parameter(parameter));
   }
-  if (!value["constants"].is_object()) fail_value("space.constants", value["constants"], "an object");
-  for (const auto& [name, decimal] : value["constants"].items()) {
-    read(decimal, "space.constants." + name, space.constants[name]);
+  const PlacedJson constants = value.at("constants");
+  if (!constants.value().is_object()) constants.fail("an object");
+  for (const auto& [name, decimal] : constants.value().items()) {
+    read({decimal, constants.where() + "." + name}, space.constants[name]);
   }
-  if (const json& flip = value["flip"]; !flip.is_null()) {
+  if (const PlacedJson flip = value.at("flip"); !flip.is_null()) {
     const auto is_index = [&](const json& i) {
       return i.is_number_integer() && i >= 0 && i < static_cast<int>(space.parameters.size());
     };
-    if (!flip.is_array() || flip.size() != 2 || !is_index(flip[0]) || !is_index(flip[1])) {
-      fail_value("space.flip", flip, "null or the indices of two parameters");
+    const json& pair = flip.value();
+    if (!pair.is_array() || pair.size() != 2 || !is_index(pair[0]) || !is_index(pair[1])) {
+      flip.fail("null or the indices of two parameters");
     }
-    space.flip = {flip[0].get<int>(), flip[1].get<int>()};
+    space.flip = {pair[0].get<int>(), pair[1].get<int>()};
   }
-  expect_keys(value["pose"], "space.pose", {"px", "py", "pz", "phi", "theta", "sigma"});
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-    read(value["pose"][kPoseNames[i]], fmt::format("space.pose.{}", kPoseNames[i]), space.pose[i]);
-  }
-  for (const json& constraint : expect_list(value["constraints"], "space.constraints")) {
-    const std::string here = fmt::format("space.constraints[{}]", space.constraints.size());
-    read(constraint, here, space.constraints.emplace_back());
+  const PlacedJson pose = value.at("pose");
+  pose.expect_keys({"px", "py", "pz", "phi", "theta", "sigma"});
+  for (std::size_t i = 0; i < kPoseNames.size(); ++i) read(pose.at(kPoseNames[i]), space.pose[i]);
+  for (const PlacedJson& constraint : value.at("constraints").elements()) {
+    read(constraint, space.constraints.emplace_back());
   }
   return space;
 }
@@ -475,31 +448,28 @@ json to_json(const Problem& problem) {
 }
 
 Problem problem_from_json(const json& value) {
-  expect_keys(value, "problem", {"name", "robot", "load", "tolerances", "space", "query"});
+  const auto member = [&](const char* key) -> PlacedJson { return {value[key], key}; };
+  PlacedJson(value, "problem").expect_keys({"name", "robot", "load", "tolerances", "space", "query"});
   Problem problem;
-  read(value["name"], "name", problem.name);
-  const json& robot = value["robot"];
-  expect_keys(robot, "robot", {"base_anchors_m", "platform_anchors_m", "tension_N", "length_m"});
-  read(robot["base_anchors_m"], "robot.base_anchors_m", problem.robot.base_anchors_m);
-  read(robot["platform_anchors_m"], "robot.platform_anchors_m", problem.robot.platform_anchors_m);
-  read(robot["tension_N"], "robot.tension_N", problem.robot.tension_N);
-  read(robot["length_m"], "robot.length_m", problem.robot.length_m);
-  const json& load = value["load"];
-  expect_keys(load, "load", {"point_m", "wrench", "ellipsoid"});
-  read(load["point_m"], "load.point_m", problem.load.point_m);
-  read(load["wrench"], "load.wrench", problem.load.wrench);
-  read(load["ellipsoid"], "load.ellipsoid", problem.load.ellipsoid);
-  if (const json& tolerances = value["tolerances"]; !tolerances.is_null()) {
+  read(member("name"), problem.name);
+  const PlacedJson robot = member("robot");
+  robot.expect_keys({"base_anchors_m", "platform_anchors_m", "tension_N", "length_m"});
+  read(robot.at("base_anchors_m"), problem.robot.base_anchors_m);
+  read(robot.at("platform_anchors_m"), problem.robot.platform_anchors_m);
+  read(robot.at("tension_N"), problem.robot.tension_N);
+  read(robot.at("length_m"), problem.robot.length_m);
+  const PlacedJson load = member("load");
+  load.expect_keys({"point_m", "wrench", "ellipsoid"});
+  read(load.at("point_m"), problem.load.point_m);
+  read(load.at("wrench"), problem.load.wrench);
+  read(load.at("ellipsoid"), problem.load.ellipsoid);
+  if (const PlacedJson tolerances = member("tolerances"); !tolerances.is_null()) {
     problem.tolerances = read_tolerances(tolerances);
   }
-  problem.space = read_space(value["space"]);
-  expect_keys(value["query"], "query", {"waypoints"});
-  for (const json& waypoint : expect_list(value["query"]["waypoints"], "query.waypoints")) {
-    const std::string here = fmt::format("query.waypoints[{}]", problem.query.size());
+  problem.space = read_space(member("space"));
+  for (const PlacedJson& waypoint : member("query").expect_keys({"waypoints"}).at("waypoints").elements()) {
     std::vector<ExpressionText>& values = problem.query.emplace_back();
-    for (const json& entry : expect_list(waypoint, here)) {
-      read(entry, fmt::format("{}[{}]", here, values.size()), values.emplace_back());
-    }
+    for (const PlacedJson& entry : waypoint.elements()) read(entry, values.emplace_back());
   }
   validate(problem);
   return problem;

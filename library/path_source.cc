@@ -12,6 +12,7 @@
 
 #include "certify/certificate.h"
 #include "certify/sha256.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/shown.h"
 #include "library/certificate_file.h"
 #include "library/files.h"
@@ -126,11 +127,7 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
   if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate", {path_});
-  try {
-    certificate_ = path_from_json(certificate["path"]);
-  } catch (const InputError& error) {
-    throw InputError(path_ + ": " + error.what(), {path_});
-  }
+  certificate_ = reading(InputKind::kPath, path_, [&] { return path_from_json(certificate["path"]); });
   require_poses(*certificate_, path_);
   law_ = certificate_->interpolation;
   if (law && *law != law_) {

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "certify/certificate.h"
+#include "kinematics/decimal.h"
 #include "kinematics/input_error.h"
+#include "kinematics/placed_json.h"
 
 namespace taut {
 
@@ -15,34 +19,32 @@ using nlohmann::json;
 
 namespace {
 
-/// Nearest double of a decimal or a C99 hexadecimal literal.
-double approximation(const std::string& text) {
+/// Nearest double of a decimal.
+double approximation(const PlacedJson& field) {
   std::size_t used = 0;
   double value = 0;
+  const std::string& text = field.text();
   try {
     value = std::stod(text, &used);
   } catch (const std::logic_error&) {
     used = 0;
   }
-  if (used == 0 || used != text.size() || !std::isfinite(value)) {
-    throw InputError(fmt::format("certificate: got '{}', expected a number", text));
-  }
+  if (used == 0 || used != text.size() || !std::isfinite(value)) field.fail("a number in a string");
   return value;
 }
 
-/// Nearest double of "k/m" or "k".
-double dyadic_approximation(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  const double numerator = approximation(text.substr(0, slash));
-  const double value = slash == std::string::npos ? numerator : numerator / approximation(text.substr(slash + 1));
-  if (!(value >= 0 && value <= 1)) {
-    throw InputError(fmt::format("certificate: got '{}', expected a dyadic from 0 to 1", text));
+std::string decimal(const PlacedJson& field) {
+  try {
+    (void)Decimal::parse(field.text());
+    return field.text();
+  } catch (const InputError&) {
+    field.fail("a decimal number in a string");
   }
-  return value;
 }
 
 /// "k/m", "0" or "1".
-Dyadic read_dyadic(const std::string& text) {
+Dyadic read_dyadic(const PlacedJson& field) {
+  const std::string& text = field.text();
   const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string numerator = text.substr(0, slash);
   const std::string denominator = slash < text.size() ? text.substr(slash + 1) : "1";
@@ -60,14 +62,15 @@ Dyadic read_dyadic(const std::string& text) {
       return {k, static_cast<int>(depth)};
     }
   }
-  throw InputError(fmt::format("certificate: got '{}', expected a dyadic from 0 to 1", text));
+  field.fail("a dyadic from 0 to 1");
 }
 
-std::vector<DyadicBox> read_boxes(const json& boxes) {
+std::vector<DyadicBox> read_boxes(const PlacedJson& boxes) {
   std::vector<DyadicBox> result;
-  for (const json& ends : boxes) {
-    const Dyadic lower = read_dyadic(ends.at(0).get<std::string>());
-    const Dyadic upper = read_dyadic(ends.at(1).get<std::string>());
+  for (const PlacedJson& ends : boxes.elements()) {
+    const std::vector<PlacedJson> both = ends.elements(2);
+    const Dyadic lower = read_dyadic(both[0]);
+    const Dyadic upper = read_dyadic(both[1]);
     const int depth = std::max(lower.depth, upper.depth);
     const DyadicBox box = {lower.k << (depth - lower.depth), depth};
     if (depth <= DyadicBox::kMaxDepth && box.upper() == upper) result.push_back(box);
@@ -83,163 +86,166 @@ Path read_path(const json& path, const SpaceText& space) {
   for (std::size_t k = 0; k < result.waypoints.size(); ++k) {
     const Waypoint& waypoint = result.waypoints[k];
     if (waypoint.x.size() != parameters || waypoint.normals.size() != normals) {
-      throw InputError(
-          fmt::format("certificate: path.waypoints[{}]: expected {} values of x and of half_turns, and {} of normals",
-                      k, parameters, normals));
+      throw FieldError(
+          fmt::format("path.waypoints[{}]", k),
+          fmt::format("{} values of x and {} of normals", waypoint.x.size(), waypoint.normals.size()),
+          fmt::format("expected {} values of x and of half_turns, and {} of normals", parameters, normals));
     }
   }
   return result;
 }
 
-MarginsView read_margins(const json& margins) {
-  return {margins.at("tension_N").get<std::string>(), margins.at("length_m").get<std::string>(),
-          margins.at("wrench_scale").get<std::string>()};
+MarginsView read_margins(const PlacedJson& margins) {
+  return {decimal(margins.at("tension_N")), decimal(margins.at("length_m")), decimal(margins.at("wrench_scale"))};
 }
 
-int read_index(const json& index, std::size_t count, const char* what) {
-  const int value = index.get<int>();
-  if (value < 0 || static_cast<std::size_t>(value) >= count) {
-    throw InputError(fmt::format("certificate: got {} {}, expected 0 to {}", what, value, count - 1));
-  }
-  return value;
+/// From 0 to count - 1.
+int read_index(const PlacedJson& index, std::size_t count) {
+  return static_cast<int>(index.integer(0, static_cast<std::int64_t>(count) - 1));
 }
 
-PathPointView read_point(const json& point, const Path& path) {
+PathPointView read_point(const PlacedJson& point, const Path& path) {
   PathPointView result;
   if (point.contains("waypoint")) {
-    result.index = read_index(point.at("waypoint"), path.waypoints.size(), "waypoint");
+    result.index = read_index(point.at("waypoint"), path.waypoints.size());
     result.position = result.index;
   } else {
-    result.index = read_index(point.at("segment"), path.segments(), "segment");
-    result.s = point.at("s").get<std::string>();
-    result.position = result.index + dyadic_approximation(*result.s);
+    result.index = read_index(point.at("segment"), path.segments());
+    result.s = point.at("s").text();
+    result.position = result.index + read_dyadic(point.at("s")).approx();
   }
   return result;
 }
 
-WitnessView read_witness(const json& witness, const Path& path) {
+WitnessView read_witness(const PlacedJson& witness, const Path& path) {
   WitnessView result;
-  result.kind = witness.at("kind").get<std::string>();
+  result.kind = witness.at("kind").text();
   result.at = read_point(witness.at("at"), path);
   if (result.kind == "singular") {
     result.to = read_point(witness.at("to"), path);
     return result;
   }
-  result.cable = 1 + read_index(witness.at("cable").get<int>() - 1, kCables, "cable minus one");
-  result.value_lower = witness.at("value").at(0).get<std::string>();
-  result.value_upper = witness.at("value").at(1).get<std::string>();
-  result.limit = witness.at("limit").get<std::string>();
+  result.cable = static_cast<int>(witness.at("cable").integer(1, kCables));
+  const std::vector<PlacedJson> value = witness.at("value").elements(2);
+  result.value_lower = decimal(value[0]);
+  result.value_upper = decimal(value[1]);
+  result.limit = decimal(witness.at("limit"));
   result.deviates = witness.contains("deviation");
-  result.is_led = result.deviates && witness["deviation"].contains("cable_lengths_m");
+  result.is_led = result.deviates && witness.at("deviation").contains("cable_lengths_m");
   return result;
 }
 
-StretchView read_stretch(const json& stretch, const Path& path) {
+StretchView read_stretch(const PlacedJson& stretch, const Path& path) {
   StretchView result;
-  result.begin = read_point(stretch.at("outer").at(0), path);
-  result.end = read_point(stretch.at("outer").at(1), path);
-  if (const json& inner = stretch.at("inner"); !inner.is_null()) {
-    result.first = read_witness(inner.at(0), path);
-    result.last = read_witness(inner.at(1), path);
+  const std::vector<PlacedJson> outer = stretch.at("outer").elements(2);
+  result.begin = read_point(outer[0], path);
+  result.end = read_point(outer[1], path);
+  if (const PlacedJson inner = stretch.at("inner"); !inner.is_null()) {
+    const std::vector<PlacedJson> witnesses = inner.elements(2);
+    result.first = read_witness(witnesses[0], path);
+    result.last = read_witness(witnesses[1], path);
   } else {
-    result.reason = stretch.at("reason").get<std::string>();
+    result.reason = stretch.at("reason").text();
   }
   return result;
 }
 
-UndecidedView read_undecided(const json& undecided, const Path& path) {
+UndecidedView read_undecided(const PlacedJson& undecided, const Path& path) {
   UndecidedView result;
-  result.reason = undecided.at("reason").get<std::string>();
-  if (const json& segment = undecided.at("segment"); !segment.is_null()) {
-    result.segment = read_index(segment, path.segments(), "segment");
+  result.reason = undecided.at("reason").text();
+  if (const PlacedJson segment = undecided.at("segment"); !segment.is_null()) {
+    result.segment = read_index(segment, path.segments());
   }
-  if (const json& box = undecided.at("box"); !box.is_null()) {
-    result.box_lower = box.at(0).get<std::string>();
-    result.box_upper = box.at(1).get<std::string>();
-    result.lower = dyadic_approximation(result.box_lower);
-    result.upper = dyadic_approximation(result.box_upper);
+  if (const PlacedJson box = undecided.at("box"); !box.is_null()) {
+    const std::vector<PlacedJson> ends = box.elements(2);
+    result.box_lower = ends[0].text();
+    result.box_upper = ends[1].text();
+    result.lower = read_dyadic(ends[0]).approx();
+    result.upper = read_dyadic(ends[1]).approx();
   }
   return result;
 }
 
 /// Charts of the atlas, where they are polygons in a plane of two parameters; others are passed over.
-void read_illustration(const json& illustration, CertificateView& view) {
-  if (!illustration.is_object()) return;
-  if (const auto stats = illustration.find("stats"); stats != illustration.end() && stats->is_object()) {
-    for (const auto& [key, value] : stats->items()) {
+void read_illustration(const PlacedJson& illustration, CertificateView& view) {
+  if (!illustration.value().is_object()) return;
+  if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
+    for (const auto& [key, value] : illustration.value()["stats"].items()) {
       view.stats[key] = value.is_string() ? value.get<std::string>() : value.dump();
     }
   }
-  if (const auto limits = illustration.find("tolerance_limits"); limits != illustration.end()) {
-    for (const json& limit : *limits) {
-      view.tolerance_limits.push_back({limit.at("tolerance").get<std::string>(), limit.at("proved").get<std::string>(),
-                                       limit.at("unit").get<std::string>()});
+  if (illustration.contains("tolerance_limits")) {
+    for (const PlacedJson& limit : illustration.at("tolerance_limits").elements()) {
+      view.tolerance_limits.push_back(
+          {limit.at("tolerance").text(), decimal(limit.at("proved")), limit.at("unit").text()});
     }
   }
-  const auto charts = illustration.find("charts");
-  if (charts == illustration.end() || view.problem.space.parameters.size() != 2) return;
-  for (const json& entry : *charts) {
+  if (!illustration.contains("charts") || view.problem.space.parameters.size() != 2) return;
+  for (const PlacedJson& entry : illustration.at("charts").elements()) {
+    if (!entry.contains("c") || entry.at("c").size() != 2) continue;
     ChartView chart;
-    for (const json& c : entry.value("c", json::array())) chart.centre.push_back(approximation(c.get<std::string>()));
-    for (const json& corner : entry.value("p", json::array())) {
-      chart.corners.push_back(
-          {approximation(corner.at(0).get<std::string>()), approximation(corner.at(1).get<std::string>())});
+    for (const PlacedJson& c : entry.at("c").elements()) chart.centre.push_back(approximation(c));
+    if (entry.contains("p")) {
+      for (const PlacedJson& corner : entry.at("p").elements()) {
+        const std::vector<PlacedJson> at = corner.elements(2);
+        chart.corners.push_back({approximation(at[0]), approximation(at[1])});
+      }
     }
-    if (chart.centre.size() == 2) view.charts.push_back(std::move(chart));
+    view.charts.push_back(std::move(chart));
   }
-}
-
-CertificateView read(const json& certificate) {
-  CertificateView view;
-  if (certificate.at("format") != "taut-certificate") {
-    throw InputError("certificate: format: expected \"taut-certificate\"");
-  }
-  if (certificate.at("version") != kCertificateVersion) {
-    throw InputError(
-        fmt::format("certificate: version: got {}, expected {}: only the taut that made it can make its report, or one "
-                    "of that time",
-                    certificate.at("version").dump(), kCertificateVersion));
-  }
-  const json& generator = certificate.at("generator");
-  view.generator = generator.value("name", "") + " " + generator.value("version", "");
-  view.verdict = certificate.at("verdict").get<std::string>();
-  if (view.verdict != "proved" && view.verdict != "refuted" && view.verdict != "undecided") {
-    throw InputError(fmt::format("certificate: got verdict '{}', expected proved, refuted or undecided", view.verdict));
-  }
-  view.claim = certificate.at("claim").get<std::string>();
-  view.problem = problem_from_json(certificate.at("problem"));
-  const json& path = certificate.at("path");
-  view.interpolation = path.at("interpolation").get<std::string>();
-  view.path = read_path(path, view.problem.space);
-  view.problem_sha256 = certificate.at("problem_sha256").get<std::string>();
-  view.path_sha256 = certificate.at("path_sha256").get<std::string>();
-  view.footer_sha256 = certificate.at("footer").at("sha256").get<std::string>();
-  for (const json& segment : certificate.at("segments")) {
-    view.segments.push_back({segment.at("from").get<int>(), segment.at("to").get<int>(), segment.at("boxes").size(),
-                             segment.at("margins").is_null() ? MarginsView() : read_margins(segment.at("margins"))});
-    view.boxes += view.segments.back().boxes;
-    view.segment_boxes.push_back(read_boxes(segment.at("boxes")));
-  }
-  if (view.verdict == "proved") view.margins = read_margins(certificate.at("margins"));
-  if (view.verdict == "refuted") view.witness = read_witness(certificate.at("witness"), view.path);
-  if (view.verdict == "undecided") view.undecided = read_undecided(certificate.at("undecided"), view.path);
-  if (const json& stretches = certificate.at("stretches"); !stretches.is_null()) {
-    for (const json& stretch : stretches) view.stretches.push_back(read_stretch(stretch, view.path));
-  }
-  if (const auto illustration = certificate.find("illustration"); illustration != certificate.end()) {
-    read_illustration(*illustration, view);
-  }
-  return view;
 }
 
 }  // namespace
 
 CertificateView read_certificate(const json& certificate) {
-  try {
-    return read(certificate);
-  } catch (const json::exception& error) {
-    throw InputError(std::string("certificate: ") + error.what());
+  const PlacedJson whole(certificate, "certificate");
+  const auto member = [&](const char* key) -> PlacedJson { return {whole.at(key).value(), key}; };
+  const auto text = [&](const char* key) { return member(key).text(); };
+  CertificateView view;
+  if (member("format").value() != "taut-certificate") member("format").fail("\"taut-certificate\"");
+  if (const PlacedJson version = member("version"); version.value() != kCertificateVersion) {
+    version.fail(
+        fmt::format("{}: only the taut that made it can make its report, or one of that time", kCertificateVersion));
   }
+  if (const PlacedJson generator = member("generator"); generator.contains("name") && generator.contains("version")) {
+    view.generator = generator.at("name").text() + " " + generator.at("version").text();
+  }
+  view.verdict = text("verdict");
+  if (view.verdict != "proved" && view.verdict != "refuted" && view.verdict != "undecided") {
+    member("verdict").fail("proved, refuted or undecided");
+  }
+  view.claim = text("claim");
+  const PlacedJson problem = member("problem");
+  try {
+    view.problem = problem_from_json(problem.value());
+  } catch (const FieldError& error) {
+    const bool is_whole = error.field() == "problem";
+    throw FieldError(is_whole ? error.field() : "problem." + error.field(), error.seen(), error.expected());
+  }
+  const PlacedJson path = member("path");
+  view.interpolation = path.at("interpolation").text();
+  view.path = read_path(path.value(), view.problem.space);
+  view.problem_sha256 = text("problem_sha256");
+  view.path_sha256 = text("path_sha256");
+  view.footer_sha256 = member("footer").at("sha256").text();
+  constexpr std::int64_t kMostIndex = std::numeric_limits<int>::max();
+  for (const PlacedJson& segment : member("segments").elements()) {
+    const PlacedJson boxes = segment.at("boxes");
+    const PlacedJson margins = segment.at("margins");
+    view.segments.push_back({static_cast<int>(segment.at("from").integer(0, kMostIndex)),
+                             static_cast<int>(segment.at("to").integer(0, kMostIndex)), boxes.size(),
+                             margins.is_null() ? MarginsView() : read_margins(margins)});
+    view.boxes += view.segments.back().boxes;
+    view.segment_boxes.push_back(read_boxes(boxes));
+  }
+  if (view.verdict == "proved") view.margins = read_margins(member("margins"));
+  if (view.verdict == "refuted") view.witness = read_witness(member("witness"), view.path);
+  if (view.verdict == "undecided") view.undecided = read_undecided(member("undecided"), view.path);
+  if (const PlacedJson stretches = member("stretches"); !stretches.is_null()) {
+    for (const PlacedJson& stretch : stretches.elements()) view.stretches.push_back(read_stretch(stretch, view.path));
+  }
+  if (whole.contains("illustration")) read_illustration(member("illustration"), view);
+  return view;
 }
 
 }  // namespace taut

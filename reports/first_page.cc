@@ -64,9 +64,8 @@ Html cables(const Scene& scene, const CableUse& use) {
         "<td class=\"n\"><b>{} %</b></td><td class=\"n\">{} – {}</td><td class=\"n\">{} – {}</td><td>{}</td>"
         "<td class=\"n\"><b>{} %</b></td></tr>\n",
         i + 1, rounded_down(t.range.lower), rounded_up(t.range.upper), plain(f.lower), plain(f.upper), bar(t),
-        rounded_up(t.used_percent(), 3), millimetres(rounded_down(d.range.lower)),
-        millimetres(rounded_up(d.range.upper)), millimetres(l.lower), millimetres(l.upper), bar(d),
-        rounded_up(d.used_percent(), 3));
+        rounded_up(t.used_percent(), 3), millimetres_down(d.range.lower), millimetres_up(d.range.upper),
+        millimetres(l.lower), millimetres(l.upper), bar(d), rounded_up(d.used_percent(), 3));
   }
   const bool is_proved = use.source != CableUse::Source::kSamples;
   return html(

@@ -279,7 +279,7 @@ std::string load_text(const LoadText& load) {
   }
   const double size = std::hypot(force[0], force[1], force[2]);
   const std::string weight =
-      size > 0 ? fmt::format(" (the weight of {:.4g} kg under standard gravity)", size / kStandardGravity) : "";
+      size > 0 ? fmt::format(" (about the weight of {:.3g} kg under standard gravity)", size / kStandardGravity) : "";
   return fmt::format(
       "At the load point ({}, {}, {}) mm of the platform, {}{} and {}, in the axes of the base. Covered, too, is "
       "every load that differs from it in {}.",

@@ -27,7 +27,7 @@ std::vector<CableRow> cable_rows(const CableUse& use) {
     const Use& t = use.tension[i];
     const Use& d = use.length[i];
     rows.push_back({{std::to_string(i + 1), rounded_down(t.range.lower), rounded_up(t.range.upper), percent(t),
-                     millimetres(rounded_down(d.range.lower)), millimetres(rounded_up(d.range.upper)), percent(d)}});
+                     millimetres_down(d.range.lower), millimetres_up(d.range.upper), percent(d)}});
   }
   return rows;
 }

@@ -31,7 +31,7 @@ Travel::Travel(const Sampler& sampler, const Path& path) {
   std::optional<RigidPose> last;
   for (std::size_t i = 0; i <= segments * pieces_; ++i) {
     const RigidPose pose = rigid_pose(sampler.at(path, static_cast<double>(i) / static_cast<double>(pieces_)).pose);
-    distance_m_.push_back(last ? distance_m_.back() + (pose.p - last->p).norm() : 0);
+    distance_m_.push_back(last ? distance_m_.back() + (pose.p - last->p).stableNorm() : 0);
     turned_rad_.push_back(last ? turned_rad_.back() + pose.q.angularDistance(last->q) : 0);
     last = pose;
   }

@@ -14,12 +14,16 @@ namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
-std::string rounded(double x, int digits, mpfr_rnd_t direction) {
-  // What Decimal can't hold is absurd anyway.
+/// What Decimal can't hold is absurd anyway.
+bool is_absurd(double x) {
   constexpr double kLargest = 1e290;
   const double size = std::abs(x);
+  return !(x == 0 || (size < kLargest && size > 1 / kLargest));
+}
+
+std::string rounded(double x, int digits, mpfr_rnd_t direction) {
   if (x == 0) return "0";
-  if (!(size < kLargest && size > 1 / kLargest)) return fmt::format("{:.{}g}", x, digits);
+  if (is_absurd(x)) return fmt::format("{:.{}g}", x, digits);
   const PrecisionScope precision(64);
   const BigFloat exact(x);
   char* text = nullptr;
@@ -41,6 +45,13 @@ std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metr
 
 std::string rounded_down(double x, int digits) { return rounded(x, digits, MPFR_RNDD); }
 std::string rounded_up(double x, int digits) { return rounded(x, digits, MPFR_RNDU); }
+
+std::string millimetres_down(double metres) {
+  return is_absurd(metres) ? rounded_down(1000 * metres) : millimetres(rounded_down(metres));
+}
+std::string millimetres_up(double metres) {
+  return is_absurd(metres) ? rounded_up(1000 * metres) : millimetres(rounded_up(metres));
+}
 
 std::string angle_text(const ExpressionText& radians) {
   constexpr std::string_view kOpen = "(";

@@ -17,6 +17,9 @@ namespace taut {
 /// `digits` significant digits, rounded towards −∞ or +∞, without exponent where it is readable.
 [[nodiscard]] std::string rounded_down(double x, int digits = 4);
 [[nodiscard]] std::string rounded_up(double x, int digits = 4);
+/// A length in millimetres, likewise.
+[[nodiscard]] std::string millimetres_down(double metres);
+[[nodiscard]] std::string millimetres_up(double metres);
 /// "0.2°" where it was typed in degrees, else "0.0035 rad": exactly the same angle.
 [[nodiscard]] std::string angle_text(const ExpressionText& radians);
 /// "1 box", "2 boxes".

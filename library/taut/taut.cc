@@ -350,7 +350,10 @@ Certificate Certificate::load(const std::string& file) {
 }
 
 Certificate Certificate::parse(const std::string& text, const std::string& name) {
-  return within(InputKind::kCertificate, [&] { return certificate_of(text, parse_certificate(text, name)); });
+  return within(InputKind::kCertificate, [&] {
+    return taut::reading(InputKind::kCertificate, name,
+                         [&] { return certificate_of(text, parse_certificate(text, name)); });
+  });
 }
 
 void Certificate::save(const std::string& file) const {

@@ -290,13 +290,16 @@ class Audit(InFolder):
     def test_numbers_of_a_certificate_are_taken_as_they_stand_or_not_at_all(self):
         path = self.write("path.csv", COLUMNS + "0,0,350,-2.3,1.6,0\n0,1,350,-2.3,1.6,0\n")
         self.audit(ROBOT1, path)
-        for key, value, said in [("half_turns", 2**32, "got half_turns of 4294967296"),
-                                 ("half_turns", 2**64 - 1, "got half_turns of 18446744073709551615"),
-                                 ("half_turns", 0.5, "got half_turns of 0.5"),
-                                 ("half_turns", True, "got half_turns of true"),
-                                 ("x", "0.1", "got '0.1', expected a finite binary64"),
-                                 ("x", "0X1P+0", "got '0X1P+0'"),
-                                 ("x", "0x1p+0\0", "expected a finite binary64")]:
+        turns = "path.waypoints[1].half_turns[3]: got {}, expected a whole number from -1000000 to 1000000"
+        number = 'path.waypoints[1].x[3]: got {}, expected a finite binary64 such as "0x1.8p+1"'
+        for key, value, said in [("half_turns", 2**32, turns.format(2**32)),
+                                 ("half_turns", 2**64 - 1, turns.format(2**64 - 1)),
+                                 ("half_turns", 0.5, turns.format(0.5)),
+                                 ("half_turns", True, turns.format("true")),
+                                 ("x", "0.1", number.format('"0.1"')),
+                                 ("x", "0X1P+0", number.format('"0X1P+0"')),
+                                 ("x", "0x1p+0\0", number.format('"0x1p+0\\u0000"')),
+                                 ("x", None, "path.waypoints[1].x[3]: got null, expected a string")]:
             with self.subTest(key=key, value=value):
                 certificate = self.certificate()
                 certificate["path"]["waypoints"][1][key][3] = value
@@ -322,6 +325,16 @@ class Audit(InFolder):
         summary = self.audit(case, path)
         self.assertEqual(summary["verdict"], "undecided")
         self.assertLess(summary["boxes_judged"], 20000)
+
+    def test_absurd_distances_are_refuted_like_others(self):
+        path = self.write("path.csv", "px[mm],py[mm],pz[mm],phi[rad],theta[rad],sigma[rad]\n"
+                          "0,0,350,0,0,0.59\n1e160,0,350,0,0,0.59\n")
+        said = run(TAUT, "audit", ROBOT1, path, "--out", self.path("out"))
+        self.assertEqual(said.returncode, 1, said.stderr)
+        self.assertIn("the origin's way is 1e+157 m long", said.stdout)
+        self.assertIn("Re-checked by taut-check", said.stdout)
+        self.assertIn("accepted", said.stdout)
+        self.assertTrue(os.path.exists(self.path("out", "report.html")))
 
     def test_repeats_are_dropped_where_allowed(self):
         path = self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n-88.9,80.2\n-88,80.2\n")

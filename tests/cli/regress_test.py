@@ -144,6 +144,16 @@ class Regress(InFolder):
         self.assertEqual(properties["verdict"], "proved")
         self.assertGreater(float(properties["tension_margin"]), 0)
 
+    def test_no_case_is_written_over(self):
+        self.add("good.yaml")
+        before = text_of(self.path("cases", "good.yaml"))
+        for option in (["--junit"], ["--update", "--baseline"]):
+            self.regress(*option, self.path("cases", "good.yaml"), code=3)
+            self.assertEqual(text_of(self.path("cases", "good.yaml")), before)
+        self.write("baseline.json", "")
+        baseline = self.path("baseline.json")
+        self.regress("--update", "--baseline", baseline, "--junit", baseline, code=3)
+
     def test_what_takes_too_long_is_ended(self):
         self.add("long.yaml", "robot2-free-q2-q3-astar.yaml", planner="{strategy: astar, max_seconds: 100}")
         begin = time.monotonic()

@@ -71,6 +71,35 @@ class Report(unittest.TestCase):
         self.assertEqual((said.returncode, said.stdout), (3, ""))
         self.assertRegex(said.stderr, "version: got 1, expected [0-9]+:")
 
+    def test_what_is_malformed_has_its_place(self):
+        def without(key):
+            return lambda certificate: certificate.pop(key)
+
+        def with_(value, *keys):
+            def change(certificate):
+                for key in keys[:-1]:
+                    certificate = certificate[key]
+                certificate[keys[-1]] = value
+            return change
+
+        for change, said in [
+                (without("problem"), "certificate: expected the key 'problem'"),
+                (with_(None, "claim"), "claim: got null, expected a string"),
+                (with_({}, "problem", "load", "wrench"), "problem.load.wrench: got {}, expected a list of 6"),
+                (with_("abc", "margins", "tension_N"),
+                 'margins.tension_N: got "abc", expected a decimal number in a string'),
+                (with_("2/3", "segments", 0, "boxes", 0, 1),
+                 'segments[0].boxes[0][1]: got "2/3", expected a dyadic from 0 to 1'),
+                (with_(-1, "segments", 0, "from"),
+                 "segments[0].from: got -1, expected a whole number from 0 to 2147483647"),
+                (with_(None, "illustration", "charts", 0, "c", 0),
+                 "illustration.charts[0].c[0]: got null, expected a string")]:
+            with self.subTest(said=said):
+                odd = self.changed("odd.json", change)
+                result = run(TAUT, "report", odd)
+                self.assertEqual((result.returncode, result.stdout), (3, ""))
+                self.assertEqual(result.stderr, f"taut: {odd}: {said} [E5]\n")
+
     def test_plan_checks_its_certificate_again_unless_told_not_to(self):
         self.assertIn("Re-checked by taut-check", self.planned.stdout)
         with open(self.path("report.html"), encoding="utf-8") as file:

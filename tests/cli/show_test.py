@@ -81,7 +81,7 @@ class Show(unittest.TestCase):
             broken = os.path.join(folder, "broken.yaml")
             with open(broken, "w", encoding="utf-8") as file:
                 file.write("taut: 1\nname: <b>\n")
-            for arguments, code in (([broken], "E3"), ([os.path.join(folder, "none.yaml")], "E3"), ([CASE, "--out", "x.png"], "E1"),
+            for arguments, code in (([broken], "E3"), ([os.path.join(folder, "none.yaml")], "E2"), ([CASE, "--out", "x.png"], "E1"),
                                     ([CASE, "--colour"], "E1")):
                 said = run(TAUT, "show", *arguments)
                 self.assertEqual((said.returncode, said.stdout), (3, ""))
@@ -136,6 +136,10 @@ class Explain(unittest.TestCase):
             for code, exit_code, *command in (
                     ("E1", 3, "plan"),
                     ("E2", 3, "plan", CASE, "--out", "/proc/none"),
+                    ("E2", 3, "plan", folder + "/none.yaml"),
+                    ("E2", 3, "plan", folder),
+                    ("E2", 3, "audit", audited, folder + "/none.csv"),
+                    ("E2", 3, "report", folder + "/none.json"),
                     ("E3", 3, "plan", path),
                     ("E4", 3, "audit", audited, path),
                     ("E5", 3, "report", certificate),
@@ -147,6 +151,35 @@ class Explain(unittest.TestCase):
                 self.assertEqual(said.returncode, exit_code, said.stdout + said.stderr)
                 self.assertRegex(said.stdout + said.stderr, rf"\[{code}\]", command)
                 self.assertRegex(listed, rf"(?m)^{code} ")
+
+
+    def test_examples_of_wrong_input_are_what_is_printed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def write(name, text):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+
+            with open(CASE, encoding="utf-8") as file:
+                case = file.read()
+            write("robot1.yaml", case)
+            nan = re.sub(r"^  wrench: .*\n", "  mass: NaN\n  gravity: [0, 0, -9.81]\n", case, flags=re.M)
+            write("crane.yaml", nan)
+            write("path.csv", "phi[rad],theta[rad]\n0,x\n")
+            os.mkdir(os.path.join(folder, "cases"))
+            subprocess.run(["openssl", "genrsa", "-out", "key.pem"], cwd=folder, check=True, capture_output=True)
+            for code, *command in (("E1", "audit", "robot1.yaml", "path.csv", "--bits", "12"),
+                                   ("E3", "plan", "crane.yaml"),
+                                   ("E4", "audit", "robot1.yaml", "path.csv"),
+                                   ("E7", "plan", "robot1.yaml", "--sign", "key.pem"),
+                                   ("E9", "regress", "cases")):
+                said = subprocess.run([TAUT, *command], cwd=folder, capture_output=True, text=True, timeout=60)
+                example = re.search(r"^Example: (.*)$", run(TAUT, "explain", code).stdout, re.M).group(1)
+                # The place of a case is that of the example's own.
+                place = re.compile(r"^(taut: \S+yaml):\d+:\d+")
+                self.assertEqual(place.sub(r"\1", said.stderr.splitlines()[0]), place.sub(r"\1", example))
+            os.remove(os.path.join(folder, "crane.yaml"))
+            said = subprocess.run([TAUT, "plan", "crane.yaml"], cwd=folder, capture_output=True, text=True, timeout=60)
+            self.assertIn("Example: " + said.stderr, run(TAUT, "explain", "E2").stdout)
 
 
 if __name__ == "__main__":

@@ -114,7 +114,8 @@ TEST(HtmlReport, OpensWithASheetToSign) {
     }
   }
   EXPECT_THAT(page_of("proved"), HasSubstr("<bdi>TAUT-CCCC-CCCC-CCCC</bdi>"));
-  EXPECT_THAT(page_of("proved"), HasSubstr("a force of 1 N along +z (the weight of 0.102 kg under standard gravity)"));
+  EXPECT_THAT(page_of("proved"),
+              HasSubstr("a force of 1 N along +z (about the weight of 0.102 kg under standard gravity)"));
   EXPECT_THAT(page_of("proved"),
               HasSubstr("each component of the force by up to 0.01 N and each component of the moment by up to "
                         "0.001 N·m"));

@@ -1,0 +1,51 @@
+// JSON from outside: each value knows where it stands, so that what is wrong with it has a place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+/// A value and its place, "path.waypoints[3].x". What is asked of it and isn't so is a FieldError that names the place,
+/// the value seen and what was expected. Refers to the value, which must outlive it.
+class PlacedJson {
+ public:
+  PlacedJson(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
+
+  [[nodiscard]] const nlohmann::json& value() const { return *value_; }
+  [[nodiscard]] const std::string& where() const { return where_; }
+  [[nodiscard]] bool is_null() const;
+
+  /// An object has the member. @throws FieldError if it is no object
+  [[nodiscard]] bool contains(const char* key) const;
+  /// Member of an object.
+  [[nodiscard]] PlacedJson at(const char* key) const;
+  /// Checks that it is an object with these keys and no other.
+  const PlacedJson& expect_keys(std::initializer_list<const char*> keys) const;
+
+  /// Length of a list.
+  [[nodiscard]] std::size_t size() const;
+  /// Element of a list.
+  [[nodiscard]] PlacedJson at(std::size_t index) const;
+  /// All elements of a list.
+  [[nodiscard]] std::vector<PlacedJson> elements() const;
+  /// All elements of a list of that length.
+  [[nodiscard]] std::vector<PlacedJson> elements(std::size_t size) const;
+
+  [[nodiscard]] const std::string& text() const;
+  /// An integer between these, inclusive.
+  [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t most) const;
+
+  /// Says that another value was `expected`, such as "a list". @throws FieldError
+  [[noreturn]] void fail(const std::string& expected) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string where_;
+};
+
+}  // namespace taut
