@@ -11,6 +11,8 @@ import unittest
 
 TAUT, CHECK, SOURCE = sys.argv[1:4]
 CASES = os.path.join(SOURCE, "cases")
+AUDITS = os.path.join(CASES, "audits")
+ROBOT1 = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
 EXIT = {"proved": 0, "refuted": 1, "undecided": 2}
 
 
@@ -61,6 +63,18 @@ class InFolder(unittest.TestCase):
 
     def certificate(self, folder="."):
         return json.loads(text_of(self.path(folder, "certificate.json")))
+
+
+class Audits(InFolder):
+    def audit(self, case, path, *options, out="out"):
+        result = run(TAUT, "audit", case, path, "--out", self.path(out), "--json", *options)
+        self.assertIn(result.returncode, (0, 1, 2), result.stderr)
+        summary = json.loads(result.stdout)
+        self.assertEqual(result.returncode, EXIT[summary["verdict"]])
+        return summary
+
+    def certificate(self, out="out"):
+        return json.loads(text_of(self.path(out, "certificate.json")))
 
 
 def main():

@@ -8,6 +8,10 @@ set_tests_properties(cli.signature PROPERTIES LABELS "unit" TIMEOUT 1800)
 add_test(NAME cli.audit COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/audit_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.audit PROPERTIES LABELS "unit" TIMEOUT 1800)
+add_test(NAME cli.audit_tolerances COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/cli/audit_tolerances_test.py $<TARGET_FILE:taut> $<TARGET_FILE:taut-check>
+  ${PROJECT_SOURCE_DIR})
+set_tests_properties(cli.audit_tolerances PROPERTIES LABELS "slow" TIMEOUT 1800)
 add_test(NAME cli.regress COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/regress_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.regress PROPERTIES LABELS "unit" TIMEOUT 1800)
