@@ -175,12 +175,17 @@ void AtlasFile::read(std::size_t begin, std::span<std::byte> into) const {
 AtlasFile::Header AtlasFile::read_header() const {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path_, error)) {
-    refuse(error ? "could not read: " + error.message()
-                 : "got something that is no regular file, expected an atlas file");
+    if (!error) refuse("got something that is no regular file, expected an atlas file");
+    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path_.string(), error.message()),
+                           {path_.string()});
   }
   file_.rdbuf()->pubsetbuf(nullptr, 0);
   file_.open(path_, std::ios::binary);
-  if (!file_) refuse(fmt::format("could not read: {}", std::strerror(errno)));
+  if (!file_) {
+    throw InputErrorOfKind(InputKind::kFile,
+                           fmt::format("{}: could not read: {}", path_.string(), std::strerror(errno)),
+                           {path_.string()});
+  }
   const std::uintmax_t size = std::filesystem::file_size(path_, error);
   Header header{};
   const std::size_t version_end = offsetof(Header, charts);

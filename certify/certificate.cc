@@ -9,10 +9,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <system_error>
 
 #include "certify/checker/claims.h"
 #include "certify/sha256.h"
+#include "kinematics/decimal.h"
+#include "kinematics/input_error.h"
 #include "kinematics/placed_json.h"
 
 namespace taut {
@@ -206,11 +209,20 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
 
 namespace {
 
+Decimal decimal(const PlacedJson& field) {
+  try {
+    return Decimal::parse(field.text());
+  } catch (const InputError&) {
+    field.fail("a decimal number in a string");
+  }
+}
+
 double binary64(const PlacedJson& field) {
   const std::string& literal = field.text();
   const double value = std::strtod(literal.c_str(), nullptr);
   // As the checker reads it: one way to write each.
-  if (literal != hex_float(value) || !std::isfinite(value)) field.fail("a finite binary64 such as \"0x1.8p+1\"");
+  if (literal != hex_float(value) || !std::isfinite(value))
+    field.fail("a finite binary64 as %a prints it, such as \"0x1.8p+1\"");
   return value;
 }
 
@@ -273,6 +285,18 @@ InnerPose inner_pose_from_json(const PlacedJson& entry) {
   return inner;
 }
 
+std::vector<DecimalText> times_from_json(const PlacedJson& times, std::size_t waypoints) {
+  std::vector<DecimalText> result;
+  std::optional<Decimal> last;
+  for (const PlacedJson& field : times.elements(waypoints)) {
+    const Decimal time = decimal(field);
+    if (last && !(time > *last)) field.fail("a time later than the one before");
+    last = time;
+    result.push_back(field.text());
+  }
+  return result;
+}
+
 Interpolation interpolation_from_json(const PlacedJson& law) {
   std::vector<std::string> names;
   for (const Interpolation known : {Interpolation::kStraight, Interpolation::kCubicBSpline, Interpolation::kGeodesic,
@@ -285,22 +309,22 @@ Interpolation interpolation_from_json(const PlacedJson& law) {
 
 }  // namespace
 
-Path path_from_json(const json& value) {
-  const PlacedJson path(value, "path");
+Path path_from_json(const json& path) {
+  const PlacedJson whole(path, "path");
   Path result;
-  result.interpolation = interpolation_from_json(path.at("interpolation"));
-  for (const PlacedJson& entry : path.at("waypoints").elements()) {
+  result.interpolation = interpolation_from_json(whole.at("interpolation"));
+  for (const PlacedJson& entry : whole.at("waypoints").elements()) {
     result.waypoints.push_back(waypoint_from_json(result.interpolation, entry));
   }
-  result.tubes = binary64s(path.at("tubes"));
-  for (const PlacedJson& tube : path.at("pose_tubes").elements()) {
+  result.tubes = binary64s(whole.at("tubes"));
+  for (const PlacedJson& tube : whole.at("pose_tubes").elements()) {
     result.pose_tubes.push_back(tube_from_json(tube));
     std::vector<InnerPose>& inner = result.inner_poses.emplace_back();
     if (!tube.contains("inner")) continue;
     for (const PlacedJson& pose : tube.at("inner").elements()) inner.push_back(inner_pose_from_json(pose));
   }
-  if (const PlacedJson times = path.at("times"); !times.is_null()) {
-    for (const PlacedJson& time : times.elements()) result.times.push_back(time.text());
+  if (const PlacedJson times = whole.at("times"); !times.is_null()) {
+    result.times = times_from_json(times, result.waypoints.size());
   }
   return result;
 }

@@ -159,14 +159,18 @@ int run_audit(const AuditArguments& arguments) {
       arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
   const AuditRequest request = resolved({arguments.path, law, arguments.allow_repeats}, case_, arguments.case_path);
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
+  const std::string date = report_date();
   PathSource source(case_.problem, request.path, request.law, {request.allow_repeats});
   if (!arguments.json) fmt::print("{}", source.description());
   std::fflush(stdout);
 
   const std::filesystem::path out = out_folder(arguments.out, request.path.name);
   make_directories(out);
-  for (const char* name : {"path.csv", "certificate.json", "report.html"})
-    require_another(out / name, request.path.name);
+  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+    for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
+      require_another(out / name, read);
+    }
+  }
   const Interruption interruption;  // before there is a file that a signal could leave behind
   PathAudit audited;
   NewFile certificate(out / "certificate.json");
@@ -202,7 +206,7 @@ int run_audit(const AuditArguments& arguments) {
                         arguments.check, interruption.token());
     require_confirmed(rechecked);
     report.emplace(report_path);
-    report->write(html_report(read_certificate(written), {"", "", report_date(), rechecked}));
+    report->write(html_report(read_certificate(written), {"", "", date, rechecked}));
     report->finish();
     files.push_back(&*report);
   }

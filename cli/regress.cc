@@ -18,6 +18,8 @@
 #include "cli/subprocess.h"
 #include "kinematics/case_file.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
+#include "kinematics/placed_json.h"
 #include "kinematics/shown.h"
 #include "library/files.h"
 
@@ -301,8 +303,9 @@ std::vector<std::string> compare(const Baseline& baseline, std::vector<Regressed
   std::set<std::string> gone;
   for (const auto& [name, ignored] : baseline.cases) gone.insert(name);
   for (RegressedCase& regressed : cases) {
-    gone.erase(regressed.name);
-    const auto before = baseline.cases.find(regressed.name);
+    const std::string name = valid_utf8(regressed.name);
+    gone.erase(name);
+    const auto before = baseline.cases.find(name);
     if (before == baseline.cases.end() || !regressed.measurement) continue;
     if (before->second.verdict != regressed.measurement->verdict) {
       regressed.differences.push_back(
@@ -325,33 +328,43 @@ std::vector<std::string> compare(const Baseline& baseline, std::vector<Regressed
   return {gone.begin(), gone.end()};
 }
 
+bool is_baseline(const std::string& text) {
+  const json file = json::parse(text, nullptr, false);
+  return file.is_object() && file.value("format", json()) == kBaselineFormat;
+}
+
 Baseline read_baseline(const fs::path& path) {
   const auto fail = [&](const std::string& what) {
-    return InputError(fmt::format("{}: {}, expected a baseline that taut regress --update wrote", path.string(), what));
+    return InputError(fmt::format("{}: {}, expected a baseline that taut regress --update wrote", path.string(), what),
+                      {path.string()});
   };
   const json file = json::parse(read_whole(path), nullptr, false);
   if (!file.is_object() || file.value("format", json()) != kBaselineFormat) throw fail("got another file");
   if (file.value("version", json()) != kBaselineVersion) throw fail("got another version");
-  Baseline result;
-  try {
-    for (const auto& [name, entry] : file.at("cases").items()) {
-      Measurement measured{entry.at("verdict"), {}};
+  return reading(InputKind::kRegress, path.string(), [&] {
+    Baseline result;
+    const PlacedJson cases = PlacedJson(file, "baseline").at("cases");
+    if (!cases.value().is_object()) cases.fail("an object");
+    for (const auto& [name, member] : cases.value().items()) {
+      const PlacedJson entry(member, "cases." + name);
+      Measurement measured{entry.at("verdict").text(), {}};
       for (const char* quantity : kBoundQuantities) {
-        if (entry.contains(quantity)) measured.quantities[quantity] = entry.at(quantity).get<double>();
+        if (!entry.contains(quantity)) continue;
+        const PlacedJson number = entry.at(quantity);
+        if (!number.value().is_number()) number.fail("a number");
+        measured.quantities[quantity] = number.value().get<double>();
       }
       result.cases.emplace(name, std::move(measured));
     }
-  } catch (const json::exception& error) {
-    throw fail(fmt::format("got a damaged file ({})", error.what()));
-  }
-  return result;
+    return result;
+  });
 }
 
 std::string baseline_text(const std::vector<RegressedCase>& cases) {
   json entries = json::object();
   for (const RegressedCase& regressed : cases) {
     if (!regressed.measurement) continue;
-    json& entry = entries[regressed.name];
+    json& entry = entries[valid_utf8(regressed.name)];
     entry["verdict"] = regressed.measurement->verdict;
     for (const auto& [quantity, value] : regressed.measurement->quantities) entry[quantity] = value;
   }

@@ -62,6 +62,8 @@ struct Baseline {
 /// @returns cases of the baseline that are no more.
 [[nodiscard]] std::vector<std::string> compare(const Baseline& baseline, std::vector<RegressedCase>& cases);
 
+/// Whether a file with this text was meant as one.
+[[nodiscard]] bool is_baseline(const std::string& text);
 /// @throws InputError, naming the file, where it is none.
 [[nodiscard]] Baseline read_baseline(const std::filesystem::path& path);
 [[nodiscard]] std::string baseline_text(const std::vector<RegressedCase>& cases);

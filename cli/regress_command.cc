@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/console.h"
 #include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 #include "kinematics/shown.h"
 #include "library/files.h"
 
@@ -27,7 +29,7 @@ void print_table(const std::vector<RegressedCase>& cases) {
              "tension [N]", "length [m]", "scale", "time [s]");
   for (const RegressedCase& regressed : cases) {
     fmt::print("{:<{}}  {:<9}  {:>8} {:>8} {:>11} {:>11} {:>9} {:>8.2f}{}\n",
-               without_control_characters(regressed.name), width,
+               without_control_characters(valid_utf8(regressed.name)), width,
                regressed.measurement ? regressed.measurement->verdict : "-", cell(regressed, "segments", "{:.0f}"),
                cell(regressed, "boxes", "{:.0f}"), cell(regressed, "tension_margin", "{:.4g}"),
                cell(regressed, "length_margin", "{:.4g}"), cell(regressed, "wrench_scale", "{:.4g}"), regressed.seconds,
@@ -57,6 +59,24 @@ std::string part(const std::string& text) {
   return CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 1
              ? ""
              : "got '" + text + "', expected a number from 0 to 1";
+}
+
+bool is_junit(const std::string& text) {
+  return text.starts_with("<?xml") && text.find("<testsuites>") != std::string::npos;
+}
+
+/// That a file that is not there, is empty, or is an earlier one of its kind is to be written, and no case.
+void require_replaceable(const char* option, const std::string& file, bool (*is_of_its_kind)(const std::string&)) {
+  require_writable(file);
+  const std::filesystem::path extension = std::filesystem::path(file).extension();
+  std::error_code ignored;
+  const bool is_there = std::filesystem::is_regular_file(file, ignored);
+  const std::string text = is_there ? read_whole(file) : "";
+  if (extension != ".yaml" && extension != ".yml" && (text.empty() || is_of_its_kind(text))) return;
+  throw InputErrorOfKind(InputKind::kUse,
+                         fmt::format("{}: got '{}', which is another file or named as a case, expected a new file or "
+                                     "an earlier one of taut regress {}",
+                                     option, shown(file), option));
 }
 
 }  // namespace
@@ -89,11 +109,8 @@ int run_regress(RegressArguments arguments) {
     baseline = read_baseline(arguments.baseline);
     baseline->tolerance = arguments.tolerance;
   }
-  for (const std::string& written : {arguments.junit, arguments.update ? arguments.baseline : std::string()}) {
-    if (written.empty()) continue;
-    require_writable(written);
-    for (const std::filesystem::path& file : files) require_another(written, file);
-  }
+  if (!arguments.junit.empty()) require_replaceable("--junit", arguments.junit, is_junit);
+  if (arguments.update) require_replaceable("--baseline", arguments.baseline, is_baseline);
   if (!arguments.junit.empty() && !arguments.baseline.empty()) require_another(arguments.junit, arguments.baseline);
   arguments.options.out = arguments.out;
   if (arguments.budget > 0) arguments.options.budget = arguments.budget;

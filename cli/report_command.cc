@@ -70,10 +70,10 @@ void add_report_options(CLI::App& command, ReportArguments& arguments) {
 }
 
 int run_report(const ReportArguments& arguments) {
+  const std::string date = arguments.date.empty() ? report_date() : arguments.date;
   const nlohmann::json certificate = read_certificate(arguments.certificate_path);
   const Interruption interruption;
-  ReportOptions options{
-      arguments.document, arguments.revision, arguments.date.empty() ? report_date() : arguments.date, {}};
+  ReportOptions options{arguments.document, arguments.revision, date, {}};
   options.recheck = recheck(read_whole(arguments.certificate_path), certificate, arguments.check, interruption.token());
   const std::optional<Rendered> made = reading(InputKind::kCertificate, arguments.certificate_path, [&] {
     return render(arguments, certificate, options, interruption.token());

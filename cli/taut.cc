@@ -89,9 +89,15 @@ int run_plan(const PlanArguments& arguments) {
   }
   const std::filesystem::path out = out_folder(arguments.out, arguments.case_path);
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
+  const std::string date = report_date();
+  const std::vector<std::string> read = {arguments.case_path, arguments.key};
   if (!arguments.save_atlas.empty()) {
     require_writable(arguments.save_atlas);
-    require_another(arguments.save_atlas, arguments.case_path);
+    for (const std::string& file : read) require_another(arguments.save_atlas, file);
+  }
+  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+    for (const std::string& file : read) require_another(out / name, file);
+    for (const std::string& file : {arguments.atlas, arguments.save_atlas}) require_another(out / name, file);
   }
   Planner planner(case_, arguments.atlas);
   make_directories(out);
@@ -113,9 +119,8 @@ int run_plan(const PlanArguments& arguments) {
                                     case_.problem.tolerances.has_value(), arguments.check, interruption.token());
   require_confirmed(rechecked);
   const bool is_proved = result.proof.verdict == Verdict::kProved;
-  std::vector<FileContent> files = {
-      {out / "certificate.json", text},
-      {out / "report.html", html_report(certificate, {"", "", report_date(), rechecked})}};
+  std::vector<FileContent> files = {{out / "certificate.json", text},
+                                    {out / "report.html", html_report(certificate, {"", "", date, rechecked})}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
   // What is not proved is not for a machine to follow.

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "kinematics/shown.h"
+
 namespace taut {
 
 /// Where the outside world is wrong, as far as it is known; the message says it, too.
@@ -16,11 +18,11 @@ struct InputPlace {
 };
 
 /// Names the place, the value seen and what was expected: "robot.yaml:12: load.mass: got 'NaN', expected a
-/// positive decimal".
+/// positive decimal". On one line, without anything that would steer a terminal, whatever the file says.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message, InputPlace place = {})
-      : std::runtime_error(message), place_(std::move(place)) {}
+      : std::runtime_error(without_control_characters(message)), place_(std::move(place)) {}
   [[nodiscard]] const InputPlace& place() const { return place_; }
 
  private:

@@ -20,7 +20,6 @@ namespace taut {
 namespace {
 
 constexpr std::size_t kMaxLineBytes = std::size_t{1} << 16U;
-constexpr double kNormTolerance = 1e-3;      // of quaternions; exporters write three digits at least
 constexpr int kMaxHalfTurns = 1'000'000;     // of certificates too
 constexpr std::string_view kBlanks = " \t";  // the carriage return of a line's end is taken off before
 
@@ -95,7 +94,10 @@ class Lines {
   bool refill() {
     if (!text_->good()) return false;
     text_->read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    if (text_->bad()) fail(number_ + 1, "could not read on");
+    if (text_->bad()) {
+      throw InputErrorOfKind(InputKind::kFile, fmt::format("{}:{}: could not read on", file_, number_ + 1),
+                             {file_, number_ + 1});
+    }
     at_ = 0;
     end_ = static_cast<std::size_t>(text_->gcount());
     bytes_ += end_;
@@ -631,7 +633,7 @@ std::unique_ptr<std::istream> open(const std::string& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(fmt::format("{}: got a directory, expected a path file", path), {path});
+    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: got a directory, expected a path file", path), {path});
   }
   if (!*file) {
     throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path, std::strerror(errno)), {path});

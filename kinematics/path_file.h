@@ -37,6 +37,7 @@ enum class PathForm {
   kCableLengths,  ///< l1 … l6 [m]
 };
 
+inline constexpr double kNormTolerance = 1e-3;  ///< of quaternions; exporters write three digits at least
 inline constexpr std::array<const char*, 7> kQuaternionNames = {"px", "py", "pz", "qx", "qy", "qz", "qw"};
 inline constexpr std::array<const char*, 6> kLengthNames = {"l1", "l2", "l3", "l4", "l5", "l6"};
 

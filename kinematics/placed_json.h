@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut {
@@ -15,6 +16,8 @@ namespace taut {
 class PlacedJson {
  public:
   PlacedJson(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
+
+  PlacedJson(nlohmann::json&& value, std::string where) = delete;
 
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
   [[nodiscard]] const std::string& where() const { return where_; }

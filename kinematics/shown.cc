@@ -9,6 +9,15 @@ namespace {
 
 constexpr std::size_t kMaxShown = 60;  // characters of a wrong value in a message
 
+/// ASCII's and C1, marks and overrides of direction, separators of lines.
+bool is_control(std::string_view character) {
+  const auto lead = static_cast<unsigned char>(character.front());
+  if (character.size() == 1) return lead < ' ' || lead == 0x7F;
+  if (character.size() == 2) return lead == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0;
+  return (character >= "\u200E" && character <= "\u200F") || (character >= "\u2028" && character <= "\u202E") ||
+         (character >= "\u2066" && character <= "\u2069");
+}
+
 }  // namespace
 
 std::size_t utf8_character_length(std::string_view text) {
@@ -39,22 +48,32 @@ std::string shorten(const std::string& text) {
 
 std::string without_control_characters(const std::string& text) {
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < ' ' || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_character_length(rest), 1));
+    if (is_control(character)) {
+      for (const char c : character) result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else {
+      result += character;
+    }
+    rest.remove_prefix(character.size());
   }
   return result;
 }
 
-std::string shown(std::string_view text) {
+std::string valid_utf8(std::string_view text) {
   std::string valid;
-  while (!text.empty() && valid.size() <= kMaxShown) {
+  while (!text.empty()) {
     const std::size_t length = utf8_character_length(text);
     valid += length == 0 ? fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()))
                          : std::string(text.substr(0, length));
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
-  return without_control_characters(shorten(valid));
+  return valid;
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t kLongest = 4;  // bytes of a character
+  return without_control_characters(shorten(valid_utf8(text.substr(0, kMaxShown + kLongest))));
 }
 
 }  // namespace taut

@@ -3,42 +3,42 @@
 #include <fmt/format.h>
 
 #include "certify/certificate.h"
+#include "certify/checker/certificate.h"
+#include "certify/checker/errors.h"
 #include "kinematics/input_error.h"
 #include "kinematics/input_kind.h"
+#include "kinematics/placed_json.h"
 #include "library/files.h"
 
 namespace taut {
 namespace {
 
-void require_unaltered(const nlohmann::json& certificate, const std::string& path) {
+void require_unaltered(const nlohmann::json& certificate) {
   nlohmann::json body = certificate;
   const bool has_footer =
       body.is_object() && body.contains("footer") && body["footer"].is_object() && body["footer"].contains("sha256");
-  const nlohmann::json digest = has_footer ? body["footer"]["sha256"] : nlohmann::json();
+  static const nlohmann::json kNone;
+  const nlohmann::json digest = has_footer ? body["footer"]["sha256"] : kNone;
   if (body.is_object()) {
     body.erase("footer");
     body.erase("signature");
   }
   if (digest != sha256(body)) {
-    throw InputError(fmt::format("{}: footer.sha256: got {}, expected the digest of this file: it is no certificate, "
-                                 "or was cut or altered",
-                                 path, digest.dump()),
-                     {path});
+    PlacedJson(digest, "footer.sha256").fail("the digest of this file: it is no certificate, or was cut or altered");
   }
 }
 
 }  // namespace
 
 nlohmann::json parse_certificate(const std::string& text, const std::string& name) {
-  return reading(InputKind::kCertificate, [&] {
-    nlohmann::json certificate;
+  return reading(InputKind::kCertificate, name, [&] {
     try {
-      certificate = nlohmann::json::parse(text);
-      require_unaltered(certificate, name);
-    } catch (const nlohmann::json::exception& error) {
-      throw InputError(fmt::format("{}: {}", name, error.what()), {name});
+      nlohmann::json certificate = checker::parse_json(text);
+      require_unaltered(certificate);
+      return certificate;
+    } catch (const checker::Malformed& error) {
+      throw InputError(fmt::format("got {}, expected a certificate", error.what()));
     }
-    return certificate;
   });
 }
 

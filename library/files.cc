@@ -176,7 +176,9 @@ void require_writable(const std::filesystem::path& path) {
 
 void require_another(const std::filesystem::path& written, const std::filesystem::path& read) {
   std::error_code ignored;
-  if (!std::filesystem::equivalent(written, read, ignored)) return;
+  const bool is_there = std::filesystem::equivalent(written, read, ignored);
+  const std::filesystem::path name = std::filesystem::weakly_canonical(written, ignored);
+  if (!is_there && (ignored || name != std::filesystem::weakly_canonical(read, ignored))) return;
   throw InputErrorOfKind(InputKind::kUse,
                          fmt::format("{}: got the file that is read, expected another to be written", written.string()),
                          {written.string()});
@@ -188,10 +190,13 @@ std::string read_whole(const std::filesystem::path& path) {
   if (!file) fail(path, "read", errno != 0 ? errno : ENOENT);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "read", EISDIR);
-  std::ostringstream content;
-  content << file.rdbuf();
+  std::string content;
+  std::vector<char> piece(std::size_t{1} << 16U);
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
+    content.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad()) fail(path, "read", errno != 0 ? errno : EIO);
-  return content.str();
+  return content;
 }
 
 void make_directories(const std::filesystem::path& path) {

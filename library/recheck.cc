@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "certify/checker/check.h"
-#include "kinematics/input_error.h"
+#include "kinematics/input_kind.h"
 
 namespace taut {
 
@@ -111,7 +111,8 @@ std::string report_date() {
     constexpr std::time_t kLatest = 253402300799;  // the end of the year 9999
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
     if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kLatest) {
-      throw InputError(fmt::format("SOURCE_DATE_EPOCH: got '{}', expected seconds since 1970", text));
+      throw InputErrorOfKind(InputKind::kUse,
+                             fmt::format("SOURCE_DATE_EPOCH: got '{}', expected seconds since 1970", text));
     }
   }
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));

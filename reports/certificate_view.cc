@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "certify/certificate.h"
 #include "kinematics/decimal.h"
@@ -99,8 +101,9 @@ MarginsView read_margins(const PlacedJson& margins) {
   return {decimal(margins.at("tension_N")), decimal(margins.at("length_m")), decimal(margins.at("wrench_scale"))};
 }
 
-/// From 0 to count - 1.
+/// Of one of so many things.
 int read_index(const PlacedJson& index, std::size_t count) {
+  if (count == 0) index.fail("none, as the path has no segment");
   return static_cast<int>(index.integer(0, static_cast<std::int64_t>(count) - 1));
 }
 
@@ -120,6 +123,11 @@ PathPointView read_point(const PlacedJson& point, const Path& path) {
 WitnessView read_witness(const PlacedJson& witness, const Path& path) {
   WitnessView result;
   result.kind = witness.at("kind").text();
+  constexpr std::array<std::string_view, 5> kKinds = {"singular", "tension_min", "tension_max", "length_min",
+                                                      "length_max"};
+  if (std::ranges::find(kKinds, result.kind) == kKinds.end()) {
+    witness.at("kind").fail(fmt::format("one of {}", fmt::join(kKinds, ", ")));
+  }
   result.at = read_point(witness.at("at"), path);
   if (result.kind == "singular") {
     result.to = read_point(witness.at("to"), path);
@@ -162,6 +170,7 @@ UndecidedView read_undecided(const PlacedJson& undecided, const Path& path) {
     result.box_upper = ends[1].text();
     result.lower = read_dyadic(ends[0]).approx();
     result.upper = read_dyadic(ends[1]).approx();
+    if (!(read_dyadic(ends[0]) < read_dyadic(ends[1]))) box.fail("a lower end and a higher one");
   }
   return result;
 }
@@ -207,8 +216,10 @@ CertificateView read_certificate(const json& certificate) {
     version.fail(
         fmt::format("{}: only the taut that made it can make its report, or one of that time", kCertificateVersion));
   }
-  if (const PlacedJson generator = member("generator"); generator.contains("name") && generator.contains("version")) {
-    view.generator = generator.at("name").text() + " " + generator.at("version").text();
+  for (const char* key : {"name", "version"}) {
+    const PlacedJson generator = member("generator");
+    if (!generator.contains(key)) continue;
+    view.generator += (view.generator.empty() ? "" : " ") + generator.at(key).text();
   }
   view.verdict = text("verdict");
   if (view.verdict != "proved" && view.verdict != "refuted" && view.verdict != "undecided") {
@@ -238,6 +249,8 @@ CertificateView read_certificate(const json& certificate) {
     view.boxes += view.segments.back().boxes;
     view.segment_boxes.push_back(read_boxes(boxes));
   }
+  if (view.verdict == "proved" && view.path.segments() == 0) path.at("waypoints").fail("at least two of a proved path");
+  if (view.verdict == "proved" && view.segments.empty()) member("segments").fail("some of a proved path");
   if (view.verdict == "proved") view.margins = read_margins(member("margins"));
   if (view.verdict == "refuted") view.witness = read_witness(member("witness"), view.path);
   if (view.verdict == "undecided") view.undecided = read_undecided(member("undecided"), view.path);

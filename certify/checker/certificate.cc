@@ -656,6 +656,8 @@ std::string read_undecided(const Json& json, std::size_t segments) {
 /// What JSON would allow and a certificate must not have. Of a text that is no JSON it says nothing.
 class StrictReader : public nlohmann::json_sax<Json> {
  public:
+  explicit StrictReader(const std::string& text) : text_(text) {}
+
   bool null() override { return true; }
   bool boolean(bool /*value*/) override { return true; }
   bool number_integer(number_integer_t /*value*/) override { return true; }
@@ -679,9 +681,10 @@ class StrictReader : public nlohmann::json_sax<Json> {
   }
   bool start_array(std::size_t /*size*/) override { return open(); }
   bool end_array() override { return close(); }
-  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+  bool parse_error(std::size_t position, const std::string& /*token*/,
                    const nlohmann::detail::exception& /*error*/) override {
-    return false;
+    const auto read = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
+    throw Malformed("no JSON, or cut: line " + std::to_string(1 + std::count(text_.begin(), read, '\n')));
   }
 
  private:
@@ -694,6 +697,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     return true;
   }
 
+  const std::string& text_;
   std::vector<std::set<std::string>> keys_;  ///< of the objects that are open
   int depth_ = 0;
 };
@@ -710,7 +714,7 @@ nlohmann::json parse_json(const std::string& text) {
   if (text.find('\0') != std::string::npos) throw Malformed("no JSON: it contains a NUL byte");
   try {
     // The library could ask us while it builds the value, but then looks at all of an array at the end of each of its objects.
-    StrictReader strict;
+    StrictReader strict(text);
     Json::sax_parse(text, &strict);
     return Json::parse(text);
   } catch (const Json::exception& error) {

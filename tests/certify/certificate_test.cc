@@ -139,7 +139,7 @@ TEST(Certificate, MalformedPathsAreRefusedWithTheirPlace) {
   for (const char* value : {R"("0x1p")", R"("nan")", R"("inf")", R"("1")", R"("0x2p+0")", R"("")"}) {
     const std::string patch = R"({"op":"replace","path":"/waypoints/2/x/1","value":)" + std::string(value) + "}";
     EXPECT_EQ(complaint(patch.c_str()), "path.waypoints[2].x[1]: got " + std::string(value) +
-                                            ", expected a finite binary64 such as \"0x1.8p+1\"");
+                                            ", expected a finite binary64 as %a prints it, such as \"0x1.8p+1\"");
   }
   for (const char* value : {"1000001", "-1000001", "0.5", "18446744073709551615", "null", R"("1")"}) {
     const std::string patch =

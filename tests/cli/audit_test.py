@@ -189,6 +189,19 @@ class Audit(Audits):
             self.assertEqual(text_of(path), text)
             self.assertFalse(os.path.exists(self.path("certificate.json")))
 
+        os.unlink(self.path("link"))
+        case = self.write("report.html", text_of(ROBOT1))
+        os.rename(self.path("path.csv"), self.path("other.csv"))
+        for command in (("audit", case, self.path("other.csv")), ("plan", case)):
+            self.assertEqual(run(TAUT, *command, "--out", self.out).returncode, 3)
+            self.assertEqual(sorted(os.listdir(self.out)), ["other.csv", "report.html"])
+        self.assertEqual(text_of(case), text_of(ROBOT1))
+        key = self.path("key.pem")
+        subprocess.run(["openssl", "genpkey", "-algorithm", "ed25519", "-out", key], check=True)
+        before = text_of(key)
+        said = run(TAUT, "plan", ROBOT1, "--out", self.path("out"), "--sign", key, "--save-atlas", key)
+        self.assertEqual((said.returncode, text_of(key)), (3, before))
+
     def test_bad_paths_are_refused_with_their_place(self):
         self.refused("phi[deg],theta[deg]\n1,2\n3,nan\n", "path.csv:3: theta: got 'nan', expected a decimal number")
         self.refused("phi[deg],theta[deg]\n1,2\n1,2\n", "path.csv:3: got the pose of line 2 again", "--allow-repeats")
@@ -242,10 +255,10 @@ class Audit(Audits):
         path = self.write("path.csv", COLUMNS + "0,0,350,-2.3,1.6,0\n0,1,350,-2.3,1.6,0\n")
         self.audit(ROBOT1, path)
         turns = "path.waypoints[1].half_turns[3]: got {}, expected a whole number from -1000000 to 1000000"
-        number = 'path.waypoints[1].x[3]: got {}, expected a finite binary64 such as "0x1.8p+1"'
+        number = 'path.waypoints[1].x[3]: got {}, expected a finite binary64 as %a prints it, such as "0x1.8p+1"'
         for key, value, said in [("half_turns", 2**32, turns.format(2**32)),
                                  ("half_turns", 2**64 - 1, turns.format(2**64 - 1)),
-                                 ("half_turns", 0.5, turns.format(0.5)),
+                                 ("half_turns", 0.5, "got a number that is no integer, expected a certificate"),
                                  ("half_turns", True, turns.format("true")),
                                  ("x", "0.1", number.format('"0.1"')),
                                  ("x", "0X1P+0", number.format('"0X1P+0"')),
@@ -258,9 +271,18 @@ class Audit(Audits):
         certificate = self.certificate()
         certificate["path"]["waypoints"][1]["half_turns"][0] = 1
         self.refused(sealed(certificate), "path.waypoints[1].half_turns: got 1 of 'px'", name="certificate.json")
+        for times, said in ((["1", "0"], 'path.times[1]: got "0", expected a time later than the one before'),
+                            (["1", "x"], 'path.times[1]: got "x", expected a decimal number in a string'),
+                            (["1", "1e400"], 'path.times[1]: got "1e400", expected a decimal number in a string'),
+                            (["1"], 'path.times: got ["1"], expected a list of 2')):
+            certificate = self.certificate()
+            certificate["path"]["times"] = times
+            self.refused(sealed(certificate), said, name="certificate.json")
+        self.audit(ROBOT1, path, "--interpolation", "geodesic")
         certificate = self.certificate()
-        certificate["path"]["times"] = ["1", "0"]
-        self.refused(sealed(certificate), "path.times[1]: got 0", name="certificate.json")
+        quaternion = certificate["path"]["waypoints"][1]["quaternion"]
+        quaternion[:] = [(float.fromhex(x) * 1.008).hex().replace("0x0.0p+0", "0x0p+0") for x in quaternion]
+        self.refused(sealed(certificate), "of length 1.008, expected 1 within 0.001", name="certificate.json")
 
     def test_reserves_are_those_of_the_plan(self):
         planned = json.loads(run(TAUT, "plan", ROBOT1, "--out", self.path("plan"), "--json").stdout)

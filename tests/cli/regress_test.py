@@ -147,12 +147,41 @@ class Regress(InFolder):
     def test_no_case_is_written_over(self):
         self.add("good.yaml")
         before = text_of(self.path("cases", "good.yaml"))
+        self.write("path.csv", "px[mm]\n1\n")
         for option in (["--junit"], ["--update", "--baseline"]):
             self.regress(*option, self.path("cases", "good.yaml"), code=3)
             self.assertEqual(text_of(self.path("cases", "good.yaml")), before)
-        self.write("baseline.json", "")
+            self.regress(*option, self.path("cases", "new.yaml"), code=3)
+            self.regress(*option, self.path("path.csv"), code=3)
+            self.assertEqual(text_of(self.path("path.csv")), "px[mm]\n1\n")
+        new = self.path("new")
+        self.regress("--update", "--baseline", new, "--junit", new, code=3)
+        self.write("new", "")
+        self.regress("--update", "--baseline", new, "--junit", new, code=3)
+        for _ in range(2):
+            self.regress("--update", "--baseline", new, "--junit", self.path("j.xml"), code=0)
+        self.regress("--update", "--baseline", self.path("j.xml"), code=3)
+        self.regress("--junit", new, code=3)
+
+    def test_names_that_are_no_text_are_in_the_baseline(self):
+        self.add("good.yaml")
+        os.rename(self.path("cases", "good.yaml"), os.fsencode(self.path("cases", "good")) + b"\xff.yaml")
         baseline = self.path("baseline.json")
-        self.regress("--update", "--baseline", baseline, "--junit", baseline, code=3)
+        self.regress("--update", "--baseline", baseline, code=0)
+        self.assertEqual(list(json.loads(text_of(baseline))["cases"]), ["good\\xff.yaml"])
+        self.regress("--baseline", baseline, code=0)
+
+    def test_a_damaged_baseline_is_refused_with_the_place(self):
+        self.add("good.yaml")
+        self.regress("--update", "--baseline", self.path("baseline.json"), code=0)
+        good = json.loads(text_of(self.path("baseline.json")))
+        for cases, said in (([], "baseline.cases: got [], expected an object"),
+                            ({"a": 3}, "cases.a: got 3, expected an object"),
+                            ({"a": {"verdict": 1}}, "cases.a.verdict: got 1, expected a string"),
+                            ({"a": {"verdict": "proved", "angle": "x"}}, 'cases.a.angle: got "x", expected a number')):
+            damaged = self.write("damaged.json", json.dumps({**good, "cases": cases}))
+            result = run(TAUT, "regress", self.cases, "--baseline", damaged)
+            self.assertEqual((result.returncode, result.stderr), (3, f"taut: {damaged}: {said} [E9]\n"))
 
     def test_what_takes_too_long_is_ended(self):
         self.add("long.yaml", "robot2-free-q2-q3-astar.yaml", planner="{strategy: astar, max_seconds: 100}")

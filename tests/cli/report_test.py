@@ -92,13 +92,37 @@ class Report(unittest.TestCase):
                  'segments[0].boxes[0][1]: got "2/3", expected a dyadic from 0 to 1'),
                 (with_(-1, "segments", 0, "from"),
                  "segments[0].from: got -1, expected a whole number from 0 to 2147483647"),
+                (with_([], "path", "waypoints"), "path.waypoints: got [], expected at least two of a proved path"),
+                (with_([], "segments"), "segments: got [], expected some of a proved path"),
+                (with_(["x"] * 3, "path", "times"), None),
+                (with_(["\x1b[31mred\n"], "problem", "load", "wrench"), None),
+                (with_("\x1b[31mred\n\u009b\u202e", "problem", "load", "wrench", 0), "problem.load.wrench[0]: got "
+                 "'\\x1b[31mred\\x0a\\xc2\\x9b\\xe2\\x80\\xae', expected a decimal number such as 0.05 or 1e-4"),
                 (with_(None, "illustration", "charts", 0, "c", 0),
                  "illustration.charts[0].c[0]: got null, expected a string")]:
             with self.subTest(said=said):
                 odd = self.changed("odd.json", change)
                 result = run(TAUT, "report", odd)
                 self.assertEqual((result.returncode, result.stdout), (3, ""))
-                self.assertEqual(result.stderr, f"taut: {odd}: {said} [E5]\n")
+                self.assertEqual(result.stderr.count("\n"), 1)
+                self.assertNotIn("\x1b", result.stderr)
+                if said:
+                    self.assertEqual(result.stderr, f"taut: {odd}: {said} [E5]\n")
+
+    def test_what_is_no_json_has_its_line(self):
+        deep = "[" * 100_000 + "]" * 100_000
+        for text, said in (("", "line 1"), ("hello", "line 1"), ('{"a": 1}\n\nb', "line 3"), ('{\n"a":', "line 2"),
+                           ('{"a": "\\ud800"}', "line 1"), ('{"a": 1e999}', "no JSON"), ("\ufeff{}", "byte order mark"),
+                           ('{"a": 1, "a": 1}', "twice"), ('{"a": 0.5}', "no integer"), (deep, "nested too deeply")):
+            with self.subTest(text=text[:20]):
+                path = self.path("odd.json")
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+                for command in (("report", path), ("audit", CASE, path)):
+                    result = run(TAUT, *command)
+                    self.assertEqual((result.returncode, result.stdout), (3, ""))
+                    self.assertRegex(result.stderr, rf"^taut: {re.escape(path)}: got .*{said}.*, expected a certificate \[E\d\]\n$")
+                    self.assertNotIn("exception", result.stderr)
 
     def test_plan_checks_its_certificate_again_unless_told_not_to(self):
         self.assertIn("Re-checked by taut-check", self.planned.stdout)
@@ -158,7 +182,12 @@ class Report(unittest.TestCase):
         for extra in (["--pdf", "--text"], ["--check", "--no-check"], ["--document", 'a"b'], ["--revision", "x" * 41],
                       ["--date", "<b>"]):
             self.assertEqual(run(TAUT, "report", self.certificate, *extra).returncode, 3, extra)
-        self.assertEqual(run(TAUT, "report", self.certificate, "--text", SOURCE_DATE_EPOCH="soon").returncode, 3)
+        for command in (("report", self.certificate, "--text"), ("plan", CASE, "--out", self.path("late")),
+                        ("audit", CASE, self.certificate, "--out", self.path("late"))):
+            said = run(TAUT, *command, SOURCE_DATE_EPOCH="soon")
+            self.assertEqual((said.returncode, said.stdout), (3, ""))
+            self.assertIn("SOURCE_DATE_EPOCH: got 'soon', expected seconds since 1970 [E1]", said.stderr)
+        self.assertFalse(os.path.exists(self.path("late")))
 
     def test_without_a_browser_it_says_what_to_install(self):
         said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", TAUT_BROWSER="/no/such/browser")

@@ -237,9 +237,11 @@ class Judge {
         break;
       case Verdict::kUndecided:
         ++counts.undecided;
-        if (options_.list_undecided && !violated_ && !trial_.has_bad_reference) {
-          report("undecided", fmt::format("{} boxes; from s = {:.6g}, depth {}: {}", proof.boxes_judged,
-                                          proof.open_box.lower().approx(), proof.open_box.depth, proof.reason.text()));
+        // Of violations by tolerances many are.
+        if (options_.list_undecided && !(violated_ && has_tolerances()) && !trial_.has_bad_reference) {
+          report(violated_ ? "undecided violation" : "undecided",
+                 fmt::format("{} boxes; from s = {:.6g}, depth {}: {}", proof.boxes_judged,
+                             proof.open_box.lower().approx(), proof.open_box.depth, proof.reason.text()));
         }
         break;
     }
@@ -763,7 +765,8 @@ int main(int argc, char** argv) {
   app.add_option("--law", law, "one law only")->transform(CLI::CheckedTransformer(by_name(kLawNames)));
   app.add_option("--tolerances", tolerances, "one kind only")
       ->transform(CLI::CheckedTransformer(by_name(kToleranceNames)));
-  app.add_flag("--undecided", options.list_undecided, "list the clear ones that are not decided, with their reasons");
+  app.add_flag("--undecided", options.list_undecided,
+               "list what is not decided, but for violations by tolerances, with reasons");
   app.add_option("--surveys", options.surveys,
                  "of so many seeds one is surveyed as an audit does, and judged also if it crosses det J = 0 (16)")
       ->check(CLI::PositiveNumber);
