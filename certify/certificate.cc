@@ -15,7 +15,6 @@
 #include "certify/checker/claims.h"
 #include "certify/sha256.h"
 #include "kinematics/decimal.h"
-#include "kinematics/input_error.h"
 #include "kinematics/placed_json.h"
 
 namespace taut {
@@ -209,14 +208,6 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
 
 namespace {
 
-Decimal decimal(const PlacedJson& field) {
-  try {
-    return Decimal::parse(field.text());
-  } catch (const InputError&) {
-    field.fail("a decimal number in a string");
-  }
-}
-
 double binary64(const PlacedJson& field) {
   const std::string& literal = field.text();
   const double value = std::strtod(literal.c_str(), nullptr);
@@ -289,7 +280,7 @@ std::vector<DecimalText> times_from_json(const PlacedJson& times, std::size_t wa
   std::vector<DecimalText> result;
   std::optional<Decimal> last;
   for (const PlacedJson& field : times.elements(waypoints)) {
-    const Decimal time = decimal(field);
+    const Decimal time = field.decimal();
     if (last && !(time > *last)) field.fail("a time later than the one before");
     last = time;
     result.push_back(field.text());

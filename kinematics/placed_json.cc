@@ -64,6 +64,14 @@ const std::string& PlacedJson::text() const {
   return value_->get_ref<const std::string&>();
 }
 
+Decimal PlacedJson::decimal() const {
+  try {
+    if (value_->is_string()) return Decimal::parse(text());
+  } catch (const InputError&) {  // says no place
+  }
+  fail("a decimal number in a string");
+}
+
 std::int64_t PlacedJson::integer(std::int64_t least, std::int64_t most) const {
   const bool fits = value_->is_number_integer() &&
                     (!value_->is_number_unsigned() || std::in_range<std::int64_t>(value_->get<std::uint64_t>()));

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "kinematics/decimal.h"
+
 namespace taut {
 
 /// A value and its place, "path.waypoints[3].x". What is asked of it and isn't so is a FieldError that names the place,
@@ -40,6 +42,8 @@ class PlacedJson {
   [[nodiscard]] std::vector<PlacedJson> elements(std::size_t size) const;
 
   [[nodiscard]] const std::string& text() const;
+  /// Of a text that is one.
+  [[nodiscard]] Decimal decimal() const;
   /// An integer between these, inclusive.
   [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t most) const;
 

@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "certify/certificate.h"
-#include "kinematics/decimal.h"
 #include "kinematics/input_error.h"
 #include "kinematics/placed_json.h"
 
@@ -35,13 +34,10 @@ double approximation(const PlacedJson& field) {
   return value;
 }
 
+/// Its text.
 std::string decimal(const PlacedJson& field) {
-  try {
-    (void)Decimal::parse(field.text());
-    return field.text();
-  } catch (const InputError&) {
-    field.fail("a decimal number in a string");
-  }
+  (void)field.decimal();
+  return field.text();
 }
 
 /// "k/m", "0" or "1".
@@ -168,9 +164,11 @@ UndecidedView read_undecided(const PlacedJson& undecided, const Path& path) {
     const std::vector<PlacedJson> ends = box.elements(2);
     result.box_lower = ends[0].text();
     result.box_upper = ends[1].text();
-    result.lower = read_dyadic(ends[0]).approx();
-    result.upper = read_dyadic(ends[1]).approx();
-    if (!(read_dyadic(ends[0]) < read_dyadic(ends[1]))) box.fail("a lower end and a higher one");
+    const Dyadic lower = read_dyadic(ends[0]);
+    const Dyadic upper = read_dyadic(ends[1]);
+    if (!(lower < upper)) box.fail("a lower end and a higher one");
+    result.lower = lower.approx();
+    result.upper = upper.approx();
   }
   return result;
 }
