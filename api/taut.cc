@@ -1,4 +1,4 @@
-#include "library/taut/taut.h"
+#include "api/taut/taut.h"
 
 #include <fmt/format.h>
 #include <immintrin.h>
@@ -14,27 +14,28 @@
 #include <mutex>
 #include <new>
 
-#include "certify/certificate.h"
-#include "certify/checker/check.h"
-#include "certify/checker/errors.h"
-#include "certify/checker/signature.h"
-#include "certify/interval.h"
-#include "certify/rounding.h"
+#include "app/path_audit.h"
+#include "app/planned_case.h"
+#include "app/proved_path.h"
+#include "app/recheck.h"
+#include "base/files.h"
+#include "base/input_kind.h"
+#include "case/case_file.h"
+#include "certificate/certificate.h"
+#include "certificate/certificate_file.h"
+#include "certificate/certificate_view.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
-#include "kinematics/case_file.h"
-#include "kinematics/input_kind.h"
+#include "checker/check.h"
+#include "checker/errors.h"
+#include "checker/signature.h"
 #include "kinematics/pose_conversion.h"
-#include "library/certificate_file.h"
-#include "library/files.h"
-#include "library/path_audit.h"
-#include "library/path_csv.h"
-#include "library/planned_case.h"
-#include "library/proved_path.h"
-#include "library/recheck.h"
-#include "reports/case_summary.h"
-#include "reports/certificate_view.h"
-#include "reports/html_report.h"
-#include "reports/samples.h"
+#include "path_io/path_csv.h"
+#include "reports/page/html_report.h"
+#include "reports/page/robot_drawing.h"
+#include "reports/summary/case_summary.h"
+#include "reports/summary/samples.h"
 
 namespace taut::v0 {
 

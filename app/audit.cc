@@ -1,4 +1,4 @@
-#include "library/audit.h"
+#include "app/audit.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "certify/gaps.h"
-#include "library/path_csv.h"
+#include "path_io/path_csv.h"
 
 namespace taut {
 namespace {

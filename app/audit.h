@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "certify/certificate_stream.h"
+#include "app/path_source.h"
+#include "certificate/certificate_stream.h"
 #include "certify/path_proof.h"
-#include "library/path_source.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "library/illustration.h"
+#include "app/illustration.h"
 
 #include <fmt/format.h>
 

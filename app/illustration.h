@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "library/plan.h"
+#include "planner/planner.h"
 
 namespace taut {
 

@@ -1,11 +1,11 @@
-#include "library/path_audit.h"
+#include "app/path_audit.h"
 
 #include <atomic>
 #include <utility>
 
-#include "certify/certificate.h"
-#include "kinematics/input_error.h"
-#include "library/tolerance_table.h"
+#include "app/tolerance_table.h"
+#include "base/input_error.h"
+#include "certificate/certificate.h"
 
 namespace taut {
 namespace {

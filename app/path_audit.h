@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "certify/signature.h"
+#include "app/audit.h"
+#include "app/path_source.h"
+#include "case/case_file.h"
+#include "certificate/signature.h"
 #include "certify/tolerance_limits.h"
-#include "kinematics/case_file.h"
-#include "library/audit.h"
-#include "library/path_source.h"
 
 namespace taut {
 

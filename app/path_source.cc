@@ -1,4 +1,4 @@
-#include "library/path_source.h"
+#include "app/path_source.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <sstream>
 #include <utility>
 
-#include "certify/certificate.h"
-#include "certify/sha256.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/shown.h"
-#include "library/certificate_file.h"
-#include "library/files.h"
+#include "base/files.h"
+#include "base/input_kind.h"
+#include "base/sha256.h"
+#include "base/shown.h"
+#include "certificate/certificate.h"
+#include "certificate/certificate_file.h"
 
 namespace taut {
 namespace {

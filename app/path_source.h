@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "kinematics/path_file.h"
-#include "kinematics/path_summary.h"
 #include "kinematics/segment.h"
-#include "kinematics/waypoint_maker.h"
+#include "path_io/path_file.h"
+#include "path_io/path_summary.h"
+#include "path_io/waypoint_maker.h"
 
 namespace taut {
 

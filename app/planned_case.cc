@@ -1,9 +1,9 @@
-#include "library/planned_case.h"
+#include "app/planned_case.h"
 
-#include "certify/certificate.h"
+#include "app/illustration.h"
+#include "app/tolerance_table.h"
+#include "certificate/certificate.h"
 #include "kinematics/navigation_manifold.h"
-#include "library/illustration.h"
-#include "library/tolerance_table.h"
 
 namespace taut {
 
@@ -11,7 +11,7 @@ void require_plannable(const Case& the_case) {
   if (the_case.problem.query.empty()) {
     throw FieldError("query", "", "expected the key 'query': what to plan (a case without is for taut audit)");
   }
-  require_query_on_constraints(the_case);
+  require_query_on_constraints(the_case.problem, the_case.length_unit);
 }
 
 std::string certificate_text(const nlohmann::json& certificate) { return certificate.dump(1, ' ', true) + "\n"; }

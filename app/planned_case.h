@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "certify/signature.h"
+#include "certificate/signature.h"
 #include "certify/tolerance_limits.h"
-#include "library/plan.h"
+#include "planner/planner.h"
 
 namespace taut {
 

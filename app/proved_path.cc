@@ -1,4 +1,4 @@
-#include "library/proved_path.h"
+#include "app/proved_path.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -10,11 +10,11 @@
 #include <optional>
 #include <utility>
 
-#include "certify/certificate.h"
+#include "certificate/certificate.h"
 #include "certify/path_proof.h"
-#include "kinematics/decimal.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
+#include "problem/decimal.h"
 
 namespace taut {
 namespace {

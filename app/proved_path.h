@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <string>
 
-#include "kinematics/problem.h"
 #include "kinematics/segment.h"
+#include "problem/problem.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "library/recheck.h"
+#include "app/recheck.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "certify/checker/check.h"
-#include "kinematics/input_kind.h"
+#include "base/input_kind.h"
+#include "checker/check.h"
 
 namespace taut {
 

@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <string>
 
-#include "reports/report_options.h"
+#include "reports/summary/report_options.h"
 
 namespace taut {
 

@@ -11,8 +11,8 @@
 #include <numeric>
 
 #include "atlas/bytes.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "library/files.h"
+#include "base/files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 #include <fstream>
 #include <utility>
 
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
 
 namespace taut {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "kinematics/shown.h"
+#include "base/shown.h"
 
 namespace taut {
 
@@ -27,6 +27,18 @@ class InputError : public std::runtime_error {
 
  private:
   InputPlace place_;
+};
+
+/// A field of a problem breaks its promise: "robot.length[2]: got [0.5, 0.1], expected 0 <= lower < upper".
+class FieldError : public InputError {
+ public:
+  FieldError(std::string field, std::string seen, std::string expected);
+  [[nodiscard]] const std::string& field() const { return field_; }
+  [[nodiscard]] const std::string& seen() const { return seen_; }  ///< may be empty
+  [[nodiscard]] const std::string& expected() const { return expected_; }
+
+ private:
+  std::string field_, seen_, expected_;
 };
 
 }  // namespace taut

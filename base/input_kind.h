@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 

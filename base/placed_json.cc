@@ -1,4 +1,4 @@
-#include "kinematics/placed_json.h"
+#include "base/placed_json.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "kinematics/problem.h"
-#include "kinematics/shown.h"
+#include "base/shown.h"
 
 namespace taut {
 
@@ -62,14 +61,6 @@ std::vector<PlacedJson> PlacedJson::elements(std::size_t size) const {
 const std::string& PlacedJson::text() const {
   if (!value_->is_string()) fail("a string");
   return value_->get_ref<const std::string&>();
-}
-
-Decimal PlacedJson::decimal() const {
-  try {
-    if (value_->is_string()) return Decimal::parse(text());
-  } catch (const InputError&) {  // says no place
-  }
-  fail("a decimal number in a string");
 }
 
 std::int64_t PlacedJson::integer(std::int64_t least, std::int64_t most) const {

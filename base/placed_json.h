@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinematics/decimal.h"
+#include "base/input_error.h"
 
 namespace taut {
 
@@ -42,8 +42,6 @@ class PlacedJson {
   [[nodiscard]] std::vector<PlacedJson> elements(std::size_t size) const;
 
   [[nodiscard]] const std::string& text() const;
-  /// Of a text that is one.
-  [[nodiscard]] Decimal decimal() const;
   /// An integer between these, inclusive.
   [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t most) const;
 

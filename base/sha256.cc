@@ -1,9 +1,10 @@
-#include "certify/sha256.h"
+#include "base/sha256.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace taut {
@@ -30,6 +31,12 @@ std::string Sha256::hex() {
   std::string hex;
   for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
   return hex;
+}
+
+std::string sha256(const nlohmann::json& value) {
+  Sha256 digest;
+  digest.update(value.dump(-1, ' ', true));
+  return digest.hex();
 }
 
 }  // namespace taut

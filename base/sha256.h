@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -22,5 +23,8 @@ class Sha256 {
   };
   std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
+
+/// Of the canonical JSON of `value`, 64 lower-case hex digits.
+[[nodiscard]] std::string sha256(const nlohmann::json& value);
 
 }  // namespace taut

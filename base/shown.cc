@@ -1,4 +1,4 @@
-#include "kinematics/shown.h"
+#include "base/shown.h"
 
 #include <fmt/format.h>
 

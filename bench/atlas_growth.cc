@@ -23,8 +23,8 @@
 
 #include "atlas/atlas.h"
 #include "atlas/wrench_feasible_manifold.h"
+#include "case/case_file.h"
 #include "certify/path_proof.h"
-#include "kinematics/case_file.h"
 
 namespace taut {
 namespace {

@@ -34,7 +34,7 @@
 
 #include "kinematics/geometry.h"
 #include "kinematics/statics.h"
-#include "library/plan.h"
+#include "planner/planner.h"
 
 namespace taut {
 namespace {

@@ -22,7 +22,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "library/plan.h"
+#include "planner/planner.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinematics/case_file.h"
+#include "case/case_file.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -16,12 +16,12 @@
 #include <string_view>
 #include <utility>
 
-#include "kinematics/decimal.h"
-#include "kinematics/expression.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/shown.h"
-#include "kinematics/units.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/shown.h"
+#include "problem/decimal.h"
+#include "problem/expression.h"
+#include "problem/units.h"
 
 namespace taut {
 namespace {

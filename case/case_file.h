@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/problem.h"
-#include "kinematics/units.h"
+#include "problem/problem.h"
+#include "problem/units.h"
 
 namespace taut {
 

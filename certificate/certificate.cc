@@ -1,4 +1,4 @@
-#include "certify/certificate.h"
+#include "certificate/certificate.h"
 
 #include <fmt/format.h>
 
@@ -12,20 +12,14 @@
 #include <optional>
 #include <system_error>
 
-#include "certify/checker/claims.h"
-#include "certify/sha256.h"
-#include "kinematics/decimal.h"
-#include "kinematics/placed_json.h"
+#include "base/placed_json.h"
+#include "base/sha256.h"
+#include "checker/claims.h"
+#include "problem/decimal.h"
 
 namespace taut {
 
 using nlohmann::json;
-
-std::string sha256(const json& value) {
-  Sha256 digest;
-  digest.update(value.dump(-1, ' ', true));
-  return digest.hex();
-}
 
 std::string hex_float(double x) {
   std::array<char, 64> text{};
@@ -280,7 +274,7 @@ std::vector<DecimalText> times_from_json(const PlacedJson& times, std::size_t wa
   std::vector<DecimalText> result;
   std::optional<Decimal> last;
   for (const PlacedJson& field : times.elements(waypoints)) {
-    const Decimal time = field.decimal();
+    const Decimal time = decimal_from_json(field);
     if (last && !(time > *last)) field.fail("a time later than the one before");
     last = time;
     result.push_back(field.text());

@@ -12,9 +12,6 @@ namespace taut {
 /// Of the format that is written.
 inline constexpr int kCertificateVersion = 3;
 
-/// SHA-256 of the canonical JSON of `value`, 64 lower-case hex digits.
-[[nodiscard]] std::string sha256(const nlohmann::json& value);
-
 /// "-0x1.2666666666666p+1": reads back bit for bit.
 [[nodiscard]] std::string hex_float(double x);
 

@@ -1,14 +1,15 @@
-#include "library/certificate_file.h"
+#include "certificate/certificate_file.h"
 
 #include <fmt/format.h>
 
-#include "certify/certificate.h"
-#include "certify/checker/certificate.h"
-#include "certify/checker/errors.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/placed_json.h"
-#include "library/files.h"
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/placed_json.h"
+#include "base/sha256.h"
+#include "certificate/certificate.h"
+#include "checker/certificate.h"
+#include "checker/errors.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "certify/certificate_stream.h"
+#include "certificate/certificate_stream.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,9 +11,9 @@
 #include <cstring>
 #include <vector>
 
-#include "certify/checker/claims.h"
-#include "certify/sha256.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "base/sha256.h"
+#include "checker/claims.h"
 
 namespace taut {
 

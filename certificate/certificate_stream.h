@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "certify/certificate.h"
+#include "certificate/certificate.h"
 #include "certify/path_proof.h"
 
 namespace taut {

@@ -1,4 +1,4 @@
-#include "reports/certificate_view.h"
+#include "certificate/certificate_view.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "certify/certificate.h"
-#include "kinematics/input_error.h"
-#include "kinematics/placed_json.h"
+#include "base/input_error.h"
+#include "base/placed_json.h"
+#include "certificate/certificate.h"
+#include "problem/decimal.h"
 
 namespace taut {
 
@@ -36,7 +37,7 @@ double approximation(const PlacedJson& field) {
 
 /// Its text.
 std::string decimal(const PlacedJson& field) {
-  (void)field.decimal();
+  (void)decimal_from_json(field);
   return field.text();
 }
 

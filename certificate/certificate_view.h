@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "certify/dyadic.h"
-#include "kinematics/problem.h"
+#include "certify/arithmetic/dyadic.h"
 #include "kinematics/segment.h"
+#include "problem/problem.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "certify/signature.h"
+#include "certificate/signature.h"
 
 #include <fmt/format.h>
 #include <openssl/crypto.h>
@@ -9,9 +9,10 @@
 #include <span>
 #include <stdexcept>
 
-#include "certify/certificate.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/sha256.h"
+#include "certificate/certificate.h"
 
 namespace taut {
 namespace {

@@ -5,22 +5,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "certify/held_motion.h"
-#include "certify/neumann.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "certify/arithmetic/neumann.h"
+#include "certify/motion/held_motion.h"
 #include "kinematics/statics.h"
 
 namespace taut {
-
-const char* name(MarginKind kind) {
-  switch (kind) {
-    case MarginKind::kTensionMin: return "tension_min";
-    case MarginKind::kTensionMax: return "tension_max";
-    case MarginKind::kLengthMin: return "length_min";
-    case MarginKind::kLengthMax: return "length_max";
-  }
-  return "?";
-}
 
 // ---- Models ----------------------------------------------------------------------------------------------------------
 

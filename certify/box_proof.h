@@ -17,15 +17,15 @@
 #include <cstddef>
 #include <optional>
 
-#include "certify/centered.h"
-#include "certify/dyadic.h"
-#include "certify/held_motion.h"
-#include "certify/interval.h"
-#include "certify/margin.h"
-#include "certify/motion.h"
-#include "certify/mp_interval.h"
-#include "certify/tolerance.h"
+#include "certify/arithmetic/centered.h"
+#include "certify/arithmetic/dyadic.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/mp_interval.h"
+#include "certify/motion/held_motion.h"
+#include "certify/motion/motion.h"
+#include "certify/tolerance/tolerance.h"
 #include "kinematics/geometry.h"
+#include "kinematics/margin.h"
 #include "kinematics/segment.h"
 
 namespace taut {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "certify/rounding.h"
+#include "certify/arithmetic/rounding.h"
 #include "kinematics/pose_conversion.h"
 
 namespace taut {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/input_error.h"
 #include "certify/undecided.h"
-#include "kinematics/decimal.h"
-#include "kinematics/input_error.h"
+#include "problem/decimal.h"
 
 namespace taut {
 namespace {

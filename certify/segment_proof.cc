@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/input_error.h"
 #include "certify/held_reference.h"
-#include "kinematics/input_error.h"
 
 namespace taut {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "certify/box_proof.h"
-#include "certify/deviation.h"
+#include "certify/tolerance/deviation.h"
 #include "certify/undecided.h"
 #include "kinematics/constraint_functions.h"
 #include "kinematics/pose_sampler.h"

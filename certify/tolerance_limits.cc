@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "kinematics/decimal.h"
+#include "problem/decimal.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "certify/checker/certificate.h"
+#include "checker/certificate.h"
 
 #include <openssl/evp.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 #include <set>
 
-#include "certify/checker/claims.h"
-#include "certify/checker/exact.h"
+#include "checker/claims.h"
+#include "checker/exact.h"
 
 namespace taut::checker {
 namespace {

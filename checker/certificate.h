@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/checker/expression.h"
+#include "checker/expression.h"
 
 namespace taut::checker {
 

@@ -1,16 +1,16 @@
-#include "certify/checker/check.h"
+#include "checker/check.h"
 
 #include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "certify/checker/certificate.h"
-#include "certify/checker/deviation.h"
-#include "certify/checker/held.h"
-#include "certify/checker/motion.h"
-#include "certify/checker/pose_proof.h"
-#include "certify/checker/signature.h"
+#include "checker/certificate.h"
+#include "checker/deviation.h"
+#include "checker/held.h"
+#include "checker/motion.h"
+#include "checker/pose_proof.h"
+#include "checker/signature.h"
 
 namespace taut::checker {
 namespace {

@@ -1,4 +1,4 @@
-#include "certify/checker/deviation.h"
+#include "checker/deviation.h"
 
 namespace taut::checker {
 namespace {

@@ -31,7 +31,7 @@
 // deviation, from which tracking then takes it by no more than the distance and the angle times |b_i'|.
 #pragma once
 
-#include "certify/checker/pose_proof.h"
+#include "checker/pose_proof.h"
 
 namespace taut::checker {
 

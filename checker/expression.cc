@@ -1,9 +1,9 @@
-#include "certify/checker/expression.h"
+#include "checker/expression.h"
 
 #include <cctype>
 #include <cstdlib>
 
-#include "certify/checker/exact.h"
+#include "checker/exact.h"
 
 namespace taut::checker {
 

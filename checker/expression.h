@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/checker/form.h"
+#include "checker/form.h"
 
 namespace taut::checker {
 

@@ -10,7 +10,7 @@
 // values: with slope 1 for one variable and 0 for the others, slope holds the partial derivative at every point of the box.
 #pragma once
 
-#include "certify/checker/interval.h"
+#include "checker/interval.h"
 
 namespace taut::checker {
 

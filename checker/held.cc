@@ -1,9 +1,9 @@
-#include "certify/checker/held.h"
+#include "checker/held.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "certify/checker/krawczyk.h"
+#include "checker/krawczyk.h"
 
 namespace taut::checker {
 namespace {

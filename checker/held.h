@@ -21,8 +21,8 @@
 
 #include <functional>
 
-#include "certify/checker/motion.h"
-#include "certify/checker/pose_proof.h"
+#include "checker/motion.h"
+#include "checker/pose_proof.h"
 
 namespace taut::checker {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "certify/checker/errors.h"
+#include "checker/errors.h"
 
 namespace taut::checker {
 

@@ -1,4 +1,4 @@
-#include "certify/checker/krawczyk.h"
+#include "checker/krawczyk.h"
 
 namespace taut::checker {
 namespace {

@@ -18,7 +18,7 @@
 //     |y'_i| <= max_k |D_k| / (1 - rho),   and y' in -D + M y'.                                                      (4)
 #pragma once
 
-#include "certify/checker/linear.h"
+#include "checker/linear.h"
 
 namespace taut::checker {
 

@@ -1,4 +1,4 @@
-#include "certify/checker/linear.h"
+#include "checker/linear.h"
 
 #include <algorithm>
 #include <utility>

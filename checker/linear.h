@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "certify/checker/interval.h"
+#include "checker/interval.h"
 
 namespace taut::checker {
 

@@ -1,6 +1,6 @@
-#include "certify/checker/motion.h"
+#include "checker/motion.h"
 
-#include "certify/checker/krawczyk.h"
+#include "checker/krawczyk.h"
 
 namespace taut::checker {
 namespace {

@@ -12,9 +12,9 @@
 
 #include <vector>
 
-#include "certify/checker/certificate.h"
-#include "certify/checker/form.h"
-#include "certify/checker/linear.h"
+#include "checker/certificate.h"
+#include "checker/form.h"
+#include "checker/linear.h"
 
 namespace taut::checker {
 

@@ -1,4 +1,4 @@
-#include "certify/checker/pose_proof.h"
+#include "checker/pose_proof.h"
 
 namespace taut::checker {
 namespace {

@@ -24,10 +24,10 @@
 
 #include <array>
 
-#include "certify/checker/certificate.h"
-#include "certify/checker/form.h"
-#include "certify/checker/linear.h"
-#include "certify/checker/motion.h"
+#include "checker/certificate.h"
+#include "checker/form.h"
+#include "checker/linear.h"
+#include "checker/motion.h"
 
 namespace taut::checker {
 

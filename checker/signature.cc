@@ -1,4 +1,4 @@
-#include "certify/checker/signature.h"
+#include "checker/signature.h"
 
 #include <openssl/evp.h>
 #include <openssl/pem.h>
@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "certify/checker/certificate.h"
-#include "certify/checker/errors.h"
+#include "checker/certificate.h"
+#include "checker/errors.h"
 
 namespace taut::checker {
 namespace {

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <iostream>
 
-#include "certify/checker/check.h"
-#include "certify/checker/errors.h"
-#include "certify/checker/signature.h"
-#include "kinematics/case_file.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "case/case_file.h"
+#include "checker/check.h"
+#include "checker/errors.h"
+#include "checker/signature.h"
 
 namespace taut::checker {
 namespace {

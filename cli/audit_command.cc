@@ -6,17 +6,17 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "app/path_audit.h"
+#include "app/recheck.h"
+#include "app/tolerance_table.h"
+#include "base/files.h"
+#include "case/case_file.h"
+#include "certificate/certificate_file.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
 #include "cli/report_command.h"
-#include "kinematics/case_file.h"
-#include "library/certificate_file.h"
-#include "library/files.h"
-#include "library/path_audit.h"
-#include "library/recheck.h"
-#include "library/tolerance_table.h"
-#include "reports/html_report.h"
-#include "reports/sentences.h"
+#include "reports/page/html_report.h"
+#include "reports/summary/sentences.h"
 
 namespace taut {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include "library/files.h"
+#include "base/files.h"
 
 namespace taut {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "certificate/signature.h"
 #include "certify/segment_proof.h"
-#include "certify/signature.h"
 
 namespace taut {
 

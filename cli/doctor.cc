@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "certify/rounding.h"
+#include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
 #include "cli/subprocess.h"
 

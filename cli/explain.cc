@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/shown.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
-#include "kinematics/shown.h"
 
 namespace taut {
 

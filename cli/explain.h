@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/input_kind.h"
+#include "base/input_kind.h"
 
 namespace taut {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
 #include "cli/console.h"
 #include "cli/new_case_text.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "library/files.h"
 
 namespace taut {
 

@@ -10,11 +10,11 @@
 #include <sstream>
 #include <vector>
 
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/shown.h"
 #include "cli/subprocess.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/shown.h"
-#include "library/files.h"
 
 namespace taut {
 namespace {

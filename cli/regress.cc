@@ -14,14 +14,14 @@
 #include <system_error>
 #include <thread>
 
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/placed_json.h"
+#include "base/shown.h"
+#include "case/case_file.h"
 #include "cli/console.h"
 #include "cli/subprocess.h"
-#include "kinematics/case_file.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/placed_json.h"
-#include "kinematics/shown.h"
-#include "library/files.h"
 
 namespace taut {
 namespace {

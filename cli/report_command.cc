@@ -5,16 +5,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "certify/rounding.h"
+#include "app/recheck.h"
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/shown.h"
+#include "certificate/certificate_file.h"
+#include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
 #include "cli/pdf.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/shown.h"
-#include "library/certificate_file.h"
-#include "library/files.h"
-#include "library/recheck.h"
-#include "reports/html_report.h"
+#include "reports/page/html_report.h"
 
 namespace taut {
 namespace {

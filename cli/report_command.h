@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "reports/report_options.h"
+#include "reports/summary/report_options.h"
 
 namespace taut {
 

@@ -4,13 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/shown.h"
+#include "case/case_file.h"
 #include "cli/console.h"
-#include "kinematics/case_file.h"
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/shown.h"
-#include "library/files.h"
-#include "reports/case_summary.h"
+#include "reports/page/robot_drawing.h"
+#include "reports/summary/case_summary.h"
 
 namespace taut {
 

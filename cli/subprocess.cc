@@ -17,7 +17,7 @@
 #include <system_error>
 #include <utility>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 namespace {
@@ -170,7 +170,7 @@ std::string checker_program() {
   for (const std::filesystem::path& program :
        {own, std::filesystem::canonical(own, ignored)}) {  // a link may lead to it
     const std::filesystem::path here = program.parent_path();
-    for (const std::filesystem::path& candidate : {here / "taut-check", here / "../certify/checker/taut-check"}) {
+    for (const std::filesystem::path& candidate : {here / "taut-check", here / "../checker/taut-check"}) {
       if (std::filesystem::exists(candidate)) return candidate.string();
     }
   }

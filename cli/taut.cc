@@ -10,9 +10,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "certify/certificate.h"
-#include "certify/rounding.h"
-#include "certify/signature.h"
+#include "app/planned_case.h"
+#include "app/recheck.h"
+#include "app/tolerance_table.h"
+#include "base/files.h"
+#include "base/input_error.h"
+#include "certificate/certificate.h"
+#include "certificate/signature.h"
+#include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
 #include "cli/audit_command.h"
 #include "cli/console.h"
@@ -23,14 +28,9 @@
 #include "cli/regress_command.h"
 #include "cli/report_command.h"
 #include "cli/show.h"
-#include "kinematics/input_error.h"
-#include "library/files.h"
-#include "library/path_csv.h"
-#include "library/planned_case.h"
-#include "library/recheck.h"
-#include "library/tolerance_table.h"
-#include "reports/html_report.h"
-#include "reports/sentences.h"
+#include "path_io/path_csv.h"
+#include "reports/page/html_report.h"
+#include "reports/summary/sentences.h"
 
 namespace taut {
 namespace {

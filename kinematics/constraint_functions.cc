@@ -146,8 +146,7 @@ Deviation deviation_between(const SpaceText& space, const ConstraintFunctions::V
 
 }  // namespace
 
-void require_query_on_constraints(const Case& case_) {
-  const Problem& problem = case_.problem;
+void require_query_on_constraints(const Problem& problem, const Unit& length_unit) {
   if (problem.space.constraints.empty()) return;
   const ConstraintFunctions constraints(problem);
   const double size = make_model<double>(problem).characteristic_length;
@@ -174,13 +173,12 @@ void require_query_on_constraints(const Case& case_) {
     }
     const Deviation off = deviation_between(problem.space, lambda, *reached);
     if (std::hypot(off.length / size, off.angle) <= kWaypointTolerance) continue;
-    const Unit& unit = case_.length_unit;
-    const double factor = ScalarTraits<double>::from_decimal(unit.factor.text());
+    const double factor = ScalarTraits<double>::from_decimal(length_unit.factor.text());
     throw FieldError(here,
                      fmt::format("a waypoint that is {:.3g} {} and {:.3g} rad off the constraints", off.length / factor,
-                                 unit.name, off.angle),
-                     fmt::format("expected at most {:.3g} {}, or {} rad", kWaypointTolerance * size / factor, unit.name,
-                                 kWaypointTolerance));
+                                 length_unit.name, off.angle),
+                     fmt::format("expected at most {:.3g} {}, or {} rad", kWaypointTolerance * size / factor,
+                                 length_unit.name, kWaypointTolerance));
   }
 }
 

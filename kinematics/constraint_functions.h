@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "kinematics/case_file.h"
 #include "kinematics/jet.h"
 #include "kinematics/model.h"
 #include "kinematics/segment.h"
+#include "problem/units.h"
 
 namespace taut {
 
@@ -62,7 +62,7 @@ class ConstraintFunctions {
 inline constexpr double kWaypointTolerance = 0.01;
 
 /// Checks that the query's waypoints lie on the constraints, if there are any, and that the constraints have full rank there.
-/// @throws FieldError saying how far off, or which rank
-void require_query_on_constraints(const Case& case_);
+/// @throws FieldError saying how far off, in `length_unit`, or which rank
+void require_query_on_constraints(const Problem& problem, const Unit& length_unit);
 
 }  // namespace taut

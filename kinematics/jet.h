@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "kinematics/scalar.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "kinematics/expression.h"
-#include "kinematics/problem.h"
-#include "kinematics/scalar.h"
+#include "problem/expression.h"
+#include "problem/problem.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

@@ -1,7 +1,7 @@
 // Bodies of model.h.
 #pragma once
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 

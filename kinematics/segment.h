@@ -32,7 +32,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/scalar.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

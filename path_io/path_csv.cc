@@ -1,4 +1,4 @@
-#include "library/path_csv.h"
+#include "path_io/path_csv.h"
 
 #include <fmt/format.h>
 

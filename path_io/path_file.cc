@@ -1,4 +1,4 @@
-#include "kinematics/path_file.h"
+#include "path_io/path_file.h"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 #include <map>
 #include <utility>
 
-#include "kinematics/input_kind.h"
-#include "kinematics/scalar.h"
-#include "kinematics/shown.h"
+#include "base/input_kind.h"
+#include "base/shown.h"
+#include "problem/scalar.h"
 
 namespace taut {
 namespace {

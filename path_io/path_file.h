@@ -20,10 +20,10 @@
 #include <string_view>
 #include <vector>
 
-#include "kinematics/decimal.h"
-#include "kinematics/input_error.h"
-#include "kinematics/nearest_si.h"
-#include "kinematics/problem.h"
+#include "base/input_error.h"
+#include "problem/decimal.h"
+#include "problem/nearest_si.h"
+#include "problem/problem.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "kinematics/path_summary.h"
+#include "path_io/path_summary.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/path_file.h"
 #include "kinematics/pose_sampler.h"
+#include "path_io/path_file.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "kinematics/waypoint_maker.h"
+#include "path_io/waypoint_maker.h"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 
 #include <optional>
 
-#include "kinematics/path_file.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
 #include "kinematics/segment.h"
+#include "path_io/path_file.h"
 
 namespace taut {
 

@@ -1,8 +1,8 @@
-#include "atlas/clear_edge.h"
+#include "planner/clear_edge.h"
 
 #include <cmath>
 
-#include "atlas/edge_motion.h"
+#include "planner/edge_motion.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "atlas/edge_motion.h"
+#include "planner/edge_motion.h"
 
 #include <Eigen/LU>
 #include <cmath>

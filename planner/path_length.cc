@@ -1,12 +1,12 @@
-#include "atlas/path_length.h"
+#include "planner/path_length.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/edge_motion.h"
+#include "base/input_error.h"
 #include "kinematics/geometry.h"
-#include "kinematics/input_error.h"
+#include "planner/edge_motion.h"
 
 namespace taut {
 namespace {

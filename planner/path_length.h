@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "atlas/manifold.h"
-#include "kinematics/case_file.h"
+#include "case/case_file.h"
 #include "kinematics/pose_sampler.h"
 
 namespace taut {

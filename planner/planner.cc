@@ -1,4 +1,4 @@
-#include "library/plan.h"
+#include "planner/planner.h"
 
 #include <fmt/format.h>
 
@@ -8,18 +8,19 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
-#include "atlas/clear_edge.h"
-#include "atlas/shorten.h"
 #include "atlas/wrench_feasible_manifold.h"
-#include "certify/certificate.h"
+#include "base/sha256.h"
 #include "certify/undecided.h"
 #include "kinematics/geometry.h"
 #include "kinematics/motion_length.h"
-#include "library/smooth.h"
-#include "library/time_budget.h"
+#include "planner/clear_edge.h"
+#include "planner/shorten.h"
+#include "planner/smooth.h"
+#include "planner/time_budget.h"
 
 namespace taut {
 namespace {

@@ -1,7 +1,7 @@
 // One plan, end to end: atlas, search, path, proof.
 //
 // The search proposes and the prover decides. A path is sought on edges that look clear of limits at sampled poses
-// (atlas/clear_edge.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
+// (planner/clear_edge.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
 // each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
 // its proof is gathered, never inferred from the search.
 //
@@ -19,10 +19,10 @@
 
 #include "atlas/atlas.h"
 #include "atlas/atlas_file.h"
-#include "atlas/path_length.h"
 #include "atlas/search.h"
+#include "case/case_file.h"
 #include "certify/path_proof.h"
-#include "kinematics/case_file.h"
+#include "planner/path_length.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "atlas/shorten.h"
+#include "planner/shorten.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "library/smooth.h"
+#include "planner/smooth.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "kinematics/decimal.h"
+#include "problem/decimal.h"
 
 #include <fmt/format.h>
 #include <xmmintrin.h>
@@ -7,9 +7,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "kinematics/input_error.h"
-#include "kinematics/scalar.h"
+#include "base/input_error.h"
+#include "problem/scalar.h"
 
 namespace taut {
 namespace {
@@ -144,6 +145,14 @@ double ScalarTraits<double>::from_decimal(const std::string& text) {
   };
   if (!read(text)) read(Decimal::parse(text).text());  // a leading plus sign, or no decimal at all
   return value;
+}
+
+Decimal decimal_from_json(const PlacedJson& value) {
+  try {
+    if (value.value().is_string()) return Decimal::parse(value.text());
+  } catch (const InputError&) {  // says no place
+  }
+  value.fail("a decimal number in a string");
 }
 
 }  // namespace taut

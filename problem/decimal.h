@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/placed_json.h"
+
 namespace taut {
 
 /// mantissa · 10^exponent, exactly; the mantissa has no trailing zero, so each value has one representation.
@@ -43,5 +45,8 @@ class Decimal {
   boost::multiprecision::cpp_int mantissa_ = 0;
   int exponent_ = 0;
 };
+
+/// Of a text that is one. @throws FieldError that names the place
+[[nodiscard]] Decimal decimal_from_json(const PlacedJson& value);
 
 }  // namespace taut

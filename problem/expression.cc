@@ -1,4 +1,4 @@
-#include "kinematics/expression.h"
+#include "problem/expression.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <optional>
 
-#include "kinematics/decimal.h"
-#include "kinematics/input_error.h"
-#include "kinematics/tape_builder.h"
+#include "base/input_error.h"
+#include "problem/decimal.h"
+#include "problem/tape_builder.h"
 
 namespace taut {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/problem.h"
-#include "kinematics/scalar.h"
+#include "problem/problem.h"
+#include "problem/scalar.h"
 
 namespace taut {
 
@@ -90,4 +90,4 @@ template <class S>
 
 }  // namespace taut
 
-#include "kinematics/expression_impl.h"
+#include "problem/expression_impl.h"

@@ -5,7 +5,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cassert>
 
-#include "kinematics/expression.h"
+#include "problem/expression.h"
 
 namespace taut {
 

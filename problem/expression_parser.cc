@@ -6,8 +6,8 @@
 #include <boost/fusion/include/at_c.hpp>
 #include <boost/spirit/home/x3.hpp>
 
-#include "kinematics/input_error.h"
-#include "kinematics/tape_builder.h"
+#include "base/input_error.h"
+#include "problem/tape_builder.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinematics/nearest_si.h"
+#include "problem/nearest_si.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "kinematics/decimal.h"
-#include "kinematics/scalar.h"
+#include "problem/decimal.h"
+#include "problem/scalar.h"
 
 namespace taut {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "kinematics/units.h"
+#include "problem/units.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "kinematics/problem.h"
+#include "problem/problem.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "kinematics/decimal.h"
-#include "kinematics/expression.h"
-#include "kinematics/input_error.h"
-#include "kinematics/placed_json.h"
+#include "base/input_error.h"
+#include "base/placed_json.h"
+#include "problem/decimal.h"
+#include "problem/expression.h"
 
 namespace taut {
 namespace {
@@ -415,12 +415,6 @@ SpaceText coordinate_space() {
   space.flip = {3, 4};
   return space;
 }
-
-FieldError::FieldError(std::string field, std::string seen, std::string expected)
-    : InputError(fmt::format("{}: {}{}", field, seen.empty() ? "" : "got " + seen + ", ", expected), {"", 0, field}),
-      field_(std::move(field)),
-      seen_(std::move(seen)),
-      expected_(std::move(expected)) {}
 
 json to_json(const Problem& problem) {
   json parameters = json::array();

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 
@@ -97,18 +97,6 @@ struct Problem {
 
 /// The space of all poses: px, py, pz [m], phi, theta, sigma [rad], without bounds.
 [[nodiscard]] SpaceText coordinate_space();
-
-/// A field of a problem breaks its promise: "robot.length[2]: got [0.5, 0.1], expected 0 <= lower < upper".
-class FieldError : public InputError {
- public:
-  FieldError(std::string field, std::string seen, std::string expected);
-  [[nodiscard]] const std::string& field() const { return field_; }
-  [[nodiscard]] const std::string& seen() const { return seen_; }  ///< may be empty
-  [[nodiscard]] const std::string& expected() const { return expected_; }
-
- private:
-  std::string field_, seen_, expected_;
-};
 
 /// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, E symmetric and
 /// positive definite (exactly), expressions that parse, poses that plainly agree after a turn of a periodic

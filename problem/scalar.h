@@ -1,6 +1,6 @@
 // The scalar concept: what the equations of kinematics/ may ask of a number.
 //
-// double, Interval (certify/interval.h), MpInterval (certify/mp_interval.h) and the centred forms over them all
+// double, Interval (certify/arithmetic/interval.h), MpInterval (certify/arithmetic/mp_interval.h) and the centred forms over them all
 // model it. Functions are found by argument-dependent lookup; ScalarTraits makes constants.
 #pragma once
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "kinematics/expression.h"
+#include "problem/expression.h"
 
 namespace taut {
 

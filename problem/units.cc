@@ -1,4 +1,4 @@
-#include "kinematics/units.h"
+#include "problem/units.h"
 
 #include <fmt/format.h>
 

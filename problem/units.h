@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "kinematics/decimal.h"
+#include "problem/decimal.h"
 
 namespace taut {
 

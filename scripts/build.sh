@@ -11,10 +11,11 @@ stamp=$build/.built # as old as the start of the last good build; holds the path
 # Directories count too, so that a file added or removed is seen.
 is_current() {
   local built_from newer
-  [[ -x $build/cli/taut && -x $build/certify/checker/taut-check && -r $stamp ]] || return
+  [[ -x $build/cli/taut && -x $build/checker/taut-check && -r $stamp ]] || return
   read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
-  newer=$(find "$root"/{kinematics,atlas,certify,reports,library,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} \
-    "$root/package-lock.json" -newer "$stamp" -print -quit 2>/dev/null) || return
+  newer=$(find "$root"/{base,problem,case,kinematics,path_io,atlas,certify,planner,checker,certificate,reports,app,api} \
+    "$root"/{cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
+    -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
 }
 

@@ -14,8 +14,8 @@
 
 #include <string>
 
-#include "certify/rounding.h"
-#include "kinematics/scalar.h"
+#include "certify/arithmetic/rounding.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "certify/dyadic.h"
+#include "certify/arithmetic/dyadic.h"
 
 #include <algorithm>
 #include <cmath>

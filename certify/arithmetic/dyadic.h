@@ -7,8 +7,8 @@
 #include <compare>
 #include <string>
 
-#include "certify/interval.h"
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/mp_interval.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "certify/interval.h"
+#include "certify/arithmetic/interval.h"
 
 #include <mpfr.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "certify/big_float.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "certify/arithmetic/big_float.h"
 
 namespace taut {
 namespace {

@@ -18,8 +18,8 @@
 #include <algorithm>
 #include <string>
 
-#include "certify/rounding.h"
-#include "kinematics/scalar.h"
+#include "certify/arithmetic/rounding.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

@@ -19,9 +19,9 @@
 #include <limits>
 #include <string>
 
-#include "certify/big_float.h"
-#include "certify/rounding.h"
-#include "kinematics/scalar.h"
+#include "certify/arithmetic/big_float.h"
+#include "certify/arithmetic/rounding.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "certify/interval.h"
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/mp_interval.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "certify/rounding.h"
+#include "certify/arithmetic/rounding.h"
 
 #include <cmath>
 #include <limits>

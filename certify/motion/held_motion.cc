@@ -1,10 +1,10 @@
-#include "certify/held_motion.h"
+#include "certify/motion/held_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "certify/implied_zero.h"
+#include "certify/motion/implied_zero.h"
 #include "kinematics/geometry.h"
 #include "kinematics/quaternion.h"
 

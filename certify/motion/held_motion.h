@@ -12,7 +12,7 @@
 #include <array>
 #include <optional>
 
-#include "certify/motion.h"
+#include "certify/motion/motion.h"
 #include "kinematics/model.h"
 #include "kinematics/segment.h"
 

@@ -15,8 +15,8 @@
 #include <cmath>
 #include <limits>
 
-#include "certify/centered.h"
-#include "certify/neumann.h"
+#include "certify/arithmetic/centered.h"
+#include "certify/arithmetic/neumann.h"
 
 namespace taut {
 

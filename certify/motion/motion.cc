@@ -1,4 +1,4 @@
-#include "certify/motion.h"
+#include "certify/motion/motion.h"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <type_traits>
 
-#include "certify/implied_zero.h"
+#include "base/input_error.h"
+#include "certify/motion/implied_zero.h"
 #include "kinematics/geometry.h"
-#include "kinematics/input_error.h"
 #include "kinematics/quaternion.h"
 
 namespace taut {

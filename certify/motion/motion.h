@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "certify/centered.h"
-#include "certify/interval.h"
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/centered.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/mp_interval.h"
 #include "kinematics/jet.h"
 #include "kinematics/model.h"
 #include "kinematics/segment.h"

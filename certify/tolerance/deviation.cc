@@ -1,4 +1,4 @@
-#include "certify/deviation.h"
+#include "certify/tolerance/deviation.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "certify/held_motion.h"
-#include "certify/interval.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/motion/held_motion.h"
 #include "kinematics/quaternion.h"
 #include "kinematics/statics.h"
 

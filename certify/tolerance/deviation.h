@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "certify/margin.h"
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/mp_interval.h"
+#include "kinematics/margin.h"
 #include "kinematics/model.h"
 #include "kinematics/pose_conversion.h"
 

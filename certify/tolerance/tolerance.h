@@ -15,9 +15,9 @@
 #include <array>
 #include <optional>
 
-#include "certify/centered.h"
-#include "certify/motion.h"
-#include "certify/neumann.h"
+#include "certify/arithmetic/centered.h"
+#include "certify/arithmetic/neumann.h"
+#include "certify/motion/motion.h"
 #include "kinematics/geometry.h"
 #include "kinematics/model.h"
 

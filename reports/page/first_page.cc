@@ -1,9 +1,9 @@
-#include "reports/first_page.h"
+#include "reports/page/first_page.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "reports/wording.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

@@ -1,8 +1,8 @@
 // The report's first page: all that whoever signs it has to know, on one sheet of A4 in usual cases.
 #pragma once
 
-#include "reports/markup.h"
-#include "reports/summary.h"
+#include "reports/page/markup.h"
+#include "reports/summary/summary.h"
 
 namespace taut {
 

@@ -1,17 +1,17 @@
-#include "reports/html_report.h"
+#include "reports/page/html_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "kinematics/shown.h"
-#include "reports/first_page.h"
-#include "reports/plane.h"
-#include "reports/plot_sections.h"
-#include "reports/sections.h"
-#include "reports/style.h"
-#include "reports/wording.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "base/shown.h"
+#include "reports/page/first_page.h"
+#include "reports/page/plane.h"
+#include "reports/page/plot_sections.h"
+#include "reports/page/sections.h"
+#include "reports/page/style.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

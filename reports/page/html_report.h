@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "reports/report_options.h"
+#include "reports/summary/report_options.h"
 
 namespace taut {
 

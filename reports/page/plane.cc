@@ -1,4 +1,4 @@
-#include "reports/plane.h"
+#include "reports/page/plane.h"
 
 #include <algorithm>
 #include <cmath>

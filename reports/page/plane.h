@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

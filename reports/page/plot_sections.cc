@@ -1,14 +1,14 @@
-#include "reports/plot_sections.h"
+#include "reports/page/plot_sections.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "reports/page_script.h"
-#include "reports/plane.h"
-#include "reports/report_data.h"
-#include "reports/still_picture.h"
-#include "reports/wording.h"
+#include "reports/page/page_script.h"
+#include "reports/page/plane.h"
+#include "reports/page/report_data.h"
+#include "reports/page/still_picture.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

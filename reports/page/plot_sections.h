@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "reports/markup.h"
-#include "reports/scene.h"
+#include "reports/page/markup.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

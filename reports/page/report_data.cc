@@ -1,4 +1,4 @@
-#include "reports/report_data.h"
+#include "reports/page/report_data.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "kinematics/expression.h"
 #include "kinematics/pose_conversion.h"
-#include "reports/plane.h"
+#include "problem/expression.h"
+#include "reports/page/plane.h"
 
 namespace taut {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

@@ -1,13 +1,14 @@
+#include "reports/page/robot_drawing.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "kinematics/input_error.h"
-#include "kinematics/input_kind.h"
-#include "reports/case_summary.h"
-#include "reports/markup.h"
+#include "base/input_error.h"
+#include "base/input_kind.h"
+#include "reports/page/markup.h"
 
 namespace taut {
 

@@ -1,10 +1,10 @@
-#include "reports/sections.h"
+#include "reports/page/sections.h"
 
 #include <algorithm>
 
 #include "certify/undecided.h"
-#include "reports/sentences.h"
-#include "reports/wording.h"
+#include "reports/summary/sentences.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

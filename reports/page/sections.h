@@ -2,8 +2,8 @@
 // nothing to say.
 #pragma once
 
-#include "reports/markup.h"
-#include "reports/scene.h"
+#include "reports/page/markup.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

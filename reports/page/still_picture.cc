@@ -1,4 +1,4 @@
-#include "reports/still_picture.h"
+#include "reports/page/still_picture.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,8 +1,8 @@
 // The robot in a few poses, drawn once and for all: for paper, and for browsers that draw no moving picture. Floating point.
 #pragma once
 
-#include "reports/markup.h"
-#include "reports/scene.h"
+#include "reports/page/markup.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

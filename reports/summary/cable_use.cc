@@ -1,4 +1,4 @@
-#include "reports/cable_use.h"
+#include "reports/summary/cable_use.h"
 
 #include <limits>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

@@ -1,4 +1,4 @@
-#include "reports/case_summary.h"
+#include "reports/summary/case_summary.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "certify/path_proof.h"
-#include "kinematics/decimal.h"
-#include "reports/samples.h"
-#include "reports/scene.h"
-#include "reports/sentences.h"
-#include "reports/wording.h"
+#include "problem/decimal.h"
+#include "reports/summary/samples.h"
+#include "reports/summary/scene.h"
+#include "reports/summary/sentences.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/case_file.h"
+#include "case/case_file.h"
 #include "kinematics/pose_sampler.h"
 
 namespace taut {
@@ -38,9 +38,5 @@ struct CaseSummary {
 [[nodiscard]] std::string to_text(const CaseSummary& summary);
 /// For machines: `problem` exactly as a certificate has it (SI), and `waypoints` in floating point.
 [[nodiscard]] nlohmann::json to_json(const CaseSummary& summary);
-
-/// The robot at the first waypoint, from the front, from the side and along the load, as an SVG document: cables numbered, anchors named, the load's
-/// direction, the world's axes, a scale bar. @throws InputError where the case has no query.
-[[nodiscard]] std::string robot_drawing(const CaseSummary& summary);
 
 }  // namespace taut

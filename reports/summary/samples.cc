@@ -1,4 +1,4 @@
-#include "reports/samples.h"
+#include "reports/summary/samples.h"
 
 #include <algorithm>
 #include <cmath>

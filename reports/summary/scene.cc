@@ -1,4 +1,4 @@
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 
 #include <fmt/format.h>
 

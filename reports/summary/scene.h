@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "certificate/certificate_view.h"
 #include "certify/box_ranges.h"
-#include "reports/certificate_view.h"
-#include "reports/samples.h"
-#include "reports/travel.h"
+#include "reports/summary/samples.h"
+#include "reports/summary/travel.h"
 
 namespace taut {
 

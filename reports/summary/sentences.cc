@@ -1,4 +1,4 @@
-#include "reports/sentences.h"
+#include "reports/summary/sentences.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "certify/undecided.h"
-#include "kinematics/decimal.h"
-#include "reports/wording.h"
+#include "problem/decimal.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "certify/path_proof.h"
-#include "reports/cable_use.h"
-#include "reports/report_options.h"
-#include "reports/scene.h"
+#include "reports/summary/cable_use.h"
+#include "reports/summary/report_options.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

@@ -1,12 +1,12 @@
-#include "reports/summary.h"
+#include "reports/summary/summary.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kinematics/shown.h"
-#include "reports/wording.h"
+#include "base/shown.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/sentences.h"
+#include "reports/summary/sentences.h"
 
 namespace taut {
 

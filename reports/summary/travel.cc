@@ -1,4 +1,4 @@
-#include "reports/travel.h"
+#include "reports/summary/travel.h"
 
 #include <algorithm>
 #include <cmath>

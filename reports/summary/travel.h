@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "reports/samples.h"
+#include "reports/summary/samples.h"
 
 namespace taut {
 

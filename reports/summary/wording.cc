@@ -1,12 +1,12 @@
-#include "reports/wording.h"
+#include "reports/summary/wording.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "certify/big_float.h"
-#include "kinematics/decimal.h"
+#include "certify/arithmetic/big_float.h"
+#include "problem/decimal.h"
 
 namespace taut {
 

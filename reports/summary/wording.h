@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinematics/model.h"
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 

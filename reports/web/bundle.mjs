@@ -1,5 +1,5 @@
 // bundle.mjs OUT.cc: bundles main.js and what it imports into one script, and writes it as a C++ source that defines
-// what reports/page_script.h declares. OUT.cc.d says what it was made from. The script opens with the licences of all
+// what reports/page/page_script.h declares. OUT.cc.d says what it was made from. The script opens with the licences of all
 // packages in it.
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -81,7 +81,7 @@ const digest = createHash("sha256").update(script, "utf8").digest("base64");
 writeFileSync(
   out,
   `// Made by reports/web/bundle.mjs. NOLINTBEGIN
-#include "reports/page_script.h"
+#include "reports/page/page_script.h"
 namespace taut {
 std::string_view page_script() { return ${literal(script)}; }
 std::string_view page_script_sha256() { return "${digest}"; }

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "atlas/search.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 #include "tests/atlas/sealed.h"
 #include "tests/atlas/surfaces.h"
 #include "tests/support/temporary_file.h"

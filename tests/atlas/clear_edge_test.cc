@@ -1,4 +1,4 @@
-#include "atlas/clear_edge.h"
+#include "planner/clear_edge.h"
 
 #include <gtest/gtest.h>
 

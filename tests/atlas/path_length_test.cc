@@ -1,4 +1,4 @@
-#include "atlas/path_length.h"
+#include "planner/path_length.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "base/input_error.h"
 #include "kinematics/geometry.h"
-#include "kinematics/input_error.h"
 #include "tests/atlas/surfaces.h"
 #include "tests/support/robots.h"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/input_error.h"
 #include "kinematics/constraint_functions.h"
-#include "kinematics/input_error.h"
 #include "tests/support/robots.h"
 
 namespace taut {

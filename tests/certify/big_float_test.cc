@@ -1,4 +1,4 @@
-#include "certify/big_float.h"
+#include "certify/arithmetic/big_float.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Centred forms against 300-bit samples: value at the midpoint, slope and range of composite functions.
-#include "certify/centered.h"
+#include "certify/arithmetic/centered.h"
 
 #include <gtest/gtest.h>
 

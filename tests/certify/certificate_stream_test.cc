@@ -1,11 +1,12 @@
-#include "certify/certificate_stream.h"
+#include "certificate/certificate_stream.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "base/sha256.h"
 #include "tests/support/robots.h"
 
 namespace taut {

@@ -1,4 +1,4 @@
-#include "certify/certificate.h"
+#include "certificate/certificate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/input_error.h"
+#include "base/sha256.h"
 #include "certify/path_proof.h"
-#include "kinematics/input_error.h"
 #include "tests/support/robots.h"
 
 namespace taut {

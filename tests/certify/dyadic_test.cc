@@ -1,11 +1,11 @@
-#include "certify/dyadic.h"
+#include "certify/arithmetic/dyadic.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "certify/rounding.h"
+#include "certify/arithmetic/rounding.h"
 
 namespace taut {
 namespace {

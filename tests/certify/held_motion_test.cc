@@ -1,4 +1,4 @@
-#include "certify/held_motion.h"
+#include "certify/motion/held_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // The fast interval: its packing, and its sine and cosine where they could go wrong.
-#include "certify/interval.h"
+#include "certify/arithmetic/interval.h"
 
 #include <gtest/gtest.h>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 #include "tests/support/enclosing.h"
 
 namespace taut::testing {

@@ -1,5 +1,5 @@
 // Implied motions and splines against 200-bit samples: y(t) by Newton's method, on constraints that are written a second time.
-#include "certify/motion.h"
+#include "certify/motion/motion.h"
 
 #include <gtest/gtest.h>
 

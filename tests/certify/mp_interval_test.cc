@@ -1,5 +1,5 @@
 // Multiprecision intervals: precision, its mixing, and Boost's silent answers that would not be faults by themselves.
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/mp_interval.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The floating-point environment: set, kept, restored; and the measured reasons why it is handled as it is.
-#include "certify/rounding.h"
+#include "certify/arithmetic/rounding.h"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "certify/interval.h"
+#include "certify/arithmetic/interval.h"
 
 namespace taut {
 namespace {

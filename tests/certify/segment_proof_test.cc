@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 #include "tests/oracle/oracle_at_origin.h"
 #include "tests/support/robots.h"
 

@@ -1,4 +1,4 @@
-#include "certify/tolerance.h"
+#include "certify/tolerance/tolerance.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

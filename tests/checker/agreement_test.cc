@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "certify/certificate.h"
-#include "certify/checker/check.h"
+#include "base/input_error.h"
+#include "certificate/certificate.h"
 #include "certify/path_proof.h"
+#include "checker/check.h"
 #include "kinematics/constraint_functions.h"
-#include "kinematics/input_error.h"
 #include "tests/checker/fixtures.h"
 #include "tests/support/robots.h"
 

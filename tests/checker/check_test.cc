@@ -1,8 +1,8 @@
-#include "certify/checker/check.h"
+#include "checker/check.h"
 
 #include <gtest/gtest.h>
 
-#include "certify/checker/claims.h"
+#include "checker/claims.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {

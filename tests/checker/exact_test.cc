@@ -1,11 +1,11 @@
-#include "certify/checker/exact.h"
+#include "checker/exact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "certify/checker/errors.h"
+#include "checker/errors.h"
 
 namespace taut::checker {
 namespace {

@@ -1,4 +1,4 @@
-#include "certify/checker/expression.h"
+#include "checker/expression.h"
 
 #include <gtest/gtest.h>
 

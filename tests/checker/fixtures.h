@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/checker/certificate.h"
+#include "checker/certificate.h"
 
 namespace taut::checker {
 

@@ -1,4 +1,4 @@
-#include "certify/checker/form.h"
+#include "checker/form.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "certify/checker/interval.h"
+#include "checker/interval.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "certify/checker/krawczyk.h"
+#include "checker/krawczyk.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "certify/checker/errors.h"
+#include "checker/errors.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {

@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "certify/checker/check.h"
+#include "checker/check.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {

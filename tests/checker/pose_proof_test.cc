@@ -1,10 +1,10 @@
-#include "certify/checker/pose_proof.h"
+#include "checker/pose_proof.h"
 
 #include <gtest/gtest.h>
 
-#include "certify/checker/claims.h"
-#include "certify/checker/exact.h"
-#include "certify/checker/motion.h"
+#include "checker/claims.h"
+#include "checker/exact.h"
+#include "checker/motion.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {

@@ -1,5 +1,5 @@
 // Signatures: what the prover signs the checker verifies, and nothing else. Through the command line: tests/cli/signature_test.py.
-#include "certify/checker/signature.h"
+#include "checker/signature.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 
 #include <memory>
 
-#include "certify/certificate.h"
-#include "certify/checker/check.h"
-#include "certify/signature.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "certificate/certificate.h"
+#include "certificate/signature.h"
+#include "checker/check.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <string>
 
-#include "kinematics/input_error.h"
-#include "library/plan.h"
+#include "base/input_error.h"
+#include "planner/planner.h"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // A case file is refused with an InputError, or it is a problem that can be written down and modelled.
-#include "kinematics/case_file.h"
+#include "case/case_file.h"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 #include "kinematics/pose_sampler.h"
-#include "kinematics/problem.h"
+#include "problem/problem.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace taut;

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "certify/checker/check.h"
+#include "checker/check.h"
 #include "tests/checker/fixtures.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // A path file is refused with an InputError, or its rows are finite numbers, with times that rise.
-#include "kinematics/path_file.h"
+#include "path_io/path_file.h"
 
 #include <cmath>
 #include <cstdint>
@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "kinematics/input_error.h"
-#include "kinematics/waypoint_maker.h"
+#include "base/input_error.h"
+#include "path_io/waypoint_maker.h"
 #include "tests/support/robots.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-#include "kinematics/case_file.h"
+#include "case/case_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 namespace {

@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "case/case_file.h"
 
 namespace taut {
 namespace {
@@ -29,7 +30,8 @@ std::string text(const std::string& constraints, const std::string& waypoint) {
 }
 
 Case parse(const std::string& constraints, const std::string& waypoint = "{px: 0, py: 0, pz: 130}") {
-  return parse_case(text(constraints, waypoint), "test.yaml", require_query_on_constraints);
+  return parse_case(text(constraints, waypoint), "test.yaml",
+                    [](const Case& read) { require_query_on_constraints(read.problem, read.length_unit); });
 }
 
 const std::string kSphere = "px^2 + py^2 + pz^2 - 130^2";

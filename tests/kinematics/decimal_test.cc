@@ -1,4 +1,4 @@
-#include "kinematics/decimal.h"
+#include "problem/decimal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cfenv>
 #include <limits>
 
-#include "kinematics/input_error.h"
-#include "kinematics/scalar.h"
-#include "kinematics/units.h"
+#include "base/input_error.h"
+#include "problem/scalar.h"
+#include "problem/units.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinematics/expression.h"
+#include "problem/expression.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 namespace {

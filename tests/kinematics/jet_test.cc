@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certify/centered.h"
+#include "certify/arithmetic/centered.h"
 #include "tests/support/enclosing.h"
 
 namespace taut::testing {

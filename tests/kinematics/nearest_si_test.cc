@@ -1,4 +1,4 @@
-#include "kinematics/nearest_si.h"
+#include "problem/nearest_si.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "certify/big_float.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "certify/arithmetic/big_float.h"
 
 namespace taut {
 namespace {

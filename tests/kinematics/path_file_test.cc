@@ -1,4 +1,4 @@
-#include "kinematics/path_file.h"
+#include "path_io/path_file.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <sstream>
 
-#include "kinematics/case_file.h"
-#include "kinematics/path_summary.h"
+#include "case/case_file.h"
+#include "path_io/path_summary.h"
 #include "tests/support/robots.h"
 
 namespace taut {

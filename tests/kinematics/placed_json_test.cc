@@ -1,4 +1,4 @@
-#include "kinematics/placed_json.h"
+#include "base/placed_json.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "kinematics/problem.h"
+#include "problem/problem.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinematics/problem.h"
+#include "problem/problem.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "kinematics/case_file.h"
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "case/case_file.h"
 
 namespace taut {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/mp_interval.h"
 #include "tests/support/robots.h"
 
 namespace taut::testing {

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <tuple>
 
-#include "certify/certificate.h"
-#include "library/plan.h"
-#include "reports/html_report.h"
+#include "certificate/certificate.h"
+#include "planner/planner.h"
+#include "reports/page/html_report.h"
 
 namespace taut {
 namespace {

@@ -1,4 +1,4 @@
-#include "library/files.h"
+#include "base/files.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <atomic>
 #include <thread>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 
 namespace taut {
 namespace {

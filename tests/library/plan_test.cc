@@ -1,11 +1,10 @@
-#include "library/plan.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
+#include "planner/planner.h"
 #include "tests/atlas/sealed.h"
 #include "tests/support/temporary_file.h"
 

@@ -1,4 +1,4 @@
-#include "library/time_budget.h"
+#include "planner/time_budget.h"
 
 #include <gtest/gtest.h>
 

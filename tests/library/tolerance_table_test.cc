@@ -1,4 +1,4 @@
-#include "library/tolerance_table.h"
+#include "app/tolerance_table.h"
 
 #include <gtest/gtest.h>
 

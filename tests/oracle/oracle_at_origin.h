@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "certify/big_float.h"
-#include "kinematics/problem.h"
+#include "certify/arithmetic/big_float.h"
+#include "problem/problem.h"
 
 namespace taut::oracle {
 

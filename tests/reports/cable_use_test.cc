@@ -1,4 +1,4 @@
-#include "reports/cable_use.h"
+#include "reports/summary/cable_use.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "kinematics/decimal.h"
-#include "reports/wording.h"
+#include "problem/decimal.h"
+#include "reports/summary/wording.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {

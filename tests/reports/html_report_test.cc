@@ -1,4 +1,4 @@
-#include "reports/html_report.h"
+#include "reports/page/html_report.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {

@@ -1,4 +1,4 @@
-#include "reports/markup.h"
+#include "reports/page/markup.h"
 
 #include <gtest/gtest.h>
 

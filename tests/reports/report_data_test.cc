@@ -1,4 +1,4 @@
-#include "reports/report_data.h"
+#include "reports/page/report_data.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/plane.h"
+#include "reports/page/plane.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {

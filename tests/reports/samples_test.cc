@@ -1,8 +1,8 @@
-#include "reports/samples.h"
+#include "reports/summary/samples.h"
 
 #include <gtest/gtest.h>
 
-#include "reports/certificate_view.h"
+#include "certificate/certificate_view.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {

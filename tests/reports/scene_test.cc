@@ -1,10 +1,10 @@
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "kinematics/input_error.h"
+#include "base/input_error.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {

@@ -1,5 +1,5 @@
 // Colours of the style sheet in which text is set, against WCAG 2: a contrast of at least 4.5 to 1, in each theme and on paper.
-#include "reports/style.h"
+#include "reports/page/style.h"
 
 #include <gtest/gtest.h>
 

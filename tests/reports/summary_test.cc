@@ -1,4 +1,4 @@
-#include "reports/summary.h"
+#include "reports/summary/summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "reports/travel.h"
+#include "reports/summary/travel.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "reports/scene.h"
+#include "reports/summary/scene.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {

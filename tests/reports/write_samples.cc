@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "reports/html_report.h"
+#include "reports/page/html_report.h"
 #include "tests/reports/sample_certificates.h"
 
 int main(int argc, char** argv) {

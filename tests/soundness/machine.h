@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "kinematics/problem.h"
+#include "problem/problem.h"
 #include "tests/oracle/oracle_at_origin.h"
 
 namespace taut::campaign {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "certify/checker/exact.h"
-#include "certify/checker/interval.h"
+#include "checker/exact.h"
+#include "checker/interval.h"
 #include "tests/support/enclosing.h"
 
 namespace taut {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "certify/interval.h"
-#include "certify/mp_interval.h"
+#include "certify/arithmetic/interval.h"
+#include "certify/arithmetic/mp_interval.h"
 #include "tests/support/exact.h"
 
 namespace taut::testing {

@@ -12,8 +12,8 @@
 #include <random>
 #include <string>
 
-#include "certify/big_float.h"
-#include "kinematics/scalar.h"
+#include "certify/arithmetic/big_float.h"
+#include "problem/scalar.h"
 
 namespace taut {
 

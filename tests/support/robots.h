@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinematics/case_file.h"
+#include "case/case_file.h"
 #include "kinematics/segment.h"
 
 namespace taut::testing {

@@ -4,11 +4,11 @@
 #include <iostream>
 
 #include "atlas/atlas.h"
-#include "certify/checker/check.h"
+#include "case/case_file.h"
+#include "certify/arithmetic/rounding.h"
 #include "certify/path_proof.h"
-#include "certify/rounding.h"
-#include "kinematics/case_file.h"
-#include "reports/html_report.h"
+#include "checker/check.h"
+#include "reports/page/html_report.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 3;
