@@ -1,0 +1,78 @@
+// Finds how the checker's kernel proves what the prover has proved: boxes, precisions, places of implied motions, ways of
+// deviations, and the margins that the kernel confirms.
+//
+// A certificate leaves the checker nothing to search, so whatever has to be searched is searched here, by running the same
+// kernel on what is about to be written. Nothing here is trusted: the checker proves each statement again. What the kernel
+// can't be led to prove is left out, and the verdict with it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "certify/path_proof.h"
+#include "checker/kernel/box_proof.h"
+#include "checker/kernel/refutation.h"
+
+namespace taut {
+
+/// A box that the kernel proves at one go, and the lower bounds that it finds there.
+struct KernelBox {
+  checker::Box box;
+  double tension_N = 0;
+  double length_m = 0;
+  double wrench_scale = 0;
+};
+
+/// A witness as the checker will confirm it.
+struct KernelWitness {
+  checker::Witness witness;
+  DecimalText value_lower, value_upper;  ///< of the quantity, unless singular
+};
+
+/// Thread-safe.
+class Elaborator {
+ public:
+  /// @throws InputError if the problem can't be enclosed.
+  Elaborator(const Problem& problem, Interpolation law);
+
+  /// Boxes that tile the given ones, in order; nothing where some part is not proved by the kernel.
+  [[nodiscard]] std::optional<std::vector<KernelBox>> boxes(const Segment& segment,
+                                                            std::span<const DyadicBox> proved) const;
+
+  /// Halves boxes of a proved path that state its least margins, up to 64 times, until half of what there is next to their
+  /// midpoints is stated.
+  void tighten(const std::function<Segment(std::size_t k)>& segment, std::vector<std::vector<KernelBox>>& boxes) const;
+
+  /// Boxes of [begin, end] over which the kernel shows the motion; nothing where it does not.
+  [[nodiscard]] std::optional<std::vector<checker::Box>> motion(const Segment& segment, const Dyadic& begin,
+                                                                const Dyadic& end) const;
+
+  /// @param segment  the one of `at` (and `to`), as of which the kernel is asked; `motion` is left to the caller, but for that
+  /// between the places of a singular witness.
+  [[nodiscard]] std::optional<KernelWitness> witness(const Segment& segment, const PathWitness& found) const;
+
+  /// Whether poses are implied by constraints or lengths.
+  [[nodiscard]] bool is_implied() const { return is_implied_; }
+  [[nodiscard]] bool has_tolerances() const { return problem_.tolerances.has_value(); }
+
+ private:
+  class Search;
+  [[nodiscard]] const checker::Machine& machine(int bits) const;
+
+  checker::Problem problem_;
+  Interpolation law_;
+  bool is_implied_ = false;
+  Model<double> approx_;
+  mutable std::mutex mutex_;
+  mutable std::map<int, std::unique_ptr<checker::Machine>> machines_;
+};
+
+/// The certificate's numbers for a Dyadic.
+[[nodiscard]] mpq_class to_rational(const Dyadic& x);
+
+}  // namespace taut

@@ -1,0 +1,294 @@
+#include "checker/confirm.h"
+
+#include <flint/flint.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <thread>
+
+#include "checker/kernel/box_proof.h"
+#include "checker/kernel/refutation.h"
+
+namespace taut::checker {
+namespace {
+
+std::string show(const Box& box) { return "[" + box.begin.get_str() + ", " + box.end.get_str() + "]"; }
+
+std::string name_of(std::size_t segment, const Box& box) {
+  return "segment " + std::to_string(segment) + ", box " + show(box);
+}
+
+/// Calls `work(k)` for k in [0, count) on some threads. Rethrows what was thrown for the smallest k.
+template <class Work>
+void for_each(std::size_t count, unsigned threads, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> first_failure = count;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto run = [&] {
+    for (std::size_t k = next++; k < first_failure; k = next++) {
+      try {
+        work(k);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (k < first_failure) {
+          first_failure = k;
+          failure = std::current_exception();
+        }
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (unsigned i = 1; i < threads && i < count; ++i) {
+      pool.emplace_back([&] {
+        run();
+        flint_cleanup();
+      });
+    }
+    run();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+class Confirmation {
+ public:
+  Confirmation(const Certificate& certificate, const ConfirmOptions& options)
+      : certificate_(certificate), problem_(certificate.problem), path_(certificate.path), options_(options) {}
+
+  Counts run() {
+    require_waypoints_in_range();
+    require_query();
+    if (certificate_.witness) {
+      confirm_witness(*certificate_.witness, "the witness");
+      if (is_implied(problem_, path_)) {
+        const Witness& witness = *certificate_.witness;
+        const PathPoint& last = witness.kind == WitnessKind::kSingular ? later(witness) : witness.at;
+        confirm_motion(witness, {0, 0}, last, "the witness");
+      }
+    }
+    for (std::size_t i = 0; i < certificate_.stretch_texts.size(); ++i) {
+      for (const Witness& witness : certificate_.stretch(i).inner) {
+        confirm_witness(witness, "stretch " + std::to_string(i) + ": the witness");
+      }
+    }
+    for_each(certificate_.segment_texts.size(), options_.threads, [&](std::size_t k) { prove_segment(k); });
+    return {certificate_.segment_texts.size(), certificate_.boxes, bits_};
+  }
+
+ private:
+  /// `prove(machine)` at a precision. @throws Rejected naming `what` where it throws Undefined.
+  template <class Prove>
+  void at_precision(int bits, const std::string& what, const Prove& prove) {
+    options_.before_box();
+    const WorkingPrecision precision(bits);
+    for (int seen = bits_; seen < bits && !bits_.compare_exchange_weak(seen, bits);) continue;
+    try {
+      prove(machine(bits));
+    } catch (const Undefined& why) {
+      throw Rejected("not confirmed: " + what + ": " + why.what());
+    }
+  }
+
+  const Machine& machine(int bits) {
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<Machine>& result = machines_[bits];
+    if (result == nullptr) result = std::make_unique<Machine>(problem_);
+    return *result;
+  }
+
+  void prove_segment(std::size_t k) {
+    const Segment segment = certificate_.segment(k);
+    const Margins& margins = segment.margins;
+    if (!segment.boxes.empty() && (margins.tension <= 0 || margins.length <= 0 || margins.wrench_scale < 1)) {
+      throw Rejected("segment " + std::to_string(k) + ": claims a margin that is not positive, or a wrench scale below 1");
+    }
+    for (const Box& box : segment.boxes) {
+      at_precision(box.bits, name_of(k, box), [&](const Machine& machine) {
+        const Bounds bounds = prove_box(machine, problem_, path_, k, box);
+        const auto require = [](const Ball& bound, const mpq_class& claimed, const char* what) {
+          if (!certainly_nonnegative(bound - Ball(claimed))) throw Undefined(std::string(what) + " as claimed");
+        };
+        require(bounds.tension, margins.tension, "the tension margin");
+        require(bounds.length, margins.length, "the length margin");
+        require(bounds.wrench_scale, margins.wrench_scale, "the wrench scale");
+        require_near_waypoints(machine, problem_, path_, k, box);
+      });
+    }
+  }
+
+  // ---- Witnesses -----------------------------------------------------------------------------------------------------
+
+  static bool is_before(const PathPoint& a, const PathPoint& b) {
+    return a.segment != b.segment ? a.segment < b.segment : a.s < b.s;
+  }
+  static const PathPoint& later(const Witness& witness) {
+    return is_before(witness.at, witness.to) ? witness.to : witness.at;
+  }
+  static const PathPoint& earlier(const Witness& witness) {
+    return is_before(witness.at, witness.to) ? witness.at : witness.to;
+  }
+
+  void confirm_witness(const Witness& witness, const std::string& name) {
+    if (witness.kind == WitnessKind::kSingular) {
+      confirm_sign_change(witness, name);
+      return;
+    }
+    at_precision(witness.at_box.bits, name, [&](const Machine& machine) {
+      confirm_violation(machine, problem_, path_, witness);
+      if (path_.segments() == 0) require_near_waypoints(machine, problem_, path_, 0, at(witness.at.s, witness.at_box));
+    });
+  }
+
+  static Box at(const mpq_class& s, Box how) {
+    how.begin = how.end = s;
+    return how;
+  }
+
+  /// det D has opposite signs at two places, and the path is continuous in between with all lengths positive. As
+  /// det J = det D / (product of the lengths), it vanishes somewhere between (intermediate value theorem).
+  void confirm_sign_change(const Witness& witness, const std::string& name) {
+    const auto sign = [&](const PathPoint& place, const Box& how) {
+      int result = 0;
+      at_precision(how.bits, name, [&](const Machine& machine) {
+        const Ball det = determinant_at(machine, problem_, path_, place, how);
+        result = certainly_positive(det) ? 1 : certainly_negative(det) ? -1 : 0;
+        if (result == 0) throw Undefined("the sign of det D");
+      });
+      return result;
+    };
+    if (sign(witness.at, witness.at_box) == sign(witness.to, witness.to_box)) {
+      throw Rejected(name + ": det D has the same sign at both places");
+    }
+    confirm_motion(witness, earlier(witness), later(witness), name);
+  }
+
+  static mpq_class abscissa(const PathPoint& place) { return mpq_class(place.segment) + place.s; }
+
+  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of them
+  /// shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one that
+  /// begins in the first tube: where two boxes meet, one tube contains the other, and holds one pose only).
+  void confirm_motion(const Witness& witness, const PathPoint& from, const PathPoint& to, const std::string& name) {
+    std::vector<std::pair<mpq_class, mpq_class>> parts;
+    for (const MotionBox& part : witness.motion) {
+      at_precision(part.box.bits, name + ": motion: " + name_of(part.segment, part.box), [&](const Machine& machine) {
+        (void)commanded_geometry(machine, problem_, path_, part.segment, part.box);
+        require_near_waypoints(machine, problem_, path_, part.segment, part.box);
+      });
+      parts.emplace_back(abscissa({part.segment, part.box.begin}), abscissa({part.segment, part.box.end}));
+    }
+    for (std::size_t k = 0; k < certificate_.segment_texts.size() && k <= to.segment; ++k) {
+      for (const Box& box : certificate_.segment(k).boxes) {
+        parts.emplace_back(abscissa({k, box.begin}), abscissa({k, box.end}));
+      }
+    }
+    std::ranges::sort(parts);
+    mpq_class reached = abscissa(from);
+    for (const auto& [begin, end] : parts) {
+      if (begin <= reached && end > reached) reached = end;
+    }
+    if (reached < abscissa(to)) throw Rejected(name + ": the path is not shown to lead there from its beginning");
+  }
+
+  // ---- The query -----------------------------------------------------------------------------------------------------
+
+  void require_waypoints_in_range() {
+    if (has_poses(path_.law)) return;  // the free coordinates have no ranges
+    if (std::ranges::none_of(problem_.parameters, [](const Parameter& x) { return x.kind == ParameterKind::kRange; })) {
+      return;
+    }
+    for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
+      constexpr int kBits = 256;
+      at_precision(kBits, "waypoint " + std::to_string(k), [&](const Machine&) {
+        require_in_range(problem_, stated_parameters(path_.waypoints[k]));
+      });
+    }
+  }
+
+  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a single
+  /// waypoint, that one is among them.
+  void require_query() {
+    if (problem_.query.empty()) return;  // an audit: the path is what was asked about
+    const std::span<const Waypoint> path = path_.waypoints;
+    const std::size_t last = problem_.query.size() - 1;
+    if (path.size() == 1) {
+      for (std::size_t c = 0; c <= last; ++c) {
+        if (is_same(path[0], query_waypoint(c))) return;
+      }
+      throw Rejected("the path's one waypoint is none of the query's");
+    }
+    const std::size_t passes = path_.law == Law::kStraight ? 1 : 3;
+    std::size_t k = 0;
+    for (std::size_t c = 0; c <= last; ++c) {
+      const std::vector<double> x = query_waypoint(c);
+      // Whether the path goes through it: a spline does where it stands three times in a row.
+      const auto is_passed = [&](std::size_t at) {
+        const auto there = path.subspan(at, passes);
+        return std::ranges::all_of(there, [&](const Waypoint& w) { return w == there[0] && is_same(w, x); });
+      };
+      while (c > 0 && k + passes <= path.size() && !is_passed(k)) ++k;
+      if (k + passes > path.size() || !is_passed(k) || (c == last && !is_passed(path.size() - passes))) {
+        throw Rejected("query waypoint " + std::to_string(c) + ": the path does not pass it, or not in its turn");
+      }
+    }
+  }
+
+  /// The case's waypoint c, each of its coordinates rounded to the nearest binary64.
+  std::vector<double> query_waypoint(std::size_t c) const {
+    std::vector<double> x;
+    for (const Expression& typed : problem_.query[c]) x.push_back(nearest_binary64(typed, c));
+    return x;
+  }
+
+  static double nearest_binary64(const Expression& typed, std::size_t c) {
+    // The last is for an exact 0 such as cos(pi/2): it is told from the least binary64 beyond 1075 bits only.
+    for (const int bits : {128, 512, 1200, 4096}) {
+      const WorkingPrecision precision(bits);
+      try {
+        const Ball x = typed.evaluate<Form>({}).range();
+        const auto rounded = [](const Ball& end) { return arf_get_d(arb_midref(end.get()), ARF_RND_NEAR); };
+        if (const double nearest = rounded(lowest(x)); rounded(highest(x)) == nearest) return nearest;
+      } catch (const Undefined&) {
+        continue;  // at this precision
+      }
+    }
+    throw Rejected("not confirmed: query waypoint " + std::to_string(c) + ": the binary64 nearest to what was typed");
+  }
+
+  /// Whether a waypoint of the path is the case's one at x: "The query" in docs/certificate-format.md.
+  [[nodiscard]] bool is_same(const Waypoint& waypoint, const std::vector<double>& x) const {
+    const auto matches = [&](const std::vector<double>& expected, std::size_t odd) {
+      for (std::size_t j = 0; j < x.size(); ++j) {
+        const bool is_odd = waypoint.half_turns[j] % 2 != 0;
+        if (waypoint.x[j] != expected[j] || is_odd != (j == odd)) return false;
+      }
+      return true;
+    };
+    if (matches(x, x.size())) return true;
+    if (!problem_.flip) return false;
+    const auto [phi, theta] = *problem_.flip;
+    std::vector<double> flipped = x;
+    flipped[theta] *= -1;
+    return matches(flipped, phi);
+  }
+
+  const Certificate& certificate_;
+  const Problem& problem_;
+  const Path& path_;
+  const ConfirmOptions& options_;
+  std::mutex mutex_;
+  std::map<int, std::unique_ptr<Machine>> machines_;  ///< by precision
+  std::atomic<int> bits_ = 0;
+};
+
+}  // namespace
+
+Counts confirm(const Certificate& certificate, const ConfirmOptions& options) {
+  return Confirmation(certificate, options).run();
+}
+
+}  // namespace taut::checker

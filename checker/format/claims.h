@@ -1,0 +1,31 @@
+// The theorems in words. A certificate carries the text that belongs to its verdict, character by character, and whoever
+// writes a certificate includes this header. docs/certificate-format.md repeats the texts.
+#pragma once
+
+namespace taut::checker {
+
+inline constexpr const char* kProvedClaim =
+    "For every s along the path, every machine, load and pose within the stated tolerances, and every wrench w in K: "
+    "the force Jacobian J is non-singular, the unique f with J f = w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i "
+    "< d_hi,i, for all six cables i = 1..6. The path is given by its exact waypoints and interpolation law; robot, "
+    "load, limits and tolerances are the exact numbers of the problem. Where the pose is implied by constraints or by "
+    "the lengths of the cables, it is the only such pose in its tube, for every s. A length-controlled machine that "
+    "deviates is at the pose to which its deviation leads as it grows from zero. The claim includes that these poses "
+    "exist.";
+
+inline constexpr const char* kRefutedClaim =
+    "The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension outside its "
+    "open limits, or a cable length is outside its open limits, or the force Jacobian J is singular at some pose "
+    "between the two witness poses. Where poses are implied by constraints or by the lengths of the cables, the motion "
+    "of the path leads from its beginning to the witness pose. Robot and load are there as the problem states them, or "
+    "they differ by the deviation that the witness states, which is within the tolerances. A machine that deviates is "
+    "at the pose to which its deviation leads: if it is length-controlled, first as anchors and lengths deviate more "
+    "and more, beginning with no deviation; then by the tracking error. Where stretches are listed, the claim of a "
+    "proved path holds outside of them, and each stretch that has witnesses is violated at both of them; where poses "
+    "are implied, the boxes and the witnesses of stretches are about the poses in the stated tubes around the "
+    "reference, and it is not claimed that the motion from the beginning of the path reaches them.";
+
+inline constexpr const char* kUndecidedClaim =
+    "Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.";
+
+}  // namespace taut::checker

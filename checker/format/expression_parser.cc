@@ -1,0 +1,250 @@
+#include "checker/format/expression_parser.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "checker/errors.h"
+#include "checker/format/exact.h"
+
+namespace taut::checker {
+namespace {
+
+constexpr std::size_t kMaxLength = 10000;  ///< characters
+constexpr int kMaxDepth = 200;             ///< nested parentheses and signs; bounds the recursion of the parser
+constexpr long kMaxExponent = 1000;        ///< of "^"
+constexpr long kMaxTurns = 1000;           ///< returned by turns(), and of the integers that it multiplies by
+
+const std::map<std::string, Op> kFunctions = {
+    {"sqrt", Op::kSqrt}, {"sin", Op::kSin},   {"cos", Op::kCos},   {"tan", Op::kTan},   {"exp", Op::kExp},
+    {"log", Op::kLog},   {"asin", Op::kAsin}, {"acos", Op::kAcos}, {"atan", Op::kAtan}, {"atan2", Op::kAtan2}};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_name_character(char c) { return is_letter(c) || is_digit(c); }
+
+class Parser {
+ public:
+  Parser(const std::string& text, const Names& names, const std::string& where)
+      : text_(text), names_(names), where_(where) {}
+
+  Expression parse() {
+    if (text_.size() > kMaxLength) fail("at most 10000 characters");
+    for (; at_ < text_.size(); ++at_) {
+      if (text_[at_] < ' ' || text_[at_] > '~') fail("printable ASCII characters only");
+    }
+    at_ = 0;
+    sum();
+    if (peek() != '\0') fail("an operator or the end");
+    return std::move(result_);
+  }
+
+ private:
+  // Each of these reads the part of the grammar that it is named after and returns the node of its value.
+  int sum() {
+    int left = product();
+    for (char c = peek(); c == '+' || c == '-'; c = peek()) {
+      ++at_;
+      const int right = product();
+      left = add({c == '+' ? Op::kAdd : Op::kSubtract, 0, left, right});
+    }
+    return left;
+  }
+
+  int product() {
+    int left = unary();
+    for (char c = peek(); c == '*' || c == '/'; c = peek()) {
+      ++at_;
+      const int right = unary();
+      left = add({c == '*' ? Op::kMultiply : Op::kDivide, 0, left, right});
+    }
+    return left;
+  }
+
+  int unary() {
+    const Nesting nesting(*this);
+    if (take('-')) return add({Op::kNegate, 0, unary()});
+    const int base = atom();
+    return take('^') ? add({Op::kPower, static_cast<int>(exponent()), base}) : base;
+  }
+
+  int atom() {
+    const char c = peek();
+    if (take('(')) return closed(sum());
+    if (is_digit(c) || c == '.') return number();
+    if (!is_letter(c)) fail("a number, a name or '('");
+    const std::string name = take_while(is_name_character);
+    if (name == "pi") return add({Op::kPi});
+    if (const auto function = kFunctions.find(name); function != kFunctions.end()) {
+      if (!take('(')) fail("'('");
+      const int first = sum();
+      if (function->second != Op::kAtan2) return closed(add({function->second, 0, first}));
+      if (!take(',')) fail("','");
+      const int second = sum();
+      return closed(add({Op::kAtan2, 0, first, second}));
+    }
+    const auto parameter = std::ranges::find(names_.parameters, name);
+    if (parameter != names_.parameters.end()) {
+      return add({Op::kParameter, static_cast<int>(parameter - names_.parameters.begin())});
+    }
+    const auto constant = names_.constants.find(name);
+    if (constant == names_.constants.end()) fail("a known name, not '" + name + "'");
+    return add_number(constant->second);
+  }
+
+  int number() {
+    std::string digits = take_while([](char c) { return is_digit(c) || c == '.'; });
+    if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
+      digits += text_[at_++];
+      if (at_ < text_.size() && (text_[at_] == '+' || text_[at_] == '-')) digits += text_[at_++];
+      digits += take_while(is_digit);
+    }
+    const std::optional<mpq_class> value = parse_decimal(digits);
+    if (!value) fail(kDecimalForm);
+    return add_number(*value);
+  }
+
+  long exponent() {
+    const Nesting nesting(*this);
+    if (take('-')) return -exponent();
+    if (take('(')) return closed(exponent());
+    if (!is_digit(peek())) fail("an integer exponent");
+    long base = 0;
+    for (const char c : take_while(is_digit)) base = bounded(10 * base + (c - '0'));
+    if (!take('^')) return base;
+    long result = 1;
+    for (long n = exponent(); n != 0; --n) {
+      if (n < 0) fail("an integer exponent");
+      result = bounded(result * base);
+    }
+    return result;
+  }
+
+  long bounded(long n) const {
+    if (n > kMaxExponent) fail("an exponent of at most 1000");
+    return n;
+  }
+
+  template <class Value>
+  Value closed(Value value) {
+    if (!take(')')) fail("')'");
+    return value;
+  }
+
+  char peek() {
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  bool take(char c) {
+    const bool found = peek() == c;
+    if (found) ++at_;
+    return found;
+  }
+  template <class Predicate>
+  std::string take_while(const Predicate& is_wanted) {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_wanted(text_[at_])) ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+
+  int add(const Expression::Node& node) {
+    result_.nodes.push_back(node);
+    return static_cast<int>(result_.nodes.size()) - 1;
+  }
+  int add_number(const mpq_class& value) {
+    result_.numbers.push_back(value);
+    return add({Op::kNumber, static_cast<int>(result_.numbers.size()) - 1});
+  }
+
+  [[noreturn]] void fail(const std::string& expected) const {
+    throw Malformed(where_ + ": '" + text_.substr(0, 60) + "', column " + std::to_string(at_ + 1) + ": expected " +
+                    expected);
+  }
+
+  struct Nesting {
+    explicit Nesting(Parser& parser) : parser_(parser) {
+      if (++parser_.depth_ > kMaxDepth) parser_.fail("fewer nested parentheses");
+    }
+    ~Nesting() { --parser_.depth_; }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+    Parser& parser_;
+  };
+
+  const std::string& text_;
+  const Names& names_;
+  const std::string& where_;
+  Expression result_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+Expression parse_expression(const std::string& text, const Names& names, const std::string& where) {
+  return Parser(text, names, where).parse();
+}
+
+bool mentions(const Expression& expression, std::size_t parameter) {
+  return std::ranges::any_of(expression.nodes, [&](const Expression::Node& node) {
+    return node.op == Op::kParameter && node.n == static_cast<int>(parameter);
+  });
+}
+
+std::optional<long> turns(const Expression& expression, std::size_t parameter) {
+  struct Known {
+    std::optional<long> turns;
+    std::optional<long> integer;  ///< the value of a node that is an integer literal or its negative
+  };
+  const auto bounded = [](long k) { return std::abs(k) <= kMaxTurns ? std::optional(k) : std::nullopt; };
+  const Known none;
+  std::vector<Known> known;
+  for (const Expression::Node& node : expression.nodes) {
+    const Known& a = node.a < 0 ? none : known[static_cast<std::size_t>(node.a)];
+    const Known& b = node.b < 0 ? none : known[static_cast<std::size_t>(node.b)];
+    // An operation whose operands don't change keeps its value, whatever operation it is.
+    const bool is_unchanged = (node.a < 0 || a.turns == 0) && (node.b < 0 || b.turns == 0);
+    Known result;
+    if (is_unchanged) result.turns = 0;
+    switch (node.op) {
+      case Op::kParameter: result.turns = node.n == static_cast<int>(parameter) ? 1 : 0; break;
+      case Op::kNumber: {
+        const mpq_class& number = expression.numbers[static_cast<std::size_t>(node.n)];
+        if (number.get_den() == 1 && abs(number) <= kMaxTurns) result.integer = number.get_num().get_si();
+        break;
+      }
+      case Op::kNegate:
+        if (a.turns) result.turns = -*a.turns;
+        if (a.integer) result.integer = -*a.integer;
+        break;
+      case Op::kAdd:
+        if (a.turns && b.turns) result.turns = bounded(*a.turns + *b.turns);
+        break;
+      case Op::kSubtract:
+        if (a.turns && b.turns) result.turns = bounded(*a.turns - *b.turns);
+        break;
+      case Op::kMultiply:
+        if (!is_unchanged && a.integer && b.turns) result.turns = bounded(*a.integer * *b.turns);
+        if (!is_unchanged && b.integer && a.turns) result.turns = bounded(*b.integer * *a.turns);
+        break;
+      case Op::kPower:
+        if (node.n == 0) result = {0, 1};
+        if (node.n == 1) result = a;
+        break;
+      case Op::kSin:
+      case Op::kCos:
+      case Op::kTan:
+        if (a.turns) result.turns = 0;
+        break;
+      default: break;
+    }
+    known.push_back(result);
+  }
+  return known.back().turns;
+}
+
+bool is_free_name(const std::string& name) {
+  return !name.empty() && is_letter(name[0]) && std::ranges::all_of(name, is_name_character) && name != "pi" &&
+         !kFunctions.contains(name);
+}
+
+}  // namespace taut::checker

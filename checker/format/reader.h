@@ -1,0 +1,64 @@
+// Reads a certificate and checks its form: docs/certificate-format.md, version 4. Proves nothing about the robot.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checker/kernel/statement.h"
+
+namespace taut::checker {
+
+enum class Verdict { kProved, kRefuted, kUndecided };
+
+struct Segment {
+  std::vector<Box> boxes;  ///< in order, not overlapping
+  Margins margins;         ///< stated for all of them; 0 where there is no box
+};
+
+/// A part of an audited path that is not proved.
+struct Stretch {
+  PathPoint begin;
+  PathPoint end;
+  std::vector<Witness> inner;  ///< its first and last proved violation; none where it is open
+};
+
+/// Where an audited path came from: informative.
+struct Source {
+  std::string file;
+  std::string sha256;
+};
+
+struct Certificate {
+  Verdict verdict = Verdict::kUndecided;
+  std::string claim;
+  Problem problem;
+  std::string problem_json;  ///< `problem` as canonical JSON
+  Path path;
+  std::string path_sha256;
+  std::array<std::string, 3> margins;  ///< of the whole path, as written: tension_N, length_m, wrench_scale
+  std::optional<Witness> witness;
+  std::string undecided_reason;
+  std::optional<Source> source;
+  std::string signer;  ///< the public key, 64 hex digits; empty where there is no signature
+  std::size_t boxes = 0;
+
+  // Segments and stretches stay text until they are wanted, as they would take many times the memory otherwise. Their
+  // form has been checked. Both functions may be called from several threads.
+  std::vector<std::string_view> segment_texts;
+  std::vector<std::string_view> stretch_texts;
+  [[nodiscard]] Segment segment(std::size_t k) const;
+  [[nodiscard]] Stretch stretch(std::size_t i) const;
+};
+
+/// Checks all rules of form: keys and their order, types, counts, digests, the signature, the claim's text; limits in
+/// order, E symmetric, periodic parameters along which pose and constraints close; sizes of waypoints and tubes, tubes
+/// that contain one another; boxes and stretches that tile the path, no box across an inner pose; values of witnesses
+/// beyond their limits; the top-level margins those of the worst segments.
+/// @param text  must outlive the certificate, which refers to it.
+/// @throws Malformed naming the key.
+[[nodiscard]] Certificate read_certificate(std::string_view text);
+
+}  // namespace taut::checker

@@ -1,0 +1,68 @@
+#include "checker/kernel/ball.h"
+
+namespace taut::checker {
+namespace {
+
+/// Arb's functions agree in their arguments.
+template <auto kArb>
+Ball arb(const Ball& x) {
+  return Ball::make([&](arb_ptr r) { kArb(r, x.get(), Ball::bits()); });
+}
+
+}  // namespace
+
+Ball value(Function f, const Ball& x) {
+  switch (f) {
+    case Function::kInverse: return Ball(1) / x;
+    case Function::kSqrt: return sqrt(x);
+    case Function::kSin: return arb<arb_sin>(x);
+    case Function::kCos: return arb<arb_cos>(x);
+    case Function::kExp: return arb<arb_exp>(x);
+    case Function::kLog: return arb<arb_log>(x);
+    case Function::kAsin: return arb<arb_asin>(x);
+    case Function::kAcos: return arb<arb_acos>(x);
+    case Function::kAtan: return arb<arb_atan>(x);
+  }
+  throw std::logic_error("a function without a value");
+}
+
+Ball first_derivative(Function f, const Ball& x) {
+  switch (f) {
+    case Function::kInverse: return -(Ball(1) / sqr(x));
+    case Function::kSqrt: return Ball(1) / (Ball(2) * sqrt(x));
+    case Function::kSin: return arb<arb_cos>(x);
+    case Function::kCos: return -arb<arb_sin>(x);
+    case Function::kExp: return arb<arb_exp>(x);
+    case Function::kLog: return Ball(1) / x;
+    case Function::kAsin: return Ball(1) / sqrt(Ball(1) - sqr(x));
+    case Function::kAcos: return -(Ball(1) / sqrt(Ball(1) - sqr(x)));
+    case Function::kAtan: return Ball(1) / (Ball(1) + sqr(x));
+  }
+  throw std::logic_error("a function without a derivative");
+}
+
+Ball second_derivative(Function f, const Ball& x) {
+  switch (f) {
+    case Function::kInverse: return Ball(2) / power(x, 3);
+    case Function::kSqrt: return -(Ball(1) / (Ball(4) * x * sqrt(x)));
+    case Function::kSin: return -arb<arb_sin>(x);
+    case Function::kCos: return -arb<arb_cos>(x);
+    case Function::kExp: return arb<arb_exp>(x);
+    case Function::kLog: return -(Ball(1) / sqr(x));
+    case Function::kAsin:
+    case Function::kAcos: {
+      const Ball rest = Ball(1) - sqr(x);
+      const Ball result = x / (rest * sqrt(rest));
+      return f == Function::kAsin ? result : -result;
+    }
+    case Function::kAtan: return -(Ball(2) * x / sqr(Ball(1) + sqr(x)));
+  }
+  throw std::logic_error("a function without a second derivative");
+}
+
+Ball power(const Ball& x, int n) {
+  if (n < 0) return Ball(1) / power(x, -n);
+  return Ball::make([&](arb_ptr r) { arb_pow_ui(r, x.get(), static_cast<ulong>(n), Ball::bits()); });
+}
+
+}  // namespace taut::checker

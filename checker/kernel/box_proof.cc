@@ -1,0 +1,40 @@
+#include "checker/kernel/box_proof.h"
+
+#include "checker/kernel/deviation.h"
+#include "checker/kernel/motion.h"
+
+namespace taut::checker {
+
+Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+  const Geometry geometry = commanded_geometry(machine, problem, path, k, box);
+  const Inverse inverse(geometry.D);  // J is non-singular on the box
+  const Tensions tensions = machine.tensions(inverse);
+  MarginLoss loss;
+  if (machine.deviations) {
+    loss = margin_loss(machine, geometry, inverse, is_length_controlled(problem, path), box.parts, box.guesses);
+  }
+  std::optional<Bounds> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Form& length = geometry.length[i];
+    const Ball largest_variation = magnitude((length * tensions.variation[i]).range()) +
+                                   Ball(0.5) * (loss.tension[i][0] + loss.tension[i][1]);
+    for (const std::size_t side : {0, 1}) {
+      const auto inside = [&](const Form& quantity, const std::array<Ball, 2>& limits) {
+        return side == 0 ? quantity - Form(limits[0]) : Form(limits[1]) - quantity;
+      };
+      const Form extreme = length * (side == 0 ? tensions.density[i] - tensions.variation[i]
+                                               : tensions.density[i] + tensions.variation[i]);
+      const Ball of_tension = lowest(inside(extreme, machine.tension_limits[i]).range() - loss.tension[i][side]);
+      const Ball of_length = lowest(inside(length, machine.length_limits[i]).range() - loss.length[i]);
+      // (f0 - f_lo) / v = 1 + (f0 - v - f_lo) / v; a negative margin may be divided by any v, as it is refused anyway.
+      const Ball of_scale = lowest(Ball(1) + of_tension / largest_variation);
+      if (!result) result = Bounds{of_tension, of_length, of_scale};
+      result->tension = -larger(-result->tension, -of_tension);
+      result->length = -larger(-result->length, -of_length);
+      result->wrench_scale = -larger(-result->wrench_scale, -of_scale);
+    }
+  }
+  return *result;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,276 @@
+#include "checker/kernel/deviation.h"
+
+namespace taut::checker {
+namespace {
+
+Vector3<Ball> widened(const Vector3<Ball>& x, const Vector3<Ball>& by) {
+  return {plus_minus(x[0], by[0]), plus_minus(x[1], by[1]), plus_minus(x[2], by[2])};
+}
+Vector3<Ball> widened(const Vector3<Ball>& x, const Ball& by) { return widened(x, {by, by, by}); }
+
+/// The Euclidean length of every vector in z.
+Ball length_range(const Vector6<Ball>& z) {
+  Ball least;
+  Ball most;
+  for (const Ball& x : z) {
+    least += sqr(least_magnitude(x));
+    most += sqr(magnitude(x));
+  }
+  return hull(sqrt(lowest(least)), sqrt(most));
+}
+
+/// The first and the last three entries of a row of D^-1.
+struct Row {
+  Vector3<Ball> f;
+  Vector3<Ball> m;
+  explicit Row(const Vector6<Ball>& y) : f{y[0], y[1], y[2]}, m{y[3], y[4], y[5]} {}
+};
+
+/// Bounds of how far things are from where they are at t = 0, or of their rates: by coordinates.
+struct Moves {
+  std::array<Vector3<Ball>, 6> d, r, Rb;
+  Vector3<Ball> Rp_m;
+  Matrix6<Ball> Y;
+
+  /// Calls visit(ours, a's, b's) for each number.
+  template <class Visit>
+  void with(const Moves& a, const Moves& b, const Visit& visit) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        visit(d[i][c], a.d[i][c], b.d[i][c]);
+        visit(r[i][c], a.r[i][c], b.r[i][c]);
+        visit(Rb[i][c], a.Rb[i][c], b.Rb[i][c]);
+      }
+      for (std::size_t k = 0; k < 6; ++k) visit(Y[i][k], a.Y[i][k], b.Y[i][k]);
+    }
+    for (std::size_t c = 0; c < 3; ++c) visit(Rp_m[c], a.Rp_m[c], b.Rp_m[c]);
+  }
+};
+
+/// Everything that the rates are made of, for every u and every deviation, during one part of the way.
+class Family {
+ public:
+  /// At t = 0.
+  Family(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled)
+      : machine_(machine), length_controlled_(length_controlled), whole_(*machine.deviations) {
+    const Matrix3<Ball> R = range(geometry.pose.R);
+    for (std::size_t i = 0; i < 6; ++i) {
+      d_start_[i] = range(geometry.d[i]);
+      r_start_[i] = range(geometry.arm[i]);
+      Rb_start_[i] = multiply(R, machine.platform[i]);
+      length_start_[i] = geometry.length[i].range();
+      b_size_[i] = length_bound(machine.platform[i]) + whole_.platform[i];
+      r_size_[i] = length_bound(machine.arms[i]) + whole_.platform[i] + whole_.load_point;
+      if (length_controlled) {
+        rho_[i] = magnitude((length_start_[i] + whole_.length[i]) *
+                            (whole_.length[i] + whole_.base[i] + whole_.platform[i]));
+      }
+      Vector6<Ball> column;
+      for (std::size_t r = 0; r < 6; ++r) column[r] = inverse.approximate()[r][i];
+      const Vector6<Form> Y = inverse.times(column);
+      for (std::size_t r = 0; r < 6; ++r) Y_start_[r][i] = Y[r].range();
+    }
+    Rp_m_start_ = multiply(R, machine.load_point);
+    Rp_m_size_ = length_bound(machine.load_point) + whole_.load_point;
+  }
+
+  /// The next part, `share` of the way, at the end of which the part `until` of the way is covered.
+  /// @throws Undefined where the guess does not hold.
+  void advance(const Ball& share, const Ball& until, int guesses) {
+    const Ball growth(1.125);
+    const Ball least = Ball::make([](arb_ptr r) { arb_set_ui(r, 1); arb_mul_2exp_si(r, r, -4 * Ball::bits()); });
+    const Moves before = moves_;
+    Moves guess = before;
+    set(before, until);
+    for (int k = 0; k < guesses; ++k) {
+      guess.with(before, rates(), [&](Ball& x, const Ball& from, const Ball& rate) {
+        x = highest(from + growth * share * rate + least);
+      });
+      set(guess, until);
+    }
+    moves_.with(before, rates(),
+                [&](Ball& x, const Ball& from, const Ball& rate) { x = highest(from + share * rate); });
+    moves_.with(moves_, guess, [&](const Ball&, const Ball& reached, const Ball& allowed) {
+      if (!certainly_nonnegative(allowed - reached)) throw Undefined("a deviation may lead to a singular pose");
+    });
+    set_loads(until);
+  }
+
+  /// Bounds of |F_r'| for c = -1 and c = 1.
+  [[nodiscard]] std::array<Ball, 2> tension_rates(std::size_t r) const {
+    Vectors turned;          // r_i x (h_ri + q_ri)
+    Vector6<Ball> overlap;   // z_r . z_i / V_r
+    for (std::size_t i = 0; i < 6; ++i) {
+      turned[i] = cross(r_[i], h_[r][i] + q_[r][i]);
+      for (std::size_t j = 0; j < 6 && i != r; ++j) overlap[i] += z_[r][j] * z_[i][j];
+    }
+    const Ball V = length_range(z_[r]);
+    for (std::size_t i = 0; i < 6; ++i) overlap[i] = i == r ? V : overlap[i] / V;
+    return {tension_rate(r, Ball(-1), overlap, turned), tension_rate(r, Ball(1), overlap, turned)};
+  }
+
+  /// A bound of the rate of |d_i|, of a machine that is not length-controlled.
+  [[nodiscard]] Ball length_rate(std::size_t i) const {
+    const Ball by_turning = length_bound(cross(Rb_[i], u_[i]));
+    const Ball lever = arf_cmp(arb_midref(by_turning.get()), arb_midref(highest(b_size_[i]).get())) < 0
+                           ? by_turning
+                           : highest(b_size_[i]);
+    return whole_.position + whole_.angle * lever + whole_.base[i] + whole_.platform[i];
+  }
+
+ private:
+  using Vectors = std::array<Vector3<Ball>, 6>;
+
+  /// What is there up to the part `until` of the way, if all stays within `moves`.
+  void set(const Moves& moves, const Ball& until) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      d_[i] = widened(d_start_[i], moves.d[i]);
+      r_[i] = widened(r_start_[i], moves.r[i]);
+      Rb_[i] = widened(Rb_start_[i], moves.Rb[i]);
+      for (std::size_t j = 0; j < 6; ++j) Y_[i][j] = plus_minus(Y_start_[i][j], moves.Y[i][j]);
+      const Ball change = length_controlled_ ? whole_.length[i] : whole_.base[i] + whole_.platform[i];
+      const Ball tracked = whole_.position + whole_.angle * b_size_[i];
+      length_[i] = plus_minus(length_start_[i], until * (change + tracked));
+      if (!certainly_positive(length_[i])) throw Undefined("a cable may have no length");
+      for (std::size_t c = 0; c < 3; ++c) u_[i][c] = d_[i][c] / length_[i];
+    }
+    Rp_m_ = widened(Rp_m_start_, moves.Rp_m);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Row y(Y_[i]);
+      for (std::size_t j = 0; j < 6; ++j) {
+        w_[i][j] = cross(y.m, r_[j]);
+        h_[i][j] = y.f + w_[i][j];
+        q_[i][j] = cross(d_[j], y.m);
+      }
+    }
+  }
+
+  /// Rates of all quantities in Moves, over what was set.
+  [[nodiscard]] Moves rates() const {
+    Ball spin;  // of the commanded pose
+    for (std::size_t j = 0; j < 6; ++j) spin += rho_[j] * length_bound(Row(Y_[j]).m);
+    const Ball turn = whole_.angle * (Ball(1) + spin);
+    Moves rate;
+    Matrix6<Ball> YD;  // |y_r . D_i'|
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Ball Rb_alone = turn * b_size_[i] + whole_.platform[i];
+      const Ball d_alone = Rb_alone + whole_.position + whole_.base[i];
+      const Ball r_alone = turn * r_size_[i] + whole_.platform[i] + whole_.load_point;
+      rate.d[i].fill(d_alone);
+      rate.r[i].fill(r_alone);
+      rate.Rb[i].fill(Rb_alone);
+      for (std::size_t r = 0; r < 6; ++r) {
+        YD[r][i] = length_bound(h_[r][i]) * d_alone + length_bound(q_[r][i]) * r_alone;
+      }
+      for (std::size_t j = 0; j < 6 && length_controlled_; ++j) {
+        const Vector3<Ball> sweep = cross(Row(Y_[j]).m, Rb_[i]);
+        for (std::size_t c = 0; c < 3; ++c) {
+          rate.d[i][c] += rho_[j] * magnitude(h_[j][i][c]);
+          rate.r[i][c] += rho_[j] * magnitude(w_[j][i][c]);
+          rate.Rb[i][c] += rho_[j] * magnitude(sweep[c]);
+        }
+        for (std::size_t r = 0; r < 6; ++r) {
+          YD[r][i] += rho_[j] * magnitude(dot(h_[r][i], h_[j][i]) + dot(q_[r][i], w_[j][i]));
+        }
+      }
+    }
+    rate.Rp_m.fill((turn + spin) * Rp_m_size_ + whole_.load_point);
+    rate.Y = multiply(YD, magnitude(Y_));
+    return rate;
+  }
+
+  void set_loads(const Ball& until) {
+    Vector6<Ball> wrench;
+    for (std::size_t i = 0; i < 6; ++i) wrench[i] = plus_minus(machine_.wrench[i], until * whole_.wrench[i]);
+    x_ = multiply(Y_, wrench);
+    z_ = multiply(Y_, machine_.ellipsoid);
+  }
+
+  [[nodiscard]] Ball tension_rate(std::size_t r, const Ball& c, const Vector6<Ball>& overlap,
+                                  const Vectors& turned) const {
+    Vector6<Ball> pull;  // |d_r| kappa_i
+    for (std::size_t i = 0; i < 6; ++i) pull[i] = length_[r] * (x_[i] + c * overlap[i]);
+    const Vector3<Ball> own = (x_[r] + c * overlap[r]) * u_[r];  // phi u_r
+
+    Vector3<Ball> P = own;
+    Vector3<Ball> Q = cross(r_[r], own);
+    Vector3<Ball> of_load_point;
+    for (std::size_t i = 0; i < 6; ++i) {
+      P = P - pull[i] * h_[r][i];
+      Q = Q - pull[i] * turned[i];
+      of_load_point = of_load_point + pull[i] * q_[r][i];
+    }
+    const Ball P_size = length_bound(P);
+    const Ball turn_size = length_bound(Q + cross(Rp_m_, P));
+    Ball of_wrench;
+    for (std::size_t k = 0; k < 6; ++k) of_wrench += Y_[r][k] * whole_.wrench[k];
+    Ball rate = whole_.position * P_size + whole_.angle * turn_size + whole_.load_point * length_bound(of_load_point) +
+                magnitude(length_[r] * of_wrench);
+    for (std::size_t i = 0; i < 6; ++i) {
+      Vector3<Ball> of_base = pull[i] * h_[r][i];
+      Vector3<Ball> of_platform = Ball(-1) * (pull[i] * (h_[r][i] + q_[r][i]));
+      if (i == r) {
+        of_base = of_base - own;
+        of_platform = of_platform + own;
+      }
+      if (length_controlled_) {
+        const Row y(Y_[i]);
+        // The angle turns W, by which Q + R p_m x P is multiplied, and p_m of the commanded pose.
+        const Ball turning = whole_.angle * length_bound(y.m) * (turn_size + Rp_m_size_ * P_size);
+        const Ball of_rho = plus_minus(dot(P, y.f) + dot(Q, y.m), turning);
+        of_base = of_base + of_rho * d_[i];
+        of_platform = of_platform - of_rho * widened(d_[i], whole_.angle * magnitude(length_[i]));
+        rate += whole_.length[i] * magnitude(length_[i]) * magnitude(of_rho);
+      }
+      rate += whole_.base[i] * length_bound(of_base) + whole_.platform[i] * length_bound(of_platform);
+    }
+    return highest(rate);
+  }
+
+  const Machine& machine_;
+  bool length_controlled_;
+  const DeviationBounds& whole_;
+  Vectors d_start_, r_start_, Rb_start_;  ///< at t = 0
+  Vector3<Ball> Rp_m_start_;
+  Vector6<Ball> length_start_;
+  Matrix6<Ball> Y_start_;
+  Vector6<Ball> rho_;              ///< |rho_i| <=
+  Vector6<Ball> b_size_, r_size_;  ///< |b_i'|, |b_i' - p_m'| <=
+  Ball Rp_m_size_;
+  Moves moves_;  ///< at the end of the part
+
+  Vectors d_, r_, u_, Rb_;
+  Vector3<Ball> Rp_m_;
+  Vector6<Ball> length_;
+  Matrix6<Ball> Y_;
+  std::array<Vectors, 6> h_, q_, w_;
+  Vector6<Ball> x_;
+  Matrix6<Ball> z_;  ///< rows z_r
+};
+
+}  // namespace
+
+MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const Inverse& inverse,
+                       bool length_controlled, int parts, int guesses) {
+  MarginLoss result;
+  const Ball share = Ball(1) / Ball(parts);
+  Family family(machine, geometry, inverse, length_controlled);
+  for (int part = 1; part <= parts; ++part) {
+    family.advance(share, Ball(mpq_class(part, parts)), guesses);
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (!length_controlled) result.length[i] += share * family.length_rate(i);
+      const std::array<Ball, 2> rates = family.tension_rates(i);
+      for (std::size_t side = 0; side < 2; ++side) result.tension[i][side] += share * rates[side];
+    }
+  }
+  if (!length_controlled) return result;
+  // |d_i| = L_i + e_i at the commanded pose, whatever leads to it; tracking is added to that whole, not part by part.
+  const DeviationBounds& whole = *machine.deviations;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Ball reach = length_bound(machine.platform[i]) + whole.platform[i];
+    result.length[i] = whole.length[i] + whole.position + whole.angle * reach;
+  }
+  return result;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,146 @@
+// A real function of one variable u in [-1, 1], enclosed to first order; and numbers with their partial derivatives.
+//
+// A Form says of a function f, continuous on [-1, 1]:
+//     for every u there are x in `at` and y in `slope` with f(u) = x + y u.
+// So what is known of f beyond first order, of the size of the square of what f varies by, widens `at`. Each operation
+// keeps the statement:
+//     f + g   by adding both;
+//     f g     (x + y u)(v + w u) = x v + (x w + y v) u + y w u^2, and u^2 is in [0, 1];
+//     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + y u, by Taylor's
+//             theorem, for F twice differentiable on the range of f.
+// An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the existence
+// of a Form also proves that its function is continuous. Where `slope` is 0, at u = 0 alone for instance, F need not be
+// differentiable.
+//
+// A Jet holds, for every point of a box of variables, the value of a function and its partial derivatives.
+#pragma once
+
+#include <array>
+
+#include "checker/kernel/ball.h"
+
+namespace taut::checker {
+
+struct Form {
+  Ball at;
+  Ball slope;
+
+  Form() = default;  ///< the constant 0
+  explicit Form(Ball constant) : at(std::move(constant)) {}
+  Form(Ball at_zero, Ball by_u) : at(std::move(at_zero)), slope(std::move(by_u)) {}
+
+  [[nodiscard]] bool is_constant() const { return slope.is_zero(); }
+  /// f(u) for every u.
+  [[nodiscard]] Ball range() const { return is_constant() ? at : plus_minus(at, magnitude(slope)); }
+};
+
+/// Every number in [0, b] or [b, 0], for each b in the ball.
+inline Ball from_zero_to(const Ball& b) {
+  const Ball half = Ball::make([&](arb_ptr r) { arb_mul_2exp_si(r, b.get(), -1); });
+  return plus_minus(half, magnitude(half));
+}
+
+inline Form operator+(const Form& a, const Form& b) { return {a.at + b.at, a.slope + b.slope}; }
+inline Form operator-(const Form& a, const Form& b) { return {a.at - b.at, a.slope - b.slope}; }
+inline Form operator-(const Form& a) { return {-a.at, -a.slope}; }
+inline Form& operator+=(Form& a, const Form& b) {
+  a.at += b.at;
+  a.slope += b.slope;
+  return a;
+}
+inline Form operator*(const Ball& a, const Form& b) { return {a * b.at, b.is_constant() ? Ball() : a * b.slope}; }
+inline Form operator*(const Form& a, const Form& b) {
+  if (a.is_constant()) return a.at * b;
+  if (b.is_constant()) return b.at * a;
+  Ball slope = a.at * b.slope;
+  slope.add_product(a.slope, b.at);
+  return {a.at * b.at + from_zero_to(a.slope * b.slope), std::move(slope)};
+}
+
+/// F(f) from F and F' at the middle of `at` and F'' on the range.
+inline Form taylor(const Form& f, const Ball& value, const Ball& first, const Ball& second) {
+  const Ball off = f.at - middle(f.at);
+  const Ball largest = magnitude(plus_minus(off, magnitude(f.slope)));
+  const Ball half_square = Ball::make([&](arb_ptr r) { arb_mul_2exp_si(r, sqr(largest).get(), -1); });
+  return {value + first * off + second * from_zero_to(half_square), first * f.slope};
+}
+inline Form apply(Function F, const Form& f) {
+  if (f.is_constant()) return Form(value(F, f.at));
+  const Ball centre = middle(f.at);
+  return taylor(f, value(F, centre), first_derivative(F, centre), second_derivative(F, f.range()));
+}
+inline Form sqr(const Form& f) {
+  return f.is_constant() ? Form(sqr(f.at)) : Form{sqr(f.at) + from_zero_to(sqr(f.slope)), Ball(2) * f.at * f.slope};
+}
+inline Form power(const Form& f, int n) {
+  if (n == 0) return Form(Ball(1));
+  if (n == 1) return f;
+  if (f.is_constant()) return Form(power(f.at, n));
+  const Ball centre = middle(f.at);
+  return taylor(f, power(centre, n), Ball(n) * power(centre, n - 1), Ball(n) * Ball(n - 1) * power(f.range(), n - 2));
+}
+
+struct Jet {
+  static constexpr std::size_t kVariables = 6;
+  Ball value;
+  std::array<Ball, kVariables> by;
+
+  Jet() = default;
+  explicit Jet(Ball constant) : value(std::move(constant)) {}
+};
+
+/// a.by times x plus b.by times y.
+inline std::array<Ball, Jet::kVariables> mixed(const Jet& a, const Ball& x, const Jet& b, const Ball& y) {
+  std::array<Ball, Jet::kVariables> result;
+  for (std::size_t i = 0; i < Jet::kVariables; ++i) {
+    if (!a.by[i].is_zero()) result[i].add_product(a.by[i], x);
+    if (!b.by[i].is_zero()) result[i].add_product(b.by[i], y);
+  }
+  return result;
+}
+inline Jet jet(Ball value, const Jet& a, const Ball& x, const Jet& b, const Ball& y) {
+  Jet result(std::move(value));
+  result.by = mixed(a, x, b, y);
+  return result;
+}
+inline bool is_constant(const Jet& a) {
+  for (const Ball& x : a.by) {
+    if (!x.is_zero()) return false;
+  }
+  return true;
+}
+inline Jet operator+(const Jet& a, const Jet& b) { return jet(a.value + b.value, a, Ball(1), b, Ball(1)); }
+inline Jet operator-(const Jet& a, const Jet& b) { return jet(a.value - b.value, a, Ball(1), b, Ball(-1)); }
+inline Jet operator-(const Jet& a) { return Jet() - a; }
+inline Jet operator*(const Jet& a, const Jet& b) { return jet(a.value * b.value, a, b.value, b, a.value); }
+inline Jet apply(Function F, const Jet& a) {
+  if (is_constant(a)) return Jet(value(F, a.value));
+  return jet(value(F, a.value), a, first_derivative(F, a.value), Jet(), Ball());
+}
+inline Jet power(const Jet& a, int n) {
+  if (n == 0) return Jet(Ball(1));
+  if (is_constant(a)) return Jet(power(a.value, n));
+  return jet(power(a.value, n), a, Ball(n) * power(a.value, n - 1), Jet(), Ball());
+}
+
+inline Ball range(const Form& f) { return f.range(); }
+inline Ball range(const Jet& f) { return f.value; }
+
+template <class T>
+T operator/(const T& a, const T& b) requires(std::same_as<T, Form> || std::same_as<T, Jet>) {
+  return a * apply(Function::kInverse, b);
+}
+/// The angle of (x, y) in (-pi, pi]. @throws Undefined where (x, y) may be the origin or cross the cut y = 0, x < 0.
+template <class T>
+T atan2(const T& y, const T& x) {
+  const Ball over = range(x);
+  const Ball up = range(y);
+  if (certainly_positive(over)) return apply(Function::kAtan, y / x);
+  const T right_angle(Ball::pi() / Ball(2));
+  if (certainly_positive(up)) return right_angle - apply(Function::kAtan, x / y);
+  if (certainly_negative(up)) return -right_angle - apply(Function::kAtan, x / y);
+  if (up.is_zero() && certainly_negative(over)) return T(Ball::pi());
+  throw Undefined("atan2 at what may be the origin or its cut");
+}
+
+}  // namespace taut::checker

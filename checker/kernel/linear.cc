@@ -1,0 +1,84 @@
+#include "checker/kernel/linear.h"
+
+#include <arb_mat.h>
+
+namespace taut::checker {
+namespace {
+
+/// A 6 by 6 matrix of Arb's.
+class ArbMatrix {
+ public:
+  ArbMatrix() { arb_mat_init(m_, 6, 6); }
+  explicit ArbMatrix(const Matrix6<Ball>& A) : ArbMatrix() {
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) arb_set(arb_mat_entry(m_, i, j), A[i][j].get());
+    }
+  }
+  ~ArbMatrix() { arb_mat_clear(m_); }
+  ArbMatrix(const ArbMatrix&) = delete;
+  ArbMatrix& operator=(const ArbMatrix&) = delete;
+  [[nodiscard]] arb_mat_struct* get() { return m_; }
+  [[nodiscard]] Matrix6<Ball> balls() const {
+    Matrix6<Ball> result;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) {
+        result[i][j] = Ball::make([&](arb_ptr r) { arb_set(r, arb_mat_entry(m_, i, j)); });
+      }
+    }
+    return result;
+  }
+
+ private:
+  arb_mat_t m_;
+};
+
+template <class Map>
+Matrix6<Ball> map(const Matrix6<Ball>& A, const Map& f) {
+  Matrix6<Ball> result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) result[i][j] = f(A[i][j]);
+  }
+  return result;
+}
+
+}  // namespace
+
+Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B) {
+  ArbMatrix left(A);
+  ArbMatrix right(B);
+  ArbMatrix result;
+  arb_mat_mul_classical(result.get(), left.get(), right.get(), Ball::bits());
+  return result.balls();
+}
+
+Matrix6<Ball> middle(const Matrix6<Ball>& A) {
+  return map(A, [](const Ball& x) { return middle(x); });
+}
+
+Matrix6<Ball> magnitude(const Matrix6<Ball>& A) {
+  return map(A, [](const Ball& x) { return magnitude(x); });
+}
+
+Ball norm(const Matrix6<Ball>& A) {
+  Ball largest;
+  for (const Vector6<Ball>& row : A) {
+    Ball sum;
+    for (const Ball& x : row) sum += magnitude(x);
+    largest = larger(largest, highest(sum));
+  }
+  return largest;
+}
+
+Matrix6<Ball> approximate_inverse(const Matrix6<Ball>& A) {
+  ArbMatrix matrix(middle(A));
+  ArbMatrix result;
+  if (arb_mat_approx_inv(result.get(), matrix.get(), Ball::bits()) == 0) throw Undefined("a matrix that is singular");
+  return middle(result.balls());
+}
+
+Ball determinant(const Matrix6<Ball>& A) {
+  ArbMatrix matrix(A);
+  return Ball::make([&](arb_ptr r) { arb_mat_det(r, matrix.get(), Ball::bits()); });
+}
+
+}  // namespace taut::checker

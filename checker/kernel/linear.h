@@ -1,0 +1,92 @@
+// Linear algebra in three and six dimensions, over balls and forms.
+#pragma once
+
+#include <array>
+
+#include "checker/kernel/form.h"
+
+namespace taut::checker {
+
+template <class T>
+using Vector3 = std::array<T, 3>;
+template <class T>
+using Vector6 = std::array<T, 6>;
+template <class T>
+using Matrix3 = std::array<Vector3<T>, 3>;  ///< rows
+template <class T>
+using Matrix6 = std::array<Vector6<T>, 6>;  ///< rows
+
+template <class T>
+Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <class S, class T>
+T dot(const Vector3<S>& a, const Vector3<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class T>
+T squared_norm(const Vector3<T>& a) {
+  return sqr(a[0]) + sqr(a[1]) + sqr(a[2]);
+}
+template <class T>
+Vector3<T> operator+(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class T>
+Vector3<T> operator-(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class S, class T>
+Vector3<T> operator*(const S& a, const Vector3<T>& b) {
+  return {a * b[0], a * b[1], a * b[2]};
+}
+template <class T>
+Vector3<T> multiply(const Matrix3<T>& A, const Vector3<T>& x) {
+  return {dot(A[0], x), dot(A[1], x), dot(A[2], x)};
+}
+template <class T>
+Matrix3<T> multiply(const Matrix3<T>& A, const Matrix3<T>& B) {
+  Matrix3<T> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) result[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j] + A[i][2] * B[2][j];
+  }
+  return result;
+}
+/// R b for a matrix of forms and a vector of balls.
+inline Vector3<Form> rotate(const Matrix3<Form>& R, const Vector3<Ball>& b) {
+  return {dot(b, R[0]), dot(b, R[1]), dot(b, R[2])};
+}
+
+/// A number that is at least the Euclidean length of every vector in a.
+inline Ball length_bound(const Vector3<Ball>& a) {
+  return highest(sqrt(sqr(magnitude(a[0])) + sqr(magnitude(a[1])) + sqr(magnitude(a[2]))));
+}
+inline Vector3<Ball> range(const Vector3<Form>& a) { return {a[0].range(), a[1].range(), a[2].range()}; }
+inline Matrix3<Ball> range(const Matrix3<Form>& a) { return {range(a[0]), range(a[1]), range(a[2])}; }
+
+template <class T>
+Vector6<T> multiply(const Matrix6<Ball>& A, const Vector6<T>& x) {
+  Vector6<T> result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (!A[i][k].is_zero()) result[i] += A[i][k] * x[k];
+    }
+  }
+  return result;
+}
+[[nodiscard]] Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B);
+
+[[nodiscard]] Matrix6<Ball> middle(const Matrix6<Ball>& A);
+[[nodiscard]] Matrix6<Ball> magnitude(const Matrix6<Ball>& A);
+
+/// A bound of the largest row sum of magnitudes.
+[[nodiscard]] Ball norm(const Matrix6<Ball>& A);
+
+/// An approximate inverse of the matrix in the middle of A, exact numbers of which nothing is known.
+/// @throws Undefined where none is found.
+[[nodiscard]] Matrix6<Ball> approximate_inverse(const Matrix6<Ball>& A);
+
+/// An enclosure of det A.
+[[nodiscard]] Ball determinant(const Matrix6<Ball>& A);
+
+}  // namespace taut::checker

@@ -1,0 +1,156 @@
+#include "checker/kernel/machine.h"
+
+namespace taut::checker {
+namespace {
+
+template <std::size_t N>
+std::array<Ball, N> balls(const std::array<mpq_class, N>& x) {
+  std::array<Ball, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = Ball(x[i]);
+  return result;
+}
+
+/// L = M^-T with E = M M', M lower triangular with a positive diagonal. Such an M exists exactly if E is positive
+/// definite.
+Matrix6<Ball> ellipsoid_factor(const std::array<std::array<mpq_class, 6>, 6>& E) {
+  Matrix6<Ball> M;
+  Matrix6<Ball> inverse;  // of M: lower triangular, by forward substitution
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      Ball rest(E[i][j]);
+      for (std::size_t k = 0; k < j; ++k) rest -= M[i][k] * M[j][k];
+      if (i == j && !certainly_positive(rest)) throw Undefined("the wrench ellipsoid may not be positive definite");
+      M[i][j] = i == j ? sqrt(rest) : rest / M[j][j];
+    }
+    for (std::size_t j = 0; j <= i; ++j) {
+      Ball rest(i == j ? 1 : 0);
+      for (std::size_t k = j; k < i; ++k) rest -= M[i][k] * inverse[k][j];
+      inverse[i][j] = rest / M[i][i];
+    }
+  }
+  Matrix6<Ball> L;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) L[j][i] = inverse[i][j];
+  }
+  return L;
+}
+
+DeviationBounds deviation_bounds(const ToleranceBounds& tolerances) {
+  DeviationBounds result;
+  result.base = balls(tolerances.base_anchors);
+  result.platform = balls(tolerances.platform_anchors);
+  if (tolerances.cable_length) result.length = balls(*tolerances.cable_length);
+  result.wrench = balls(tolerances.wrench);
+  result.load_point = Ball(tolerances.load_point);
+  result.position = Ball(tolerances.position);
+  result.angle = magnitude(tolerances.orientation.evaluate<Form>({}).range());
+  return result;
+}
+
+}  // namespace
+
+Inverse::Inverse(const Matrix6<Form>& D) {
+  Matrix6<Ball> at;
+  Matrix6<Ball> slope;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      at[i][j] = D[i][j].at;
+      slope[i][j] = D[i][j].slope;
+    }
+  }
+  C_ = approximate_inverse(at);
+  const Matrix6<Ball> CD = multiply(C_, at);
+  const Matrix6<Ball> CD_slope = multiply(C_, slope);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      A_[i][j] = {i == j ? CD[i][j] - Ball(1) : CD[i][j], CD_slope[i][j]};
+      N_[i][j] = magnitude(A_[i][j].range());
+    }
+  }
+  gap_ = lowest(Ball(1) - norm(N_));
+  if (!certainly_positive(gap_)) throw Undefined("the matrix of force densities may be singular");
+}
+
+Vector6<Form> Inverse::times(const Vector6<Ball>& y) const {
+  Ball largest;
+  for (const Ball& x : y) largest = larger(largest, magnitude(x));
+  const Ball bound = highest(largest / gap_);
+  Vector6<Ball> q;
+  for (std::size_t i = 0; i < 6; ++i) {
+    q[i] = magnitude(y[i]);
+    for (std::size_t j = 0; j < 6; ++j) q[i].add_product(N_[i][j], bound);
+  }
+  const Vector6<Ball> rest = multiply(N_, multiply(N_, q));
+  Vector6<Form> result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    Ball at = y[i];
+    Ball slope;
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (y[j].is_zero()) continue;
+      at -= A_[i][j].at * y[j];
+      slope -= A_[i][j].slope * y[j];
+    }
+    result[i] = {plus_minus(at, rest[i]), std::move(slope)};
+  }
+  return result;
+}
+
+Machine::Machine(const Problem& problem) {
+  load_point = balls(problem.load_point);
+  wrench = balls(problem.wrench);
+  ellipsoid = ellipsoid_factor(problem.ellipsoid);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    base[i] = balls(problem.base_anchors[i]);
+    platform[i] = balls(problem.platform_anchors[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      arms[i][c] = Ball(mpq_class(problem.platform_anchors[i][c] - problem.load_point[c]));
+    }
+    tension_limits[i] = {Ball(problem.tension[i].lower), Ball(problem.tension[i].upper)};
+    length_limits[i] = {Ball(problem.length[i].lower), Ball(problem.length[i].upper)};
+  }
+  if (problem.tolerances) deviations = deviation_bounds(*problem.tolerances);
+}
+
+Geometry Machine::geometry(const Frame& pose) const {
+  Geometry result;
+  result.pose = pose;
+  for (std::size_t i = 0; i < 6; ++i) {
+    Vector3<Form> d = rotate(pose.R, platform[i]);
+    for (std::size_t c = 0; c < 3; ++c) d[c] += pose.p[c] - Form(base[i][c]);
+    const Form squared = squared_norm(d);
+    if (!certainly_positive(squared.range())) throw Undefined("a cable may have no length");
+    result.length[i] = apply(Function::kSqrt, squared);
+    if (!certainly_positive(result.length[i].range())) throw Undefined("a cable may have no length");
+    result.d[i] = d;
+    result.arm[i] = rotate(pose.R, arms[i]);
+    const Vector3<Form> moment = cross(result.arm[i], d);
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.D[c][i] = d[c];
+      result.D[3 + c][i] = moment[c];
+    }
+  }
+  return result;
+}
+
+Tensions Machine::tensions(const Inverse& inverse) const {
+  Tensions result;
+  result.density = inverse.times(multiply(inverse.approximate(), wrench));
+  const Matrix6<Ball> CL = multiply(inverse.approximate(), ellipsoid);
+  Vector6<Form> squared;
+  for (std::size_t k = 0; k < 6; ++k) {
+    Vector6<Ball> column;
+    for (std::size_t i = 0; i < 6; ++i) column[i] = CL[i][k];
+    const Vector6<Form> z = inverse.times(column);
+    for (std::size_t i = 0; i < 6; ++i) squared[i] += sqr(z[i]);
+  }
+  for (std::size_t i = 0; i < 6; ++i) result.variation[i] = apply(Function::kSqrt, squared[i]);
+  return result;
+}
+
+Ball Machine::platform_size() const {
+  Ball sum;
+  for (const Vector3<Ball>& b : platform) sum += sqrt(squared_norm(b));
+  return sum / Ball(6);
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,101 @@
+// Clauses "machine", "loads" and "limits": tensions and lengths at every pose of a box, and how far inside their limits.
+//
+// Every quantity is a Form in u in [-1, 1], which stands for the place in the box (motion.h).
+//
+//   geometry   d_i = p + R b_i - a_i,   lengths |d_i|,   arms r_i = R (b_i - p_m) from the load point P_m
+//   statics    cable i pulls along d_i / |d_i| with force f_i. With the force density x_i = f_i / |d_i|, J f = w reads
+//              D x = w; column i of D is (d_i ; r_i x d_i), and J = D diag(1 / |d_i|). So, lengths being positive, J is
+//              non-singular exactly where D is, and row i of J^-1 is |d_i| times row i of D^-1.
+//   extremes   over K = { w0 + e : e' E e <= 1 }, f_i fills [f0_i - v_i, f0_i + v_i] (Cauchy-Schwarz) with
+//                f0_i = |d_i| x_i,   x = D^-1 w0,     v_i = |d_i| V_i,   V_i = | row i of D^-1 L |,   L = M^-T,
+//              where E = M M' (Cholesky). A factorisation that succeeds in balls proves E positive definite.
+//
+// D^-1 on a whole box.  Let C be any fixed matrix, A(u) = C D(u) - I and |A(u)| <= N entry by entry for every u. If
+// rho = ||N|| < 1 (largest row sum), then C D = I + A is non-singular, hence so is D (Neumann), and with P = (I + A)^-1
+//     D^-1 = P C,     P y = y - A y + A A P y,     |P y|_i <= q_i := |y_i| + sum_j N_ij max_k |y_k| / (1 - rho)      (1)
+// for every vector y, so that D^-1 B = P (C B) is known to first order, up to N (N q), for each column y of C B.
+#pragma once
+
+#include "checker/kernel/linear.h"
+#include "checker/kernel/statement.h"
+
+namespace taut::checker {
+
+/// A pose: position of the platform's origin in W [m], and its rotation.
+struct Frame {
+  Vector3<Form> p;
+  Matrix3<Form> R;
+};
+
+/// Of all six cables.
+struct Geometry {
+  Frame pose;
+  std::array<Vector3<Form>, 6> d;    ///< d_i [m]
+  std::array<Vector3<Form>, 6> arm;  ///< r_i [m]
+  Vector6<Form> length;              ///< |d_i| [m]; certainly positive
+  Matrix6<Form> D;
+};
+
+/// (1): that there is one proves D non-singular for every u.
+class Inverse {
+ public:
+  /// @throws Undefined unless rho < 1.
+  explicit Inverse(const Matrix6<Form>& D);
+  [[nodiscard]] const Matrix6<Ball>& approximate() const { return C_; }
+  /// P y, which is D^-1 B for y = C B.
+  [[nodiscard]] Vector6<Form> times(const Vector6<Ball>& y) const;
+
+ private:
+  Matrix6<Ball> C_;
+  Matrix6<Form> A_;
+  Matrix6<Ball> N_;
+  Ball gap_;  ///< 1 - rho
+};
+
+struct Tensions {
+  Vector6<Form> density;    ///< x_i [N/m]
+  Vector6<Form> variation;  ///< V_i [N/m]
+};
+
+/// Bounds of the deviations that are within the tolerances.
+struct DeviationBounds {
+  Vector6<Ball> base;      ///< |a_i' - a_i| <= [m]
+  Vector6<Ball> platform;  ///< |b_i' - b_i| <= [m]
+  Vector6<Ball> length;    ///< of the lengths, where these are controlled [m]
+  Ball load_point;         ///< |p_m' - p_m| <= [m]
+  Vector6<Ball> wrench;    ///< w0' - w0 = t wrench, |t| <= 1 [N, N m]
+  Ball position;           ///< tracking: |p' - p| <= [m]
+  Ball angle;              ///< tracking: of the rotation from R to R' [rad]
+};
+
+/// One problem's numbers at one precision. All functions compute at that working precision, which the caller sets.
+class Machine {
+ public:
+  /// @throws Undefined where E can't be shown to be positive definite at this precision.
+  explicit Machine(const Problem& problem);
+
+  std::array<Vector3<Ball>, 6> base;      ///< a_i
+  std::array<Vector3<Ball>, 6> platform;  ///< b_i
+  std::array<Vector3<Ball>, 6> arms;      ///< b_i - p_m
+  Vector3<Ball> load_point;               ///< p_m
+  Vector6<Ball> wrench;                   ///< w0
+  Matrix6<Ball> ellipsoid;                ///< L: K = { w0 + L z : |z| <= 1 }
+  std::array<std::array<Ball, 2>, 6> tension_limits;
+  std::array<std::array<Ball, 2>, 6> length_limits;
+  std::optional<DeviationBounds> deviations;
+
+  /// @throws Undefined where a cable may have no length.
+  [[nodiscard]] Geometry geometry(const Frame& pose) const;
+  [[nodiscard]] Tensions tensions(const Inverse& inverse) const;
+  /// The mean of |b_i| [m].
+  [[nodiscard]] Ball platform_size() const;
+};
+
+/// Proved lower bounds over a box; each is one number.
+struct Bounds {
+  Ball tension;       ///< of f0_i - v_i - f_lo,i and f_hi,i - f0_i - v_i [N]
+  Ball length;        ///< of d_i - d_lo,i and d_hi,i - d_i [m]
+  Ball wrench_scale;  ///< K may be so many times as large before a tension reaches its limit
+};
+
+}  // namespace taut::checker

@@ -1,0 +1,78 @@
+// Clause "motion": where the path leads, over a box of one of its segments.
+//
+// A box is a part [s0, s1] of a segment, written s = m + r u with u in [-1, 1].
+//
+//   curve        l(s), and the normals N(s), mix the control points by the path's law: polynomials in s, expanded about m
+//                exactly, c0 + c1 u + c2 u^2 + c3 u^3.
+//   parameters   Without constraints they are l. With k constraints C(lambda) = 0 they are l + N y, where y(u) is the only
+//                zero of g(y, u) = C(l(u) + N(u) y) in the tube |y_i| <= t (zero.h).
+//   poses        by the problem's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi); or of a
+//                geodesic between two poses; or, where lengths L are straight, from forward kinematics:
+//
+// Given a reference pose (p_ref, R_ref), a straight line between two poses, and lengths L > 0, the pose is sought in its tube
+//     p = p_ref + r_p z_p,   R = R(v, 1) R_ref,   v = r_u z_v,   z = (z_p, z_v) in [-1, 1]^6
+// (R(v, 1) the rotation of the quaternion with vector part v and scalar part 1) as the zero of
+//     g_i(z, u) = (|d_i|^2 - L_i^2) / 2,   d_i = p + R b_i - a_i.
+// As L_i > 0, g_i = 0 says |d_i| = L_i. When z moves, v turns the platform at the rate 2 (v' + v x v') / (1 + |v|^2), so
+//     dg_i/dz_p = r_p d_i,    dg_i/dz_v = r_u 2 / (1 + |v|^2) (x_i + x_i x v)  with x_i = R b_i x d_i = R b_i x (p - a_i).
+#pragma once
+
+#include <functional>
+
+#include "checker/kernel/machine.h"
+#include "checker/kernel/zero.h"
+
+namespace taut::checker {
+
+/// The parameters on a box of segment k. @throws Undefined where the motion is implied and was not shown to be the only
+/// one in its tube for every s of the box.
+[[nodiscard]] std::vector<Form> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box);
+
+/// Those of a control point as it is stated, x + pi half_turns.
+[[nodiscard]] std::vector<Form> stated_parameters(const Waypoint& waypoint);
+
+/// Whether each parameter of kind range is in its closed range. @throws Undefined where that is not certain.
+void require_in_range(const Problem& problem, const std::vector<Form>& parameters);
+
+/// px py pz [m], phi theta sigma [rad], by the problem's expressions.
+[[nodiscard]] Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters);
+
+/// Of the quaternion (x, y, z, w), of any length but 0.
+[[nodiscard]] Matrix3<Form> rotation(const std::array<Form, 4>& q);
+
+/// A machine whose cables have given lengths, its anchors and lengths functions of u, near a reference pose.
+struct LengthControlled {
+  std::array<Vector3<Form>, 6> base;      ///< a_i
+  std::array<Vector3<Form>, 6> platform;  ///< b_i
+  Vector6<Form> lengths;                  ///< L_i [m]
+  Frame reference;
+  PoseTube tube;
+};
+/// The only pose in the tube. @throws Undefined unless there is exactly one for every u, and lengths are positive.
+[[nodiscard]] Frame forward_kinematics(const LengthControlled& machine, const NearZero& near);
+
+/// Reference poses from `begin` to `end` (px, py, pz, qx, qy, qz, qw) as the abscissa goes from s_begin to s_end, over a
+/// box in between.
+[[nodiscard]] Frame reference_line(std::span<const double> begin, const mpq_class& s_begin, std::span<const double> end,
+                                   const mpq_class& s_end, const Box& box);
+
+/// The machine as the problem states it, at the pose that is commanded: all of its geometry over a box of segment k that
+/// reaches across no inner pose. @throws Undefined where that is not proved, or parameters may leave their ranges.
+[[nodiscard]] Geometry commanded_geometry(const Machine& machine, const Problem& problem, const Path& path,
+                                          std::size_t k, const Box& box);
+
+/// Where the space has constraints and the box begins or ends at a joint of the path: that the pose there, which is on the
+/// constraints, is next to what the path states. Normals and tube are the certificate's own choice, and could lead anywhere.
+/// Each coordinate is between those of the control points that matter there, or hardly beyond ("The query" in
+/// docs/certificate-format.md). @throws Undefined otherwise.
+void require_near_waypoints(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
+                            const Box& box);
+
+/// The equations of segment k's motion over a box, where it is implied: for whoever looks for a NearZero.
+void with_equations(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
+                    const std::function<void(const Equations& equations, const Ball& tube)>& use);
+
+void with_equations(const LengthControlled& machine,
+                    const std::function<void(const Equations& equations, const Ball& tube)>& use);
+
+}  // namespace taut::checker

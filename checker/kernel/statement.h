@@ -1,0 +1,189 @@
+// What the kernel is asked about, as exact numbers: a problem, a path through it, boxes of the path, and witnesses.
+//
+// These are plain data. format/ fills them from a certificate and vouches for their form (sizes, signs, order); the
+// kernel proves statements about them. docs/certificate-format.md says what each key means.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "checker/kernel/expression.h"
+
+namespace taut::checker {
+
+inline constexpr std::size_t kCables = 6;
+
+struct Limits {
+  mpq_class lower;
+  mpq_class upper;
+};
+
+enum class ParameterKind { kReal, kPeriodic, kRange };
+
+struct Parameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::kReal;
+  Expression lower;  ///< a constant; of kRange only
+  Expression upper;  ///< likewise
+};
+
+/// How far a machine may be from what a problem says of it. All but `wrench` are >= 0.
+struct ToleranceBounds {
+  std::array<mpq_class, kCables> base_anchors;                 ///< |a_i' - a_i| <= [m]
+  std::array<mpq_class, kCables> platform_anchors;             ///< |b_i' - b_i| <= [m]
+  mpq_class load_point;                                        ///< |p_m' - p_m| <= [m]
+  std::array<mpq_class, 6> wrench;                             ///< w0' = w0 + t wrench, |t| <= 1 [N, N m]
+  mpq_class position;                                          ///< tracking: |p' - p| <= [m]
+  Expression orientation;                                      ///< tracking: a constant in [0, 1) [rad]
+  std::optional<std::array<mpq_class, kCables>> cable_length;  ///< where the machine is length-controlled [m]
+};
+
+struct Problem {
+  std::array<std::array<mpq_class, 3>, kCables> base_anchors;      ///< a_i in W [m]
+  std::array<std::array<mpq_class, 3>, kCables> platform_anchors;  ///< b_i in P [m]
+  std::array<Limits, kCables> tension;                             ///< [N]
+  std::array<Limits, kCables> length;                              ///< [m]
+  std::array<mpq_class, 3> load_point;                             ///< p_m in P [m]
+  std::array<mpq_class, 6> wrench;                                 ///< w0 about P_m: force [N], moment [N m]
+  std::array<std::array<mpq_class, 6>, 6> ellipsoid;               ///< E, symmetric
+  std::optional<ToleranceBounds> tolerances;
+  std::vector<Parameter> parameters;
+  std::optional<std::array<std::size_t, 2>> flip;
+  std::array<Expression, 6> pose;              ///< px py pz [m], phi theta sigma [rad]
+  std::vector<Expression> constraints;         ///< 0 along the path; fewer than the parameters, of which there are <= 6
+  std::vector<std::vector<Expression>> query;  ///< constants, one a parameter; none in an audit
+};
+
+enum class Law { kStraight, kCubicBSpline, kGeodesic, kCableLengths };
+
+/// Whether waypoints are poses, not parameters of the problem's space.
+inline bool has_poses(Law law) { return law == Law::kGeodesic || law == Law::kCableLengths; }
+
+struct Waypoint {
+  /// One a parameter [m, rad]; under a law of poses px, py, pz [m], qx, qy, qz, qw, and L_1 to L_6 [m] where lengths
+  /// are straight.
+  std::vector<double> x;
+  std::vector<int> half_turns;  ///< one a parameter: x + pi half_turns is meant; none under a law of poses
+  std::vector<double> normals;  ///< N by rows: one row a parameter, one column a constraint
+  bool operator==(const Waypoint&) const = default;
+};
+
+/// Bounds r_p [m] and r_u of where the pose is sought that lengths imply.
+struct PoseTube {
+  double position = 0;
+  double turn = 0;
+};
+
+/// A point that the reference polyline passes between two waypoints.
+struct InnerPose {
+  mpq_class s;                ///< in (0, 1)
+  std::array<double, 7> x{};  ///< px, py, pz [m], qx, qy, qz, qw
+  PoseTube tube;              ///< from here to the next
+};
+
+struct Path {
+  Law law = Law::kStraight;
+  std::vector<Waypoint> waypoints;
+  std::vector<double> tubes;                         ///< one a segment where the space has constraints, else none
+  std::vector<PoseTube> pose_tubes;                  ///< one a segment under kCableLengths, up to its first inner pose
+  std::vector<std::vector<InnerPose>> inner_poses;   ///< likewise, by rising s
+
+  [[nodiscard]] std::size_t control_points() const { return law == Law::kCubicBSpline ? 4 : 2; }
+  [[nodiscard]] std::size_t segments() const {
+    return waypoints.size() < control_points() ? 0 : waypoints.size() - control_points() + 1;
+  }
+  /// The control points of segment k; a path of a single waypoint is one motionless segment of a single one.
+  [[nodiscard]] std::span<const Waypoint> controls(std::size_t k) const {
+    return std::span(waypoints).subspan(k, segments() == 0 ? 1 : control_points());
+  }
+};
+
+/// Where the zero that implies a motion is, over a box s = m + r u, |u| <= 1: within `radius` of `at` + `slope` u in
+/// each unknown. Unproved; the kernel proves it.
+struct NearZero {
+  std::vector<double> at;
+  std::vector<double> slope;
+  double radius = 0;
+  int narrowings = 0;  ///< how often the enclosure is narrowed, 0 to 8
+};
+
+/// A part [begin, end] of one segment (or of the way of a deviation), and how the kernel is to prove it at one go.
+struct Box {
+  mpq_class begin;
+  mpq_class end;
+  int bits = 64;                 ///< working precision, 32 to 4096
+  std::optional<NearZero> near;  ///< where the motion is implied, by constraints or lengths
+  int parts = 1;                 ///< with tolerances: the way to each deviation is taken in so many parts, 1 to 64
+  int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
+};
+
+/// Proved lower bounds.
+struct Margins {
+  mpq_class tension;       ///< [N]
+  mpq_class length;        ///< [m]
+  mpq_class wrench_scale;  ///< [1]
+};
+
+/// Whether the lengths of the cables are what a controller commands, not the pose.
+inline bool is_length_controlled(const Problem& problem, const Path& path) {
+  return path.law == Law::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
+}
+
+/// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
+inline bool is_implied(const Problem& problem, const Path& path) {
+  return path.law == Law::kCableLengths || !problem.constraints.empty();
+}
+
+struct PathPoint {
+  std::size_t segment = 0;
+  mpq_class s;
+};
+
+/// A Box of a path's segment, of which only the motion is shown.
+struct MotionBox {
+  std::size_t segment = 0;
+  Box box;
+};
+
+/// A deviation, exactly: what is added to the numbers of the problem and to the commanded pose.
+struct WitnessDeviation {
+  std::array<std::array<mpq_class, 3>, kCables> base_anchors;
+  std::array<std::array<mpq_class, 3>, kCables> platform_anchors;
+  std::array<mpq_class, 3> load_point;
+  mpq_class wrench;  ///< how many times the tolerance of the wrench
+  std::array<mpq_class, 3> position;
+  std::array<mpq_class, 3> turn;  ///< u: the rotation of the quaternion (u, 1)
+  /// Where the machine is length-controlled: what is added to the lengths [m].
+  std::optional<std::array<mpq_class, kCables>> cable_lengths;
+  /// Where it is length-controlled and anchors or lengths deviate: how the pose is followed as the deviation grows,
+  /// tau from 0 to 1. A reference polyline through `poses` (the first at tau = 0, the last at tau = 1; s stands for
+  /// tau; tube i reaches from pose i to the next, that of the last is unused), and boxes that tile [0, 1], none across
+  /// a pose.
+  std::vector<InnerPose> poses;
+  std::vector<Box> boxes;
+};
+
+enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
+
+struct Witness {
+  WitnessKind kind = WitnessKind::kSingular;
+  PathPoint at;
+  Box at_box;              ///< [s, s] and how the pose there is shown
+  PathPoint to;            ///< kSingular only; the others use what follows
+  Box to_box;              ///< likewise
+  std::size_t cable = 0;   ///< 0 to 5
+  mpq_class value_lower;
+  mpq_class value_upper;
+  std::optional<WitnessDeviation> deviation;
+  /// Connects the witness: for kSingular the boxes over which the path is shown to be continuous between `at` and
+  /// `to`; where the motion is implied, for the witness of the certificate, boxes that with the proved ones cover the
+  /// path from its beginning to the witness.
+  std::vector<MotionBox> motion;
+};
+
+}  // namespace taut::checker

@@ -1,0 +1,517 @@
+// Certificates of each kind, and what becomes of them after one edit: a base, a JSON patch, and the expected message.
+#include <gtest/gtest.h>
+
+#include "checker/errors.h"
+#include "checker/format/claims.h"
+#include "checker/format/digest.h"
+#include "checker/format/exact.h"
+#include "checker/format/parts.h"
+#include "checker/format/strict_json.h"
+#include "checker/format/writer.h"
+
+namespace taut::checker {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string canonical(const Json& json) { return json.dump(-1, ' ', true); }
+
+std::string digest(const Json& json) {
+  Sha256 sha256;
+  sha256.update(canonical(json));
+  return sha256.hex();
+}
+
+Json repeated(std::size_t n, const Json& value) { return Json(n, value); }
+
+Json numbers(std::initializer_list<double> values) {
+  Json result = Json::array();
+  for (const double x : values) result.push_back(print_binary64(x));
+  return result;
+}
+
+Json problem() {
+  Json ellipsoid = repeated(6, repeated(6, "0"));
+  for (std::size_t i = 0; i < 6; ++i) ellipsoid[i][i] = "10000";
+  const Json anchor = {"0", "0.22", "1e-1"};
+  return {{"name", "a case"},
+          {"robot",
+           {{"base_anchors_m", repeated(6, anchor)},
+            {"platform_anchors_m", repeated(6, anchor)},
+            {"tension_N", repeated(6, {"0.05", "0.5"})},
+            {"length_m", repeated(6, {"0.1", "0.55"})}}},
+          {"load", {{"point_m", anchor}, {"wrench", {"0", "0", "1", "0", "0", "0"}}, {"ellipsoid", ellipsoid}}},
+          {"tolerances", nullptr},
+          {"space", coordinate_space()},
+          {"query", {{"waypoints", Json::array()}}}};
+}
+
+Json tolerances() {
+  return {{"base_anchor_m", repeated(6, "0.001")},
+          {"platform_anchor_m", repeated(6, "0.001")},
+          {"load_point_m", "0.002"},
+          {"wrench", repeated(6, "-0.1")},
+          {"position_m", "0.001"},
+          {"orientation_rad", "(0.2)*pi/180"},
+          {"cable_length_m", nullptr}};
+}
+
+Json waypoint() { return {{"x", numbers({0, 0, 0.35, 0, 0, 0.5})}, {"half_turns", repeated(6, 0)}}; }
+
+Json box(const char* begin, const char* end) { return {{"bits", 64}, {"s", {begin, end}}}; }
+
+Json segment(int k) {
+  return {{"from", k},
+          {"to", k + 1},
+          {"boxes", {box("0", "1/2"), box("1/2", "1")}},
+          {"margins", {{"tension_N", "0.0" + std::to_string(k + 1)}, {"length_m", "1e-2"}, {"wrench_scale", "2"}}}};
+}
+
+/// A proved audit of two segments that are straight in the free coordinates.
+Json proved() {
+  return {{"format", "taut-certificate"},
+          {"version", 4},
+          {"generator", {{"name", "taut"}}},
+          {"verdict", "proved"},
+          {"claim", kProvedClaim},
+          {"problem", problem()},
+          {"path",
+           {{"interpolation", "straight-in-parameters"},
+            {"waypoints", repeated(3, waypoint())},
+            {"tubes", Json::array()},
+            {"pose_tubes", Json::array()},
+            {"times", {"0", "1.5", "2"}}}},
+          {"segments", {segment(0), segment(1)}},
+          {"margins", {{"tension_N", "0.01"}, {"length_m", "1e-2"}, {"wrench_scale", "2"}}},
+          {"witness", nullptr},
+          {"stretches", nullptr},
+          {"source", {{"file", "path \"\u00fc\x7f\".csv"}, {"sha256", std::string(64, 'a')}}},
+          {"undecided", nullptr},
+          {"illustration", {{"kind", "audit"}, {"charts", {{1, 2, 3}, nullptr, true}}}}};
+}
+
+Json near(std::size_t unknowns) {
+  const Json zeros = repeated(unknowns, "0x0p+0");
+  return {{"at", zeros}, {"slope", zeros}, {"radius", "0x1p-20"}, {"narrowings", 2}};
+}
+
+Json witness() {
+  return {{"at", {{"segment", 0}, {"s", "1/4"}}},
+          {"cable", 3},
+          {"kind", "tension_min"},
+          {"limit", "0.05"},
+          {"value", {"0.04", "0.05"}},
+          {"proof", {{"bits", 64}}},
+          {"motion", Json::array()}};
+}
+
+/// The same path, violated in [1/4, 1/2] of segment 0, and open in the second half of segment 1.
+Json refuted() {
+  Json json = proved();
+  json["verdict"] = "refuted";
+  json["claim"] = kRefutedClaim;
+  json["margins"] = Json::object();
+  json["segments"][0]["boxes"] = {box("0", "1/4"), box("1/2", "1")};
+  json["segments"][1]["boxes"] = {box("0", "1/2")};
+  json["witness"] = witness();
+  const auto point = [](int k, const char* s) { return Json{{"segment", k}, {"s", s}}; };
+  json["stretches"] = {
+      {{"outer", {point(0, "1/4"), point(0, "1/2")}}, {"inner", {witness(), witness()}}, {"reason", nullptr}},
+      {{"outer", {point(1, "1/2"), point(1, "1")}}, {"inner", nullptr}, {"reason", "no time"}}};
+  return json;
+}
+
+Json undecided() {
+  Json json = proved();
+  json["verdict"] = "undecided";
+  json["claim"] = kUndecidedClaim;
+  json["margins"] = Json::object();
+  json["segments"] = Json::array();
+  json["undecided"] = {{"reason", "no time"}, {"segment", 1}, {"box", {"0", "1/2"}}};
+  return json;
+}
+
+/// Proved, with one constraint.
+Json constrained() {
+  Json json = proved();
+  json["problem"]["space"]["constraints"] = {"px^2 - py"};
+  for (Json& waypoint : json["path"]["waypoints"]) waypoint["normals"] = numbers({1, 0, 0, 0, 0, 0});
+  json["path"]["tubes"] = numbers({0.5, 0.25});
+  for (Json& segment : json["segments"]) {
+    for (Json& box : segment["boxes"]) box["near"] = near(1);
+  }
+  return json;
+}
+
+Json inner_pose(const char* s) {
+  return {{"s", s},
+          {"position", numbers({0, 0, 0.5})},
+          {"quaternion", numbers({0, 0, 0, 1})},
+          {"tube", {{"position", "0x1p-5"}, {"turn", "0x1p-5"}}}};
+}
+
+/// Refuted, straight in the lengths of the cables, with tolerances and a witness that deviates.
+Json length_controlled() {
+  Json json = proved();
+  json["verdict"] = "refuted";
+  json["claim"] = kRefutedClaim;
+  json["margins"] = Json::object();
+  json["segments"] = Json::array();
+  json["problem"]["tolerances"] = tolerances();
+  Json& path = json["path"];
+  path["interpolation"] = "straight-in-cable-lengths";
+  path["waypoints"] = repeated(3, {{"position", numbers({0, 0, 0.5})},
+                                   {"quaternion", numbers({0, 0, 0, 1})},
+                                   {"lengths", numbers({1, 1, 1, 1, 1, 1})}});
+  path["pose_tubes"] = {{{"position", "0x1p-4"}, {"turn", "0x1p-4"}, {"inner", {inner_pose("1/4"), inner_pose("1/2")}}},
+                        {{"position", "0x1p-6"}, {"turn", "0x1p-5"}}};
+  Json first = inner_pose("0");
+  Json last = inner_pose("1");
+  for (Json* pose : {&first, &last}) {
+    (*pose)["tau"] = (*pose)["s"];
+    pose->erase("s");
+  }
+  Json way_box = box("0", "1");
+  way_box["near"] = near(6);
+  Json motion = way_box;
+  motion["segment"] = 0;
+  motion["s"] = {"0", "1/4"};
+  json["witness"] = witness();
+  json["witness"]["proof"]["near"] = near(6);
+  json["witness"]["motion"] = {motion};
+  const Json zeros = repeated(3, "0");
+  json["witness"]["deviation"] = {{"base_anchors_m", repeated(6, zeros)},
+                                  {"platform_anchors_m", repeated(6, repeated(3, "0.0001"))},
+                                  {"load_point_m", zeros},
+                                  {"wrench", "1"},
+                                  {"position_m", zeros},
+                                  {"turn", zeros},
+                                  {"cable_lengths_m", repeated(6, "0")},
+                                  {"way", {{"poses", {first, last}}, {"boxes", {way_box}}}}};
+  return json;
+}
+
+/// The file, with digests and counts that are right.
+std::string sealed(Json json) {
+  json["problem_sha256"] = digest(json["problem"]);
+  json["path_sha256"] = digest(json["path"]);
+  std::size_t boxes = 0;
+  if (json["segments"].is_array()) {
+    for (const Json& segment : json["segments"]) {
+      if (segment.is_object() && segment.contains("boxes")) boxes += segment["boxes"].size();
+    }
+  }
+  const std::string body = digest(json);
+  json["footer"] = {{"waypoints", json["path"].contains("waypoints") ? json["path"]["waypoints"].size() : 0},
+                    {"segments", json["segments"].size()},
+                    {"boxes", boxes},
+                    {"sha256", body}};
+  return json.dump(1);
+}
+
+std::string message(const std::string& text) {
+  try {
+    (void)read_certificate(text);
+  } catch (const Malformed& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+struct Edit {
+  const char* path;
+  Json value;  ///< discarded: the key is removed
+  const char* message;
+};
+
+void expect_messages(const Json& base, const std::vector<Edit>& edits) {
+  ASSERT_EQ(message(sealed(base)), "none");
+  for (const Edit& edit : edits) {
+    Json json = base;
+    const Json::json_pointer pointer(edit.path);
+    if (edit.value.is_discarded()) {
+      json = json.patch({{{"op", "remove"}, {"path", edit.path}}});
+    } else {
+      json[pointer] = edit.value;
+    }
+    EXPECT_NE(message(sealed(json)).find(edit.message), std::string::npos)
+        << edit.path << " " << edit.value << ": " << message(sealed(json));
+  }
+}
+
+const Json kRemoved(Json::value_t::discarded);
+
+TEST(Reader, ReadsAProvedCertificate) {
+  const std::string text = sealed(proved());
+  const Certificate certificate = read_certificate(text);
+  EXPECT_EQ(certificate.verdict, Verdict::kProved);
+  EXPECT_EQ(certificate.claim, kProvedClaim);
+  EXPECT_EQ(certificate.problem_json, canonical(problem()));
+  EXPECT_EQ(certificate.path_sha256, digest(proved()["path"]));
+  EXPECT_EQ(certificate.problem.length[5].upper, mpq_class(11, 20));
+  ASSERT_EQ(certificate.path.waypoints.size(), 3U);
+  EXPECT_EQ(certificate.path.waypoints[2].x[2], 0.35);
+  EXPECT_EQ(certificate.boxes, 4U);
+  ASSERT_EQ(certificate.segment_texts.size(), 2U);
+  const Segment second = certificate.segment(1);
+  ASSERT_EQ(second.boxes.size(), 2U);
+  EXPECT_EQ(second.boxes[1].begin, mpq_class(1, 2));
+  EXPECT_EQ(second.boxes[1].end, 1);
+  EXPECT_EQ(second.boxes[1].bits, 64);
+  EXPECT_FALSE(second.boxes[1].near);
+  EXPECT_EQ(second.margins.tension, mpq_class(1, 50));
+  EXPECT_EQ(certificate.margins[0], "0.01");
+  EXPECT_EQ(certificate.source->file, proved()["source"]["file"]);
+  EXPECT_EQ(certificate.signer, "");
+  EXPECT_EQ(message(canonical(Json::parse(text))), "none");  // white space does not matter
+}
+
+TEST(Reader, ReadsARefutedCertificateWithStretches) {
+  const std::string text = sealed(refuted());
+  const Certificate certificate = read_certificate(text);
+  EXPECT_EQ(certificate.verdict, Verdict::kRefuted);
+  EXPECT_EQ(certificate.witness->cable, 2U);
+  EXPECT_EQ(certificate.witness->at_box.begin, mpq_class(1, 4));
+  ASSERT_EQ(certificate.stretch_texts.size(), 2U);
+  EXPECT_EQ(certificate.stretch(0).inner.size(), 2U);
+  EXPECT_EQ(certificate.stretch(1).begin.segment, 1U);
+  EXPECT_TRUE(certificate.stretch(1).inner.empty());
+}
+
+TEST(Reader, ReadsAMachineThatIsLengthControlled) {
+  const std::string text = sealed(length_controlled());
+  const Certificate certificate = read_certificate(text);
+  ASSERT_EQ(certificate.path.inner_poses.size(), 2U);
+  ASSERT_EQ(certificate.path.inner_poses[0].size(), 2U);
+  EXPECT_EQ(certificate.path.inner_poses[0][1].s, mpq_class(1, 2));
+  EXPECT_EQ(certificate.path.inner_poses[0][1].tube.turn, 0x1p-5);
+  EXPECT_EQ(certificate.path.waypoints[1].x.size(), 13U);
+  const Witness& witness = *certificate.witness;
+  EXPECT_EQ(witness.at_box.near->radius, 0x1p-20);
+  ASSERT_EQ(witness.motion.size(), 1U);
+  EXPECT_EQ(witness.motion[0].box.end, mpq_class(1, 4));
+  EXPECT_EQ(witness.deviation->poses.size(), 2U);
+  EXPECT_EQ(witness.deviation->boxes.size(), 1U);
+  EXPECT_EQ(way_to_json(*witness.deviation), length_controlled()["witness"]["deviation"]["way"]);
+  EXPECT_EQ(to_json(witness.motion[0]), length_controlled()["witness"]["motion"][0]);
+  EXPECT_EQ(proof_to_json(witness.at_box), length_controlled()["witness"]["proof"]);
+}
+
+TEST(Reader, WritesTheBoxesThatItReads) {
+  Json json = constrained();
+  json["problem"]["tolerances"] = tolerances();
+  for (Json& segment : json["segments"]) {
+    for (Json& box : segment["boxes"]) box.update({{"parts", 7}, {"guesses", 3}});
+  }
+  const std::string text = sealed(json);
+  const Certificate certificate = read_certificate(text);
+  const Box box = certificate.segment(0).boxes[1];
+  EXPECT_EQ(box.parts, 7);
+  EXPECT_EQ(box.guesses, 3);
+  EXPECT_EQ(to_json(box, true), json["segments"][0]["boxes"][1]);
+}
+
+TEST(Reader, ReadsUndecidedAndConstrainedCertificates) {
+  const std::string text = sealed(undecided());
+  EXPECT_EQ(read_certificate(text).undecided_reason, "no time");
+  EXPECT_EQ(message(sealed(constrained())), "none");
+}
+
+TEST(Reader, RefusesWhatIsNoStrictJson) {
+  const std::string good = sealed(proved());
+  EXPECT_EQ(message(""), "no JSON, or cut: line 1");
+  EXPECT_EQ(message("[]"), "certificate: expected an object");
+  EXPECT_EQ(message("\xEF\xBB\xBF" + good), "no JSON: it begins with a byte order mark");
+  EXPECT_EQ(message(good + std::string(1, '\0')), "no JSON: it contains a NUL byte");
+  EXPECT_NE(message(good + "x").find("no JSON, or cut: line"), std::string::npos);
+  EXPECT_NE(message(good.substr(0, good.size() / 2)).find("no JSON, or cut: line"), std::string::npos);
+  EXPECT_EQ(message(std::string(33, '[') + std::string(33, ']')), "nested too deeply");
+  EXPECT_EQ(message(std::string(32, '[') + std::string(32, ']')), "certificate: expected an object");
+  EXPECT_EQ(message("{\"a\": 1.0}"), "a number that is no integer");
+  EXPECT_EQ(message("{\"a\": 1, \"a\": 1}"), "the key 'a' appears twice in one object");
+  EXPECT_EQ(message("{\"b\": {\"y\": 1, \"x\": 1}}"), "the key 'x' comes after 'y': expected keys in code-point order");
+}
+
+TEST(Reader, RefusesAlteredDigests) {
+  Json json = Json::parse(sealed(proved()));
+  const auto altered = [&](const char* key, const Json& value) {
+    Json other = json;
+    other[Json::json_pointer(key)] = value;
+    return message(canonical(other));
+  };
+  EXPECT_EQ(message(canonical(json)), "none");
+  EXPECT_NE(altered("/generator/name", "other").find("footer.sha256"), std::string::npos);
+  EXPECT_NE(altered("/illustration/charts/0/0", 2).find("footer.sha256"), std::string::npos);
+  EXPECT_NE(altered("/problem_sha256", std::string(64, '0')).find("footer.sha256"), std::string::npos);
+  EXPECT_NE(altered("/footer/boxes", 5).find("footer.boxes: expected an integer from 4 to 4"), std::string::npos);
+  EXPECT_NE(altered("/footer/waypoints", 1000000000).find("footer.waypoints"), std::string::npos);
+  json["problem"]["name"] = "another";
+  json.erase("footer");
+  const std::string body = digest(json);
+  json["footer"] = {{"waypoints", 3}, {"segments", 2}, {"boxes", 4}, {"sha256", body}};
+  EXPECT_NE(message(canonical(json)).find("problem_sha256: expected the digest"), std::string::npos);
+}
+
+TEST(Reader, NamesAnotherVersionFirst) {
+  Json json = proved();
+  json["version"] = 3;
+  json["segments"][0]["boxes"] = {{"0", "1"}};
+  EXPECT_EQ(message(sealed(json)).find("version: expected 4, got 3"), 0U);
+}
+
+TEST(Reader, NamesWhatIsWrongWithAProvedCertificate) {
+  expect_messages(
+      proved(),
+      {{"/witness", kRemoved, "certificate: expected the key 'witness'"},
+       {"/more", 1, "certificate: expected no key 'more'"},
+       {"/verdict", "sure", "verdict: expected proved, refuted or undecided"},
+       {"/claim", kRefutedClaim, "claim: expected the text that belongs to the verdict"},
+       {"/problem/robot/tension_N/2", {"0.5", "0.5"}, "problem.robot.tension_N[2]: expected 0 <= lower < upper"},
+       {"/problem/load/ellipsoid/1/0", "1", "problem.load.ellipsoid: expected a symmetric matrix"},
+       {"/problem/load/wrench/0", "0x1", "problem.load.wrench[0]: got '0x1', expected a decimal"},
+       {"/problem/space/pose/px", "px + phi", "problem.space.pose.px: expected the same pose"},
+       {"/problem/space/pose/px", "px + q", "problem.space.pose.px: 'px + q', column 7: expected a known name"},
+       {"/problem/space/flip", {4, 3}, "problem.space.flip: expected the parameters that are phi and theta"},
+       {"/problem/space/parameters/0/name", "pi", "problem.space.parameters[0].name"},
+       {"/problem/space/parameters", Json::array(), "problem.space.parameters: expected 1 to 64 parameters"},
+       {"/problem/space/parameters", repeated(65, nullptr), "problem.space.parameters: expected 1 to 64 parameters"},
+       {"/problem/query/waypoints", {Json::array()}, "problem.query.waypoints: expected none, or at least two"},
+       {"/path/interpolation", "geodesic", "path.waypoints[0]: expected the key 'position'"},
+       {"/path/interpolation", "cubic-b-spline", "path.waypoints: expected at least four of a spline"},
+       {"/path/waypoints/1/x/0", "0x1p0", "path.waypoints[1].x[0]: got '0x1p0', expected a finite binary64"},
+       {"/path/waypoints/1/half_turns/0", 1, "path.waypoints[1].half_turns[0]: expected 0"},
+       {"/path/waypoints/1/half_turns/3", 1000001,
+        "path.waypoints[1].half_turns[3]: expected an integer from -1000000"},
+       {"/path/waypoints/1/normals", numbers({1, 0, 0, 0, 0, 0}), "path.waypoints[1].normals: expected no such key"},
+       {"/path/tubes", numbers({1, 1}), "path.tubes: expected an array of 0"},
+       {"/path/times/2", "1.5", "path.times[2]"},
+       {"/path/times/2", kRemoved, "path.times: expected an array of 3"},
+       {"/segments/1", kRemoved, "segments: expected an array of 2"},
+       {"/segments/0/from", 1, "segments[0].from: expected an integer from 0 to 0"},
+       {"/segments/0/boxes/1", kRemoved, "segments[0].boxes: expected boxes that tile [0, 1]"},
+       {"/segments/1/boxes/0/s/0", "1/4", "segments[1].boxes: expected boxes that tile [0, 1]"},
+       {"/segments/1/boxes/1/s/0", "1/4", "segments[1].boxes[1].s: expected a box after the last one"},
+       {"/segments/1/boxes/1/s/1", "1/2", "segments[1].boxes[1].s: expected begin < end"},
+       {"/segments/0/boxes/0/bits", 31, "segments[0].boxes[0].bits: expected an integer from 32 to 4096"},
+       {"/segments/0/boxes/0/bits", 4097, "segments[0].boxes[0].bits"},
+       {"/segments/0/boxes/0/near", near(1), "segments[0].boxes[0]: expected no key 'near'"},
+       {"/segments/0/boxes/0/parts", 1, "segments[0].boxes[0]: expected no key 'parts'"},
+       {"/segments/0/margins", nullptr, "segments[0].margins: expected null where there is no box"},
+       {"/margins/tension_N", "0.011", "margins.tension_N: expected not more than any segment's"},
+       {"/margins/tension_N", "0.010", "margins.tension_N: expected the text of a segment's"},
+       {"/stretches", Json::array(), "stretches: expected null"},
+       {"/witness", witness(), "witness: expected null"},
+       {"/undecided", {{"reason", ""}}, "undecided: expected null"},
+       {"/source/sha256", "ab", "source.sha256: expected 64 lower-case hex digits"}});
+}
+
+TEST(Reader, NamesWhatIsWrongWithTolerances) {
+  Json base = length_controlled();
+  expect_messages(base,
+                  {{"/problem/tolerances/position_m", "-1", "problem.tolerances.position_m: expected a tolerance"},
+                   {"/problem/tolerances/orientation_rad", "1", "expected an angle from 0 to below 1"},
+                   {"/problem/tolerances/orientation_rad", "-pi/180", "expected an angle from 0 to below 1"},
+                   {"/problem/tolerances/orientation_rad", "1/0", "expected an angle from 0 to below 1, not"},
+                   {"/problem/tolerances/base_anchor_m/5", "-0.1", "problem.tolerances.base_anchor_m[5]"}});
+}
+
+TEST(Reader, NamesWhatIsWrongWithImpliedMotion) {
+  expect_messages(
+      constrained(),
+      {{"/path/tubes/0", "0x0p+0", "path.tubes[0]: expected a positive width"},
+       {"/path/tubes/0", "-0x1p+0", "path.tubes[0]: expected a positive width"},
+       {"/path/waypoints/2/normals", kRemoved, "path.waypoints[2].normals: expected an array of 6"},
+       {"/segments/0/boxes/0/near", kRemoved, "segments[0].boxes[0]: expected the key 'near'"},
+       {"/segments/0/boxes/0/near", near(2), "segments[0].boxes[0].near.at: expected an array of 1"},
+       {"/segments/0/boxes/0/near/radius", "0x0p+0", "near.radius: expected a positive radius"},
+       {"/segments/0/boxes/0/near/narrowings", 9, "near.narrowings: expected an integer from 0 to 8"},
+       {"/problem/space/constraints", {"px - phi"}, "problem.space.constraints[0]: expected the same value"},
+       {"/problem/tolerances", tolerances(), "segments[0].boxes[0]: expected the key 'guesses'"}});
+  const std::string first = "/path/pose_tubes/0/inner/0";
+  const std::string way = "/witness/deviation/way";
+  const std::string tube = "expected tubes each of which contains the one before";
+  const std::string second_tau = way + "/poses/1/tau";
+  const std::string box_s = way + "/boxes/0/s";
+  const std::string way_tube = way + "/poses/1/tube";
+  const std::string way_near = way + "/boxes/0/near";
+  const std::string first_s = first + "/s";
+  const std::string first_tube = first + "/tube/turn";
+  const std::string quaternion = first + "/quaternion";
+  const std::string zero_way = "witness.deviation.way: expected null";
+  expect_messages(
+      length_controlled(),
+      {{first_s.c_str(), "1/2", "path.pose_tubes[0].inner[1].s: expected rising s"},
+       {first_s.c_str(), "0", "path.pose_tubes[0].inner[0].s: expected rising s"},
+       {first_s.c_str(), "1/9007199254740992", "inner[0].s: expected a denominator of at most 2^52"},
+       {first_tube.c_str(), "0x1p-3", tube.c_str()},
+       {quaternion.c_str(), numbers({0, 0, 0, 0}), "inner[0].quaternion: expected a quaternion that is not 0"},
+       {"/path/pose_tubes/1/turn", "0x0p+0", "path.pose_tubes[1]: expected a positive width"},
+       {"/path/pose_tubes/1/turn", "0x1p-3", tube.c_str()},
+       {"/path/pose_tubes/0/inner", Json::array(), "path.pose_tubes[0].inner: expected inner poses"},
+       {"/path/waypoints/0/lengths/3", "0x0p+0", "path.waypoints[0].lengths: expected positive lengths"},
+       {"/problem/space/constants", {{"c", "1"}}, "problem.space: expected the one of the free coordinates"},
+       {"/witness/motion/0/s/1", "1/2", "witness.motion[0].s: expected a box that reaches across no pose"},
+       {"/witness/motion/0/segment", 2, "witness.motion[0].segment: expected an integer from 0 to 1"},
+       {"/witness/motion/0/parts", 1, "witness.motion[0]: expected no key 'parts'"},
+       {"/witness/proof/near", kRemoved, "witness.proof: expected the key 'near'"},
+       {"/witness/proof/s", {"0", "1"}, "witness.proof: expected no key 's'"},
+       {"/witness/deviation/way", nullptr, "witness.deviation.way: expected an object"},
+       {"/witness/deviation/platform_anchors_m", repeated(6, repeated(3, "0")), zero_way.c_str()},
+       {second_tau.c_str(), "1/2", "witness.deviation.way.poses: expected tau = 1 at last"},
+       {second_tau.c_str(), "0", "witness.deviation.way.poses[1].tau: expected 0 at first, then rising"},
+       {box_s.c_str(), {"0", "1/2"}, "witness.deviation.way.boxes: expected boxes up to 1"},
+       {box_s.c_str(), {"1/2", "1"}, "witness.deviation.way.boxes[0].s: expected a box that begins where"},
+       {way_near.c_str(), near(5), "witness.deviation.way.boxes[0].near.at: expected an array of 6"},
+       {way_tube.c_str(), {{"position", "0x1p-6"}, {"turn", "0x1p-4"}}, "poses[1].tube: expected a tube that contains"},
+       {way_tube.c_str(), {{"position", "0x0p+0"}, {"turn", "0x0p+0"}}, "poses[1].tube: expected positive widths"}});
+}
+
+TEST(Reader, NamesWhatIsWrongWithARefutedCertificate) {
+  Json singular = {{"at", {{"segment", 0}, {"s", "0"}}},
+                   {"to", {{"waypoint", 1}}},
+                   {"kind", "singular"},
+                   {"at_proof", {{"bits", 64}}},
+                   {"to_proof", {{"bits", 64}}}};
+  expect_messages(
+      refuted(),
+      {{"/witness/value", {"0.04", "0.051"}, "witness.value: expected an enclosure that lies beyond the limit"},
+       {"/witness/value", {"0.05", "0.04"}, "witness.value: expected ends in order"},
+       {"/witness/limit", "0.5", "witness.limit: expected the cable's limit in the problem"},
+       {"/witness/kind", "tension_max", "witness.limit"},
+       {"/witness/kind", "slack", "witness.kind: expected a kind of the format"},
+       {"/witness/cable", 7, "witness.cable: expected an integer from 1 to 6"},
+       {"/witness/at/s", "1", "witness: expected one of the stretches', but for its motion"},
+       {"/witness/deviation", Json::object(), "witness.deviation: expected tolerances to be within"},
+       {"/witness", singular, "witness: expected the key 'motion'"},
+       {"/witness", nullptr, "witness: expected an object with the key 'kind'"},
+       {"/margins", {{"length_m", "1"}}, "margins: expected no key 'length_m'"},
+       {"/stretches/0/outer/0/s", "1/8", "stretches: expected boxes and outer ends that tile the path"},
+       {"/stretches/0/outer/1/s", "3/4", "stretches: expected boxes and outer ends that tile the path"},
+       {"/stretches/1", kRemoved, "stretches: expected boxes and outer ends that tile the path"},
+       {"/stretches/0/outer/1/s", "1/4", "stretches[0].outer: expected two places in order"},
+       {"/stretches/0/inner/0/at/s", "3/4", "stretches[0].inner[0]: expected a place between the outer ends"},
+       {"/stretches/0/inner/0/at/s", "1/2", "stretches[0].inner: expected two witnesses in order"},
+       {"/stretches/0/reason", "why", "stretches[0].reason: expected null"},
+       {"/stretches/1/reason", nullptr, "stretches[1].reason: expected a string"},
+       {"/stretches", nullptr, "segments: expected an array of 0"}});
+  Json motion = box("0", "1/4");
+  motion["segment"] = 0;
+  Json json = refuted();
+  json["witness"]["motion"] = {motion};
+  EXPECT_EQ(message(sealed(json)), "none");  // the witness of a stretch need not repeat it
+  json = refuted();
+  json["segments"][0]["boxes"] = Json::array();
+  json["segments"][0]["margins"] = nullptr;
+  json["stretches"][0]["outer"] = {{{"segment", 0}, {"s", "0"}}, {{"segment", 0}, {"s", "1"}}};
+  EXPECT_EQ(message(sealed(json)), "none");
+}
+
+TEST(Reader, NamesWhatIsWrongWithAnUndecidedCertificate) {
+  expect_messages(undecided(), {{"/undecided/segment", nullptr, "undecided: expected segment and box, or neither"},
+                                {"/undecided/box", {"1", "0"}, "undecided.box: expected ends in order"},
+                                {"/undecided/segment", 2, "undecided.segment: expected an integer from 0 to 1"},
+                                {"/stretches", refuted()["stretches"], "stretches: expected open ones only"}});
+}
+
+}  // namespace
+}  // namespace taut::checker
