@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "certify/gaps.h"
+#include "checker/format/writer.h"
 #include "path_io/path_csv.h"
 
 namespace taut {
@@ -22,24 +23,20 @@ using nlohmann::json;
 struct StatedGap {
   Gap gap;
   std::optional<std::pair<PathWitness, PathWitness>> inner;
+  std::optional<std::pair<KernelWitness, KernelWitness>> kernel;  ///< the same
+  /// Where the motion is implied: boxes that show it from the gap's beginning to the first witness, or all along an open
+  /// gap; nothing where the kernel does not.
+  std::optional<std::vector<checker::MotionBox>> motion;
 };
 
 /// What is known of one segment, and what the files say of it.
 struct SegmentResult {
   Segment segment;  ///< between waypoints of its batch
   SegmentSurvey survey;
-  std::size_t boxes = 0;  ///< proved
+  std::vector<KernelBox> boxes;  ///< proved
   std::vector<StatedGap> gaps;
   std::string text;
 };
-
-std::vector<DyadicBox> proved_boxes(const SegmentSurvey& survey) {
-  std::vector<DyadicBox> proved;
-  for (const SurveyedBox& box : survey.boxes) {
-    if (box.kind == SurveyedBox::Kind::kProved) proved.push_back(box.box);
-  }
-  return proved;
-}
 
 /// Some successive segments, on their way through the pipeline.
 struct Batch {
@@ -131,8 +128,8 @@ class BatchReader {
 /// Proves the segments of batches, and says it in the files' words.
 class BatchProver {
  public:
-  BatchProver(const Prover& prover, const PathSource& source)
-      : prover_(prover), law_(source.law()), csv_(source.problem(), source.law(), source.has_times()) {}
+  BatchProver(const Prover& prover, const Elaborator& elaborator, const PathSource& source)
+      : elaborator_(elaborator), prover_(prover), law_(source.law()), csv_(source.problem(), source.law(), source.has_times()) {}
 
   [[nodiscard]] std::string csv_header() const { return csv_.header(); }
 
@@ -153,28 +150,50 @@ class BatchProver {
     SegmentResult result;
     result.segment = prover_.prepared(batch.segment(law_, i));
     result.survey = prover_.survey(result.segment);
-    const SegmentSurvey& survey = result.survey;
     const std::size_t number = batch.first_segment + i;
-    const std::vector<DyadicBox> proved = proved_boxes(survey);
-    for (Gap& gap : gaps(survey)) result.gaps.push_back(stated(result.segment, number, std::move(gap)));
-    result.boxes = proved.size();
-    const Margins margins =
-        proved.empty() ? Margins{} : margins_below(survey.tension_N, survey.length_m, survey.wrench_scale);
-    const std::size_t to = number + control_points(law_) - 1;
-    result.text = segment_text(number, to, proved, proved.empty() ? nullptr : &margins);
+    for (SurveyedBox& box : result.survey.boxes) {
+      if (box.kind != SurveyedBox::Kind::kProved) continue;
+      const auto confirmed = elaborator_.boxes(result.segment, std::span(&box.box, 1));
+      if (confirmed) {
+        result.boxes.insert(result.boxes.end(), confirmed->begin(), confirmed->end());
+      } else {
+        box.kind = SurveyedBox::Kind::kOpen;
+        box.reason = Undecided::kKernel;
+      }
+    }
+    for (Gap& gap : gaps(result.survey)) result.gaps.push_back(stated(result.segment, number, std::move(gap)));
+    result.text = segment_text(make_segment(result.boxes), number, number + control_points(law_) - 1,
+                               elaborator_.has_tolerances());
     return result;
   }
 
   [[nodiscard]] StatedGap stated(const Segment& segment, std::size_t number, Gap gap) const {
-    StatedGap result{std::move(gap), std::nullopt};
-    if (!result.gap.first) return result;
-    const auto witness = [&](const SegmentWitness& end) {
-      return path_witness(prover_, segment, static_cast<int>(number), end);
-    };
-    result.inner = {witness(*result.gap.first), witness(*result.gap.last)};
+    StatedGap result{std::move(gap), std::nullopt, std::nullopt, std::nullopt};
+    if (result.gap.first) {
+      const auto witness = [&](const SegmentWitness& end) {
+        return path_witness(prover_, segment, static_cast<int>(number), end);
+      };
+      std::pair<PathWitness, PathWitness> inner = {witness(*result.gap.first), witness(*result.gap.last)};
+      std::optional<KernelWitness> first = elaborator_.witness(segment, inner.first);
+      std::optional<KernelWitness> last = elaborator_.witness(segment, inner.second);
+      if (first && last) {
+        result.inner = std::move(inner);
+        result.kernel = {std::move(*first), std::move(*last)};
+      } else {
+        result.gap.reason = Undecided::kKernel;
+      }
+    }
+    if (elaborator_.is_implied()) {
+      const Dyadic end = result.inner ? result.inner->first.at.s : result.gap.end;
+      if (auto boxes = elaborator_.motion(segment, result.gap.begin, end)) {
+        result.motion.emplace();
+        for (checker::Box& box : *boxes) result.motion->push_back({number, std::move(box)});
+      }
+    }
     return result;
   }
 
+  const Elaborator& elaborator_;
   const Prover& prover_;
   Interpolation law_;
   PathCsv csv_;
@@ -185,8 +204,9 @@ class BatchProver {
 /// Takes batches in order; keeps what a summary needs.
 class BatchWriter {
  public:
-  BatchWriter(const PathSource& source, const Prover& prover, CertificateStream& certificate, const WriteText& csv)
-      : prover_(prover),
+  BatchWriter(const PathSource& source, const Elaborator& elaborator, CertificateStream& certificate,
+              const WriteText& csv)
+      : elaborator_(elaborator),
         law_(source.law()),
         sharpens_(source.segments() <= kMostSharpened),
         has_times_(source.has_times()),
@@ -206,12 +226,10 @@ class BatchWriter {
       const auto& [segment, survey, boxes, gaps, text] = batch.segments[i];
       if (has_tubes_) certificate_.add_tube(segment.tube);
       if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube, segment.inner_poses);
-      if (!sharpens_) certificate_.add_segment(text, boxes);
-      result_.boxes += boxes;
+      if (!sharpens_) certificate_.add_segment(text, boxes.size());
+      result_.boxes += boxes.size();
       result_.boxes_judged += survey.boxes_judged;
-      tension_N_ = std::min(tension_N_, survey.tension_N);
-      length_m_ = std::min(length_m_, survey.length_m);
-      wrench_scale_ = std::min(wrench_scale_, survey.wrench_scale);
+      add_margins(boxes);
       for (const StatedGap& gap : gaps) add(batch, i, gap);
     }
     result_.segments += batch.segments.size();
@@ -256,33 +274,29 @@ class BatchWriter {
       for (const SegmentResult& segment : batch->segments) all.push_back(&segment);
     }
     if (result_.stretches_violated + result_.stretches_open > 0) {
-      for (const SegmentResult* segment : all) certificate_.add_segment(segment->text, segment->boxes);
+      for (const SegmentResult* segment : all) certificate_.add_segment(segment->text, segment->boxes.size());
       return;
     }
-    std::vector<SegmentProof> proofs;
-    for (const SegmentResult* segment : all) {
-      const SegmentSurvey& survey = segment->survey;
-      SegmentProof& proof = proofs.emplace_back();
-      proof.verdict = Verdict::kProved;
-      proof.boxes = proved_boxes(survey);
-      proof.tension_N = survey.tension_N;
-      proof.length_m = survey.length_m;
-      proof.wrench_scale = survey.wrench_scale;
-    }
-    sharpen(
-        prover_, [&](std::size_t k) { return all[k]->segment; }, proofs);
+    std::vector<std::vector<KernelBox>> boxes;
+    for (const SegmentResult* segment : all) boxes.push_back(segment->boxes);
+    elaborator_.tighten([&](std::size_t k) { return all[k]->segment; }, boxes);
     result_.boxes = 0;
     tension_N_ = length_m_ = wrench_scale_ = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < proofs.size(); ++k) {
-      const SegmentProof& proof = proofs[k];
-      const Margins margins = margins_below(proof.tension_N, proof.length_m, proof.wrench_scale);
-      certificate_.add_segment(segment_text(k, k + control_points(law_) - 1, proof.boxes, &margins),
-                               proof.boxes.size());
-      result_.boxes += proof.boxes.size();
-      result_.boxes_judged += proof.boxes_judged;
-      tension_N_ = std::min(tension_N_, proof.tension_N);
-      length_m_ = std::min(length_m_, proof.length_m);
-      wrench_scale_ = std::min(wrench_scale_, proof.wrench_scale);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      add_margins(boxes[k]);
+      result_.boxes += boxes[k].size();
+      const std::size_t number = boxes[k].size();
+      certificate_.add_segment(segment_text(make_segment(std::move(boxes[k])), k, k + control_points(law_) - 1,
+                                            elaborator_.has_tolerances()),
+                               number);
+    }
+  }
+
+  void add_margins(const std::vector<KernelBox>& boxes) {
+    for (const KernelBox& box : boxes) {
+      tension_N_ = std::min(tension_N_, box.tension_N);
+      length_m_ = std::min(length_m_, box.length_m);
+      wrench_scale_ = std::min(wrench_scale_, box.wrench_scale);
     }
   }
 
@@ -297,22 +311,49 @@ class BatchWriter {
       stretch_ = AuditStretch{begin, end, std::nullopt, std::nullopt, gap.reason};
     }
     stretch_->end = end;
-    if (!stated.inner) return;
+    if (!stated.inner || !is_connected(stated)) {
+      if (elaborator_.is_implied()) follow(stated);
+      if (stated.inner && !stretch_->inner) stretch_->reason = Undecided::kKernel;
+      return;
+    }
     const PathWitness& last_witness = stated.inner->second;
     const AuditPlace first = place(batch, i, stated.inner->first.at.s);
     const AuditPlace last = place(batch, i, last_witness.singular ? last_witness.to.s : last_witness.at.s);
+    const std::size_t number = batch.first_segment + i;
+    const auto as_json = [&](const PathWitness& witness, KernelWitness kernel, bool is_first) {
+      json result = to_json(witness, kernel, number);
+      if (!is_first) return result;
+      for (const checker::MotionBox& box : way_) result["motion"].push_back(checker::to_json(box));
+      return result;
+    };
     if (!stretch_->inner) {
+      const bool is_first = !has_witness_;
+      if (is_first && elaborator_.is_implied()) follow(stated);
       stretch_->inner = stated.inner;
+      stretch_->inner_json = {as_json(stated.inner->first, stated.kernel->first, is_first), nullptr};
       stretch_->inner_places = {first, last};
+      has_witness_ = true;
     }
     stretch_->inner->second = last_witness;
+    stretch_->inner_json.second = as_json(last_witness, stated.kernel->second, false);
     stretch_->inner_places->second = last;
+  }
+
+  /// Whether a violation may refute: the first where the path is known to lead to it from its beginning. Others follow it.
+  [[nodiscard]] bool is_connected(const StatedGap& stated) const {
+    return has_witness_ || !elaborator_.is_implied() || (is_followed_ && stated.motion);
+  }
+
+  /// Adds what is known of the motion on a gap to the way from the path's beginning.
+  void follow(const StatedGap& stated) {
+    is_followed_ = is_followed_ && stated.motion;
+    if (is_followed_) way_.insert(way_.end(), stated.motion->begin(), stated.motion->end());
   }
 
   void close_stretch() {
     if (!stretch_) return;
     json inner;
-    if (stretch_->inner) inner = {to_json(stretch_->inner->first), to_json(stretch_->inner->second)};
+    if (stretch_->inner) inner = {stretch_->inner_json.first, stretch_->inner_json.second};
     certificate_.add_stretch(
         {{"outer",
           {place_json(stretch_->begin.segment, stretch_->begin.s), place_json(stretch_->end.segment, stretch_->end.s)}},
@@ -331,8 +372,11 @@ class BatchWriter {
 
   static constexpr std::size_t kMostSharpened = 5000;  ///< segments
 
-  const Prover& prover_;
+  const Elaborator& elaborator_;
   Interpolation law_;
+  bool has_witness_ = false;
+  bool is_followed_ = true;               ///< by proved boxes and `way_`, up to now
+  std::vector<checker::MotionBox> way_;  ///< of gaps before the first witness, where the motion is implied
   bool sharpens_;
   std::vector<std::shared_ptr<const Batch>> kept_;  ///< whose segments are not written yet
   bool has_times_, has_tubes_, has_pose_tubes_;
@@ -356,8 +400,9 @@ Audit audit(const Prover& prover, PathSource& source, CertificateStream& certifi
   const std::size_t batch_segments =
       std::clamp<std::size_t>(source.segments() / (kBatchesPerThread * threads), 1, kMostSegments);
   BatchReader reader(source, batch_segments);
-  const BatchProver batch_prover(prover, source);
-  BatchWriter writer(source, prover, certificate, csv);
+  const Elaborator elaborator(source.problem(), source.law());
+  const BatchProver batch_prover(prover, elaborator, source);
+  BatchWriter writer(source, elaborator, certificate, csv);
   csv(batch_prover.csv_header());
   std::size_t done = 0;
   using BatchPointer = std::shared_ptr<Batch>;

@@ -30,6 +30,7 @@ struct AuditPlace {
 struct AuditStretch {
   AuditPlace begin, end;                                     ///< outside of them the path is proved
   std::optional<std::pair<PathWitness, PathWitness>> inner;  ///< the first and the last proved violation in it
+  std::pair<nlohmann::json, nlohmann::json> inner_json;      ///< these, as the certificate states them
   std::optional<std::pair<AuditPlace, AuditPlace>> inner_places;
   Reason reason;  ///< of a stretch without violations: why it is open
 };

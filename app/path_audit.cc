@@ -13,7 +13,7 @@ namespace {
 /// The first violation; what a refuted certificate has as its witness.
 nlohmann::json witness_json(const Audit& audit) {
   for (const AuditStretch& stretch : audit.stretches) {
-    if (stretch.inner) return to_json(stretch.inner->first);
+    if (stretch.inner) return stretch.inner_json.first;
   }
   return nullptr;
 }

@@ -14,7 +14,8 @@
 
 #include "base/placed_json.h"
 #include "base/sha256.h"
-#include "checker/claims.h"
+#include "checker/format/claims.h"
+#include "checker/format/writer.h"
 #include "problem/decimal.h"
 
 namespace taut {
@@ -36,21 +37,46 @@ json to_json(const PathPoint& p) {
   return {{"segment", p.index}, {"s", p.s.text()}};
 }
 
-json to_json(const PathWitness& w) {
-  if (w.singular) return {{"kind", "singular"}, {"at", to_json(w.at)}, {"to", to_json(w.to)}};
-  json result = {{"kind", name(w.margin.kind)},
-                 {"at", to_json(w.at)},
-                 {"cable", w.margin.cable + 1},
-                 {"value", {w.value_lower, w.value_upper}},
-                 {"limit", w.limit}};
-  if (w.deviation) {
-    const Deviation& d = *w.deviation;
+json to_json(const PathWitness& found, const KernelWitness& kernel, std::size_t segment) {
+  const checker::Witness& witness = kernel.witness;
+  json motion = json::array();
+  for (checker::MotionBox part : witness.motion) {
+    part.segment += segment;
+    motion.push_back(checker::to_json(part));
+  }
+  json result = {{"at", to_json(found.at)}, {"motion", std::move(motion)}};
+  if (found.singular) {
+    result["kind"] = "singular";
+    result["to"] = to_json(found.to);
+    result["at_proof"] = checker::proof_to_json(witness.at_box);
+    result["to_proof"] = checker::proof_to_json(witness.to_box);
+    return result;
+  }
+  result["kind"] = name(found.margin.kind);
+  result["cable"] = found.margin.cable + 1;
+  result["value"] = {kernel.value_lower, kernel.value_upper};
+  result["limit"] = found.limit;
+  result["proof"] = checker::proof_to_json(witness.at_box);
+  if (found.deviation) {
+    const Deviation& d = *found.deviation;
     result["deviation"] = {{"base_anchors_m", d.base_anchors_m}, {"platform_anchors_m", d.platform_anchors_m},
                            {"load_point_m", d.load_point_m},     {"wrench", d.wrench},
                            {"position_m", d.position_m},         {"turn", d.turn}};
-    if (d.cable_lengths_m) result["deviation"]["cable_lengths_m"] = *d.cable_lengths_m;
+    if (d.cable_lengths_m) {
+      result["deviation"]["cable_lengths_m"] = *d.cable_lengths_m;
+      result["deviation"]["way"] = checker::way_to_json(*witness.deviation);
+    }
   }
   return result;
+}
+
+json to_json(const KernelSegment& segment, std::size_t from, std::size_t to, bool has_tolerances) {
+  json boxes = json::array();
+  for (const KernelBox& box : segment.boxes) boxes.push_back(checker::to_json(box.box, has_tolerances));
+  return {{"boxes", std::move(boxes)},
+          {"from", from},
+          {"to", to},
+          {"margins", segment.boxes.empty() ? json() : to_json(segment.margins)}};
 }
 
 const char* interpolation_name(Interpolation law) {
@@ -145,20 +171,6 @@ json path_json(const Path& path) {
           {"times", path.times.empty() ? json() : json(path.times)}};
 }
 
-json segments_json(const Path& path, const PathProof& proof) {
-  const std::size_t controls = control_points(path.interpolation);
-  json segments = json::array();
-  for (std::size_t k = 0; k < proof.segments.size(); ++k) {
-    json boxes = json::array();
-    for (const DyadicBox& box : proof.segments[k].boxes) boxes.push_back({box.lower().text(), box.upper().text()});
-    segments.push_back({{"from", k},
-                        {"to", k + controls - 1},
-                        {"boxes", std::move(boxes)},
-                        {"margins", to_json(proof.segment_margins[k])}});
-  }
-  return segments;
-}
-
 json undecided_json(const PathProof& proof) {
   json result = {{"reason", proof.reason.text()}, {"segment", nullptr}, {"box", nullptr}};
   if (proof.open_segment >= 0) {
@@ -172,22 +184,35 @@ json undecided_json(const PathProof& proof) {
 }  // namespace
 
 json make_certificate(const Problem& problem, const Path& path, const PathProof& proof, json illustration) {
-  const bool proved = proof.verdict == Verdict::kProved;
-  const bool refuted = proof.verdict == Verdict::kRefuted;
+  const KernelProof kernel = confirmed(problem, path, proof);
+  const bool proved = kernel.verdict == Verdict::kProved;
+  const bool refuted = kernel.verdict == Verdict::kRefuted;
+  json segments = json::array();
+  std::size_t boxes = 0;
+  for (std::size_t k = 0; k < kernel.segments.size(); ++k) {
+    const std::size_t to = k + control_points(path.interpolation) - 1;
+    segments.push_back(to_json(kernel.segments[k], k, to, problem.tolerances.has_value()));
+    boxes += kernel.segments[k].boxes.size();
+  }
+  json undecided;
+  if (!proved && !refuted) {
+    undecided = undecided_json(proof);
+    undecided["reason"] = kernel.reason.text();
+  }
   json certificate = {
       {"format", "taut-certificate"},
       {"version", kCertificateVersion},
       {"generator", generator_json()},
-      {"verdict", name(proof.verdict)},
-      {"claim", claim_of(proof.verdict)},
+      {"verdict", name(kernel.verdict)},
+      {"claim", claim_of(kernel.verdict)},
       {"problem", to_json(problem)},
       {"path", path_json(path)},
-      {"segments", proved ? segments_json(path, proof) : json::array()},
-      {"margins", proved ? to_json(proof.margins) : json::object()},
-      {"witness", refuted ? to_json(*proof.witness) : json()},
+      {"segments", std::move(segments)},
+      {"margins", proved ? to_json(kernel.margins) : json::object()},
+      {"witness", refuted ? to_json(*proof.witness, *kernel.witness, segment_of(*proof.witness)) : json()},
       {"stretches", nullptr},
       {"source", nullptr},
-      {"undecided", proved || refuted ? json() : undecided_json(proof)},
+      {"undecided", std::move(undecided)},
       {"illustration", std::move(illustration)},
   };
   certificate["problem_sha256"] = sha256(certificate["problem"]);
@@ -195,7 +220,7 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
   const std::string digest = sha256(certificate);
   certificate["footer"] = {{"waypoints", path.waypoints.size()},
                            {"segments", certificate["segments"].size()},
-                           {"boxes", proved ? proof.boxes : 0},
+                           {"boxes", boxes},
                            {"sha256", digest}};
   return certificate;
 }

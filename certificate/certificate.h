@@ -5,12 +5,12 @@
 #include <span>
 #include <string>
 
-#include "certify/path_proof.h"
+#include "certificate/elaborate.h"
 
 namespace taut {
 
 /// Of the format that is written.
-inline constexpr int kCertificateVersion = 3;
+inline constexpr int kCertificateVersion = 4;
 
 /// "-0x1.2666666666666p+1": reads back bit for bit.
 [[nodiscard]] std::string hex_float(double x);
@@ -26,7 +26,11 @@ inline constexpr int kCertificateVersion = 3;
 [[nodiscard]] nlohmann::json generator_json();
 [[nodiscard]] nlohmann::json to_json(const Margins& margins);
 [[nodiscard]] nlohmann::json to_json(const PathPoint& place);
-[[nodiscard]] nlohmann::json to_json(const PathWitness& witness);
+/// @param segment  what the kernel was asked about as segment 0
+[[nodiscard]] nlohmann::json to_json(const PathWitness& found, const KernelWitness& kernel, std::size_t segment);
+/// A segment with its boxes; `from` and `to` are its first and last control point.
+[[nodiscard]] nlohmann::json to_json(const KernelSegment& segment, std::size_t from, std::size_t to,
+                                     bool has_tolerances);
 
 /// An entry of `path.pose_tubes`.
 [[nodiscard]] nlohmann::json pose_tube_json(const PoseTube& tube, std::span<const InnerPose> inner_poses);

@@ -13,7 +13,6 @@
 
 #include "base/input_error.h"
 #include "base/sha256.h"
-#include "checker/claims.h"
 
 namespace taut {
 
@@ -77,17 +76,8 @@ std::string waypoint_text(Interpolation law, const Waypoint& waypoint) {
   return text + "}";
 }
 
-std::string segment_text(std::size_t from, std::size_t to, std::span<const DyadicBox> boxes, const Margins* margins) {
-  std::string text = "{\"boxes\":[";
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    text += i == 0 ? "[\"" : ",[\"";
-    text += boxes[i].lower().text() + "\",\"" + boxes[i].upper().text() + "\"]";
-  }
-  text += fmt::format("],\"from\":{},\"margins\":", from);
-  text += margins == nullptr ? "null"
-                             : fmt::format(R"({{"length_m":"{}","tension_N":"{}","wrench_scale":"{}"}})",
-                                           margins->length_m, margins->tension_N, margins->wrench_scale);
-  return text + fmt::format(",\"to\":{}}}", to);
+std::string segment_text(const KernelSegment& segment, std::size_t from, std::size_t to, bool has_tolerances) {
+  return canonical(to_json(segment, from, to, has_tolerances));
 }
 
 /// The items of a JSON array, in a file without a name.
@@ -175,13 +165,11 @@ void CertificateStream::emit_path(const Write& write) const {
   write("}");
 }
 
-/// In the order of canonical JSON, but for the brace at the end; `footer` is left out where it is empty.
-void CertificateStream::emit(const Ending& ending, const Write& write, const std::string& path_digest,
-                             const std::string& footer) const {
+/// All but the footer, the signature and the brace at the end.
+void CertificateStream::emit(const Ending& ending, const Write& write, const std::string& path_digest) const {
   const bool proved = ending.verdict == Verdict::kProved;
   const bool refuted = ending.verdict == Verdict::kRefuted;
   write("{\"claim\":" + canonical(claim_of(ending.verdict)));
-  if (!footer.empty()) write(",\"footer\":" + footer);
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical(generator_json()));
   write(",\"illustration\":" + canonical(ending.illustration));
   write(",\"margins\":" + canonical(proved ? to_json(*ending.margins) : json::object()));
@@ -218,7 +206,7 @@ void CertificateStream::finish(const Ending& ending, const Write& write, const S
         digest(text);
         write(text);
       },
-      path_digest, "");
+      path_digest);
   digest("}");
   const bool has_segments = ending.verdict != Verdict::kUndecided;
   const std::string footer = canonical({{"waypoints", waypoints_->count()},
@@ -226,13 +214,7 @@ void CertificateStream::finish(const Ending& ending, const Write& write, const S
                                         {"boxes", has_segments ? boxes_ : 0},
                                         {"sha256", whole.hex()}});
   write(",\"footer\":" + footer);
-  if (sign) {
-    Sha256 with_footer;
-    const Write signed_digest = digest_of(with_footer);
-    emit(ending, signed_digest, path_digest, footer);
-    signed_digest("}");
-    write(",\"signature\":" + canonical(sign(with_footer.hex())));
-  }
+  if (sign) write(",\"signature\":" + canonical(sign(whole.hex())));
   write("}\n");
 }
 

@@ -18,9 +18,8 @@ namespace taut {
 
 /// Canonical JSON of a waypoint and of a segment, as certificates have them. Quick, and safe in any thread.
 [[nodiscard]] std::string waypoint_text(Interpolation law, const Waypoint& waypoint);
-/// `margins`: null where no box of the segment was proved.
-[[nodiscard]] std::string segment_text(std::size_t from, std::size_t to, std::span<const DyadicBox> boxes,
-                                       const Margins* margins);
+[[nodiscard]] std::string segment_text(const KernelSegment& segment, std::size_t from, std::size_t to,
+                                       bool has_tolerances);
 
 class CertificateStream {
  public:
@@ -59,7 +58,7 @@ class CertificateStream {
   class Spool;
   struct Parts;
   void emit_path(const Write& write) const;
-  void emit(const Ending& ending, const Write& write, const std::string& path_digest, const std::string& footer) const;
+  void emit(const Ending& ending, const Write& write, const std::string& path_digest) const;
 
   std::filesystem::path folder_;
   nlohmann::json problem_;

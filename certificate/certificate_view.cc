@@ -67,7 +67,7 @@ Dyadic read_dyadic(const PlacedJson& field) {
 std::vector<DyadicBox> read_boxes(const PlacedJson& boxes) {
   std::vector<DyadicBox> result;
   for (const PlacedJson& ends : boxes.elements()) {
-    const std::vector<PlacedJson> both = ends.elements(2);
+    const std::vector<PlacedJson> both = ends.at("s").elements(2);
     const Dyadic lower = read_dyadic(both[0]);
     const Dyadic upper = read_dyadic(both[1]);
     const int depth = std::max(lower.depth, upper.depth);

@@ -1,13 +1,17 @@
 #include "certificate/elaborate.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "checker/format/exact.h"
-#include "checker/format/reader.h"
+#include "checker/format/cursor.h"
+#include "checker/format/parts.h"
 #include "checker/kernel/motion.h"
 #include "kinematics/pose_conversion.h"
 
@@ -307,8 +311,17 @@ class Elaborator::Search {
   int attempts_ = 0;
 };
 
+namespace {
+
+checker::Problem to_kernel(const Problem& problem) {
+  const nlohmann::json json = to_json(problem);
+  return checker::read_problem(checker::Cursor(json, "problem"));
+}
+
+}  // namespace
+
 Elaborator::Elaborator(const Problem& problem, Interpolation law)
-    : problem_(checker::read_problem(to_json(problem))), law_(law), approx_(make_model<double>(problem)) {
+    : problem_(to_kernel(problem)), law_(law), approx_(make_model<double>(problem)) {
   is_implied_ = law == Interpolation::kCableLengths || !problem_.constraints.empty();
 }
 
@@ -599,6 +612,86 @@ std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const P
     }
   }
   return std::nullopt;
+}
+
+KernelSegment make_segment(std::vector<KernelBox> boxes) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  double tension_N = kNone;
+  double length_m = kNone;
+  double wrench_scale = kNone;
+  for (const KernelBox& box : boxes) {
+    tension_N = std::min(tension_N, box.tension_N);
+    length_m = std::min(length_m, box.length_m);
+    wrench_scale = std::min(wrench_scale, box.wrench_scale);
+  }
+  return {std::move(boxes), tension_N == kNone ? Margins{} : margins_below(tension_N, length_m, wrench_scale)};
+}
+
+std::size_t segment_of(const PathWitness& witness) { return static_cast<std::size_t>(witness.at.index); }
+
+namespace {
+
+KernelProof not_confirmed() {
+  KernelProof result;
+  result.reason = Undecided::kKernel;
+  return result;
+}
+
+KernelProof confirmed_proof(const Elaborator& elaborator, const Path& path, const PathProof& proof) {
+  std::vector<std::vector<KernelBox>> boxes(proof.segments.size());
+  std::atomic<bool> is_confirmed = true;
+  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t k) {
+    std::optional<std::vector<KernelBox>> found = elaborator.boxes(path.segment(k), proof.segments[k].boxes);
+    if (!found) is_confirmed = false;
+    if (found) boxes[k] = std::move(*found);
+  });
+  if (!is_confirmed) return not_confirmed();
+  elaborator.tighten([&](std::size_t k) { return path.segment(k); }, boxes);
+  KernelProof result;
+  result.verdict = Verdict::kProved;
+  std::vector<KernelBox> all;
+  for (std::vector<KernelBox>& of_segment : boxes) {
+    all.insert(all.end(), of_segment.begin(), of_segment.end());
+    result.segments.push_back(make_segment(std::move(of_segment)));
+  }
+  result.margins = make_segment(std::move(all)).margins;
+  return result;
+}
+
+/// The witness, and the motion from the path's beginning to it where the motion is implied.
+KernelProof confirmed_refutation(const Elaborator& elaborator, const Path& path, const PathWitness& witness) {
+  const std::size_t last = segment_of(witness);
+  const bool is_still = path.segments() == 0;
+  const Segment segment = path.segment(is_still ? 0 : last);
+  KernelProof result;
+  result.witness = elaborator.witness(segment, witness);
+  if (!result.witness) return not_confirmed();
+  result.verdict = Verdict::kRefuted;
+  if (!elaborator.is_implied() || is_still) return result;
+  std::vector<checker::MotionBox>& motion = result.witness->witness.motion;
+  const Dyadic begin{0, 0};
+  const Dyadic at = witness.at.on_segment ? witness.at.s : begin;
+  for (std::size_t k = 0; k <= last; ++k) {
+    std::optional<std::vector<checker::Box>> boxes =
+        elaborator.motion(path.segment(k), begin, k < last ? Dyadic{1, 0} : at);
+    if (!boxes) return not_confirmed();
+    // The kernel's witness counts segments from that of the witness: see to_json().
+    for (checker::Box& box : *boxes) motion.push_back({k - last, std::move(box)});
+  }
+  return result;
+}
+
+}  // namespace
+
+KernelProof confirmed(const Problem& problem, const Path& path, const PathProof& proof) {
+  if (proof.verdict != Verdict::kUndecided) {
+    const Elaborator elaborator(problem, path.interpolation);
+    return proof.verdict == Verdict::kProved ? confirmed_proof(elaborator, path, proof)
+                                             : confirmed_refutation(elaborator, path, *proof.witness);
+  }
+  KernelProof result;
+  result.reason = proof.reason;
+  return result;
 }
 
 }  // namespace taut

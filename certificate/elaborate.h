@@ -28,6 +28,13 @@ struct KernelBox {
   double wrench_scale = 0;
 };
 
+/// Boxes of one segment, and the margins that all of them keep, as decimals rounded down.
+struct KernelSegment {
+  std::vector<KernelBox> boxes;
+  Margins margins;
+};
+[[nodiscard]] KernelSegment make_segment(std::vector<KernelBox> boxes);
+
 /// A witness as the checker will confirm it.
 struct KernelWitness {
   checker::Witness witness;
@@ -71,6 +78,20 @@ class Elaborator {
   mutable std::mutex mutex_;
   mutable std::map<int, std::unique_ptr<checker::Machine>> machines_;
 };
+
+/// A path's proof as the kernel confirms it.
+struct KernelProof {
+  Verdict verdict = Verdict::kUndecided;
+  std::vector<KernelSegment> segments;   ///< only if proved
+  Margins margins;                       ///< the least along the path; only if proved
+  std::optional<KernelWitness> witness;  ///< only if refuted: as of the segment of the path's witness
+  Reason reason;                         ///< only if undecided
+};
+/// Undecided, too, where the prover has a verdict that the kernel can't be led to confirm.
+[[nodiscard]] KernelProof confirmed(const Problem& problem, const Path& path, const PathProof& proof);
+
+/// The segment on which a witness is; that of a waypoint begins there.
+[[nodiscard]] std::size_t segment_of(const PathWitness& witness);
 
 /// The certificate's numbers for a Dyadic.
 [[nodiscard]] mpq_class to_rational(const Dyadic& x);

@@ -94,8 +94,7 @@ nlohmann::json SigningKey::signature(const std::string& digest) const {
 }
 
 void SigningKey::sign(nlohmann::json& certificate) const {
-  certificate.erase("signature");
-  certificate["signature"] = signature(sha256(certificate));
+  certificate["signature"] = signature(certificate.at("footer").at("sha256").get<std::string>());
 }
 
 }  // namespace taut

@@ -33,6 +33,7 @@ UndecidedWords words(Undecided reason) {
     case Undecided::kChartBudget: return {"charts is spent", nullptr};
     case Undecided::kTimeBudget: return {" s is spent", nullptr};
     case Undecided::kOutsideManifold: return {"of the query is outside the manifold in floating point", nullptr};
+    case Undecided::kKernel: return {"the checker's kernel does not confirm what was found", nullptr};
   }
   return {"", nullptr};
 }

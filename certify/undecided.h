@@ -27,8 +27,9 @@ enum class Undecided {
   kChartBudget,
   kTimeBudget,
   kOutsideManifold,
+  kKernel,
 };
-inline constexpr std::size_t kUndecidedReasons = 16;
+inline constexpr std::size_t kUndecidedReasons = 17;
 
 /// The words for it, which may be followed by a place: "bisection depth reached at". Of a single pose, where others fit better: `at_pose`.
 struct UndecidedWords {

@@ -143,6 +143,13 @@ Explanation explained(Undecided reason) {
                    "A waypoint at, or very near, a limit or a singular pose.",
                    "taut show prints its tensions, lengths and margins: move it to where all are positive.",
                    "undecided: waypoint 0 or 1 of the query is outside the manifold in floating point [U16].");
+    case Undecided::kKernel:
+      return entry("The checker's kernel does not confirm the proof",
+                   "The prover came to a verdict, but found no boxes, or no way to a witness, with which the checker's own "
+                   "equations confirm it. Under laws by which poses are implied, a violation is also left open where the "
+                   "motion could not be followed to it from the path's beginning.",
+                   "Keep a little more away from limits and singular poses there, or make the tolerances smaller.",
+                   "open: the checker's kernel does not confirm what was found [U17]");
   }
   return {};
 }

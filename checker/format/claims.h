@@ -1,5 +1,5 @@
-// The theorems in words. A certificate carries the text that belongs to its verdict, character by character, and whoever
-// writes a certificate includes this header. docs/certificate-format.md repeats the texts.
+// The theorems in words. A certificate carries the text that belongs to its verdict, character by character, and
+// whoever writes a certificate includes this header. docs/certificate-format.md repeats the texts.
 #pragma once
 
 namespace taut::checker {

@@ -14,8 +14,8 @@ namespace taut::checker {
 
 using Json = nlohmann::json;
 
-/// Refers to the value, its name and the Cursor of its parent, which must live as long. Every member function that reads
-/// throws Malformed with the path, where the value is not what the function is named after.
+/// Refers to the value, its name and the Cursor of its parent, which must live as long. Every member function that
+/// reads throws Malformed with the path, where the value is not what the function is named after.
 class Cursor {
  public:
   /// The value called `name`, or the element `index` of the list called `name`.

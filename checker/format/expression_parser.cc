@@ -33,53 +33,53 @@ class Parser {
       if (text_[at_] < ' ' || text_[at_] > '~') fail("printable ASCII characters only");
     }
     at_ = 0;
-    sum();
+    sum(1);
     if (peek() != '\0') fail("an operator or the end");
     return std::move(result_);
   }
 
  private:
   // Each of these reads the part of the grammar that it is named after and returns the node of its value.
-  int sum() {
-    int left = product();
-    for (char c = peek(); c == '+' || c == '-'; c = peek()) {
-      ++at_;
-      const int right = product();
-      left = add({c == '+' ? Op::kAdd : Op::kSubtract, 0, left, right});
+  int sum(int depth) {
+    int left = product(depth);
+    while (peek() == '+' || peek() == '-') {
+      const Op op = text_[at_++] == '+' ? Op::kAdd : Op::kSubtract;
+      const int right = product(depth);
+      left = add({op, 0, left, right});
     }
     return left;
   }
 
-  int product() {
-    int left = unary();
-    for (char c = peek(); c == '*' || c == '/'; c = peek()) {
-      ++at_;
-      const int right = unary();
-      left = add({c == '*' ? Op::kMultiply : Op::kDivide, 0, left, right});
+  int product(int depth) {
+    int left = unary(depth);
+    while (peek() == '*' || peek() == '/') {
+      const Op op = text_[at_++] == '*' ? Op::kMultiply : Op::kDivide;
+      const int right = unary(depth);
+      left = add({op, 0, left, right});
     }
     return left;
   }
 
-  int unary() {
-    const Nesting nesting(*this);
-    if (take('-')) return add({Op::kNegate, 0, unary()});
-    const int base = atom();
-    return take('^') ? add({Op::kPower, static_cast<int>(exponent()), base}) : base;
+  int unary(int depth) {
+    require_shallow(depth);
+    if (take('-')) return add({Op::kNegate, 0, unary(depth + 1)});
+    const int base = atom(depth + 1);
+    return take('^') ? add({Op::kPower, static_cast<int>(exponent(depth + 1)), base}) : base;
   }
 
-  int atom() {
+  int atom(int depth) {
     const char c = peek();
-    if (take('(')) return closed(sum());
+    if (take('(')) return closed(sum(depth));
     if (is_digit(c) || c == '.') return number();
     if (!is_letter(c)) fail("a number, a name or '('");
     const std::string name = take_while(is_name_character);
     if (name == "pi") return add({Op::kPi});
     if (const auto function = kFunctions.find(name); function != kFunctions.end()) {
       if (!take('(')) fail("'('");
-      const int first = sum();
+      const int first = sum(depth);
       if (function->second != Op::kAtan2) return closed(add({function->second, 0, first}));
       if (!take(',')) fail("','");
-      const int second = sum();
+      const int second = sum(depth);
       return closed(add({Op::kAtan2, 0, first, second}));
     }
     const auto parameter = std::ranges::find(names_.parameters, name);
@@ -103,16 +103,16 @@ class Parser {
     return add_number(*value);
   }
 
-  long exponent() {
-    const Nesting nesting(*this);
-    if (take('-')) return -exponent();
-    if (take('(')) return closed(exponent());
+  long exponent(int depth) {
+    require_shallow(depth);
+    if (take('-')) return -exponent(depth + 1);
+    if (take('(')) return closed(exponent(depth + 1));
     if (!is_digit(peek())) fail("an integer exponent");
     long base = 0;
     for (const char c : take_while(is_digit)) base = bounded(10 * base + (c - '0'));
     if (!take('^')) return base;
     long result = 1;
-    for (long n = exponent(); n != 0; --n) {
+    for (long n = exponent(depth + 1); n != 0; --n) {
       if (n < 0) fail("an integer exponent");
       result = bounded(result * base);
     }
@@ -160,22 +160,15 @@ class Parser {
                     expected);
   }
 
-  struct Nesting {
-    explicit Nesting(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kMaxDepth) parser_.fail("fewer nested parentheses");
-    }
-    ~Nesting() { --parser_.depth_; }
-    Nesting(const Nesting&) = delete;
-    Nesting& operator=(const Nesting&) = delete;
-    Parser& parser_;
-  };
+  void require_shallow(int depth) const {
+    if (depth > kMaxDepth) fail("fewer nested parentheses");
+  }
 
   const std::string& text_;
   const Names& names_;
   const std::string& where_;
   Expression result_;
   std::size_t at_ = 0;
-  int depth_ = 0;
 };
 
 }  // namespace

@@ -27,8 +27,8 @@ struct Names {
 
 [[nodiscard]] bool mentions(const Expression& expression, std::size_t parameter);
 
-/// The integer k by which the value grows by 2 pi k when the parameter grows by 2 pi, whatever the other parameters are.
-/// @returns nothing where the form of the expression does not show such a k: "Periodic parameters" in
+/// The integer k for which the value grows by 2 pi k when the parameter grows by 2 pi, whatever the other parameters
+/// are. @returns nothing where the form of the expression does not show such a k: "Periodic parameters" in
 /// docs/certificate-format.md.
 [[nodiscard]] std::optional<long> turns(const Expression& expression, std::size_t parameter);
 

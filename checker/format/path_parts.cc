@@ -43,6 +43,7 @@ InnerPose read_reference_pose(const Cursor& json, const char* key) {
 struct BoxKeys {
   bool s = true;
   std::size_t unknowns = 0;  ///< "near" is there unless this is 0
+  bool end_point = false;    ///< whether "s" may be ["1", "1"]
   bool tolerances = false;   ///< "parts" and "guesses"
   bool segment = false;
 };
@@ -74,7 +75,7 @@ Box read_box(const Cursor& json, const BoxKeys& keys) {
     s.array(2);
     box.begin = s.at(0).dyadic();
     box.end = s.at(1).dyadic();
-    if (box.begin >= box.end) s.fail("begin < end");
+    if (box.begin > box.end || (box.begin == box.end && !(keys.end_point && box.begin == 1))) s.fail("begin < end");
   }
   if (keys.unknowns > 0) box.near = read_near(json["near"], keys.unknowns);
   if (keys.tolerances) {
@@ -145,7 +146,7 @@ void read_way(const Cursor& json, WitnessDeviation& deviation) {
   mpq_class reached = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Cursor here = boxes.at(i);
-    Box box = read_box(here, {.unknowns = kCables});
+    Box box = read_box(here, {.unknowns = kCables, .end_point = i + 1 == boxes.size()});
     if (box.begin != reached) here["s"].fail("a box that begins where the last one ended");
     require_one_piece(here, box, deviation.poses);
     reached = box.end;

@@ -109,7 +109,7 @@ class Reader {
     require_digest(footer["sha256"], outline.body_sha256);
     require_digest(top["problem_sha256"], outline.problem_sha256);
     require_digest(top["path_sha256"], outline.path_sha256);
-    if (top.has("signature")) result_.signer = verify_signature(top["signature"], outline.unsigned_sha256);
+    if (top.has("signature")) result_.signer = verify_signature(top["signature"], outline.body_sha256);
 
     complete_path(outline.json);
     read_verdict(top);

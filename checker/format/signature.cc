@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "base/sha256.h"
 #include "checker/errors.h"
-#include "checker/format/digest.h"
 
 namespace taut::checker {
 namespace {
@@ -18,6 +18,15 @@ using Owner = std::unique_ptr<T, void (*)(T*)>;
 constexpr std::size_t kKeySize = 32;
 constexpr std::size_t kSignatureSize = 64;
 constexpr std::size_t kMaxPemSize = 1 << 16;
+
+std::string to_hex(const Bytes& bytes) {
+  std::string hex;
+  for (const unsigned char byte : bytes) {
+    hex += "0123456789abcdef"[byte >> 4U];
+    hex += "0123456789abcdef"[byte & 15U];
+  }
+  return hex;
+}
 
 /// @param hex  an even number of hex digits
 Bytes from_hex(const std::string& hex) {

@@ -7,7 +7,7 @@
 
 namespace taut::checker {
 
-/// Verifies the object `signature` of a certificate whose digest without it is `digest`.
+/// Verifies the object `signature` of a certificate whose footer has this digest.
 /// @returns the signer's public key, 64 lower-case hex digits.
 /// @throws Malformed where the object is not well formed or the signature does not belong to digest and key.
 [[nodiscard]] std::string verify_signature(const Cursor& json, const std::string& digest);

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <vector>
 
+#include "base/sha256.h"
 #include "checker/errors.h"
-#include "checker/format/digest.h"
 
 namespace taut::checker {
 namespace {
@@ -53,7 +53,7 @@ class Handler final : public nlohmann::json_sax<Json> {
   Outline read() {
     Json::sax_parse(TextIterator(text_.data(), &reached_), TextIterator(text_.data() + text_.size(), &reached_), this);
     flush();
-    return {std::move(root_), std::move(problem_), body_.hex(), unsigned_.hex(), path_.hex(), problem_digest_.hex()};
+    return {std::move(root_), std::move(problem_), body_.hex(), path_.hex(), problem_digest_.hex()};
   }
 
   bool null() override { return scalar("null", nullptr); }
@@ -75,12 +75,16 @@ class Handler final : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     Container& object = open_.back();
-    if (!object.is_empty && name == object.key) throw Malformed("the key '" + name + "' appears twice in one object");
-    if (!object.is_empty && name < object.key) {
-      throw Malformed("the key '" + name + "' comes after '" + object.key + "': expected keys in code-point order");
-    }
     const bool is_top = open_.size() == 1;
-    if (is_top) choose_digests(name != "footer" && name != "signature", name != "signature");
+    // What is known last may stand last, out of its order.
+    const bool is_closing = is_top && (name == "footer" || name == "signature");
+    if ((!object.is_empty && name == object.last) || (is_closing && root_.contains(name))) {
+      throw Malformed("the key '" + name + "' appears twice in one object");
+    }
+    if (!object.is_empty && !is_closing && name < object.last) {
+      throw Malformed("the key '" + name + "' comes after '" + object.last + "': expected keys in code-point order");
+    }
+    if (is_top) choose_digests(!is_closing);
     write((object.is_empty ? "" : ",") + json_string(name) + ":");
     if (is_top && (name == "path" || name == "problem")) {
       flush();
@@ -88,6 +92,7 @@ class Handler final : public nlohmann::json_sax<Json> {
       is_problem_ = name == "problem";
     }
     object.is_empty = false;
+    if (!is_closing) object.last = name;
     object.key = std::move(name);
     return true;
   }
@@ -103,7 +108,8 @@ class Handler final : public nlohmann::json_sax<Json> {
     Json* json = nullptr;  ///< null where the outline leaves its content out
     bool is_array = false;
     bool is_empty = true;
-    std::string key{};  ///< the last one of an object
+    std::string key{};   ///< the one whose value comes next, of an object
+    std::string last{};  ///< the last one in code-point order
   };
 
   bool scalar(std::string_view canonical, Json value) {
@@ -132,7 +138,7 @@ class Handler final : public nlohmann::json_sax<Json> {
   }
 
   bool close(const char* bracket) {
-    if (open_.size() == 1) choose_digests(true, true);
+    if (open_.size() == 1) choose_digests(true);
     write(bracket);
     if (open_.size() == list_depth_) list_depth_ = kNoList;
     open_.pop_back();
@@ -173,11 +179,10 @@ class Handler final : public nlohmann::json_sax<Json> {
     open_.back().is_empty = false;
   }
 
-  void choose_digests(bool has_body, bool has_unsigned) {
+  void choose_digests(bool has_body) {
     flush();
     digests_.clear();
     if (has_body) digests_.push_back(&body_);
-    if (has_unsigned) digests_.push_back(&unsigned_);
     is_problem_ = false;
   }
   void write(std::string_view canonical) {
@@ -201,8 +206,8 @@ class Handler final : public nlohmann::json_sax<Json> {
   std::size_t index_ = 0;             ///< and its next element
   std::size_t element_begin_ = 0;
   std::string buffer_;
-  Sha256 body_, unsigned_, path_, problem_digest_;
-  std::vector<Sha256*> digests_ = {&body_, &unsigned_};
+  Sha256 body_, path_, problem_digest_;
+  std::vector<Sha256*> digests_ = {&body_};
   std::string problem_;
   bool is_problem_ = false;
 };

@@ -22,15 +22,15 @@ struct Element {
 struct Outline {
   nlohmann::json json;
   std::string problem;          ///< canonical JSON
-  std::string body_sha256;      ///< of all but `footer` and `signature`
-  std::string unsigned_sha256;  ///< of all but `signature`
+  std::string body_sha256;  ///< of all but `footer` and `signature`
   std::string path_sha256;
   std::string problem_sha256;
 };
 
 /// Calls `visit` with each element of these lists, in the order of the text, and with what was read before it.
-/// @throws Malformed for anything but one JSON object in UTF-8, and for a byte order mark, NUL bytes, numbers that are no
-/// integers, nesting deeper than 32, and keys that do not stand in the order of their code points or appear twice.
+/// @throws Malformed for anything but one JSON value in UTF-8, and for a byte order mark, NUL bytes, numbers that are
+/// no integers, nesting deeper than 32, and keys that do not stand in the order of their code points (`footer` and `signature`
+/// may stand anywhere) or appear twice.
 [[nodiscard]] Outline read_json(std::string_view text,
                                 const std::function<void(const nlohmann::json& outline, const Element&)>& visit);
 

@@ -85,6 +85,7 @@ TEST(Expression, SurvivesDeepNesting) {
   EXPECT_THROW((void)parse(std::string(5000, '(')), Malformed);
   EXPECT_THROW((void)parse(std::string(5000, '-') + "1"), Malformed);
   EXPECT_THROW((void)parse("2^" + std::string(5000, '(')), Malformed);
+  expect_exactly(std::string(100, '(') + "7" + std::string(100, ')'), 7);
   std::string sum = "1";
   for (int i = 1; i < 4000; ++i) sum += "+1";
   expect_exactly(sum, 4000);

@@ -1,9 +1,12 @@
 // Certificates of each kind, and what becomes of them after one edit: a base, a JSON patch, and the expected message.
 #include <gtest/gtest.h>
+#include <openssl/evp.h>
 
+#include <memory>
+
+#include "base/sha256.h"
 #include "checker/errors.h"
 #include "checker/format/claims.h"
-#include "checker/format/digest.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
 #include "checker/format/strict_json.h"
@@ -16,11 +19,7 @@ using Json = nlohmann::json;
 
 std::string canonical(const Json& json) { return json.dump(-1, ' ', true); }
 
-std::string digest(const Json& json) {
-  Sha256 sha256;
-  sha256.update(canonical(json));
-  return sha256.hex();
-}
+std::string digest(const Json& json) { return sha256(json); }
 
 Json repeated(std::size_t n, const Json& value) { return Json(n, value); }
 
@@ -350,6 +349,46 @@ TEST(Reader, RefusesAlteredDigests) {
   const std::string body = digest(json);
   json["footer"] = {{"waypoints", 3}, {"segments", 2}, {"boxes", 4}, {"sha256", body}};
   EXPECT_NE(message(canonical(json)).find("problem_sha256: expected the digest"), std::string::npos);
+}
+
+std::string hex(const std::vector<unsigned char>& bytes) {
+  std::string result;
+  for (const unsigned char byte : bytes) {
+    result += "0123456789abcdef"[byte / 16];
+    result += "0123456789abcdef"[byte % 16];
+  }
+  return result;
+}
+
+TEST(Reader, SaysWhoSigned) {
+  const std::unique_ptr<EVP_PKEY, void (*)(EVP_PKEY*)> key(EVP_PKEY_Q_keygen(nullptr, nullptr, "ED25519"),
+                                                           EVP_PKEY_free);
+  std::vector<unsigned char> public_key(32);
+  std::size_t size = public_key.size();
+  ASSERT_EQ(EVP_PKEY_get_raw_public_key(key.get(), public_key.data(), &size), 1);
+  Json json = Json::parse(sealed(proved()));
+  const std::string text = "taut certificate " + digest(json);
+  const std::vector<unsigned char> bytes(text.begin(), text.end());
+  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  std::vector<unsigned char> value(64);
+  size = value.size();
+  ASSERT_EQ(EVP_DigestSignInit(context.get(), nullptr, nullptr, nullptr, key.get()), 1);
+  ASSERT_EQ(EVP_DigestSign(context.get(), value.data(), &size, bytes.data(), bytes.size()), 1);
+  json["signature"] = {{"algorithm", "Ed25519"}, {"public_key", hex(public_key)}, {"value", hex(value)}};
+  const std::string signed_text = canonical(json);
+  EXPECT_EQ(read_certificate(signed_text).signer, hex(public_key));
+
+  Json other = json;
+  other["footer"]["boxes"] = 5;
+  EXPECT_EQ(message(canonical(other)).find("signature.value: expected a signature of this certificate by that key"),
+            0U);
+  value[5] ^= 1;
+  json["signature"]["value"] = hex(value);
+  EXPECT_EQ(message(canonical(json)).find("signature.value: expected a signature of this certificate by that key"), 0U);
+  json["signature"]["value"] = "AB";
+  EXPECT_EQ(message(canonical(json)), "signature.value: expected 128 lower-case hex digits");
+  json["signature"]["algorithm"] = "RSA";
+  EXPECT_EQ(message(canonical(json)), "signature.algorithm: expected 'Ed25519'");
 }
 
 TEST(Reader, NamesAnotherVersionFirst) {
