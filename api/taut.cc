@@ -44,10 +44,26 @@ struct Case::Content {
   std::string file;  ///< or what stands for it
 };
 
+struct Theorem::Content {
+  checker::Theorem theorem;
+  std::string claim;
+  std::optional<MarginsView> margins;
+  std::optional<WitnessView> witness;
+};
+
+struct TheoremMaker {
+  static Theorem make(const checker::Theorem& theorem) {
+    CertificateView view = read_certificate(theorem.certificate());
+    return Theorem(std::make_shared<const Theorem::Content>(
+        Theorem::Content{theorem, std::move(view.claim), std::move(view.margins), std::move(view.witness)}));
+  }
+};
+
 struct Certificate::Content {
   std::string text;
-  nlohmann::json json;
+  checker::CheckResult checked;  ///< of this text
   CertificateView view;
+  std::optional<Theorem> theorem;
 };
 
 namespace {
@@ -248,10 +264,26 @@ std::array<std::array<double, 2>, 6> outer(const std::array<Limits, kCables>& li
   return result;
 }
 
-Certificate certificate_of(std::string text, nlohmann::json json) {
-  CertificateView view = read_certificate(json);
+/// Of what the checker has read.
+Certificate certificate_of(std::string text, checker::CheckResult checked) {
+  CertificateView view = read_certificate(*checked.certificate);
+  std::optional<Theorem> theorem;
+  if (checked.theorem) theorem = TheoremMaker::make(*checked.theorem);
   return Certificate(std::make_shared<const Certificate::Content>(
-      Certificate::Content{std::move(text), std::move(json), std::move(view)}));
+      Certificate::Content{std::move(text), std::move(checked), std::move(view), std::move(theorem)}));
+}
+
+/// Of a certificate that was just made.
+Certificate checked_certificate(std::string text, double max_seconds, const std::stop_token& stop) {
+  checker::CheckResult checked = recheck(text, max_seconds, stop);
+  require_confirmed(checked);
+  if (checked.outcome == checker::Outcome::kUnchecked && stop.stop_requested()) throw Interrupted("interrupted");
+  return certificate_of(std::move(text), std::move(checked));
+}
+
+void require_seconds(double seconds, const char* field) {
+  if (seconds >= 0 && std::isfinite(seconds)) return;
+  throw taut::InputError(fmt::format("{}: got {}, expected a number of seconds", field, seconds), {"", 0, field});
 }
 
 /// The table as the text of a path file; its decimals read back as the same binary64.
@@ -352,8 +384,14 @@ Certificate Certificate::load(const std::string& file) {
 
 Certificate Certificate::parse(const std::string& text, const std::string& name) {
   return within(InputKind::kCertificate, [&] {
-    return taut::reading(InputKind::kCertificate, name,
-                         [&] { return certificate_of(text, parse_certificate(text, name)); });
+    return taut::reading(InputKind::kCertificate, name, [&] {
+      checker::CheckResult unchecked;
+      unchecked.outcome = checker::Outcome::kUnchecked;
+      unchecked.message = "it was loaded";
+      unchecked.certificate = std::make_shared<const nlohmann::json>(parse_certificate(text, name));
+      unchecked.sha256 = checker::sha256(text);
+      return certificate_of(text, std::move(unchecked));
+    });
   });
 }
 
@@ -363,30 +401,42 @@ void Certificate::save(const std::string& file) const {
 
 const std::string& Certificate::text() const { return content_->text; }
 
+std::optional<Theorem> Certificate::theorem() const { return content_->theorem; }
+
 Verdict Certificate::verdict() const {
-  const std::string& verdict = content_->view.verdict;
-  return verdict == "proved" ? Verdict::kProved : verdict == "refuted" ? Verdict::kRefuted : Verdict::kUndecided;
+  if (content_->theorem) return content_->theorem->verdict();
+  return content_->view.verdict == "undecided" ? Verdict::kUndecided : Verdict::kUnchecked;
 }
 
-const std::string& Certificate::claim() const { return content_->view.claim; }
 const std::string& Certificate::case_name() const { return content_->view.problem.name; }
 
-std::optional<Margins> Certificate::margins() const {
-  const std::optional<MarginsView>& margins = content_->view.margins;
+Theorem::Theorem(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+Verdict Theorem::verdict() const {
+  const bool is_proved = content_->theorem.verdict() == checker::Theorem::Verdict::kProved;
+  return is_proved ? Verdict::kProved : Verdict::kRefuted;
+}
+
+const std::string& Theorem::claim() const { return content_->claim; }
+const std::string& Theorem::certificate_sha256() const { return content_->theorem.sha256(); }
+
+std::optional<Margins> Theorem::margins() const {
+  const std::optional<MarginsView>& margins = content_->margins;
   if (!margins) return std::nullopt;
   return within(InputKind::kCertificate, [&] {
     return Margins{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale)};
   });
 }
 
-std::optional<Witness> Certificate::witness() const {
-  if (!content_->view.witness) return std::nullopt;
-  return within(InputKind::kCertificate, [&] { return outer(*content_->view.witness); });
+std::optional<Witness> Theorem::witness() const {
+  if (!content_->witness) return std::nullopt;
+  return within(InputKind::kCertificate, [&] { return outer(*content_->witness); });
 }
 
 std::vector<Stretch> Certificate::stretches() const {
   return within(InputKind::kCertificate, [&] {
     std::vector<Stretch> result;
+    if (verdict() == Verdict::kUnchecked) return result;
     for (const StretchView& stretch : content_->view.stretches) {
       Stretch& copy = result.emplace_back();
       copy.begin = outer(stretch.begin);
@@ -416,7 +466,8 @@ Path Certificate::path() const {
 }
 
 std::string Certificate::path_csv() const {
-  return within(InputKind::kCertificate, [&] { return taut::path_csv(content_->view.problem, content_->view.path); });
+  return within(InputKind::kCertificate,
+                [&] { return taut::path_csv(content_->view.problem, content_->view.path, content_->checked.sha256); });
 }
 
 std::size_t Certificate::segments() const { return content_->view.path.segments(); }
@@ -455,11 +506,8 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
       const std::string& file = the_case.content().file;
       throw taut::InputError(fmt::format("{}: {}", file, error.what()), {file, 0, error.field()});
     }
-    if (!(options.budget_seconds >= 0) || !std::isfinite(options.budget_seconds)) {
-      throw taut::InputError(
-          fmt::format("budget_seconds: got {}, expected a number of seconds", options.budget_seconds),
-          {"", 0, "budget_seconds"});
-    }
+    require_seconds(options.budget_seconds, "budget_seconds");
+    require_seconds(options.max_check_seconds, "max_check_seconds");
     if (options.budget_seconds > 0) {
       planned.planner.max_seconds = options.budget_seconds;
       planned.planner.has_budget = true;
@@ -470,12 +518,12 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     const auto progress = [&](const PlanProgress& at) {
       relay.report({"planning", static_cast<std::size_t>(at.charts), 0});
     };
-    PlannedCase made = plan_case(planned, planner, {options.grow, key ? &*key : nullptr}, progress, relay.token());
+    PlannedCase made = plan_case(planned, planner, {options.grow, key ? &*key : nullptr, options.max_check_seconds},
+                                 progress, relay.token());
     if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
       write_whole({{options.save_atlas, planner.atlas_bytes()}});
     }
-    std::string text = certificate_text(made.certificate);
-    return certificate_of(std::move(text), std::move(made.certificate));
+    return certificate_of(std::move(made.text), std::move(made.checked));
   });
   relay.rethrow();
   return result;
@@ -483,13 +531,13 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
 
 Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options) {
   return prove_within(InputKind::kPath, [&] {
+    require_seconds(options.max_check_seconds, "max_check_seconds");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
     nlohmann::json certificate =
         prove_waypoints(the_case.content().the_case.problem, inner(path), options.max_bits, options.stop);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     if (key) key->sign(certificate);
-    std::string text = certificate_text(certificate);
-    return certificate_of(std::move(text), std::move(certificate));
+    return checked_certificate(certificate_text(certificate), options.max_check_seconds, options.stop);
   });
 }
 
@@ -499,6 +547,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
   Relay relay(options.progress, options.stop);
   const auto work = [&] {
     const Case::Content& content = the_case.content();
+    require_seconds(options.max_check_seconds, "max_check_seconds");
     AuditRequest request{path, std::nullopt, options.allow_repeats};
     if (options.interpolation) request.law = inner(*options.interpolation);
     request = resolved(request, content.the_case, content.file);
@@ -510,8 +559,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
         source, {options.max_bits, std::filesystem::temp_directory_path(), key ? &*key : nullptr},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.audit.interrupted) throw Interrupted("interrupted");
-    nlohmann::json json = nlohmann::json::parse(text);
-    return certificate_of(std::move(text), std::move(json));
+    return checked_certificate(std::move(text), options.max_check_seconds, relay.token());
   };
   try {
     return prove_within(InputKind::kPath, work);
@@ -541,23 +589,32 @@ CheckResult check(const std::string& certificate_text, const CheckOptions& optio
     for (const std::string& pem : options.trusted_keys_pem) {
       trusted.push_back(checker::read_public_key(pem, "trusted_keys_pem"));
     }
+    checker::CheckOptions request;
+    request.trusted = std::move(trusted);
+    request.stop = options.stop;
+    if (options.max_seconds) require_seconds(*options.max_seconds, "max_seconds");
+    request.max_seconds = options.max_seconds;
     nlohmann::json problem;
-    if (options.the_case) problem = to_json(options.the_case->content().the_case.problem);
-    const checker::CheckResult checked =
-        checker::check_certificate(certificate_text, options.the_case ? &problem : nullptr, trusted, options.stop);
+    if (options.the_case) {
+      problem = to_json(options.the_case->content().the_case.problem);
+      request.problem = &problem;
+    }
+    const checker::CheckResult checked = checker::check(certificate_text, request);
     CheckResult result;
     switch (checked.outcome) {
       case checker::Outcome::kAccepted: result.outcome = Outcome::kAccepted; break;
       case checker::Outcome::kRejected: result.outcome = Outcome::kRejected; break;
       case checker::Outcome::kUndecided: result.outcome = Outcome::kUndecided; break;
+      case checker::Outcome::kUnchecked: result.outcome = Outcome::kUnchecked; break;
       case checker::Outcome::kMalformed: result.outcome = Outcome::kMalformed; break;
     }
     result.message = checked.message;
-    result.verdict = checked.verdict;
+    if (checked.theorem) result.theorem = TheoremMaker::make(*checked.theorem);
     result.signer = checked.signer;
     result.is_trusted = checked.is_trusted;
-    result.segments = checked.segments;
-    result.boxes = checked.boxes;
+    result.segments = checked.counts.segments;
+    result.boxes = checked.counts.boxes;
+    result.not_compared = checked.not_compared;
     return result;
   });
 }
@@ -568,19 +625,24 @@ CheckResult check(const Certificate& certificate, const CheckOptions& options) {
 
 std::string report(const Certificate& certificate, const ReportOptions& options) {
   return prove_within(InputKind::kCertificate, [&]() -> std::string {
-    const auto& [text, json, view] = certificate.content();
-    taut::ReportOptions request{
-        options.document, options.revision, options.date.empty() ? report_date() : options.date, {}};
-    request.recheck = recheck(text, json, options.check, options.stop);
+    require_seconds(options.max_check_seconds, "max_check_seconds");
+    const taut::ReportOptions request{options.document, options.revision,
+                                      options.date.empty() ? report_date() : options.date};
+    const Certificate::Content& content = certificate.content();
+    const checker::CheckResult checked =
+        content.theorem ? content.checked : recheck(content.text, options.max_check_seconds, options.stop);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
+    if (checked.certificate == nullptr || checked.outcome == checker::Outcome::kRejected) {
+      throw taut::InputError(fmt::format("certificate: {}. No report is made of it.", sentence(checked)));
+    }
     switch (options.format) {
       case ReportFormat::kHtml: break;
-      case ReportFormat::kText: return text_summary(json, request);
-      case ReportFormat::kMarkdown: return markdown_summary(json, request);
+      case ReportFormat::kText: return text_summary(checked, request);
+      case ReportFormat::kMarkdown: return markdown_summary(checked, request);
       case ReportFormat::kJson:
-        return json_summary(json, request).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+        return json_summary(checked, request).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
     }
-    return html_report(json, request);
+    return html_report(checked, request);
   });
 }
 

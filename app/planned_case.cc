@@ -27,8 +27,11 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
     result.tolerance_limits = tolerance_limits(the_case.problem, plan.path, stop);
     illustration["tolerance_limits"] = to_json(result.tolerance_limits);
   }
-  result.certificate = make_certificate(the_case.problem, plan.path, plan.proof, std::move(illustration));
-  if (options.key != nullptr) options.key->sign(result.certificate);
+  nlohmann::json certificate = make_certificate(the_case.problem, plan.path, plan.proof, std::move(illustration));
+  if (options.key != nullptr) options.key->sign(certificate);
+  result.text = certificate_text(certificate);
+  result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop);
+  require_confirmed(result.checked);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/recheck.h"
 #include "certificate/signature.h"
 #include "certify/tolerance_limits.h"
 #include "planner/planner.h"
@@ -23,15 +24,19 @@ struct PlannedCase {
   Plan plan;
   bool whole_atlas = false;                      ///< whether the atlas was grown until nothing was left
   std::vector<ToleranceLimit> tolerance_limits;  ///< where the path is proved and the case states tolerances
-  nlohmann::json certificate;
+  std::string text;                              ///< of certificate.json
+  checker::CheckResult checked;                  ///< what the checker says of it: the verdict
 };
 
 struct PlannedCaseOptions {
-  bool grow = false;                ///< the atlas, before it is drawn and stored
-  const SigningKey* key = nullptr;  ///< null: the certificate is not signed
+  bool grow = false;                   ///< the atlas, before it is drawn and stored
+  const SigningKey* key = nullptr;     ///< null: the certificate is not signed
+  double max_seconds = kCheckSeconds;  ///< that the checker may take
 };
 
-/// @throws as Planner::plan()
+/// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it still
+/// has the best path so far checked.
+/// @throws as Planner::plan(); std::logic_error where the checker rejects the certificate.
 [[nodiscard]] PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                                     const Progress& progress, const std::stop_token& stop);
 

@@ -1,32 +1,39 @@
-// What the independent checker says of a certificate that this program wrote or reports: run here, so that nobody forgets to.
+// The independent checker, called on a certificate that this program wrote or reports: its theorem is the verdict.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stop_token>
 #include <string>
 
-#include "reports/summary/report_options.h"
+#include "checker/check.h"
 
 namespace taut {
 
-/// @param boxes   boxes and witnesses: checking takes a time in proportion
-/// @param wanted  whether to check; nothing: where it takes a few seconds at most.
-/// Stopped, it was not run, and says so. @throws std::exception where the checker itself fails.
-[[nodiscard]] Recheck recheck(const std::string& text, std::size_t boxes, bool has_tolerances,
-                              std::optional<bool> wanted, const std::stop_token& stop);
+/// How long the checker may take if nobody says [s]. A check takes about as long as the proof did.
+inline constexpr double kCheckSeconds = 300;
+/// The longest certificate that `taut audit` has checked: the checker takes some fifteen times as much memory.
+inline constexpr std::uintmax_t kMostCheckedBytes = std::uintmax_t{128} << 20U;
 
-/// The same, of a certificate of unknown make: what it takes is told by what is in it.
-[[nodiscard]] Recheck recheck(const std::string& text, const nlohmann::json& certificate, std::optional<bool> wanted,
-                              const std::stop_token& stop);
+/// What the checker says of a certificate's bytes. Stopped, it is unchecked.
+/// @param max_seconds  the budget; 0: the certificate is read, and unchecked where it claims anything.
+[[nodiscard]] checker::CheckResult recheck(const std::string& bytes, double max_seconds, const std::stop_token& stop);
+
+/// The result for a certificate that is too long to be checked here.
+[[nodiscard]] checker::CheckResult too_long_to_check();
+
+/// "proved" or "refuted" where there is a theorem, "undecided" where nothing is claimed, else "unchecked".
+/// @pre neither rejected nor malformed.
+[[nodiscard]] const char* verdict_name(const checker::CheckResult& checked);
 
 /// One line for the terminal.
-[[nodiscard]] std::string sentence(const Recheck& recheck);
-[[nodiscard]] nlohmann::json to_json(const Recheck& recheck);
+[[nodiscard]] std::string sentence(const checker::CheckResult& checked);
+/// result, checker and message, as in a summary.
+[[nodiscard]] nlohmann::json to_json(const checker::CheckResult& checked);
 
 /// Of a certificate that this program has just written: prover and checker disagree about nothing, or one of them has a bug.
 /// @throws std::logic_error where the checker rejects it.
-void require_confirmed(const Recheck& recheck);
+void require_confirmed(const checker::CheckResult& checked);
 
 /// "2024-02-29": today in UTC, or the day of SOURCE_DATE_EPOCH where that is set. @throws InputError where that is no number.
 [[nodiscard]] std::string report_date();

@@ -33,6 +33,14 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
   return path.string() + fmt::format(".{}-{}{}", ::getpid(), number++, kPart);
 }
 
+/// Where a link leads, if it leads anywhere; else the path itself.
+std::filesystem::path target_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  return error ? path : target;
+}
+
 /// The process that made a file of that name for one named `file`; 0 where it is no such name.
 pid_t maker(std::string_view name, const std::string& file) {
   const std::string prefix = file + ".";
@@ -65,12 +73,8 @@ void remove_leftovers(const std::filesystem::path& path) {
 
 }  // namespace
 
-NewFile::NewFile(std::filesystem::path path) : path_(std::move(path)) {
+NewFile::NewFile(const std::filesystem::path& path) : path_(target_of(path)) {
   std::error_code error;
-  if (std::filesystem::is_symlink(path_, error)) {
-    const std::filesystem::path target = std::filesystem::canonical(path_, error);
-    if (!error) path_ = target;
-  }
   const std::filesystem::file_status status = std::filesystem::status(path_, error);
   if (std::filesystem::is_other(status))
     fail(path_, "write", EINVAL);  // a device or pipe, which no file should replace
@@ -146,14 +150,20 @@ class FolderLock {
 
 }  // namespace
 
-void rename_into_place(std::span<NewFile* const> files) {
+void rename_into_place(std::span<NewFile* const> files, std::span<const std::filesystem::path> remove_first) {
   for (const NewFile* file : files) file->require_no_folder();
   if (files.empty()) return;
   const FolderLock lock(files.front()->temporary().parent_path());
+  for (const std::filesystem::path& old : remove_first) {
+    std::error_code error;
+    const std::filesystem::path target = target_of(old);  // a link to it stays
+    if (!std::filesystem::is_directory(target, error)) std::filesystem::remove(target, error);
+    if (error) fail(old, "remove", error.value());
+  }
   for (NewFile* file : files) file->rename_into_place();
 }
 
-void write_whole(const std::vector<FileContent>& files) {
+void write_whole(const std::vector<FileContent>& files, std::span<const std::filesystem::path> remove_first) {
   std::vector<NewFile> written;
   written.reserve(files.size());
   for (const FileContent& file : files) {
@@ -164,7 +174,7 @@ void write_whole(const std::vector<FileContent>& files) {
   std::vector<NewFile*> all;
   all.reserve(written.size());
   for (NewFile& file : written) all.push_back(&file);
-  rename_into_place(all);
+  rename_into_place(all, remove_first);
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -20,7 +20,7 @@ struct FileContent {
 /// Everything throws InputError naming the path and the system's reason.
 class NewFile {
  public:
-  explicit NewFile(std::filesystem::path path);
+  explicit NewFile(const std::filesystem::path& path);
   ~NewFile();
   NewFile(NewFile&& other) noexcept;
   NewFile(const NewFile&) = delete;
@@ -46,13 +46,15 @@ class NewFile {
   std::string buffer_;
 };
 
-/// All of them, none where a folder has one's name; of sets that threads and processes rename into one folder, the last stays
-/// whole.
-void rename_into_place(std::span<NewFile* const> files);
+/// All of them in this order, none where a folder has one's name; of sets that threads and processes rename into one folder,
+/// the last stays whole.
+/// @param remove_first  files that are removed before anything is renamed, if they are there. A file that must never be
+/// found beside others of another run is removed first and, if it is written again, renamed last.
+void rename_into_place(std::span<NewFile* const> files, std::span<const std::filesystem::path> remove_first = {});
 
-/// Writes all of them beside their paths, flushes them to disk, and only then renames: none is replaced unless all could be
-/// written. @throws InputError naming the path and the system's reason.
-void write_whole(const std::vector<FileContent>& files);
+/// Writes all of them beside their paths, flushes them to disk, and only then removes and renames, as rename_into_place():
+/// none is replaced unless all could be written. @throws InputError naming the path and the system's reason.
+void write_whole(const std::vector<FileContent>& files, std::span<const std::filesystem::path> remove_first = {});
 
 /// That a file may be written here, as far as can be told before it is. @throws InputError if not.
 void require_writable(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
 // A certificate as the report reads it (docs/certificate-format.md): types instead of JSON, nothing checked but its
-// form. Numbers that the report only prints stay the strings that they are.
+// form. What it claims is no verdict: a Scene shows it only where the checker has made a theorem of it. Numbers that the report only prints stay the strings that they are.
 #pragma once
 
 #include <map>
@@ -79,7 +79,7 @@ struct ChartView {
 
 struct CertificateView {
   std::string generator;  ///< name and version
-  std::string verdict;    ///< "proved", "refuted" or "undecided"
+  std::string verdict;    ///< "proved", "refuted" or "undecided"; "unchecked" where nobody knows (Scene)
   std::string claim;
   Problem problem;
   Path path;

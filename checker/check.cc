@@ -1,8 +1,18 @@
 #include "checker/check.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "checker/certificate.h"
@@ -81,7 +91,7 @@ class Checker {
         if (models_[i] == nullptr) models_[i] = std::make_unique<Model>(certificate_.problem, kPrecisions[i]);
         const WorkingPrecision precision(kPrecisions[i]);
         prove(*models_[i]);
-        result_.bits = std::max(result_.bits, kPrecisions[i]);
+        result_.counts.bits = std::max(result_.counts.bits, kPrecisions[i]);
         return;
       } catch (const Undefined& open) {
         if (i + 1 == kPrecisions.size()) throw Rejected(std::string("not confirmed: ") + open.what());
@@ -137,7 +147,7 @@ class Checker {
       if (pieces <= kMeanPieces * certificate_.boxes + kMaxPieces) return;
       throw Rejected("not confirmed: the boxes are too large to be proved in a reasonable time");
     };
-    require_moderate(result_.pieces + open.size());
+    require_moderate(result_.counts.pieces + open.size());
     const auto at_first = static_cast<int>(open.size());
     int pieces = 0;
     while (!open.empty()) {
@@ -161,8 +171,8 @@ class Checker {
         open.push_back({{piece.box.begin, middle}, piece.halvings + 1});
       }
     }
-    result_.pieces += static_cast<std::size_t>(pieces);
-    require_moderate(result_.pieces);
+    result_.counts.pieces += static_cast<std::size_t>(pieces);
+    require_moderate(result_.counts.pieces);
   }
 
   /// Nothing, where the segment's claim holds for every s of the box; else what could not be shown.
@@ -560,12 +570,99 @@ class Checker {
 
 /// The certificate's problem is the case's. In an audit the path is what was asked about: so the case's query does not
 /// matter, nor its space where the path goes through the free coordinates.
-void require_problem(nlohmann::json problem, const nlohmann::json& of_case) {
+/// @returns what of the case was not compared
+std::vector<std::string> require_problem(nlohmann::json problem, const nlohmann::json& of_case) {
+  std::vector<std::string> not_compared;
   if (problem["query"]["waypoints"].empty()) {
+    if (problem["query"] != of_case["query"]) not_compared.emplace_back("the case's query");
     problem["query"] = of_case["query"];
-    if (problem["space"] == coordinate_space()) problem["space"] = of_case["space"];
+    if (problem["space"] == coordinate_space() && problem["space"] != of_case["space"]) {
+      const bool has_constraints = !of_case["space"]["constraints"].empty();
+      not_compared.emplace_back(has_constraints ? "the case's space with its constraints" : "the case's space");
+      problem["space"] = of_case["space"];
+    }
   }
   if (problem != of_case) throw Rejected("the certificate is about another problem");
+  return not_compared;
+}
+
+bool is_same(const Path& path, const Waypoint& waypoint, const ExpectedPath::Waypoint& expected) {
+  if (path.interpolation != Interpolation::kCableLengths) {
+    return waypoint.x == expected.x && (has_poses(path.interpolation) || waypoint.half_turns == expected.half_turns);
+  }
+  constexpr std::size_t kPose = 7;  // px, py, pz, qx, qy, qz, qw; then the lengths
+  constexpr double kSameAssembly = 1e-6;
+  if (waypoint.x.size() != expected.x.size() ||
+      !std::equal(waypoint.x.begin() + kPose, waypoint.x.end(), expected.x.begin() + kPose)) {
+    return false;
+  }
+  const auto is_near = [&](int sign) {  // q and -q are one pose
+    for (std::size_t i = 0; i < kPose; ++i) {
+      const double other = i < 3 ? expected.x[i] : sign * expected.x[i];
+      if (!(std::abs(waypoint.x[i] - other) <= kSameAssembly)) return false;
+    }
+    return true;
+  };
+  return is_near(1) || is_near(-1);
+}
+
+/// The certificate's path is the file's: its law, its waypoints and, where either names the other, its digest.
+void require_path(const nlohmann::json& json, const Path& path, const std::string& sha256, const ExpectedPath& file) {
+  const auto fail = [&](const std::string& what) {
+    throw Rejected("the path is not that of " + file.name + ": " + what);
+  };
+  if (!file.certificate_sha256.empty() && file.certificate_sha256 != sha256) {
+    fail("the file names another certificate's SHA-256");
+  }
+  const std::string& law = json["path"]["interpolation"].get_ref<const std::string&>();
+  if (law != file.interpolation) {
+    fail("the certificate's interpolation is " + law + ", the file's is " + file.interpolation);
+  }
+  const bool stays = file.waypoints.size() == 1 && path.waypoints.size() == 2;  // a segment that stays at one pose
+  if (path.waypoints.size() != file.waypoints.size() && !stays) {
+    fail("the certificate has " + std::to_string(path.waypoints.size()) + " waypoints, the file has " +
+         std::to_string(file.waypoints.size()));
+  }
+  for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
+    const ExpectedPath::Waypoint& expected = file.waypoints[stays ? 0 : k];
+    if (is_same(path, path.waypoints[k], expected)) continue;
+    fail("waypoint " + std::to_string(k) + " differs from " + expected.place + " of the file");
+  }
+  const nlohmann::json& source = json["source"];
+  if (file.certificate_sha256.empty() && !source.is_null() && source["sha256"] != file.sha256) {
+    fail("the file that was audited has another SHA-256");
+  }
+}
+
+/// Asks to stop where the caller does, and when the time is up.
+class Budget {
+ public:
+  Budget(const std::stop_token& caller, std::optional<double> seconds)
+      : on_caller_(caller, [this] { source_.request_stop(); }) {
+    if (!seconds) return;
+    constexpr double kLongest = 1e9;  // [s]: a clock counts no more than some centuries
+    const auto allowed = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::duration<double>(std::min(*seconds, kLongest)));
+    timer_ = std::jthread([this, allowed](const std::stop_token& finished) {
+      std::mutex mutex;
+      std::unique_lock lock(mutex);
+      std::condition_variable_any never;
+      never.wait_for(lock, finished, allowed, [] { return false; });
+      if (!finished.stop_requested()) source_.request_stop();
+    });
+  }
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::stop_callback<std::function<void()>> on_caller_;
+  std::jthread timer_;  // last: joins before the rest goes
+};
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", seconds);
+  return text;
 }
 
 std::string plural(std::size_t n, const std::string& what) {
@@ -588,7 +685,7 @@ std::string printable(const std::string& text) {
 }
 
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
-  const std::string bits = "; " + std::to_string(result.bits) + " bits";
+  const std::string bits = "; " + std::to_string(result.counts.bits) + " bits";
   const std::string audit = certificate.problem.query.empty() ? "an audit, " : "";
   if (certificate.verdict == Verdict::kRefuted) {
     const std::string refuted = audit + "refuted again: the witness is confirmed";
@@ -596,42 +693,97 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
     const auto open = std::count_if(certificate.stretches.begin(), certificate.stretches.end(),
                                     [](const Stretch& stretch) { return stretch.inner.empty(); });
     return refuted + ", " + plural(certificate.stretches.size(), "stretch") + " (" + std::to_string(open) +
-           " open), and nothing outside of them: " + plural(result.boxes, "box") + " (" +
-           std::to_string(result.pieces) + " after splitting)" + bits;
+           " open), and nothing outside of them: " + plural(result.counts.boxes, "box") + " (" +
+           std::to_string(result.counts.pieces) + " after splitting)" + bits;
   }
-  return audit + "proved again: " + plural(result.segments, "segment") + ", " + plural(result.boxes, "box") + " (" +
-         std::to_string(result.pieces) + " after splitting), tension margin >= " + certificate.margins[0] +
+  return audit + "proved again: " + plural(result.counts.segments, "segment") + ", " +
+         plural(result.counts.boxes, "box") + " (" + std::to_string(result.counts.pieces) +
+         " after splitting), tension margin >= " + certificate.margins[0] +
          " N, length margin >= " + certificate.margins[1] + " m, wrench scale >= " + certificate.margins[2] + bits;
+}
+
+/// Signer, case, path file and verdict are those that were asked for.
+void require_asked_for(const Certificate& certificate, const CheckOptions& options, CheckResult& result) {
+  const nlohmann::json& json = *result.certificate;
+  result.is_trusted = std::ranges::find(options.trusted, result.signer) != options.trusted.end();
+  if (!options.trusted.empty() && !result.is_trusted) {
+    throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
+  }
+  if (options.problem != nullptr) {
+    result.not_compared = require_problem(json["problem"], *options.problem);
+  } else {
+    result.not_compared.emplace_back("case");
+  }
+  if (options.path != nullptr) {
+    require_path(json, certificate.path, result.sha256, *options.path);
+  } else {
+    result.not_compared.emplace_back("path file");
+  }
+  if (!options.expect || certificate.verdict == Verdict::kUndecided) return;
+  const bool expects_proved = *options.expect == Theorem::Verdict::kProved;
+  if (expects_proved != (certificate.verdict == Verdict::kProved)) {
+    throw Rejected("the certificate says " + json["verdict"].get<std::string>() + ", expected " +
+                   (expects_proved ? "proved" : "refuted"));
+  }
 }
 
 }  // namespace
 
-CheckResult check_certificate(const std::string& text, const nlohmann::json* problem,
-                              std::span<const std::string> trusted, const std::stop_token& stop) {
+const char* name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kAccepted: return "accepted";
+    case Outcome::kRejected: return "rejected";
+    case Outcome::kUndecided: return "undecided";
+    case Outcome::kUnchecked: return "unchecked";
+    case Outcome::kMalformed: break;
+  }
+  return "malformed";
+}
+
+std::string sha256(const std::string& bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("SHA-256 is not available");
+  }
+  std::string hex;
+  for (unsigned int i = 0; i < size; ++i) {
+    hex += "0123456789abcdef"[digest[i] >> 4U];
+    hex += "0123456789abcdef"[digest[i] & 15U];
+  }
+  return hex;
+}
+
+CheckResult check(const std::string& bytes, const CheckOptions& options) {
+  const Budget budget(options.stop, options.max_seconds);
   CheckResult result;
+  result.sha256 = sha256(bytes);
   try {
-    nlohmann::json json = parse_json(text);
+    nlohmann::json json = parse_json(bytes);
     result.signer = take_signature(json).value_or("");
     const Certificate certificate = read_certificate(json);
-    result.verdict = json["verdict"].get<std::string>();
+    result.certificate = std::make_shared<const nlohmann::json>(std::move(json));
     result.is_audit = certificate.problem.query.empty();
-    result.segments = certificate.segments.size();
-    result.boxes = certificate.boxes;
-    result.is_trusted = std::ranges::find(trusted, result.signer) != trusted.end();
-    if (!trusted.empty() && !result.is_trusted) {
-      throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
+    result.counts.segments = certificate.segments.size();
+    result.counts.boxes = certificate.boxes;
+    require_asked_for(certificate, options, result);
+    if (certificate.verdict == Verdict::kUndecided) {
+      result.outcome = Outcome::kUndecided;
+      result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
+      return result;
     }
-    if (problem != nullptr) require_problem(json["problem"], *problem);
+    if (options.max_seconds && *options.max_seconds <= 0) throw Interrupted("no time");
+    const bool is_proved = certificate.verdict == Verdict::kProved;
+    const std::stop_token stop = budget.token();
     Checker checker(certificate, result, stop);
-    switch (certificate.verdict) {
-      case Verdict::kUndecided:
-        result.outcome = Outcome::kUndecided;
-        result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
-        return result;
-      case Verdict::kProved: checker.confirm_proved(); break;
-      case Verdict::kRefuted: checker.confirm_refuted(); break;
+    if (is_proved) {
+      checker.confirm_proved();
+    } else {
+      checker.confirm_refuted();
     }
     result.message = describe_accepted(certificate, result);
+    result.theorem = Theorem(is_proved ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted, result.certificate,
+                             result.sha256, result.counts);
     result.outcome = Outcome::kAccepted;
   } catch (const Malformed& error) {
     result.outcome = Outcome::kMalformed;
@@ -639,6 +791,12 @@ CheckResult check_certificate(const std::string& text, const nlohmann::json* pro
   } catch (const Rejected& error) {
     result.outcome = Outcome::kRejected;
     result.message = printable(error.what());
+  } catch (const Interrupted&) {
+    if (options.stop.stop_requested()) throw;
+    result.outcome = Outcome::kUnchecked;
+    const double seconds = options.max_seconds.value_or(0);
+    result.message = seconds > 0 ? "the budget of " + seconds_text(seconds) + " ran out before all was proved"
+                                 : "nothing was proved, as no time was allowed for it";
   }
   return result;
 }

@@ -1,54 +1,87 @@
 // Is the claim of a certificate true? Proves it again, from the file alone.
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
-// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: errors.h, interval.h, form.h,
-// then krawczyk.h, motion.h, pose_proof.h, held.h, deviation.h and their .cc (the mathematics), check.cc (what is proved
-// of which poses), then exact.h, expression.h and certificate.h (that the numbers are those of the file); signature.h if
-// it matters who wrote it.
+// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: theorem.h, errors.h, interval.h,
+// form.h, then krawczyk.h, motion.h, pose_proof.h, held.h, deviation.h and their .cc (the mathematics), check.cc (what is
+// proved of which poses), then exact.h, expression.h and certificate.h (that the numbers are those of the file);
+// signature.h if it matters who wrote it.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <span>
+#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
+#include <vector>
+
+#include "checker/theorem.h"
 
 namespace taut::checker {
 
 enum class Outcome {
   kAccepted,   ///< the claim, "proved" or "refuted", was proved again
-  kRejected,   ///< well formed, but some statement could not be confirmed
+  kRejected,   ///< well formed, but some statement could not be confirmed, or is not what was asked for
   kUndecided,  ///< well formed, and the certificate itself claims nothing
+  kUnchecked,  ///< well formed, but the budget ran out: nothing is known of its claim
   kMalformed,  ///< unreadable, cut, altered, or no certificate
+};
+
+/// "accepted", "rejected", "undecided", "unchecked" or "malformed".
+[[nodiscard]] const char* name(Outcome outcome);
+
+/// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths these are
+/// the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m and 1e-6.
+struct ExpectedPath {
+  struct Waypoint {
+    std::vector<double> x;
+    std::vector<int> half_turns;  ///< under a law of poses there are none to compare
+    std::string place;            ///< in the file, for messages: "line 7"
+  };
+  std::string name;                 ///< of the file, for messages
+  std::string interpolation;        ///< as the format names laws: "straight-in-parameters"
+  std::vector<Waypoint> waypoints;  ///< a single one is a path that stays there
+  std::string sha256;               ///< of the file
+  std::string certificate_sha256;   ///< that the file names as its certificate's; empty where it names none
+};
+
+struct CheckOptions {
+  const nlohmann::json* problem = nullptr;   ///< where not null: what the certificate's `problem` must equal
+  const ExpectedPath* path = nullptr;        ///< where not null: what its `path` must equal
+  std::optional<Theorem::Verdict> expect{};  ///< a claim of the other verdict is rejected
+  std::vector<std::string> trusted{};        ///< unless empty: public keys (signature.h), one of which must have signed
+  unsigned threads = 0;                      ///< to prove with; 0: as many as there are cores
+  std::optional<double> max_seconds{};       ///< budget; 0: read and compare, but prove nothing; nothing: no end
+  std::stop_token stop{};                    ///< asks to stop: looked at before each piece
 };
 
 struct CheckResult {
   Outcome outcome = Outcome::kMalformed;
   std::string message = "nothing was checked";  ///< one line of printable ASCII, without the outcome itself
-  std::string verdict;                          ///< the certificate's, once it was read
-  std::string signer;                           ///< public key whose signature was verified, or empty
-  bool is_trusted = false;                      ///< whether the signer is one of those asked for
-  bool is_audit = false;                        ///< the path itself is what was asked about
-  std::size_t segments = 0;
-  std::size_t boxes = 0;
-  std::size_t pieces = 0;  ///< boxes after splitting: how many were proved at one go
-  int bits = 0;            ///< the highest precision that was needed
+  std::optional<Theorem> theorem;               ///< present exactly where accepted
+  /// What was read, unless malformed. Where there is no theorem, nothing that it claims is known to be true.
+  std::shared_ptr<const nlohmann::json> certificate;
+  std::string sha256;                     ///< of the bytes
+  std::string signer;                     ///< public key whose signature was verified, or empty
+  bool is_trusted = false;                ///< whether the signer is one of those asked for
+  bool is_audit = false;                  ///< the path itself is what was asked about
+  Theorem::Counts counts;                 ///< as far as the check went
+  std::vector<std::string> not_compared;  ///< "case", "path file", and what of a case does not matter to an audit
 };
+
+/// SHA-256 of some bytes, 64 lower-case hex digits.
+[[nodiscard]] std::string sha256(const std::string& bytes);
 
 /// Thrown where somebody asked to stop.
 struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// @param text     the whole file.
-/// @param problem  where not null: what the certificate's `problem` must equal.
-/// @param trusted  unless empty: public keys (signature.h), one of which must have signed.
-/// @param stop     asks to stop: looked at before each piece.
-/// Never throws because of what the text says. @throws Interrupted; any other std::exception only where this program or machine
-/// fails.
+/// Proves a certificate again.
+/// @param bytes  the whole file.
+/// Never throws because of what the bytes say. @throws Interrupted where options.stop asked for it; any other
+/// std::exception only where this program or machine fails.
 /// Cost: about a millisecond a box; with tolerances some 10 to 50, or half a second where they take many parts. Thread-safe.
-[[nodiscard]] CheckResult check_certificate(const std::string& text, const nlohmann::json* problem = nullptr,
-                                            std::span<const std::string> trusted = {},
-                                            const std::stop_token& stop = {});
+[[nodiscard]] CheckResult check(const std::string& bytes, const CheckOptions& options = {});
 
 }  // namespace taut::checker

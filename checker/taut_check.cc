@@ -1,19 +1,28 @@
-// taut-check CERTIFICATE [CASE] [--trust PUBKEY.pem]… [--json] [--quiet]: proves the claim of a certificate again.
+// taut-check CERTIFICATE [CASE] [--path FILE] [--expect VERDICT] [--trust PUBKEY.pem]…: proves the claim of a certificate
+// again, and says what it was compared with.
 //
 // Results go to stdout; bad input is complained about on stderr, as wrong use is, and with --json on stdout too.
-// Exit codes: 0 accepted, 1 rejected, 2 the certificate itself is undecided, 3 malformed input or wrong use,
-// 4 this program failed.
+// Exit codes: 0 accepted; 1 rejected, or not as expected; 2 the certificate itself is undecided, or the budget ran out;
+// 3 malformed input or wrong use; 4 this program failed.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "base/input_error.h"
 #include "case/case_file.h"
+#include "checker/arguments.h"
 #include "checker/check.h"
 #include "checker/errors.h"
 #include "checker/signature.h"
+#include "path_io/path_file.h"
+#include "path_io/waypoint_maker.h"
 
 namespace taut::checker {
 namespace {
@@ -32,36 +41,92 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-const char* name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kAccepted: return "accepted";
-    case Outcome::kRejected: return "rejected";
-    case Outcome::kUndecided: return "undecided";
-    case Outcome::kMalformed: return "malformed";
+taut::Interpolation law_of(const std::string& name, const PathHeader& header) {
+  if (name == "straight") return taut::Interpolation::kStraight;
+  if (name == "geodesic") return taut::Interpolation::kGeodesic;
+  if (name == "cable-lengths") return taut::Interpolation::kCableLengths;
+  return usual_law(header);
+}
+
+/// As the format names it.
+const char* name_of(taut::Interpolation law) {
+  switch (law) {
+    case taut::Interpolation::kStraight: break;
+    case taut::Interpolation::kCubicBSpline: return "cubic-b-spline";
+    case taut::Interpolation::kGeodesic: return "geodesic";
+    case taut::Interpolation::kCableLengths: return "straight-in-cable-lengths";
   }
-  return "?";
+  return "straight-in-parameters";
+}
+
+/// The path of a path file, read as `taut audit` does, repeated rows left out.
+/// @param interpolation  "straight", "geodesic" or "cable-lengths"; empty: the law that such a file usually has
+/// @throws InputError naming file, line and column.
+ExpectedPath read_expected_path(const std::string& text, const std::string& name, const taut::Problem& problem,
+                                const std::string& interpolation) {
+  if (is_certificate_name(name)) {
+    throw InputError(name + ": got the name of a certificate, expected a path file, such as path.csv", {name});
+  }
+  PathFile file(std::make_unique<std::istringstream>(text), name, problem.space, {.allow_repeats = true});
+  WaypointMaker maker(problem, file.header(), law_of(interpolation, file.header()), name);
+  ExpectedPath path;
+  path.name = name;
+  path.interpolation = name_of(maker.law());
+  path.sha256 = sha256(text);
+  path.certificate_sha256 = named_certificate(text);
+  for (PathRow row; file.next(row);) {
+    const taut::Waypoint& waypoint = maker.next(row, file.start());
+    path.waypoints.push_back({waypoint.x, waypoint.half_turns, "line " + std::to_string(row.line)});
+  }
+  return path;
 }
 
 int exit_code(Outcome outcome) {
   switch (outcome) {
     case Outcome::kAccepted: return 0;
     case Outcome::kRejected: return 1;
-    case Outcome::kUndecided: return 2;
+    case Outcome::kUndecided:
+    case Outcome::kUnchecked: return 2;
     case Outcome::kMalformed: return 3;
   }
   return 4;
 }
 
-CheckResult check_file(const std::string& certificate_path, const std::string& case_path,
-                       const std::vector<std::string>& key_paths) {
+struct Arguments {
+  std::string certificate_path;
+  std::string case_path;
+  std::string path_path;  ///< of the path file
+  std::string interpolation;
+  std::string expect;
+  std::vector<std::string> key_paths;
+  unsigned threads = 0;
+  std::optional<double> max_seconds;
+  bool as_json = false;
+  bool quiet = false;
+};
+
+CheckResult check_file(const Arguments& arguments) {
   CheckResult malformed;
   try {
-    std::vector<std::string> trusted;
-    for (const std::string& path : key_paths) trusted.push_back(read_public_key(read_file(path), path));
-    const std::string text = read_file(certificate_path);
-    if (case_path.empty()) return check_certificate(text, nullptr, trusted);
-    const nlohmann::json problem = to_json(load_case(case_path).problem);
-    return check_certificate(text, &problem, trusted);
+    CheckOptions options;
+    options.threads = arguments.threads;
+    options.max_seconds = arguments.max_seconds;
+    for (const std::string& path : arguments.key_paths)
+      options.trusted.push_back(read_public_key(read_file(path), path));
+    if (!arguments.expect.empty()) {
+      options.expect = arguments.expect == "proved" ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted;
+    }
+    const std::string bytes = read_file(arguments.certificate_path);
+    if (arguments.case_path.empty()) return check(bytes, options);
+    const taut::Problem problem = load_case(arguments.case_path).problem;
+    const nlohmann::json of_case = to_json(problem);
+    options.problem = &of_case;
+    std::optional<ExpectedPath> path;
+    if (!arguments.path_path.empty()) {
+      path = read_expected_path(read_file(arguments.path_path), arguments.path_path, problem, arguments.interpolation);
+      options.path = &*path;
+    }
+    return check(bytes, options);
   } catch (const Malformed& error) {
     malformed.message = error.what();
   } catch (const InputError& error) {
@@ -70,27 +135,85 @@ CheckResult check_file(const std::string& certificate_path, const std::string& c
   return malformed;
 }
 
+/// "; path file not compared; not compared: the case's query", or nothing.
+std::string describe_not_compared(const CheckResult& result) {
+  std::string files;
+  std::string parts;
+  for (const std::string& what : result.not_compared) {
+    if (what == "case" || what == "path file") {
+      files += "; " + what + " not compared";
+    } else {
+      parts += (parts.empty() ? "; not compared: " : ", ") + what;
+    }
+  }
+  return files + parts;
+}
+
 /// Who vouches for the file.
 std::string describe_signer(const CheckResult& result) {
   if (result.signer.empty()) return "not signed";
   return "signed by key " + fingerprint(result.signer) + (result.is_trusted ? "; trusted" : "; not trusted by anyone");
 }
 
+nlohmann::json to_json(const CheckResult& result, double seconds) {
+  nlohmann::json signature;
+  if (!result.signer.empty()) {
+    signature = {{"key", fingerprint(result.signer)}, {"public_key", result.signer}, {"trusted", result.is_trusted}};
+  }
+  nlohmann::json verdict;  // null unless it is known
+  if (result.theorem) verdict = result.theorem->verdict() == Theorem::Verdict::kProved ? "proved" : "refuted";
+  if (result.outcome == Outcome::kUndecided) verdict = "undecided";
+  return {{"outcome", name(result.outcome)},
+          {"message", result.message},
+          {"verdict", verdict},
+          {"audit", result.is_audit},
+          {"segments", result.counts.segments},
+          {"boxes", result.counts.boxes},
+          {"pieces", result.counts.pieces},
+          {"bits", result.counts.bits},
+          {"not_compared", result.not_compared},
+          {"sha256", result.sha256},
+          {"signature", signature},
+          {"seconds", seconds}};
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.add_option("CERTIFICATE", arguments.certificate_path, "certificate.json")->required();
+  CLI::Option* the_case =
+      app.add_option("CASE", arguments.case_path, "case that the certificate must be about (of an audit: its machine)");
+  CLI::Option* path =
+      app.add_option("--path", arguments.path_path,
+                     "path file whose waypoints the certificate must be about: the audited file, or the "
+                     "path.csv beside the certificate");
+  path->needs(the_case);
+  app.add_option("--interpolation", arguments.interpolation,
+                 "law of the path file, where it is not the usual one: straight, geodesic or cable-lengths")
+      ->check(CLI::IsMember({"straight", "geodesic", "cable-lengths"}))
+      ->needs(path);
+  app.add_option("--expect", arguments.expect, "reject a certificate of the other verdict: proved or refuted")
+      ->check(CLI::IsMember({"proved", "refuted"}));
+  app.add_option("--trust", arguments.key_paths,
+                 "reject what is not signed by this Ed25519 public key (PEM); repeatable")
+      ->allow_extra_args(false);
+  constexpr unsigned kMostThreads = 1024;
+  app.add_option("--threads", arguments.threads, "threads to prove with (default: one for each core)")
+      ->check(CLI::Range(1U, kMostThreads));
+  app.add_option("--max-seconds", arguments.max_seconds,
+                 "give up after so long, and say 'unchecked' (default: never); 0: compare, but prove nothing")
+      ->check(complain_of_seconds);
+  app.add_flag("--json", arguments.as_json, "print one JSON object");
+  app.add_flag("--quiet", arguments.quiet, "print nothing: the exit code says it");
+  app.set_version_flag("--version", std::string("taut-check ") + TAUT_VERSION);
+  app.footer(
+      "Exit codes: 0 accepted; 1 rejected, or not as expected; 2 undecided, or unchecked as time ran out; 3 malformed; "
+      "4 internal failure.");
+  refuse_empty_arguments(app);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Proves the claim of a certificate again, independently of the program that wrote it.", "taut-check");
-  std::string certificate_path;
-  std::string case_path;
-  std::vector<std::string> key_paths;
-  bool as_json = false;
-  bool quiet = false;
-  app.add_option("CERTIFICATE", certificate_path, "certificate.json")->required();
-  app.add_option("CASE", case_path, "case that the certificate must be about (an audit's path is its own)");
-  app.add_option("--trust", key_paths, "reject what is not signed by this Ed25519 public key (PEM); repeatable")
-      ->allow_extra_args(false);
-  app.add_flag("--json", as_json, "print one JSON object");
-  app.add_flag("--quiet", quiet, "print nothing: the exit code says it");
-  app.set_version_flag("--version", std::string("taut-check ") + TAUT_VERSION);
-  app.footer("Exit codes: 0 accepted, 1 rejected, 2 the certificate says undecided, 3 malformed, 4 internal failure.");
+  Arguments arguments;
+  add_options(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -98,28 +221,18 @@ int run(int argc, char** argv) {
   }
 
   const auto start = std::chrono::steady_clock::now();
-  const CheckResult result = check_file(certificate_path, case_path, key_paths);
+  const CheckResult result = check_file(arguments);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (as_json && !quiet) {
-    nlohmann::json signature;
-    if (!result.signer.empty()) {
-      signature = {{"key", fingerprint(result.signer)}, {"public_key", result.signer}, {"trusted", result.is_trusted}};
-    }
-    const nlohmann::json report = {{"outcome", name(result.outcome)}, {"message", result.message},
-                                   {"verdict", result.verdict},       {"audit", result.is_audit},
-                                   {"segments", result.segments},     {"boxes", result.boxes},
-                                   {"pieces", result.pieces},         {"bits", result.bits},
-                                   {"signature", signature},          {"seconds", seconds}};
-    std::cout << report.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
-  } else if (!quiet && result.outcome != Outcome::kMalformed) {
+  const bool is_malformed = result.outcome == Outcome::kMalformed;
+  if (arguments.as_json && !arguments.quiet) {
+    std::cout << to_json(result, seconds).dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
+  } else if (!arguments.quiet && !is_malformed) {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << result.message << ", " << time << "; " << describe_signer(result)
-              << std::endl;
+    std::cout << name(result.outcome) << ": " << result.message << describe_not_compared(result) << "; " << time << "; "
+              << describe_signer(result) << std::endl;
   }
-  if (!quiet && result.outcome == Outcome::kMalformed) {
-    std::cerr << name(result.outcome) << ": " << result.message << std::endl;
-  }
+  if (!arguments.quiet && is_malformed) std::cerr << name(result.outcome) << ": " << result.message << std::endl;
   if (!std::cout) throw std::runtime_error("could not write to standard output");
   return exit_code(result.outcome);
 }

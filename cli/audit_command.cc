@@ -10,8 +10,8 @@
 #include "app/recheck.h"
 #include "app/tolerance_table.h"
 #include "base/files.h"
+#include "base/sha256.h"
 #include "case/case_file.h"
-#include "certificate/certificate_file.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
 #include "cli/report_command.h"
@@ -65,22 +65,32 @@ std::string sentence(const Audit& audit) {
                              : fmt::format(", and {} could not be decided", counted(audit.stretches_open, "other")));
     case Verdict::kUndecided: break;
   }
-  return fmt::format("undecided: {} of the path could not be decided; all the rest is proved.",
+  return fmt::format("undecided: {} of the path could not be decided; nothing is claimed of the path.",
                      counted(audit.stretches_open, "stretch"));
 }
 
-void print(const Audit& audit, const PathSource& source) {
-  fmt::print("{}{}\n", source.remarks(), sentence(audit));
+void print_stretches(const Audit& audit, const PathSource& source) {
   if (audit.verdict == Verdict::kProved) {
     fmt::print("{}\n", source.problem().tolerances
                            ? "This holds for every deviation within the case's tolerances."
                            : "The case states no tolerances: this is about a machine that is exactly as it says.");
   }
-  if (!audit.stretches.empty()) fmt::print("Outside of these stretches the path is proved:\n");
+  if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
   for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], source.place_name()));
   const std::size_t all = audit.stretches_violated + audit.stretches_open;
   if (all > shown) fmt::print("  … and {} more, in certificate.json\n", all - shown);
+}
+
+void print(const Audit& audit, const PathSource& source, const checker::CheckResult& checked) {
+  fmt::print("{}", source.remarks());
+  const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
+  if (is_unchecked) {
+    fmt::print("UNCHECKED: {}. Nothing is claimed of the path.\n", checked.message);
+  } else {
+    fmt::print("{}\n", sentence(audit));
+    print_stretches(audit, source);
+  }
   fmt::print("Audited {} in {:.3g} s, {:.4g} a second.\n", counted(audit.segments, "segment"), audit.seconds,
              static_cast<double>(audit.segments) / audit.seconds);
 }
@@ -92,7 +102,7 @@ nlohmann::json place_json(const AuditPlace& place, const char* place_name) {
           {"t", place.time_s ? nlohmann::json(*place.time_s) : nlohmann::json()}};
 }
 
-nlohmann::json summary(const Audit& audit, const PathSource& source, const nlohmann::json& witness) {
+nlohmann::json stretches_json(const Audit& audit, const PathSource& source) {
   nlohmann::json stretches = nlohmann::json::array();
   for (const AuditStretch& stretch : audit.stretches) {
     const char* place_name = source.place_name();
@@ -108,17 +118,24 @@ nlohmann::json summary(const Audit& audit, const PathSource& source, const nlohm
                          {"inner", inner},
                          {"reason", stretch.inner ? nlohmann::json() : nlohmann::json(stretch.reason.text())}});
   }
-  return {{"verdict", name(audit.verdict)},
+  return stretches;
+}
+
+/// Verdict, margins and witness are the checker's; what is unchecked says nothing of stretches.
+nlohmann::json summary(const Audit& audit, const PathSource& source, const checker::CheckResult& checked) {
+  const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
+  const auto if_checked = [&](const auto& value) { return is_unchecked ? nlohmann::json() : nlohmann::json(value); };
+  return {{"verdict", verdict_name(checked)},
           {"interpolation", interpolation_name(source.law())},
           {"waypoints", source.waypoints()},
           {"segments", audit.segments},
           {"boxes", audit.boxes},
           {"boxes_judged", audit.boxes_judged},
-          {"margins", audit.margins ? to_json(*audit.margins) : nlohmann::json::object()},
-          {"witness", witness},
-          {"stretches_violated", audit.stretches_violated},
-          {"stretches_open", audit.stretches_open},
-          {"stretches", stretches},
+          {"margins", checked.theorem ? checked.theorem->margins() : nlohmann::json::object()},
+          {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
+          {"stretches_violated", if_checked(audit.stretches_violated)},
+          {"stretches_open", if_checked(audit.stretches_open)},
+          {"stretches", if_checked(stretches_json(audit, source))},
           {"seconds", audit.seconds},
           {"read", source.description()},
           {"remarks", source.remarks()}};
@@ -150,7 +167,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_flag("--allow-repeats", arguments.allow_repeats, "drop rows that repeat the pose of the row before");
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
-  add_check_option(command, arguments.check);
+  add_max_seconds_option(command, arguments.max_seconds);
 }
 
 int run_audit(const AuditArguments& arguments) {
@@ -175,6 +192,8 @@ int run_audit(const AuditArguments& arguments) {
   PathAudit audited;
   NewFile certificate(out / "certificate.json");
   NewFile csv(out / "path.csv");
+  Sha256 digest;  // of the certificate
+  std::uintmax_t size = 0;
   {
     ProgressLine line(!arguments.json);
     const auto begin = std::chrono::steady_clock::now();
@@ -185,7 +204,12 @@ int run_audit(const AuditArguments& arguments) {
       });
     };
     audited = audit_path(
-        source, {arguments.bits, out, key ? &*key : nullptr}, [&](std::string_view text) { certificate.write(text); },
+        source, {arguments.bits, out, key ? &*key : nullptr},
+        [&](std::string_view text) {
+          digest.update(text);
+          size += text.size();
+          certificate.write(text);
+        },
         [&](std::string_view text) { csv.write(text); }, progress, interruption.token());
   }
   const Audit& result = audited.audit;
@@ -194,44 +218,44 @@ int run_audit(const AuditArguments& arguments) {
     return kUndecidedExit;
   }
   certificate.finish();
+  csv.write(certificate_line(digest.hex()));
   csv.finish();
-  std::vector<NewFile*> files = {&certificate, &csv};
+  const checker::CheckResult checked = size > kMostCheckedBytes ? too_long_to_check()
+                                                                : recheck(read_whole(certificate.temporary()),
+                                                                          arguments.max_seconds, interruption.token());
+  require_confirmed(checked);
+  std::vector<NewFile*> files = {&certificate};
   const std::filesystem::path report_path = out / "report.html";
   std::optional<NewFile> report;
-  Recheck rechecked;
-  if (result.segments <= kMostReported) {
-    const std::string written = certificate.temporary().string();
-    const std::size_t witnesses = 2 * (result.stretches_violated + result.stretches_open);
-    rechecked = recheck(read_whole(written), result.boxes + witnesses, source.problem().tolerances.has_value(),
-                        arguments.check, interruption.token());
-    require_confirmed(rechecked);
+  if (result.segments <= kMostReported && checked.certificate != nullptr) {
     report.emplace(report_path);
-    report->write(html_report(read_certificate(written), {"", "", date, rechecked}));
+    report->write(html_report(checked, {"", "", date}));
     report->finish();
     files.push_back(&*report);
   }
-  rename_into_place(files);
-  if (!report) std::filesystem::remove(report_path);  // of an earlier audit
+  files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
+  std::vector<std::filesystem::path> remove_first = {out / "path.csv"};
+  if (!report) remove_first.push_back(report_path);  // of an earlier audit
+  rename_into_place(files, remove_first);
 
+  const bool is_proved = exit_code(checked) == kProvedExit;
+  const std::vector<ToleranceLimit> limits = is_proved ? audited.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
-    nlohmann::json object = summary(result, source, audited.witness);
+    nlohmann::json object = summary(result, source, checked);
     object["out"] = out.string();
-    object["tolerance_limits"] = to_json(audited.tolerance_limits);
-    object["recheck"] = to_json(rechecked);
+    object["tolerance_limits"] = to_json(limits);
+    object["recheck"] = to_json(checked);
     fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    print(result, source);
-    fmt::print("{}", tolerance_table(audited.tolerance_limits));
-    if (report) fmt::print("{}\n", sentence(rechecked));
+    print(result, source, checked);
+    fmt::print("{}{}\n", tolerance_table(limits), sentence(checked));
     fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(), report ? ", report.html" : "");
     if (!report) {
-      fmt::print(
-          "Of more than {} segments no report is made, nor are they re-checked, unless you ask for it:\n"
-          "  taut report {}\n",
-          kMostReported, (out / "certificate.json").string());
+      fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
+                 (out / "certificate.json").string());
     }
   }
-  return exit_code(result.verdict);
+  return exit_code(checked);
 }
 
 }  // namespace taut

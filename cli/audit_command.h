@@ -2,8 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
+
+#include "app/recheck.h"
 
 namespace taut {
 
@@ -16,7 +17,7 @@ struct AuditArguments {
   long bits = 4096;  ///< of the prover's last rung
   bool allow_repeats = false;
   bool json = false;
-  std::optional<bool> check;  ///< by the independent checker; nothing: where it takes a few seconds at most
+  double max_seconds = kCheckSeconds;  ///< that the checker may take
 };
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments);

@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <mutex>
 
+#include "app/recheck.h"
 #include "base/files.h"
+#include "checker/arguments.h"
 
 namespace taut {
 namespace {
@@ -22,8 +24,18 @@ extern "C" void request_interrupt(int signal) {
 
 }  // namespace
 
-ExitCode exit_code(Verdict verdict) {
-  return verdict == Verdict::kProved ? kProvedExit : verdict == Verdict::kRefuted ? kRefutedExit : kUndecidedExit;
+ExitCode exit_code(const checker::CheckResult& checked) {
+  if (!checked.theorem) return kUndecidedExit;
+  return checked.theorem->verdict() == checker::Theorem::Verdict::kProved ? kProvedExit : kRefutedExit;
+}
+
+void add_max_seconds_option(CLI::App& command, double& max_seconds) {
+  command
+      .add_option("--max-seconds", max_seconds,
+                  fmt::format("what the independent checker may take before the result is UNCHECKED (default: {:.0f}); "
+                              "0: don't check",
+                              kCheckSeconds))
+      ->check(checker::complain_of_seconds);
 }
 
 std::filesystem::path out_folder(const std::string& wanted, const std::string& file) {

@@ -1,6 +1,7 @@
 // What commands share: exit codes, interruption, a progress line, keys.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -9,13 +10,17 @@
 #include <thread>
 
 #include "certificate/signature.h"
-#include "certify/segment_proof.h"
+#include "checker/check.h"
 
 namespace taut {
 
 enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInputExit = 3, kInternalExit = 4 };
 
-[[nodiscard]] ExitCode exit_code(Verdict verdict);
+/// Of what the checker says: proved or refuted where there is a theorem, else undecided.
+[[nodiscard]] ExitCode exit_code(const checker::CheckResult& checked);
+
+/// "--max-seconds" of plan, audit and report: the checker's budget.
+void add_max_seconds_option(CLI::App& command, double& max_seconds);
 
 /// Where results go if nobody says: out/NAME, after the file of that name.
 [[nodiscard]] std::filesystem::path out_folder(const std::string& wanted, const std::string& file);

@@ -22,6 +22,7 @@
 #include "case/case_file.h"
 #include "cli/console.h"
 #include "cli/subprocess.h"
+#include "problem/scalar.h"
 
 namespace taut {
 namespace {
@@ -92,7 +93,7 @@ Measurement measurement(const json& summary) {
   take("wrench_scale", margins, "wrench_scale");
   take("segments", summary, "segments");
   take("boxes", summary, "boxes");
-  if (summary.contains("stretches_violated")) {
+  if (const json& found = summary.value("stretches_violated", json()); found.is_number()) {
     result.quantities["stretches"] =
         summary.at("stretches_violated").get<double>() + summary.at("stretches_open").get<double>();
   } else if (result.verdict == "proved") {
@@ -140,7 +141,8 @@ std::string last_lines(const std::string& text) {
 
 std::vector<std::string> command_for(const Case& declared, const fs::path& file, const RegressOptions& options,
                                      const fs::path& out) {
-  std::vector<std::string> command = {own_program(), declared.audit ? "audit" : "plan", file.string(), "--no-check"};
+  std::vector<std::string> command = {own_program(), declared.audit ? "audit" : "plan", file.string(), "--max-seconds",
+                                      fmt::format("{}", options.most_seconds)};
   if (declared.audit) {
     if (declared.audit->allow_repeats) command.emplace_back("--allow-repeats");
   } else if (options.budget) {
@@ -152,8 +154,11 @@ std::vector<std::string> command_for(const Case& declared, const fs::path& file,
 
 void recheck(const fs::path& file, const fs::path& out, const RegressOptions& options, const std::stop_token& stop,
              RegressedCase& result) {
-  const FinishedProgram checked =
-      run_program({checker_program(), (out / "certificate.json").string(), file.string()}, stop, options.most_seconds);
+  std::vector<std::string> command = {checker_program(), (out / "certificate.json").string(), file.string()};
+  if (const fs::path path = out / "path.csv"; fs::exists(path)) {
+    command.insert(command.end(), {"--path", path.string()});
+  }
+  const FinishedProgram checked = run_program(command, stop, options.most_seconds);
   const int expected = result.measurement->verdict == "undecided" ? kUndecidedExit : kProvedExit;
   if (checked.exit_code == expected) return;
   if (checked.timed_out || checked.exit_code > kUndecidedExit) {

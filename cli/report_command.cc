@@ -11,6 +11,7 @@
 #include "base/input_kind.h"
 #include "base/shown.h"
 #include "certificate/certificate_file.h"
+#include "certificate/certificate_view.h"
 #include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
 #include "cli/pdf.h"
@@ -26,15 +27,15 @@ struct Rendered {
 };
 
 /// Nothing, where somebody asked to stop.
-std::optional<Rendered> render(const ReportArguments& arguments, const nlohmann::json& certificate,
+std::optional<Rendered> render(const ReportArguments& arguments, const checker::CheckResult& checked,
                                const ReportOptions& options, const std::stop_token& stop) {
-  if (arguments.text) return Rendered{text_summary(certificate, options), nullptr};
-  if (arguments.markdown) return Rendered{markdown_summary(certificate, options), nullptr};
+  if (arguments.text) return Rendered{text_summary(checked, options), nullptr};
+  if (arguments.markdown) return Rendered{markdown_summary(checked, options), nullptr};
   if (arguments.json) {
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    return Rendered{json_summary(certificate, options).dump(1, ' ', true, kReplace) + "\n", nullptr};
+    return Rendered{json_summary(checked, options).dump(1, ' ', true, kReplace) + "\n", nullptr};
   }
-  std::string page = html_report(certificate, options);
+  std::string page = html_report(checked, options);
   if (!arguments.pdf) return Rendered{std::move(page), "report.html"};
   std::optional<std::string> pdf = print_to_pdf(page, stop);
   if (!pdf) return std::nullopt;
@@ -42,14 +43,6 @@ std::optional<Rendered> render(const ReportArguments& arguments, const nlohmann:
 }
 
 }  // namespace
-
-void add_check_option(CLI::App& command, std::optional<bool>& check) {
-  CLI::Option* yes = command.add_flag_callback(
-      "--check", [&check] { check = true; }, "have taut-check's checker prove the certificate again");
-  CLI::Option* no = command.add_flag_callback(
-      "--no-check", [&check] { check = false; }, "don't (default: it does where that takes a few seconds)");
-  yes->excludes(no);
-}
 
 void add_report_options(CLI::App& command, ReportArguments& arguments) {
   command.add_option("CERTIFICATE", arguments.certificate_path, "certificate.json")->required();
@@ -62,7 +55,7 @@ void add_report_options(CLI::App& command, ReportArguments& arguments) {
   form->add_flag("--markdown", arguments.markdown, "its first page as Markdown");
   form->add_flag("--json", arguments.json, "its first page as JSON");
   form->require_option(0, 1);
-  add_check_option(command, arguments.check);
+  add_max_seconds_option(command, arguments.max_seconds);
   command.add_option("--document", arguments.document,
                      "number of the document (default: from the certificate's digest)");
   command.add_option("--revision", arguments.revision, "its revision (default: a line to write on)");
@@ -71,12 +64,26 @@ void add_report_options(CLI::App& command, ReportArguments& arguments) {
 
 int run_report(const ReportArguments& arguments) {
   const std::string date = arguments.date.empty() ? report_date() : arguments.date;
-  const nlohmann::json certificate = read_certificate(arguments.certificate_path);
   const Interruption interruption;
-  ReportOptions options{arguments.document, arguments.revision, date, {}};
-  options.recheck = recheck(read_whole(arguments.certificate_path), certificate, arguments.check, interruption.token());
+  // Read once: what is shown is what was checked.
+  const std::string bytes = read_whole(arguments.certificate_path);
+  const checker::CheckResult checked = recheck(bytes, arguments.max_seconds, interruption.token());
+  if (checked.outcome == checker::Outcome::kMalformed) {
+    // A report's reader says what it saw and where; what only the checker minds is said in its words.
+    reading(InputKind::kCertificate, arguments.certificate_path,
+            [&] { (void)read_certificate(parse_certificate(bytes, arguments.certificate_path)); });
+    throw InputErrorOfKind(
+        InputKind::kCertificate,
+        fmt::format("{}: got {}, expected a certificate", arguments.certificate_path, checked.message),
+        {arguments.certificate_path});
+  }
+  if (checked.outcome == checker::Outcome::kRejected) {
+    fmt::print(stderr, "taut: {}: {}. No report is made of it.\n", arguments.certificate_path, sentence(checked));
+    return kRefutedExit;
+  }
+  const ReportOptions options{arguments.document, arguments.revision, date};
   const std::optional<Rendered> made = reading(InputKind::kCertificate, arguments.certificate_path, [&] {
-    return render(arguments, certificate, options, interruption.token());
+    return render(arguments, checked, options, interruption.token());
   });
   if (!made || interruption.token().stop_requested()) {
     fmt::print(stderr, "taut: interrupted: nothing was written\n");
@@ -96,11 +103,11 @@ int run_report(const ReportArguments& arguments) {
           fmt::format("--out: got '{}', which is the certificate, expected another file", shown(target.string())));
     }
     write_whole({{target, rendered.content}});
-    fmt::print("{}\nWritten: {}\n", sentence(options.recheck), target.string());
+    fmt::print("{}\nWritten: {}\n", sentence(checked), target.string());
   }
-  if (options.recheck.result != Recheck::Result::kRejected) return kProvedExit;
-  fmt::print(stderr, "taut: {}: {}\n", arguments.certificate_path, sentence(options.recheck));
-  return kRefutedExit;
+  if (checked.outcome != checker::Outcome::kUnchecked) return kProvedExit;
+  fmt::print(stderr, "taut: {}: {}\n", arguments.certificate_path, sentence(checked));
+  return kUndecidedExit;
 }
 
 }  // namespace taut

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 
-#include "reports/summary/report_options.h"
+#include "app/recheck.h"
 
 namespace taut {
 
@@ -13,16 +12,14 @@ struct ReportArguments {
   std::string certificate_path;
   std::string out;
   bool pdf = false, text = false, markdown = false, json = false;  ///< at most one; none: HTML
-  std::optional<bool> check;                                       ///< nothing: where it takes a few seconds at most
+  double max_seconds = kCheckSeconds;                              ///< that the checker may take
   std::string document, revision, date;
 };
 
 void add_report_options(CLI::App& command, ReportArguments& arguments);
 
-/// "--check" and "--no-check".
-void add_check_option(CLI::App& command, std::optional<bool>& check);
-
-/// @returns the exit code: 1 where the certificate was rejected. @throws as main expects.
+/// @returns the exit code: 0, also of an undecided certificate; 1 where it was rejected, and nothing was written; 2 where it
+/// was not checked within the budget, or somebody asked to stop. @throws as main expects.
 [[nodiscard]] int run_report(const ReportArguments& arguments);
 
 }  // namespace taut

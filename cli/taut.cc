@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -10,15 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/planned_case.h"
-#include "app/recheck.h"
-#include "app/tolerance_table.h"
-#include "base/files.h"
-#include "base/input_error.h"
-#include "certificate/certificate.h"
 #include "certificate/signature.h"
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
+#include "checker/arguments.h"
 #include "cli/audit_command.h"
 #include "cli/console.h"
 #include "cli/doctor.h"
@@ -46,11 +42,14 @@ struct PlanArguments {
   bool grow = false;
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
-  std::optional<bool> check;  ///< nothing: where it takes a few seconds at most
+  double max_seconds = kCheckSeconds;  ///< that the checker may take
 };
 
-std::string sentence(const Plan& plan) {
+std::string plan_sentence(const Plan& plan, const checker::CheckResult& checked) {
   const PathProof& proof = plan.proof;
+  if (checked.outcome == checker::Outcome::kUnchecked) {
+    return fmt::format("UNCHECKED: {}. Nothing is claimed of the path.", checked.message);
+  }
   switch (proof.verdict) {
     case Verdict::kProved:
       return fmt::format(
@@ -109,55 +108,53 @@ int run_plan(const PlanArguments& arguments) {
     const auto progress = [&](const PlanProgress& at) {
       line.show([&] { return fmt::format("planning: {} charts", at.charts); });
     };
-    planned = plan_case(case_, planner, {arguments.grow, key ? &*key : nullptr}, progress, interruption.token());
+    planned = plan_case(case_, planner, {arguments.grow, key ? &*key : nullptr, arguments.max_seconds}, progress,
+                        interruption.token());
   }
   const Plan& result = planned.plan;
-  const std::vector<ToleranceLimit>& limits = planned.tolerance_limits;
-  const nlohmann::json& certificate = planned.certificate;
-  const std::string text = certificate_text(certificate);
-  const Recheck rechecked = recheck(text, static_cast<std::size_t>(result.proof.boxes),
-                                    case_.problem.tolerances.has_value(), arguments.check, interruption.token());
-  require_confirmed(rechecked);
-  const bool is_proved = result.proof.verdict == Verdict::kProved;
-  std::vector<FileContent> files = {{out / "certificate.json", text},
-                                    {out / "report.html", html_report(certificate, {"", "", date, rechecked})}};
+  const checker::CheckResult& checked = planned.checked;
+  const bool is_proved = exit_code(checked) == kProvedExit;
+  const std::vector<ToleranceLimit> limits = is_proved ? planned.tolerance_limits : std::vector<ToleranceLimit>();
+  std::vector<FileContent> files = {{out / "certificate.json", planned.text},
+                                    {out / "report.html", html_report(checked, {"", "", date})}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
-  // What is not proved is not for a machine to follow.
-  const std::filesystem::path path_file = out / "path.csv";
-  if (is_proved) files.push_back({path_file, path_csv(case_.problem, result.path)});
-  write_whole(files);
-  if (!is_proved) std::filesystem::remove(path_file);  // of an earlier plan
+  // What is not proved is not for a machine to follow: path.csv goes first, and comes back last.
+  const std::array<std::filesystem::path, 1> path_file = {out / "path.csv"};
+  if (is_proved) files.push_back({path_file[0], path_csv(case_.problem, result.path, checked.sha256)});
+  write_whole(files, path_file);
 
   const PlanStatistics& s = result.statistics;
   const MotionLengths lengths = is_proved ? planner.measure(result.path) : MotionLengths{};
   if (arguments.json) {
-    const nlohmann::json summary = {{"verdict", certificate["verdict"]},
-                                    {"segments", result.proof.segments.size()},
-                                    {"boxes", result.proof.boxes},
-                                    {"charts", s.charts},
-                                    {"charts_stored", s.charts_stored},
-                                    {"nodes_expanded", s.nodes_expanded},
-                                    {"edges_checked", s.edges_checked},
-                                    {"edges_rejected", s.edges_rejected},
-                                    {"cost", s.cost},
-                                    {"cost_found", s.cost_found},
-                                    {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nullptr},
-                                    {"budget_spent", s.budget_spent},
-                                    {"length_m", is_proved ? nlohmann::json(lengths.length_m) : nullptr},
-                                    {"angle_rad", is_proved ? nlohmann::json(lengths.angle_rad) : nullptr},
-                                    {"plan_seconds", s.plan_seconds},
-                                    {"smooth_seconds", s.smooth_seconds},
-                                    {"prove_seconds", s.prove_seconds},
-                                    {"tolerance_limits", to_json(limits)},
-                                    {"margins", certificate["margins"]},
-                                    {"witness", certificate["witness"]},
-                                    {"undecided", certificate["undecided"]},
-                                    {"recheck", to_json(rechecked)},
-                                    {"out", out.string()}};
+    const nlohmann::json summary = {
+        {"verdict", verdict_name(checked)},
+        {"segments", result.proof.segments.size()},
+        {"boxes", result.proof.boxes},
+        {"charts", s.charts},
+        {"charts_stored", s.charts_stored},
+        {"nodes_expanded", s.nodes_expanded},
+        {"edges_checked", s.edges_checked},
+        {"edges_rejected", s.edges_rejected},
+        {"cost", s.cost},
+        {"cost_found", s.cost_found},
+        {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nullptr},
+        {"budget_spent", s.budget_spent},
+        {"length_m", is_proved ? nlohmann::json(lengths.length_m) : nullptr},
+        {"angle_rad", is_proved ? nlohmann::json(lengths.angle_rad) : nullptr},
+        {"plan_seconds", s.plan_seconds},
+        {"smooth_seconds", s.smooth_seconds},
+        {"prove_seconds", s.prove_seconds},
+        {"tolerance_limits", to_json(limits)},
+        {"margins", checked.theorem ? checked.theorem->margins() : nlohmann::json::object()},
+        {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
+        {"undecided",
+         checked.outcome == checker::Outcome::kUndecided ? checked.certificate->at("undecided") : nlohmann::json()},
+        {"recheck", to_json(checked)},
+        {"out", out.string()}};
     fmt::print("{}\n", summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}\n", sentence(result));
+    fmt::print("{}\n", plan_sentence(result, checked));
     if (s.charts > 0) {
       fmt::print("{} charts, {} expanded; {} edges looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n",
                  s.charts, s.nodes_expanded, s.edges_checked, s.edges_rejected, s.cost, s.cost_found);
@@ -170,14 +167,14 @@ int run_plan(const PlanArguments& arguments) {
       if (is_proved) fmt::print("{}.\n", length_sentence(s));
       fmt::print("{}", tolerance_table(limits));
     }
-    fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(rechecked), out.string(),
+    fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), out.string(),
                is_proved ? "path.csv, " : "");
     if (saves_atlas) {
       fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
                  planned.whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
     }
   }
-  return exit_code(result.proof.verdict);
+  return exit_code(checked);
 }
 
 int run(int argc, char** argv) {
@@ -198,10 +195,9 @@ int run(int argc, char** argv) {
                        failed->get_name(), command);
   });
   app.footer(
-      "Exit codes of plan and audit: 0 proved, 1 refuted, 2 undecided, 3 bad input, 4 internal failure or "
-      "untrustworthy machine. "
-      "Of the others: 0 done (report: and where asked, accepted), 1 not accepted or not as expected, 2 interrupted, 3 "
-      "and 4 likewise.");
+      "Exit codes of plan and audit, whose verdict is the independent checker's: 0 proved, 1 refuted, 2 undecided or "
+      "unchecked, 3 bad input, 4 internal failure or untrustworthy machine. Of the others: 0 done, 1 rejected (report) "
+      "or not as expected (regress), 2 interrupted or unchecked, 3 and 4 likewise.");
 
   PlanArguments plan_arguments;
   CLI::App* plan_command = app.add_subcommand("plan", "plan, prove, write path.csv, certificate.json, report.html");
@@ -221,7 +217,7 @@ int run(int argc, char** argv) {
       });
   plan_command->add_option("--sign", plan_arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
-  add_check_option(*plan_command, plan_arguments.check);
+  add_max_seconds_option(*plan_command, plan_arguments.max_seconds);
 
   AuditArguments audit_arguments;
   CLI::App* audit_command = app.add_subcommand("audit", "prove or refute a path that something else made");
@@ -249,6 +245,7 @@ int run(int argc, char** argv) {
   CLI::App* show_command = app.add_subcommand("show", "print what a case was understood to say; draw the robot");
   add_show_options(*show_command, show_arguments);
 
+  checker::refuse_empty_arguments(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

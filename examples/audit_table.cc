@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     }
     const taut::Certificate certificate = taut::audit(robot, arc, {}, "arc");
     if (certificate.verdict() == taut::Verdict::kProved) {
-      std::cout << "proved, with " << certificate.margins()->tension_N << " N to spare\n";
+      std::cout << "proved, with " << certificate.theorem()->margins()->tension_N << " N to spare\n";
       return 0;
     }
     for (const taut::Stretch& stretch : certificate.stretches()) {

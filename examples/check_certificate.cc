@@ -17,9 +17,12 @@ int main(int argc, char** argv) {
     taut::CheckOptions options;
     options.the_case = taut::Case::load(argv[2]);
     const taut::CheckResult result = taut::check(text.str(), options);
-    std::cout << (result.outcome == taut::Outcome::kAccepted ? "accepted: " : "not accepted: ") << result.message
-              << "\n";
-    return result.outcome == taut::Outcome::kAccepted ? 0 : 1;
+    if (!result.theorem) {
+      std::cout << "not accepted: " << result.message << "\n";
+      return 1;
+    }
+    std::cout << "accepted: " << result.message << "\n" << result.theorem->claim() << "\n";
+    return 0;
   } catch (const taut::InputError& error) {
     std::cerr << error.what() << "\n";
     return 3;

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       std::cout << "not proved: " << certificate.reason() << "\n";
       return 1;
     }
-    const taut::Margins margins = certificate.margins().value();
+    const taut::Margins margins = certificate.theorem()->margins().value();
     std::cout << "proved: " << certificate.segments() << " segments; every tension stays at least " << margins.tension_N
               << " N inside its limits\n";
     certificate.save(folder + "/certificate.json");

@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "path_io/path_file.h"
+
 namespace taut {
 
 PathCsv::PathCsv(const Problem& problem, Interpolation law, bool has_times)
@@ -37,13 +39,13 @@ std::string PathCsv::row(std::size_t number, const Waypoint& waypoint, std::stri
   return text;
 }
 
-std::string path_csv(const Problem& problem, const Path& path) {
+std::string path_csv(const Problem& problem, const Path& path, std::string_view certificate_sha256) {
   const PathCsv csv(problem, path.interpolation, !path.times.empty());
   std::string text = csv.header();
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
     text += csv.row(k, path.waypoints[k], path.times.empty() ? std::string_view() : path.times[k]);
   }
-  return text;
+  return text + certificate_line(certificate_sha256);
 }
 
 }  // namespace taut

@@ -11,7 +11,7 @@ namespace taut {
 
 /// Lines of path.csv. Under a law through parameters: waypoint (or control_point), x.NAME, half_turns.NAME with
 /// λ = x + π half_turns, t if there are times, and the pose there (rounded; on the constraints, where there are some). Under a
-/// law of poses a table as docs/audits.md has it.
+/// law of poses a table as docs/audits.md has it. The last line is certificate_line() of path_file.h.
 class PathCsv {
  public:
   PathCsv(const Problem& problem, Interpolation law, bool has_times);
@@ -26,7 +26,7 @@ class PathCsv {
   PoseSampler sampler_;
 };
 
-/// All of it, with the path's times.
-[[nodiscard]] std::string path_csv(const Problem& problem, const Path& path);
+/// All of it, with the path's times; its last line names the certificate of these bytes' SHA-256.
+[[nodiscard]] std::string path_csv(const Problem& problem, const Path& path, std::string_view certificate_sha256);
 
 }  // namespace taut

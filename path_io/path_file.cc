@@ -657,6 +657,22 @@ const std::vector<double>& PathFile::start() const { return self_->start(); }
 std::size_t PathFile::repeats_dropped() const { return self_->repeats_dropped(); }
 std::uintmax_t PathFile::bytes_read() const { return self_->bytes_read(); }
 
+namespace {
+constexpr std::string_view kCertificateLine = "# certificate.json SHA-256: ";
+}
+
+std::string certificate_line(std::string_view sha256) { return fmt::format("{}{}\n", kCertificateLine, sha256); }
+
+std::string named_certificate(std::string_view text) {
+  std::size_t at = text.rfind(kCertificateLine);
+  while (at != std::string_view::npos && at != 0 && text[at - 1] != '\n') {
+    at = text.rfind(kCertificateLine, at - 1);
+  }
+  if (at == std::string_view::npos) return "";
+  const std::string_view rest = text.substr(at + kCertificateLine.size());
+  return std::string(trimmed(rest.substr(0, rest.find('\n'))));
+}
+
 bool is_certificate_name(std::string_view path) { return path.ends_with(".json"); }
 
 }  // namespace taut

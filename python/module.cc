@@ -124,9 +124,10 @@ const char* name_of(taut::Verdict verdict) {
   switch (verdict) {
     case taut::Verdict::kProved: return "proved";
     case taut::Verdict::kRefuted: return "refuted";
-    case taut::Verdict::kUndecided: break;
+    case taut::Verdict::kUndecided: return "undecided";
+    case taut::Verdict::kUnchecked: break;
   }
-  return "undecided";
+  return "unchecked";
 }
 
 const char* name_of(taut::Outcome outcome) {
@@ -134,6 +135,7 @@ const char* name_of(taut::Outcome outcome) {
     case taut::Outcome::kAccepted: return "accepted";
     case taut::Outcome::kRejected: return "rejected";
     case taut::Outcome::kUndecided: return "undecided";
+    case taut::Outcome::kUnchecked: return "unchecked";
     case taut::Outcome::kMalformed: break;
   }
   return "malformed";
@@ -189,6 +191,17 @@ py::dict witness_dict(const taut::Witness& witness) {
   dict["limit"] = unless_singular(witness.limit);
   dict["deviates"] = witness.deviates;
   return dict;
+}
+
+/// verdict, claim, margins, witness, SHA-256; or None
+py::object theorem_tuple(const std::optional<taut::Theorem>& theorem) {
+  if (!theorem) return py::none();
+  const auto margins = theorem->margins();
+  const auto witness = theorem->witness();
+  return py::make_tuple(
+      name_of(theorem->verdict()), theorem->claim(),
+      margins ? py::object(py::make_tuple(margins->tension_N, margins->length_m, margins->wrench_scale)) : py::none(),
+      witness ? py::object(witness_dict(*witness)) : py::none(), theorem->certificate_sha256());
 }
 
 py::list stretch_list(const std::vector<taut::Stretch>& stretches) {
@@ -280,19 +293,8 @@ PYBIND11_MODULE(_taut, module) {
       .def("save", &taut::Certificate::save, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("text", &taut::Certificate::text)
       .def_property_readonly("verdict", [](const taut::Certificate& c) { return name_of(c.verdict()); })
-      .def_property_readonly("claim", &taut::Certificate::claim)
+      .def_property_readonly("theorem", [](const taut::Certificate& c) { return theorem_tuple(c.theorem()); })
       .def_property_readonly("case_name", &taut::Certificate::case_name)
-      .def_property_readonly("margins",
-                             [](const taut::Certificate& c) -> py::object {
-                               const auto margins = c.margins();
-                               if (!margins) return py::none();
-                               return py::make_tuple(margins->tension_N, margins->length_m, margins->wrench_scale);
-                             })
-      .def_property_readonly("witness",
-                             [](const taut::Certificate& c) -> py::object {
-                               const auto witness = c.witness();
-                               return witness ? py::object(witness_dict(*witness)) : py::none();
-                             })
       .def_property_readonly("stretches", [](const taut::Certificate& c) { return stretch_list(c.stretches()); })
       .def_property_readonly("reason", &taut::Certificate::reason)
       .def_property_readonly("reason_code", &taut::Certificate::reason_code)
@@ -307,54 +309,61 @@ PYBIND11_MODULE(_taut, module) {
   module.def(
       "plan",
       [](const taut::Case& the_case, double budget_seconds, const std::string& atlas, const std::string& save_atlas,
-         bool grow, const std::string& signing_key, const py::object& progress) {
+         bool grow, const std::string& signing_key, double max_check_seconds, const py::object& progress) {
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
-          return taut::plan(the_case, {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop});
+          return taut::plan(the_case,
+                            {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop, max_check_seconds});
         });
       },
-      "case"_a, "budget_seconds"_a, "atlas"_a, "save_atlas"_a, "grow"_a, "signing_key"_a, "progress"_a);
+      "case"_a, "budget_seconds"_a, "atlas"_a, "save_atlas"_a, "grow"_a, "signing_key"_a, "max_check_seconds"_a,
+      "progress"_a);
 
   module.def(
       "prove",
       [](const taut::Case& the_case, const std::string& interpolation, const Array& waypoints,
          const std::optional<IntArray>& half_turns, std::vector<std::string> times, long max_bits,
-         const std::string& signing_key) {
+         const std::string& signing_key, double max_check_seconds) {
         const taut::Path path = path_of(interpolation, waypoints, half_turns, std::move(times));
         return run([&](const std::stop_token& stop) {
-          return taut::prove(the_case, path, {max_bits, signing_key, stop});
+          return taut::prove(the_case, path, {max_bits, signing_key, stop, max_check_seconds});
         });
       },
-      "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "max_bits"_a, "signing_key"_a);
+      "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "max_bits"_a, "signing_key"_a,
+      "max_check_seconds"_a);
 
   const auto audit_options = [](const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
-                                const std::string& signing_key) {
+                                const std::string& signing_key, double max_check_seconds) {
     taut::AuditOptions options;
     if (interpolation) options.interpolation = interpolation_of(*interpolation);
     options.allow_repeats = allow_repeats;
     options.max_bits = max_bits;
     options.signing_key_pem = signing_key;
+    options.max_check_seconds = max_check_seconds;
     return options;
   };
   module.def(
       "audit_file",
       [=](const taut::Case& the_case, const std::optional<std::string>& file,
           const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
-          const std::string& signing_key, const py::object& progress) {
-        taut::AuditOptions options = audit_options(interpolation, allow_repeats, max_bits, signing_key);
+          const std::string& signing_key, double max_check_seconds, const py::object& progress) {
+        taut::AuditOptions options =
+            audit_options(interpolation, allow_repeats, max_bits, signing_key, max_check_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
           return file ? taut::audit(the_case, *file, options) : taut::audit(the_case, options);
         });
       },
-      "case"_a, "file"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a, "progress"_a);
+      "case"_a, "file"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a, "max_check_seconds"_a,
+      "progress"_a);
   module.def(
       "audit_table",
       [=](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
           const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
-          const std::string& signing_key, const py::object& progress) {
+          const std::string& signing_key, double max_check_seconds, const py::object& progress) {
         const taut::Table table = {std::move(columns), {values.data(), values.data() + values.size()}};
-        taut::AuditOptions options = audit_options(interpolation, allow_repeats, max_bits, signing_key);
+        taut::AuditOptions options =
+            audit_options(interpolation, allow_repeats, max_bits, signing_key, max_check_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
@@ -362,25 +371,25 @@ PYBIND11_MODULE(_taut, module) {
         });
       },
       "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a,
-      "progress"_a);
+      "max_check_seconds"_a, "progress"_a);
 
   module.def(
       "check",
       [](const py::bytes& certificate, const std::optional<taut::Case>& the_case,
-         const std::vector<std::string>& trusted_keys) {
+         const std::vector<std::string>& trusted_keys, const std::optional<double>& max_seconds) {
         const std::string text = certificate;
         const taut::CheckResult result = run([&](const std::stop_token& stop) {
-          return taut::check(text, {the_case, trusted_keys, stop});
+          return taut::check(text, {the_case, trusted_keys, stop, max_seconds});
         });
-        return py::make_tuple(name_of(result.outcome), result.message, result.verdict, result.signer, result.is_trusted,
-                              result.segments, result.boxes);
+        return py::make_tuple(name_of(result.outcome), result.message, theorem_tuple(result.theorem), result.signer,
+                              result.is_trusted, result.segments, result.boxes, result.not_compared);
       },
-      "certificate"_a, "case"_a, "trusted_keys"_a);
+      "certificate"_a, "case"_a, "trusted_keys"_a, "max_seconds"_a);
 
   module.def(
       "report",
       [](const taut::Certificate& certificate, const std::string& format, const std::string& document,
-         const std::string& revision, const std::string& date, const std::optional<bool>& check) {
+         const std::string& revision, const std::string& date, double max_check_seconds) {
         taut::ReportOptions options;
         if (format == "html") {
           options.format = taut::ReportFormat::kHtml;
@@ -397,11 +406,11 @@ PYBIND11_MODULE(_taut, module) {
         options.document = document;
         options.revision = revision;
         options.date = date;
-        options.check = check;
+        options.max_check_seconds = max_check_seconds;
         return run([&](const std::stop_token& stop) {
           options.stop = stop;
           return taut::report(certificate, options);
         });
       },
-      "certificate"_a, "format"_a, "document"_a, "revision"_a, "date"_a, "check"_a);
+      "certificate"_a, "format"_a, "document"_a, "revision"_a, "date"_a, "max_check_seconds"_a);
 }

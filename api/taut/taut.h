@@ -4,6 +4,9 @@
 //   const taut::Certificate certificate = taut::plan(crane);
 //   if (certificate.verdict() == taut::Verdict::kProved) certificate.save("certificate.json");
 //
+// A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that was
+// loaded has none until check() has proved it again.
+//
 // What comes out is what the commands `taut plan` and `taut audit` write for the same input, byte for byte. SI and radians
 // everywhere.
 //
@@ -153,9 +156,10 @@ struct Table {
 // --- Certificates ----------------------------------------------------------------------------------------------------
 
 enum class Verdict {
-  kProved,    ///< the claim holds along the whole path
-  kRefuted,   ///< it does not, and that is proved
-  kUndecided  ///< nothing is claimed; that does not mean that the path is unsafe
+  kProved,     ///< the claim holds along the whole path
+  kRefuted,    ///< it does not, and that is proved
+  kUndecided,  ///< nothing is claimed; that does not mean that the path is unsafe
+  kUnchecked   ///< the independent checker was not asked, or not given the time: nothing is known of what is claimed
 };
 
 /// Proved lower bounds, rounded down.
@@ -184,6 +188,24 @@ struct Witness {
   bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
 };
 
+/// What the independent checker has proved. Only the checker makes one, so whoever has one has a verdict. Copies are cheap.
+class TAUT_EXPORT Theorem {
+ public:
+  [[nodiscard]] Verdict verdict() const;                 ///< kProved or kRefuted
+  [[nodiscard]] const std::string& claim() const;        ///< in words
+  [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
+  [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted
+  /// SHA-256 of the text of the certificate that was proved, 64 lower-case hex digits.
+  [[nodiscard]] const std::string& certificate_sha256() const;
+
+  struct Content;  // the library's own
+
+ private:
+  friend struct TheoremMaker;
+  explicit Theorem(std::shared_ptr<const Content> content);
+  std::shared_ptr<const Content> content_;
+};
+
 /// A stretch of an audited path that is not proved.
 struct Stretch {
   Place begin, end;                                       ///< outside of them the path is proved
@@ -205,7 +227,8 @@ struct Sample {
 
 /// A claim with all that is needed to prove it again (docs/certificate-format.md). Copies are cheap.
 ///
-/// A certificate that was loaded or parsed is one whose digest fits, no more: whether it is true is check()'s to say.
+/// A certificate that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked, and
+/// whether it is true is check()'s to say.
 class TAUT_EXPORT Certificate {
  public:
   /// @throws InputError where the file can't be read, is no certificate, or was cut or altered.
@@ -218,16 +241,16 @@ class TAUT_EXPORT Certificate {
   /// What a file of it holds, byte for byte: JSON.
   [[nodiscard]] const std::string& text() const;
 
-  [[nodiscard]] Verdict verdict() const;
-  [[nodiscard]] const std::string& claim() const;  ///< the theorem, in words
-  [[nodiscard]] const std::string& case_name() const;
-  [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
-  [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted
-  [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved
+  /// The theorem that the checker made of this text for plan(), prove() or audit(); nothing of a certificate that was loaded.
+  [[nodiscard]] std::optional<Theorem> theorem() const;
+  [[nodiscard]] Verdict verdict() const;                 ///< the theorem's; kUndecided or kUnchecked without one
+  [[nodiscard]] const std::string& case_name() const;    ///< free text
+  [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved; none of an unchecked one
   [[nodiscard]] const std::string& reason() const;       ///< only if undecided
   [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty
   [[nodiscard]] Path path() const;                       ///< bit for bit
-  [[nodiscard]] std::string path_csv() const;  ///< as `taut plan` writes it of a proved path, for a machine to follow
+  /// As `taut plan` writes it of a proved path, for a machine to follow; its last line names this certificate's SHA-256.
+  [[nodiscard]] std::string path_csv() const;
   [[nodiscard]] std::size_t segments() const;
   [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
 
@@ -253,6 +276,9 @@ struct Progress {
 /// Called every now and then, by one thread at a time, which need not be the caller's.
 using ProgressCallback = std::function<void(const Progress&)>;
 
+/// The checker's budget if nobody says [s]: a check takes about as long as the proof did.
+inline constexpr double kCheckSeconds = 300;
+
 struct PlanOptions {
   double budget_seconds = 0;    ///< for planning and proving; 0: the case's own
   std::string atlas;            ///< begin with the charts of this file (docs/atlas-file.md); empty: with none
@@ -262,6 +288,7 @@ struct PlanOptions {
   ProgressCallback progress = {};
   /// Asks for the best path so far: without one the certificate says undecided, "interrupted".
   std::stop_token stop = {};
+  double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
 };
 
 /// Plans through the case's query and proves the path: `taut plan`. A case without a path that is found is undecided.
@@ -272,6 +299,7 @@ struct ProveOptions {
   long max_bits = 4096;  ///< precision beyond which the prover gives up; 128 at least
   std::string signing_key_pem;
   std::stop_token stop = {};
+  double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
 };
 
 /// Proves a path that the caller has made. One that is not proved is refuted at the first violation found, or undecided at the
@@ -286,6 +314,7 @@ struct AuditOptions {
   std::string signing_key_pem;
   ProgressCallback progress = {};
   std::stop_token stop = {};
+  double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
 };
 
 /// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the path here;
@@ -303,23 +332,27 @@ enum class Outcome {
   kAccepted,  ///< the claim, "proved" or "refuted", was proved again
   kRejected,  ///< well formed, but some statement could not be confirmed, or is not about the case or by the signer asked for
   kUndecided,  ///< well formed, and the certificate itself claims nothing
+  kUnchecked,  ///< well formed, but the budget ran out: nothing is known of its claim
   kMalformed   ///< unreadable, cut, altered, or no certificate
 };
 
 struct CheckResult {
   Outcome outcome = Outcome::kMalformed;
-  std::string message;      ///< one line
-  std::string verdict;      ///< the certificate's: "proved" …
-  std::string signer;       ///< public key whose signature was verified, 64 hex digits, or empty
-  bool is_trusted = false;  ///< whether the signer is one of those asked for
+  std::string message;             ///< one line
+  std::optional<Theorem> theorem;  ///< present exactly where accepted
+  std::string signer;              ///< public key whose signature was verified, 64 hex digits, or empty
+  bool is_trusted = false;         ///< whether the signer is one of those asked for
   std::size_t segments = 0;
   std::size_t boxes = 0;
+  /// "case" or "path file" where the certificate was not compared with one, and what of the case does not matter to an audit.
+  std::vector<std::string> not_compared;
 };
 
 struct CheckOptions {
   std::optional<Case> the_case = {};               ///< that the certificate must be about, to the last digit
   std::vector<std::string> trusted_keys_pem = {};  ///< unless empty: Ed25519 public keys, one of which must have signed
   std::stop_token stop = {};
+  std::optional<double> max_seconds = {};  ///< budget; nothing: no end
 };
 
 /// Proves a certificate again, by the independent checker: what `taut-check` says. Takes the text, since a certificate may be no
@@ -335,13 +368,14 @@ struct ReportOptions {
   std::string document;  ///< its number; empty: one made from the certificate's digest
   std::string revision;  ///< empty: a line to write on
   std::string date;      ///< empty: today in UTC, or the day of SOURCE_DATE_EPOCH
-  std::optional<bool>
-      check;  ///< whether the independent checker is asked; nothing: where that takes a few seconds at most
   std::stop_token stop = {};
+  double max_check_seconds = kCheckSeconds;  ///< that the checker may take; else the page is headed UNCHECKED
 };
 
-/// A page for people, made from the certificate alone: `taut report`. UTF-8.
-/// @throws InputError where a certificate is not of the form that it should have; Interrupted, before the page is made.
+/// A page for people, made from the certificate alone: `taut report`. UTF-8. The checker proves the certificate again first,
+/// unless it has a theorem already.
+/// @throws InputError where the checker rejects the certificate, or a report can't show what is in it; Interrupted, before
+/// the page is made.
 [[nodiscard]] TAUT_EXPORT std::string report(const Certificate& certificate, const ReportOptions& options = {});
 
 }  // namespace v0

@@ -35,7 +35,7 @@ def draw_tensions(axes, samples, limits):
 case = taut.Case.load(case_file)
 plan = taut.plan(case, progress=lambda stage, done, total: print(f"{stage}: {done} charts", file=sys.stderr))
 print(plan)
-print("proved margins:", plan.margins)
+print("proved margins:", plan.theorem.margins)
 plan.save(out / "certificate.json")
 (out / "report.html").write_text(taut.report(plan), encoding="utf-8")
 

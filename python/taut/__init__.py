@@ -4,8 +4,11 @@
 
     case = taut.Case.load("crane.yaml")
     certificate = taut.plan(case)
-    print(certificate.verdict, certificate.margins)
+    print(certificate.verdict, certificate.theorem)
     certificate.save("certificate.json")
+
+A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that was loaded
+has none until check() has proved it again.
 
 SI and radians everywhere. Certificates are those of the commands `taut plan` and `taut audit`, byte for byte. All work releases the
 interpreter and is stopped by Ctrl-C. docs/library.md has the whole.
@@ -25,7 +28,7 @@ from . import _taut
 from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachine
 
 __all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path", "Place",
-           "Samples", "Stretch", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove", "report"]
+           "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove", "report"]
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
@@ -33,6 +36,8 @@ Floats = NDArray[np.float64]
 #: how many (0: nobody knows). What it raises ends the work and comes through.
 Progress = Callable[[str, int, int], Any]
 FileName = Union[str, "os.PathLike[str]"]
+#: What the checker may take if nobody says [s]: a check takes about as long as the proof did.
+CHECK_SECONDS = 300.0
 
 
 # --- Cases and paths ---------------------------------------------------------------------------------------------------
@@ -154,6 +159,16 @@ class Witness:
 
 
 @dataclasses.dataclass(frozen=True)
+class Theorem:
+    """What the independent checker has proved."""
+    verdict: str                 #: "proved" or "refuted"
+    claim: str                   #: in words
+    margins: Optional[Margins]   #: only if proved
+    witness: Optional[Witness]   #: only if refuted
+    certificate_sha256: str      #: of the text of the certificate that was proved
+
+
+@dataclasses.dataclass(frozen=True)
 class Stretch:
     """A stretch of an audited path that is not proved."""
     begin: Place                                     #: outside of these two the path is proved
@@ -177,7 +192,8 @@ class Samples:
 class Certificate:
     """A claim with all that is needed to prove it again (docs/certificate-format.md).
 
-    One that was loaded or parsed is one whose digest fits, no more: whether it is true is check()'s to say.
+    One that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked, and whether it is
+    true is check()'s to say.
     """
 
     def __init__(self, text: Union[str, bytes], name: str = "certificate") -> None:
@@ -209,8 +225,13 @@ class Certificate:
         return json.loads(self.text)
 
     @property
+    def theorem(self) -> Optional[Theorem]:
+        """What the checker made of this text for plan(), prove() or audit(); None of a certificate that was loaded."""
+        return _theorem(self._certificate.theorem)
+
+    @property
     def verdict(self) -> str:
-        """"proved", "refuted" or "undecided"; undecided is not unsafe."""
+        """The theorem's, "proved" or "refuted"; without one "undecided", which is not unsafe, or "unchecked"."""
         return self._certificate.verdict
 
     @property
@@ -218,28 +239,12 @@ class Certificate:
         return self.verdict == "proved"
 
     @property
-    def claim(self) -> str:
-        """The theorem, in words."""
-        return self._certificate.claim
-
-    @property
     def case_name(self) -> str:
         return self._certificate.case_name
 
     @property
-    def margins(self) -> Optional[Margins]:
-        """Only if proved."""
-        margins = self._certificate.margins
-        return None if margins is None else Margins(*margins)
-
-    @property
-    def witness(self) -> Optional[Witness]:
-        """Only if refuted."""
-        return _witness(self._certificate.witness)
-
-    @property
     def stretches(self) -> list[Stretch]:
-        """Of an audit that is not proved."""
+        """Of an audit that is not proved; none of an unchecked one."""
         return [Stretch(Place(*begin), Place(*end), violations and tuple(map(_witness, violations)), reason, code)
                 for begin, end, violations, reason, code in self._certificate.stretches]
 
@@ -287,7 +292,7 @@ class Certificate:
 
 def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
          save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
-         progress: Optional[Progress] = None) -> Certificate:
+         max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
     """Plans through the case's query and proves the path: `taut plan`.
 
     :param budget_seconds: for planning and proving; 0: the case's own
@@ -295,13 +300,15 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
     :param save_atlas: write all charts into this file
     :param grow: make all charts that can be reached before they are saved
     :param signing_key: PEM of an Ed25519 private key that signs the certificate
+    :param max_check_seconds: that the checker may take before the certificate is unchecked
     """
-    return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key, progress))
+    return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key,
+                                      max_check_seconds, progress))
 
 
 def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,
           half_turns: Optional[ArrayLike] = None, times: Sequence[Union[float, str]] = (), max_bits: int = 4096,
-          signing_key: str = "") -> Certificate:
+          signing_key: str = "", max_check_seconds: float = CHECK_SECONDS) -> Certificate:
     """Proves a path of yours, bit for bit. One that is not proved is refuted at the first violation found, or undecided at the first
     piece that is: audit() tells of all.
 
@@ -327,13 +334,13 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
             raise InputError(f"half_turns: got the shape {turns.shape}, expected that of the waypoints, {x.shape}",
                              field="half_turns")
     return Certificate._of(_taut.prove(case._case, interpolation or "straight", x, turns, [_decimal(t) for t in times],
-                                       max_bits, signing_key))
+                                       max_bits, signing_key, max_check_seconds))
 
 
 def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], ArrayLike] = None, *,
           columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None, allow_repeats: bool = False,
           max_bits: int = 4096, signing_key: str = "", name: str = "table",
-          progress: Optional[Progress] = None) -> Certificate:
+          max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or says of every stretch that is not proved where it is and why: `taut audit`.
 
     :param path: a path file, or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from columns to
@@ -348,7 +355,7 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
             raise TypeError("columns are an array's: a file has its own")
         file = None if path is None else os.fspath(path)
         return Certificate._of(_taut.audit_file(case._case, file, interpolation, allow_repeats, max_bits, signing_key,
-                                                progress))
+                                                max_check_seconds, progress))
     if isinstance(path, Mapping):
         if columns is not None:
             raise TypeError("columns are an array's: a mapping has its own")
@@ -360,32 +367,34 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     if values.shape[1] != len(columns):
         raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
     return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats, max_bits,
-                                             signing_key, progress))
+                                             signing_key, max_check_seconds, progress))
 
 
 @dataclasses.dataclass(frozen=True)
 class CheckResult:
-    outcome: str      #: "accepted", "rejected", "undecided" (the certificate claims nothing) or "malformed"
+    outcome: str      #: "accepted", "rejected", "undecided" (the certificate claims nothing), "unchecked" or "malformed"
     message: str      #: one line
-    verdict: str      #: the certificate's
+    theorem: Optional[Theorem]  #: exactly where accepted
     signer: str       #: public key whose signature was verified, 64 hex digits, or empty
     is_trusted: bool  #: whether the signer is one of those asked for
     segments: int
     boxes: int
+    not_compared: tuple[str, ...]  #: "case", "path file", and what of the case does not matter to an audit
 
     @property
     def is_accepted(self) -> bool:
-        """A refuted certificate is accepted too when its refutation holds: look at its verdict."""
+        """A refuted certificate is accepted too when its refutation holds: look at its theorem."""
         return self.outcome == "accepted"
 
 
 def check(certificate: Union[Certificate, bytes, FileName], case: Optional[Case] = None, *,
-          trusted_keys: Sequence[str] = ()) -> CheckResult:
+          trusted_keys: Sequence[str] = (), max_seconds: Optional[float] = None) -> CheckResult:
     """Proves a certificate again, by the independent checker: what `taut-check` says.
 
     :param certificate: a Certificate, the bytes of one, or a file
     :param case: that the certificate must be about, to the last digit
     :param trusted_keys: PEMs of Ed25519 public keys, one of which must have signed
+    :param max_seconds: budget; None: no end
     """
     if isinstance(certificate, Certificate):
         text = certificate.text.encode()
@@ -394,17 +403,19 @@ def check(certificate: Union[Certificate, bytes, FileName], case: Optional[Case]
     else:
         with open(certificate, "rb") as file:
             text = file.read()
-    return CheckResult(*_taut.check(text, case and case._case, list(trusted_keys)))
+    outcome, message, theorem, *rest, not_compared = _taut.check(text, case and case._case, list(trusted_keys), max_seconds)
+    return CheckResult(outcome, message, _theorem(theorem), *rest, tuple(not_compared))
 
 
 def report(certificate: Certificate, format: str = "html", *, document: str = "", revision: str = "", date: str = "",
-           check: Optional[bool] = None) -> str:
-    """A page for people, made from the certificate alone: `taut report`.
+           max_check_seconds: float = CHECK_SECONDS) -> str:
+    """A page for people, made from the certificate alone: `taut report`. The checker proves the certificate again first, unless
+    it has a theorem already. Raises InputError where the checker rejects it.
 
     :param format: "html", "text", "markdown" or "json"
-    :param check: whether the independent checker is asked; None: where that takes a few seconds at most
+    :param max_check_seconds: that the checker may take; else the page is headed UNCHECKED
     """
-    return _taut.report(certificate._certificate, format, document, revision, date, check)
+    return _taut.report(certificate._certificate, format, document, revision, date, max_check_seconds)
 
 
 # --- Inside ------------------------------------------------------------------------------------------------------------
@@ -429,6 +440,13 @@ def _decimal(time: Union[float, str]) -> str:
 
 def _file(name: Optional[FileName]) -> str:
     return "" if name is None else os.fspath(name)
+
+
+def _theorem(theorem: Optional[tuple[Any, ...]]) -> Optional[Theorem]:
+    if theorem is None:
+        return None
+    verdict, claim, margins, witness, sha256 = theorem
+    return Theorem(verdict, claim, margins and Margins(*margins), _witness(witness), sha256)
 
 
 def _witness(witness: Optional[dict[str, Any]]) -> Optional[Witness]:

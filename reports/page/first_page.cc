@@ -115,8 +115,10 @@ Html signatures() {
 }  // namespace
 
 Html first_page(const Scene& scene, const Summary& summary) {
-  return html("<header class=\"first\">\n{}<h1><bdi>{}</bdi></h1>\n{}{}{}{}</header>\n", masthead(summary),
-              summary.name, verdict(summary), facts(summary), cables(scene, summary.use), signatures());
+  return html(
+      "<header class=\"first\">\n{}<h1><bdi>{}</bdi> <small>(name given in the case, not "
+      "checked)</small></h1>\n{}{}{}{}</header>\n",
+      masthead(summary), summary.name, verdict(summary), facts(summary), cables(scene, summary.use), signatures());
 }
 
 }  // namespace taut

@@ -17,26 +17,27 @@ namespace taut {
 
 namespace {
 
-Html contents(const Scene& scene, bool is_rejected) {
+Html contents(const Scene& scene) {
   Html links;
   const auto link = [&](bool present, const char* id, const char* title) {
     if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
   };
   const bool has_path = !scene.samples.empty();
+  const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   link(has_path, "move", "The move");
-  link(!is_rejected && !scene.view.stretches.empty(), "stretches", "Stretches");
+  link(!scene.view.stretches.empty(), "stretches", "Stretches");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
   link(is_plane(scene.view.problem.space), "plane", "Plane");
-  link(!is_rejected && scene.view.boxes > 0, "margins", "Margins");
-  link(!is_rejected, "theorem", "Claim");
-  link(!is_rejected && scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
+  link(scene.view.boxes > 0, "margins", "Margins");
+  link(is_claimed, "theorem", "Claim");
+  link(is_claimed && scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");
   link(true, "robot", "Robot");
   link(true, "path", "Path");
   link(true, "inputs", "Digests");
-  link(!is_rejected, "recheck", "Check again");
+  link(true, "recheck", "Check again");
   return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
 }
 
@@ -71,19 +72,15 @@ std::string footer_style(const std::string& document) {
 
 }  // namespace
 
-std::string html_report(const nlohmann::json& certificate, const ReportOptions& options) {
+std::string html_report(const Scene& scene, const ReportOptions& options) {
   require_plain(options);
-  const Scene scene(certificate);
   const Summary summary(scene, options);
-  // Nothing that a rejected certificate claims is repeated.
-  const bool is_rejected = options.recheck.result == Recheck::Result::kRejected;
-  const auto claimed = [&](const auto& part) { return is_rejected ? Html() : part(); };
-  const Html body = first_page(scene, summary) + contents(scene, is_rejected) + move_section(scene) +
-                    claimed([&] { return stretches(scene); }) + plot_sections(scene, is_rejected) +
-                    claimed([&] { return margins(scene) + theorem(scene.view) + tolerances(scene.view); }) +
-                    assumptions(scene.view.problem) + robot(scene) + path_section(scene) + inputs(scene.view) +
-                    claimed([&] { return recheck(scene.view); });
-  const Html title = html("{}: {}", scene.view.problem.name, summary.verdict);
+  const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
+  const Html claim = is_claimed ? margins(scene) + theorem(scene.view) + tolerances(scene.view) : Html();
+  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
+                    plot_sections(scene) + claim + assumptions(scene.view.problem) + robot(scene) +
+                    path_section(scene) + inputs(scene.view) + recheck(scene.view);
+  const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -91,21 +88,23 @@ std::string html_report(const nlohmann::json& certificate, const ReportOptions& 
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
       "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(),
-      page_scripts(scene, is_rejected));
+      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(), page_scripts(scene));
 }
 
-std::string text_summary(const nlohmann::json& certificate, const ReportOptions& options) {
-  require_plain(options);
-  return to_text(Summary(Scene(certificate), options));
+std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {
+  return html_report(Scene(checked), options);
 }
-std::string markdown_summary(const nlohmann::json& certificate, const ReportOptions& options) {
+std::string text_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  return to_markdown(Summary(Scene(certificate), options));
+  return to_text(Summary(Scene(checked), options));
 }
-nlohmann::json json_summary(const nlohmann::json& certificate, const ReportOptions& options) {
+std::string markdown_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  return to_json(Summary(Scene(certificate), options));
+  return to_markdown(Summary(Scene(checked), options));
+}
+nlohmann::json json_summary(const checker::CheckResult& checked, const ReportOptions& options) {
+  require_plain(options);
+  return to_json(Summary(Scene(checked), options));
 }
 
 }  // namespace taut

@@ -26,9 +26,8 @@ Html unscripted() {
 }
 
 /// What the marks on the plots along the path mean, where there are some.
-Html marks_text(const CertificateView& view, bool is_rejected) {
+Html marks_text(const CertificateView& view) {
   Html result;
-  if (is_rejected) return result;
   if (view.witness) result += html(" Dashed red: {}.", view.witness->to ? "the two witness poses" : "the witness pose");
   if (!view.stretches.empty()) {
     result += html(" Shaded over the whole height: the stretches where the path is not proved.");
@@ -43,45 +42,44 @@ bool has_bands(const Scene& scene) {
 }
 
 /// What the bands are, where there are some.
-Html bands_text(const Scene& scene, bool is_rejected) {
-  if (!has_bands(scene)) return html("Nothing of this path is proved, so that there are samples only.");
+Html bands_text(const Scene& scene) {
+  if (!has_bands(scene)) return html("No theorem stands behind this path, so that there are samples only.");
   return html(
       "Light bands are enclosures, computed by this program anew with interval arithmetic, box by box as the "
       "certificate has them: "
       "at no pose{} does a value leave its band.{} The darker band and the line are floating-point samples.",
       scene.view.problem.tolerances ? " and no deviation within the tolerances" : "",
-      is_rejected || scene.ranges_are_whole ? ""
+      scene.ranges_are_whole ? ""
       : scene.ranges.missing > 0
           ? fmt::format(" Where there is none, nothing is proved, or enclosing was given up ({}).",
                         plural(scene.ranges.missing, "box"))
           : " Where there is none, nothing is proved.");
 }
 
-Html tensions(const Scene& scene, bool is_rejected) {
+Html tensions(const Scene& scene) {
   return section(
       "tensions", "Tensions along the path",
       html(
           "<p>For each cable all tensions that the loads in K can ask of it. {} Shaded red: beyond the limits.{}</p>\n",
-          bands_text(scene, is_rejected), marks_text(scene.view, is_rejected)) +
+          bands_text(scene), marks_text(scene.view)) +
           unscripted() + place("tensions"));
 }
 
-Html lengths(const Scene& scene, bool is_rejected) {
+Html lengths(const Scene& scene) {
   return section("lengths", "Cable lengths along the path",
-                 html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene, is_rejected),
-                      marks_text(scene.view, is_rejected)) +
+                 html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.view)) +
                      unscripted() + place("lengths"));
 }
 
-Html margins_along(const Scene& scene, bool is_rejected) {
-  if (scene.view.segments.empty() || is_rejected) return {};
+Html margins_along(const Scene& scene) {
+  if (scene.view.segments.empty()) return {};
   return section("margins-along", "Margins along the path",
                  html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
                       "of each segment; "
                       "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between. The "
                       "load ellipsoid may "
                       "grow by wrench_scale before a tension reaches a limit.{}</p>\n",
-                      marks_text(scene.view, is_rejected)) +
+                      marks_text(scene.view)) +
                      unscripted() + place("margins"));
 }
 
@@ -104,15 +102,20 @@ Html plane(const Scene& scene) {
            "a grid, and the atlas is where the planner looked: neither proves anything. Periodic parameters are drawn "
            "unwrapped, so that the path is one line.{}</p>\n",
            scene.view.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
-          unscripted() + place("plane") + (stats.empty() ? Html() : html("<p class=\"note\">Search: {}</p>\n", stats)));
+          unscripted() + place("plane") +
+          (stats.empty() ? Html()
+                         : html("<p class=\"note\">The search, as the program that wrote the certificate says (not "
+                                "checked): {}</p>\n",
+                                stats)));
 }
 
-Html biting_tolerances(const Scene& scene, bool is_rejected) {
-  if (scene.view.tolerance_limits.empty() || is_rejected) return {};
+Html biting_tolerances(const Scene& scene) {
+  if (scene.view.tolerance_limits.empty()) return {};
   return section(
       "tolerances-used", "Which tolerance bites",
       html("<p>Each bar: how much of what this tolerance alone could be, all others as stated, is stated. The one "
-           "nearest to 100 % is the first to look after.</p>\n") +
+           "nearest to 100 % is the first to look after. How far each could grow is what the program that wrote the "
+           "certificate says; it is not checked.</p>\n") +
           unscripted() + place("tolerances"));
 }
 
@@ -128,15 +131,14 @@ Html move_section(const Scene& scene) {
                still_picture(scene)));
 }
 
-Html plot_sections(const Scene& scene, bool is_rejected) {
+Html plot_sections(const Scene& scene) {
   if (scene.samples.empty()) return plane(scene);
-  return tensions(scene, is_rejected) + lengths(scene, is_rejected) + margins_along(scene, is_rejected) + poses() +
-         plane(scene) + biting_tolerances(scene, is_rejected);
+  return tensions(scene) + lengths(scene) + margins_along(scene) + poses() + plane(scene) + biting_tolerances(scene);
 }
 
-std::string page_scripts(const Scene& scene, bool is_rejected) {
+std::string page_scripts(const Scene& scene) {
   return fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n",
-                     script_safe(report_data(scene, is_rejected)), page_script());
+                     script_safe(report_data(scene)), page_script());
 }
 
 std::string content_security_policy() {

@@ -14,11 +14,10 @@ namespace taut {
 /// The robot on its way; nothing where there is no path.
 [[nodiscard]] Html move_section(const Scene& scene);
 /// Tensions, lengths, margins and pose along the path, the plane of two parameters, tolerances; each where there is one.
-/// Of a certificate that the checker rejects, nothing is repeated that it claims.
-[[nodiscard]] Html plot_sections(const Scene& scene, bool is_rejected);
+[[nodiscard]] Html plot_sections(const Scene& scene);
 
 /// The page's data and script, to stand at its end.
-[[nodiscard]] std::string page_scripts(const Scene& scene, bool is_rejected);
+[[nodiscard]] std::string page_scripts(const Scene& scene);
 /// The page's Content-Security-Policy: nothing is loaded from anywhere, and no script is run but that of page_scripts().
 [[nodiscard]] std::string content_security_policy();
 

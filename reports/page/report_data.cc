@@ -329,19 +329,19 @@ json plane(const Scene& scene) {
 
 }  // namespace
 
-json report_data(const Scene& scene, bool is_rejected) {
+json report_data(const Scene& scene) {
   const CertificateView& view = scene.view;
-  return {{"verdict", is_rejected ? "rejected" : view.verdict},
+  return {{"verdict", view.verdict},
           {"segments", view.path.segments()},
           {"is_spline", view.path.interpolation == Interpolation::kCubicBSpline},
           {"robot", robot(scene.sampler.model())},
           {"samples", samples(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
-          {"margins", margins(is_rejected ? std::vector<SegmentView>() : view.segments)},
-          {"stretches", is_rejected ? json::array() : stretches(view)},
-          {"witness", is_rejected ? json() : witness(view)},
+          {"margins", margins(view.segments)},
+          {"stretches", stretches(view)},
+          {"witness", witness(view)},
           {"tube_m", tube_radius(view.problem)},
-          {"tolerances", is_rejected ? json::array() : tolerances(view)},
+          {"tolerances", tolerances(view)},
           {"plane", plane(scene)}};
 }
 

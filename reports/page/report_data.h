@@ -14,9 +14,7 @@
 namespace taut {
 
 /// The object; its keys are told where it is read, in reports/web/data.js.
-/// @param is_rejected  by the checker: then nothing is repeated of what the certificate claims, only what is computed from its
-///                     problem and path.
-[[nodiscard]] nlohmann::json report_data(const Scene& scene, bool is_rejected = false);
+[[nodiscard]] nlohmann::json report_data(const Scene& scene);
 
 /// `value` as it may stand in a page, in a script element of type application/json: no '<' in it.
 [[nodiscard]] std::string script_safe(const nlohmann::json& value);

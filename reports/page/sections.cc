@@ -417,15 +417,14 @@ Html tolerances(const CertificateView& view) {
           : html(
                 "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
                 "still be "
-                "proved, bisected; of six the largest. {} says that it proved this; it is no part of the certificate's "
-                "claim, "
-                "and taut-check does not prove it again.</p>\n",
-                view.generator);
+                "proved, bisected; of six the largest. The program that wrote the certificate says so; it is no part "
+                "of "
+                "the claim, and nothing has checked it.</p>\n");
   return section(
       "tolerances", "Tolerances",
       html("<p>The claim covers every machine within all of these at once.</p>\n") +
           table(html("Tolerances"),
-                {{html("Tolerance")}, {html("Stated"), true}, {html("Up to, alone (not re-checked)"), true}}, rows) +
+                {{html("Tolerance")}, {html("Stated"), true}, {html("Up to, alone (not checked)"), true}}, rows) +
           note);
 }
 
@@ -434,13 +433,14 @@ Html inputs(const CertificateView& view) {
   const auto row = [](const Html& what, const Html& value) { return std::vector<Html>{what, value}; };
   return section(
       "inputs", "Inputs and digests",
-      table(html("Inputs and digests"), {{html("What")}, {html("Value")}},
-            {row(html("case"), html("<bdi>{}</bdi>", view.problem.name)),
-             row(html("made by"), html("{}", view.generator)), row(html("problem_sha256"), digest(view.problem_sha256)),
-             row(html("path_sha256"), digest(view.path_sha256)),
-             row(html("footer.sha256"), digest(view.footer_sha256))}) +
+      table(
+          html("Inputs and digests"), {{html("What")}, {html("Value")}},
+          {row(html("name of the case (not checked)"), html("<bdi>{}</bdi>", view.problem.name)),
+           row(html("made by (not checked)"), html("<bdi>{}</bdi>", view.generator)),
+           row(html("problem_sha256"), digest(view.problem_sha256)), row(html("path_sha256"), digest(view.path_sha256)),
+           row(html("footer.sha256"), digest(view.footer_sha256))}) +
           html("<p class=\"note\">SHA-256 of the canonical JSON of the problem, of the path, and of the whole "
-               "certificate without its footer. This report prints them; taut-check compares them.</p>\n"));
+               "certificate without its footer. taut-check compares them with what the certificate contains.</p>\n"));
 }
 
 Html robot(const Scene& scene) {
@@ -544,14 +544,15 @@ Html stretches(const Scene& scene) {
 }
 
 Html recheck(const CertificateView& view) {
-  return section("recheck", "How to check this again",
-                 html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
-                      "certificate and the case file. It should exit with {}.</p>\n<pre>taut-check certificate.json "
-                      "CASE.yaml</pre>\n"
-                      "<p>The printed digests can be computed without taut:</p>\n"
-                      "<pre>{}</pre>\n"
-                      "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
-                      view.verdict == "undecided" ? "2, undecided" : "0, accepted", kDigestCommand));
+  return section(
+      "recheck", "How to check this again",
+      html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
+           "certificate, the case file and the path file. It should exit with {}.</p>\n<pre>taut-check "
+           "certificate.json CASE.yaml --path path.csv</pre>\n"
+           "<p>The printed digests can be computed without taut:</p>\n"
+           "<pre>{}</pre>\n"
+           "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
+           view.verdict == "undecided" ? "2, undecided" : "0, accepted, if the claim is true", kDigestCommand));
 }
 
 }  // namespace taut

@@ -32,6 +32,7 @@ body {
   max-width: 1040px; margin: 0 auto; padding: 40px 28px 72px;
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif;
 }
+h1 small { font-size: 14px; font-weight: 400; }
 h1 { font-size: 30px; line-height: 1.2; margin: 6px 0 14px; letter-spacing: -0.01em; overflow-wrap: anywhere; }
 h2 { font-size: 20px; margin: 52px 0 10px; padding-top: 14px; border-top: 1px solid var(--line); }
 h3 { font-size: 15px; margin: 26px 0 6px; }
@@ -55,8 +56,8 @@ pre { background: var(--tile); padding: 12px 14px; border-radius: 6px; white-spa
 .verdict ul { padding-left: 20px; }
 .verdict.proved { border-color: var(--proved); } .verdict.proved p:first-child { color: var(--proved); }
 .verdict.refuted { border-color: var(--refuted); } .verdict.refuted p:first-child { color: var(--refuted); }
-.verdict.rejected { background: var(--refuted); color: var(--paper); padding: 10px 18px; border: 0; border-radius: 6px; }
-.verdict.undecided { border-color: var(--undecided); } .verdict.undecided p:first-child { color: var(--undecided); }
+.verdict.undecided, .verdict.unchecked { border-color: var(--undecided); }
+.verdict.undecided p:first-child, .verdict.unchecked p:first-child { color: var(--undecided); }
 .facts { margin: 14px 0; font-size: 14.5px; line-height: 1.45; }
 .facts > div { display: grid; grid-template-columns: 110px 1fr; gap: 16px; padding: 5px 0; border-top: 1px solid var(--line); }
 .facts dt { color: var(--soft); font-weight: 600; }

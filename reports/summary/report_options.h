@@ -5,24 +5,22 @@
 
 namespace taut {
 
-/// What became of the certificate at the independent checker.
+/// How the independent checker ended with the certificate. There is no report of a certificate that it rejects.
 struct Recheck {
   enum class Result {
-    kNotRun,
-    kConfirmed,  ///< the claim, "proved" or "refuted", was proved again
+    kUnchecked,  ///< it was not proved within the budget: nothing is known of what the certificate claims
     kNoClaim,    ///< well formed, and claims nothing
-    kRejected,   ///< some statement could not be confirmed, or it is malformed: nothing in it may be relied on
+    kConfirmed,  ///< there is a theorem: the claim, "proved" or "refuted", was proved again
   };
-  Result result = Result::kNotRun;
+  Result result = Result::kUnchecked;
   std::string checker;  ///< "taut-check 0.1.0"
-  std::string message;  ///< the checker's line, or why it was not run
+  std::string message;  ///< the checker's line
 };
 
 struct ReportOptions {
   std::string document;  ///< the document's number; empty: one made from the certificate's digest
   std::string revision;  ///< empty: a line to write on
   std::string date;      ///< of the report; empty: a line to write on
-  Recheck recheck;
 };
 
 }  // namespace taut

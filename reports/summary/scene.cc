@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 namespace taut {
 
@@ -28,10 +30,51 @@ bool is_covered(const std::vector<DyadicBox>& boxes) {
   return reached == Dyadic{1, 0};
 }
 
+CertificateView view_of(const checker::CheckResult& checked) {
+  if (checked.theorem) return read_certificate(checked.theorem->certificate());
+  if (checked.certificate == nullptr) throw std::logic_error("a report was asked for of a malformed certificate");
+  return read_certificate(*checked.certificate);
+}
+
+Recheck recheck_of(const checker::CheckResult& checked) {
+  Recheck result{Recheck::Result::kUnchecked, fmt::format("taut-check {}", TAUT_VERSION), checked.message};
+  switch (checked.outcome) {
+    case checker::Outcome::kAccepted: result.result = Recheck::Result::kConfirmed; break;
+    case checker::Outcome::kUndecided: result.result = Recheck::Result::kNoClaim; break;
+    case checker::Outcome::kUnchecked: break;
+    case checker::Outcome::kRejected:
+    case checker::Outcome::kMalformed: throw std::logic_error("a report was asked for of a rejected certificate");
+  }
+  return result;
+}
+
+/// What is left of a certificate that no theorem stands behind: problem, path and, where it claims nothing, why.
+CertificateView without_claims(CertificateView view, Recheck::Result result) {
+  view.claim.clear();
+  view.segments.clear();
+  view.segment_boxes.clear();
+  view.boxes = 0;
+  view.margins.reset();
+  view.witness.reset();
+  view.tolerance_limits.clear();
+  if (result == Recheck::Result::kNoClaim) {
+    for (StretchView& stretch : view.stretches) stretch.first = stretch.last = std::nullopt;
+    return view;
+  }
+  view.verdict = "unchecked";
+  view.undecided.reset();
+  view.stretches.clear();
+  return view;
+}
+
 }  // namespace
 
-Scene::Scene(const nlohmann::json& certificate)
-    : view(read_certificate(certificate)),
+Scene::Scene(const checker::CheckResult& checked) : Scene(view_of(checked), recheck_of(checked)) {}
+
+Scene::Scene(CertificateView certificate, Recheck checked)
+    : recheck(std::move(checked)),
+      view(recheck.result == Recheck::Result::kConfirmed ? std::move(certificate)
+                                                         : without_claims(std::move(certificate), recheck.result)),
       sampler(view.problem),
       samples(sampler.along(view.path, kPathSamples)),
       travel(sampler, view.path),

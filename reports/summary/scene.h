@@ -1,20 +1,26 @@
 // What a report is made from: the certificate, and floating-point samples of what it is about.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "certificate/certificate_view.h"
 #include "certify/box_ranges.h"
+#include "checker/check.h"
+#include "reports/summary/report_options.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/travel.h"
 
 namespace taut {
 
 struct Scene {
-  explicit Scene(const nlohmann::json& certificate);
+  /// Of a certificate as the checker left it: with a verdict where it made a theorem.
+  /// @throws InputError where a report can't show what is in it. @pre the outcome is neither rejected nor malformed.
+  explicit Scene(const checker::CheckResult& checked);
+  /// Unless confirmed, all claims are taken out of the view.
+  Scene(CertificateView certificate, Recheck checked);
 
+  Recheck recheck;
   CertificateView view;
   Sampler sampler;
   std::vector<PathSample> samples;  ///< along the whole path

@@ -186,7 +186,7 @@ std::vector<std::string> undecided_details(const Scene& scene) {
   const UndecidedView& open = *scene.view.undecided;
   std::vector<std::string> result = {
       "It was neither proved nor refuted: that does not mean that it is unsafe, and it is no evidence that it is safe.",
-      fmt::format("Reason: {}.", with_code(open.reason))};
+      fmt::format("Reason, as the certificate gives it: {}.", with_code(open.reason))};
   if (open.segment) {
     const double from = *open.segment + open.lower;
     const std::string box =
@@ -362,27 +362,25 @@ std::string not_covered_text(const Problem& problem) {
 }
 
 std::string recheck_text(const Recheck& recheck) {
-  const std::string command = "taut-check certificate.json CASE.yaml";
   switch (recheck.result) {
-    case Recheck::Result::kNotRun: break;
+    case Recheck::Result::kUnchecked: break;
     case Recheck::Result::kConfirmed:
       return fmt::format("{}, an independent program with other arithmetic, accepted the certificate: {}.",
                          recheck.checker, recheck.message);
     case Recheck::Result::kNoClaim:
-      return fmt::format("{}, an independent program, found it well formed; it claims nothing: {}.", recheck.checker,
-                         recheck.message);
-    case Recheck::Result::kRejected:
-      return fmt::format("REJECTED by {}, an independent program: {}. Nothing in this report may be relied on.",
-                         recheck.checker, recheck.message);
+      return fmt::format("{}, an independent program, found it well formed; it claims nothing.", recheck.checker);
   }
-  return fmt::format("Not re-checked{}. Before relying on it run: {}",
-                     recheck.message.empty() ? "" : fmt::format(" ({})", recheck.message), command);
+  return fmt::format("Not checked{}. Before relying on it run: taut-check certificate.json CASE.yaml",
+                     recheck.message.empty() ? "" : fmt::format(": {}", recheck.message));
 }
 
 }  // namespace
 
 std::string headline(const Scene& scene) {
   const CertificateView& view = scene.view;
+  if (view.verdict == "unchecked") {
+    return "UNCHECKED: whether this certificate is right is not known, and nothing that it claims is repeated here.";
+  }
   if (view.verdict == "undecided") return "Undecided: nothing is claimed about this move.";
   if (view.verdict == "proved") {
     return fmt::format(
@@ -426,6 +424,11 @@ std::string violation_text(const PathWitness& witness) {
 }
 
 std::vector<std::string> verdict_details(const Scene& scene) {
+  if (scene.view.verdict == "unchecked") {
+    return {fmt::format("{}: {}.", scene.recheck.checker, scene.recheck.message),
+            "Neither does it mean that the move is unsafe, nor is it evidence that it is safe. To know run: taut-check "
+            "certificate.json CASE.yaml"};
+  }
   if (scene.view.verdict == "proved") return proved_details(scene.view);
   return scene.view.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
 }
@@ -457,22 +460,30 @@ std::vector<std::string> closest_text(const Scene& scene, const CableUse& use) {
   return {sentence(use.tension, false), sentence(use.length, true)};
 }
 
-std::vector<Statement> statements(const Scene& scene, const Recheck& recheck) {
+namespace {
+
+/// By what the verdict was proved.
+std::string proof_text(const CertificateView& view) {
+  if (view.verdict == "unchecked") return "None that was checked.";
+  if (view.verdict == "undecided") return "None: nothing is claimed.";
+  if (view.boxes == 0) return "Interval arithmetic at the witness.";
+  return fmt::format("Interval arithmetic, {} in {} without sampling{}.", plural(view.boxes, "box"),
+                     plural(view.segments.size(), "segment"), view.witness ? ", and at the witness" : "");
+}
+
+}  // namespace
+
+std::vector<Statement> statements(const Scene& scene) {
   const CertificateView& view = scene.view;
   const Problem& problem = view.problem;
-  std::string proof = view.generator + " made the certificate";
-  if (view.boxes > 0) {
-    proof += fmt::format("; interval arithmetic, {} in {} without sampling", plural(view.boxes, "box"),
-                         plural(view.segments.size(), "segment"));
-  }
   return {{"motion", "Motion", motion_text(scene)},
           {"load", "Loads", load_text(problem.load)},
           {"limits", "Limits", limits_text(problem.robot)},
           {"tolerances", "Tolerances", tolerances_text(problem.tolerances)},
           {"assumptions", "Assumptions", assumptions_text(problem, view.path.interpolation)},
           {"not_covered", "Not covered", not_covered_text(problem)},
-          {"proof", "Proof", proof + "."},
-          {"recheck", "Re-check", recheck_text(recheck)}};
+          {"proof", "Proof", proof_text(view)},
+          {"recheck", "Re-check", recheck_text(scene.recheck)}};
 }
 
 std::string use_caption(CableUse::Source source) {

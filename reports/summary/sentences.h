@@ -7,7 +7,6 @@
 
 #include "certify/path_proof.h"
 #include "reports/summary/cable_use.h"
-#include "reports/summary/report_options.h"
 #include "reports/summary/scene.h"
 
 namespace taut {
@@ -35,7 +34,7 @@ struct Statement {
 };
 
 /// What the verdict is about: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and who checked it again.
-[[nodiscard]] std::vector<Statement> statements(const Scene& scene, const Recheck& recheck);
+[[nodiscard]] std::vector<Statement> statements(const Scene& scene);
 
 /// The centre load and by how much each component may differ from it: the semi-axes of K. Floating point.
 [[nodiscard]] std::string load_text(const LoadText& load);

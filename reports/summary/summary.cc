@@ -51,13 +51,14 @@ std::string markdown(const std::string& text) {
 
 const char* name(Recheck::Result result) {
   switch (result) {
-    case Recheck::Result::kNotRun: break;
+    case Recheck::Result::kUnchecked: break;
     case Recheck::Result::kConfirmed: return "confirmed";
     case Recheck::Result::kNoClaim: return "no claim";
-    case Recheck::Result::kRejected: return "rejected";
   }
-  return "not run";
+  return "unchecked";
 }
+
+constexpr const char* kNameNote = "name given in the case, not checked";
 
 const char* name(CableUse::Source source) {
   switch (source) {
@@ -79,26 +80,13 @@ Summary::Summary(const Scene& scene, const ReportOptions& options)
       verdict(scene.view.verdict),
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
-      statements(taut::statements(scene, options.recheck)),
+      statements(taut::statements(scene)),
       use(cable_use(scene)),
-      recheck(options.recheck),
+      recheck(scene.recheck),
       problem_sha256(scene.view.problem_sha256),
       path_sha256(scene.view.path_sha256),
       footer_sha256(scene.view.footer_sha256) {
   closest = closest_text(scene, use);
-  if (recheck.result == Recheck::Result::kNotRun && verdict != "undecided") {
-    details.push_back("Not re-checked: this page repeats what the certificate says.");
-  }
-  if (recheck.result != Recheck::Result::kRejected) return;
-  verdict = "rejected";
-  headline = fmt::format(
-      "REJECTED: {} could not confirm this certificate, which says \u201C{}\u201D. Nothing in this report may be "
-      "relied "
-      "on.",
-      recheck.checker, scene.view.verdict);
-  details = {fmt::format("What it found: {}.", recheck.message)};
-  closest.clear();
-  use.source = CableUse::Source::kNone;
 }
 
 std::string document_number(const std::string& footer_sha256) {
@@ -118,8 +106,8 @@ std::string to_text(const Summary& s) {
   constexpr std::size_t kWidest = 12;  // of the statements' titles
   std::string text;
   const auto line = [&](const std::string& content) { text += without_control_characters(content) + "\n"; };
-  line(fmt::format("{}{}{}: {}", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
-                   s.date.empty() ? "" : ", " + s.date, s.name));
+  line(fmt::format("{}{}{}: {} ({})", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
+                   s.date.empty() ? "" : ", " + s.date, s.name, kNameNote));
   line(s.headline);
   for (const std::string& sentence : s.details) line(sentence);
   for (const std::string& sentence : s.closest) line(sentence);
@@ -140,7 +128,7 @@ std::string to_text(const Summary& s) {
 }
 
 std::string to_markdown(const Summary& s) {
-  std::string text = fmt::format("## {}\n\n", markdown(s.name));
+  std::string text = fmt::format("## {} ({})\n\n", markdown(s.name), kNameNote);
   std::string head = s.document;
   if (!s.revision.empty()) head += ", revision " + s.revision;
   if (!s.date.empty()) head += ", " + s.date;

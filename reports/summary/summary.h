@@ -15,9 +15,9 @@ struct Summary {
   std::string document;  ///< its number
   std::string revision;  ///< may be empty, as the date
   std::string date;
-  std::string name;      ///< the case's
-  std::string verdict;   ///< "proved", "refuted" or "undecided"; "rejected" where the checker rejects the certificate,
-  std::string headline;  ///< and then nothing of what it says is repeated here
+  std::string name;     ///< the case's, which nothing checks
+  std::string verdict;  ///< "proved" or "refuted", where the checker made a theorem; else "undecided" or "unchecked"
+  std::string headline;
   std::vector<std::string> details;
   std::vector<std::string> closest;
   std::vector<Statement> statements;

@@ -1,7 +1,7 @@
 // What the certificate's report knows, as report_data.cc wrote it into the page. SI units and radians; columns of numbers, null
 // where there is none.
 //
-//   verdict ("rejected" where the checker rejects the certificate: then nothing it claims is in here), segments, is_spline
+//   verdict ("unchecked" where nobody knows: then nothing that the certificate claims is in here), segments, is_spline
 //   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of limits
 //   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3), distance, turned,
 //               time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0), variation (6: v),
@@ -77,7 +77,7 @@ export function between(list, [k, t]) {
 
 /// What is proved at a position: "proved", "open", "violated", or "unknown" where nothing is said.
 export function status(data, position) {
-  if (data.verdict === "rejected") return "unknown";
+  if (data.verdict === "unchecked") return "unknown";
   for (const { from, to, violated } of data.stretches) {
     if (position >= from && position <= to) return violated ? "violated" : "open";
   }

@@ -27,7 +27,7 @@ const marked = [
   ...(data.witness ? [["mark", data.witness.to === null ? "the witness" : "the two poses of the witness"]] : []),
 ];
 const enclosed = data.bands && data.bands.from.length > 0;
-const enclosure = ["fill band", data.verdict === "rejected" ? "enclosure" : "proved enclosure"];
+const enclosure = ["fill band", "proved enclosure"];
 const envelopeKeys = [
   ...(enclosed ? [enclosure] : []),
   ["fill envelope", "f₀ ± v, all loads in K (sampled)"],
@@ -39,7 +39,7 @@ const PATH_KEYS = {
   proved: [["proved-line", "path of the platform’s origin, proved"]],
   refuted: [["proved-line", "path of the platform’s origin, where it is proved"], ["unknown-line", "where nothing is said of it"]],
   undecided: [["unknown-line", "path of the platform’s origin"]],
-  rejected: [["unknown-line", "path of the platform’s origin"]],
+  unchecked: [["unknown-line", "path of the platform’s origin"]],
 };
 
 const panels = [];

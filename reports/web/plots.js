@@ -195,7 +195,7 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
       const at = fixed(between(middle, where), decimals);
       const found = band && bandAt(proved, data.bands, position);
       const range = found
-        ? ` (${data.verdict === "rejected" ? "enclosed" : "proved"} ${fixedAtMost(found[0], decimals)} to ${fixedAtLeast(found[1], decimals)})`
+        ? ` (proved ${fixedAtMost(found[0], decimals)} to ${fixedAtLeast(found[1], decimals)})`
         : isBand ? ` (${fixed(between(low, where), decimals)} to ${fixed(between(high, where), decimals)})` : "";
       return `${at}${range} ${unit}`;
     },

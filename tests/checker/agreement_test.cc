@@ -14,7 +14,6 @@
 namespace taut {
 namespace {
 
-using checker::check_certificate;
 using checker::CheckResult;
 using checker::Outcome;
 using nlohmann::json;
@@ -32,7 +31,7 @@ std::vector<ExpressionText> typed(const Waypoint& waypoint) {
 /// The query is made to fit the path, so that only the path is judged.
 CheckResult check(Problem problem, const Path& path, const PathProof& proof) {
   if (!has_poses(path.interpolation)) problem.query = {typed(path.waypoints.front()), typed(path.waypoints.back())};
-  return check_certificate(make_certificate(problem, path, proof, json()).dump());
+  return checker::check(make_certificate(problem, path, proof, json()).dump());
 }
 
 bool has_half_turns(const Path& path) {

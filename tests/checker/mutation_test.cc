@@ -83,7 +83,7 @@ TEST(Mutation, WithoutNewDigestsNothingPasses) {
         "refuted_by_a_deviation", "refuted_by_held_anchors_and_lengths"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
-      EXPECT_EQ(check_certificate(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
+      EXPECT_EQ(check(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
       ++mutants;
     });
     EXPECT_GT(mutants, 1000 / share());
@@ -98,7 +98,7 @@ std::set<std::string> accepted_mutants(const Json& original, const std::string& 
                              mutant.what.find("_sha256") != std::string::npos;
     if (sealed_away || !mutant.what.starts_with(root)) return;
     seal(mutant.json);
-    if (check_certificate(mutant.json.dump()).outcome == Outcome::kAccepted) result.insert(mutant.what);
+    if (check(mutant.json.dump()).outcome == Outcome::kAccepted) result.insert(mutant.what);
   });
   return result;
 }
@@ -218,9 +218,9 @@ TEST(Mutation, ACutFileIsMalformed) {
   const std::string text = read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/robot1_near_start.json");
   const std::size_t end = text.find_last_of('}');
   for (std::size_t length = 0; length <= end; length += 97) {
-    EXPECT_EQ(check_certificate(text.substr(0, length)).outcome, Outcome::kMalformed) << length;
+    EXPECT_EQ(check(text.substr(0, length)).outcome, Outcome::kMalformed) << length;
   }
-  EXPECT_EQ(check_certificate(text.substr(0, end)).outcome, Outcome::kMalformed);
+  EXPECT_EQ(check(text.substr(0, end)).outcome, Outcome::kMalformed);
 }
 
 TEST(Mutation, AFlippedBitIsMalformed) {
@@ -230,7 +230,7 @@ TEST(Mutation, AFlippedBitIsMalformed) {
     std::string flipped = text;
     char& byte = flipped[random() % text.size()];
     byte = static_cast<char>(static_cast<unsigned char>(byte) ^ (1U << (random() % 8)));
-    EXPECT_EQ(check_certificate(flipped).outcome, Outcome::kMalformed) << trial;
+    EXPECT_EQ(check(flipped).outcome, Outcome::kMalformed) << trial;
   }
 }
 
@@ -241,7 +241,7 @@ TEST(Mutation, HostileTextsAreMalformed) {
         std::string("{\"a\":1e999}"), std::string("\xff\xfe"), std::string("{\"a\":\"\xc3\"}"), std::string("[NaN]"),
         std::string("{\"a\":1,}"), std::string("// {}"), std::string(1 << 20, '['), std::string(1 << 20, '{'),
         std::string("\0", 1)}) {
-    EXPECT_EQ(check_certificate(text).outcome, Outcome::kMalformed) << text.substr(0, 40);
+    EXPECT_EQ(check(text).outcome, Outcome::kMalformed) << text.substr(0, 40);
   }
 }
 

@@ -60,7 +60,7 @@ nlohmann::json signed_certificate() {
 }
 
 CheckResult check(const nlohmann::json& certificate, const std::vector<std::string>& trusted = {}) {
-  return check_certificate(certificate.dump(), nullptr, trusted);
+  return checker::check(certificate.dump(), {.trusted = trusted});
 }
 
 TEST(Signature, IsVerifiedAndNamesItsKey) {
@@ -159,7 +159,7 @@ TEST(Signature, HoldsEveryByteOfTheCertificate) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     std::string altered = text;
     altered[i] = static_cast<char>(altered[i] ^ 1);
-    ASSERT_EQ(check_certificate(altered).outcome, Outcome::kMalformed) << i << altered.substr(i, 20);
+    ASSERT_EQ(check(altered).outcome, Outcome::kMalformed) << i << altered.substr(i, 20);
   }
 }
 

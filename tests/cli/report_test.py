@@ -124,24 +124,45 @@ class Report(unittest.TestCase):
                     self.assertRegex(result.stderr, rf"^taut: {re.escape(path)}: got .*{said}.*, expected a certificate \[E\d\]\n$")
                     self.assertNotIn("exception", result.stderr)
 
-    def test_plan_checks_its_certificate_again_unless_told_not_to(self):
-        self.assertIn("Re-checked by taut-check", self.planned.stdout)
+    def test_plan_has_its_certificate_checked(self):
+        self.assertIn("Checked by taut-check", self.planned.stdout)
         with open(self.path("report.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertIn("an independent program with other arithmetic, accepted the certificate", page)
         self.assertIn("1970-01-02", page)
-        said = run(TAUT, "plan", CASE, "--out", self.path("out"), "--no-check")
-        self.assertIn("Not re-checked", said.stdout)
         said = run(TAUT, "plan", CASE, "--out", self.path("out"), "--json")
         self.assertEqual(json.loads(said.stdout)["recheck"]["result"], "confirmed")
 
+    def test_what_was_not_checked_has_no_verdict_and_no_path_to_follow(self):
+        out = self.path("unchecked")
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", out).returncode, 0)
+        self.assertTrue(os.path.exists(os.path.join(out, "path.csv")))
+        said = run(TAUT, "plan", CASE, "--out", out, "--max-seconds", "0")
+        self.assertEqual(said.returncode, 2, said.stderr)
+        self.assertTrue(said.stdout.startswith("UNCHECKED: nothing was proved, as no time was allowed for it. Nothing is claimed"))
+        self.assertNotIn("proved:", said.stdout)
+        self.assertNotIn("margins", said.stdout)
+        self.assertFalse(os.path.exists(os.path.join(out, "path.csv")), "that of an earlier plan is gone, too")
+        summary = json.loads(run(TAUT, "plan", CASE, "--out", out, "--max-seconds", "0", "--json").stdout)
+        self.assertEqual((summary["verdict"], summary["margins"], summary["witness"]), ("unchecked", {}, None))
+        with open(os.path.join(out, "report.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn('<div class="verdict unchecked"><p>UNCHECKED: ', page)
+        for claim in ("Proved: at every pose", "Reserves, proved", 'id="margins"'):
+            self.assertNotIn(claim, page)
+        said = run(TAUT, "report", os.path.join(out, "certificate.json"), "--text", "--max-seconds", "0")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("UNCHECKED: ", said.stdout)
+        self.assertIn("UNCHECKED by taut-check", said.stderr)
+
     def test_summaries_go_to_standard_output(self):
-        text = run(TAUT, "report", self.certificate, "--text", "--no-check")
+        text = run(TAUT, "report", self.certificate, "--text")
         self.assertEqual(text.returncode, 0, text.stderr)
-        self.assertRegex(text.stdout, r"^TAUT-[0-9A-F]{4}-[0-9A-F]{4}-[0-9A-F]{4}, \d{4}-\d\d-\d\d: robot1-slice-qs-qg\n")
+        self.assertRegex(text.stdout, r"^TAUT-[0-9A-F]{4}-[0-9A-F]{4}-[0-9A-F]{4}, \d{4}-\d\d-\d\d: robot1-slice-qs-qg \(name given in the "
+                         r"case, not checked\)\n")
         self.assertIn("\nProved: at every pose of this move", text.stdout)
-        markdown = run(TAUT, "report", self.certificate, "--markdown", "--check")
-        self.assertTrue(markdown.stdout.startswith("## robot1-slice-qs-qg\n"))
+        markdown = run(TAUT, "report", self.certificate, "--markdown")
+        self.assertTrue(markdown.stdout.startswith("## robot1-slice-qs-qg (name given in the case, not checked)\n"))
         summary = json.loads(run(TAUT, "report", self.certificate, "--json", "--document", "LP-1").stdout)
         self.assertEqual((summary["verdict"], summary["document"], len(summary["cables"])), ("proved", "LP-1", 6))
         self.assertEqual(summary["recheck"]["result"], "confirmed")
@@ -152,16 +173,47 @@ class Report(unittest.TestCase):
         self.assertIn("Written: ", said.stdout)
         self.assertTrue(os.path.exists(self.path("summary.txt")))
 
-    def test_a_rejected_certificate_is_shouted_about(self):
-        said = run(TAUT, "report", self.forged(), "--out", self.path("forged.html"))
-        self.assertEqual(said.returncode, 1)
-        self.assertIn("REJECTED by taut-check", said.stderr)
-        with open(self.path("forged.html"), encoding="utf-8") as file:
+    def test_of_a_rejected_certificate_there_is_no_report(self):
+        for form in ([], ["--text"], ["--markdown"], ["--json"]):
+            said = run(TAUT, "report", self.forged(), "--out", self.path("forged.html"), *form)
+            self.assertEqual((said.returncode, said.stdout), (1, ""))
+            self.assertIn("REJECTED by taut-check", said.stderr)
+            self.assertFalse(os.path.exists(self.path("forged.html")))
+
+    def test_forged_certificates_mislead_nobody(self):
+        attacks = os.path.join(SOURCE, "tests", "attacks")
+        for name, code, said in (("f1.json", 1, "REJECTED by taut-check"), ("f3.json", 3, r"\[E5\]")):
+            for form in ("--text", "--markdown", "--json", "--pdf"):
+                report = run(TAUT, "report", os.path.join(attacks, name), form, "--out", self.path("forged"))
+                self.assertEqual((report.returncode, report.stdout), (code, ""), name)
+                self.assertRegex(report.stderr, said)
+                self.assertFalse(os.path.exists(self.path("forged")))
+        report = run(TAUT, "report", os.path.join(attacks, "f4.json"), "--text")
+        self.assertEqual(report.returncode, 0, report.stderr)
+        for forged in ("50 N", "20 mm", "as re-checked", "1d8ec40f"):
+            self.assertNotIn(forged, report.stdout)
+        self.assertEqual(run(TAUT, "report", os.path.join(attacks, "f4.json"), "--out", self.path("f4.html")).returncode, 0)
+        with open(self.path("f4.html"), encoding="utf-8") as file:
             page = file.read()
-        self.assertIn('<div class="verdict rejected">', page)
-        self.assertNotIn("Proved: at every pose", page)
-        said = run(TAUT, "report", self.forged(), "--json")
-        self.assertEqual((said.returncode, json.loads(said.stdout)["verdict"]), (1, "rejected"))
+        self.assertNotIn("as re-checked", page[:page.index("</header>")])
+        self.assertRegex(page, r"made by \(not checked\)</td>\s*<td><bdi>taut 0.1.0 \(this move is also proved")
+
+    def test_what_is_shown_is_what_was_checked_also_of_a_pipe(self):
+        with open(self.certificate, "rb") as file:
+            true = file.read()
+        with open(self.forged(), "rb") as file:
+            forged = file.read()
+        pipe = self.path("pipe")
+        os.mkfifo(pipe)
+        for first, code in ((true, 0), (forged, 1)):
+            with subprocess.Popen([TAUT, "report", pipe, "--text"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  text=True) as process:
+                with open(pipe, "wb") as file:
+                    file.write(first)
+                said, _ = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, code)
+            self.assertEqual("Proved:" in said, code == 0)
+            self.assertNotIn("0.1 N inside", said, "the forged margin")
 
     def test_a_footer_that_counts_many_boxes_does_not_keep_the_checker_away(self):
         with open(self.forged(), encoding="utf-8") as file:
@@ -170,16 +222,16 @@ class Report(unittest.TestCase):
         with open(self.path("many.json"), "w", encoding="utf-8") as file:
             json.dump(forged, file)
         said = run(TAUT, "report", self.path("many.json"), "--text")
-        self.assertEqual(said.returncode, 1)
-        self.assertIn("REJECTED by taut-check", said.stderr)
+        self.assertEqual((said.returncode, said.stdout), (3, ""))
+        self.assertIn("footer", said.stderr)
 
     def test_a_report_never_replaces_its_certificate(self):
-        said = run(TAUT, "report", self.certificate, "--no-check", "--out", self.certificate)
+        said = run(TAUT, "report", self.certificate, "--out", self.certificate)
         self.assertEqual(said.returncode, 3)
-        self.assertEqual(run(TAUT, "report", self.certificate, "--no-check", "--text").returncode, 0)
+        self.assertEqual(run(TAUT, "report", self.certificate, "--text").returncode, 0)
 
     def test_wrong_use_is_refused(self):
-        for extra in (["--pdf", "--text"], ["--check", "--no-check"], ["--document", 'a"b'], ["--revision", "x" * 41],
+        for extra in (["--pdf", "--text"], ["--check"], ["--document", 'a"b'], ["--revision", "x" * 41],
                       ["--date", "<b>"]):
             self.assertEqual(run(TAUT, "report", self.certificate, *extra).returncode, 3, extra)
         for command in (("report", self.certificate, "--text"), ("plan", CASE, "--out", self.path("late")),
@@ -190,14 +242,14 @@ class Report(unittest.TestCase):
         self.assertFalse(os.path.exists(self.path("late")))
 
     def test_without_a_browser_it_says_what_to_install(self):
-        said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", TAUT_BROWSER="/no/such/browser")
+        said = run(TAUT, "report", self.certificate, "--pdf", TAUT_BROWSER="/no/such/browser")
         self.assertEqual(said.returncode, 3)
         self.assertIn("install Debian's package chromium", said.stderr)
         self.assertFalse(os.path.exists(self.path("report.pdf")))
 
     def test_a_browser_that_fails_leaves_nothing(self):
         for browser in ("/bin/false", "/bin/true"):
-            said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", "--out", self.path("none.pdf"),
+            said = run(TAUT, "report", self.certificate, "--pdf", "--out", self.path("none.pdf"),
                        TAUT_BROWSER=browser)
             self.assertEqual(said.returncode, 4, browser)
             self.assertIn("no PDF", said.stderr)
@@ -210,7 +262,7 @@ class Report(unittest.TestCase):
         with open(browser, "w", encoding="utf-8") as file:
             file.write(f"#!/bin/sh\nsleep {mark} &\nwait\n")
         os.chmod(browser, 0o755)
-        with subprocess.Popen([TAUT, "report", self.certificate, "--pdf", "--no-check"], stdout=subprocess.PIPE,
+        with subprocess.Popen([TAUT, "report", self.certificate, "--pdf"], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, env={**os.environ, "TAUT_BROWSER": browser}) as process:
             interrupt(process, 0.5)
             _, said = process.communicate(timeout=30)
@@ -220,7 +272,7 @@ class Report(unittest.TestCase):
     def test_a_pdf_has_pages_and_nothing_of_it_stays_behind(self):
         scratch = self.path("scratch")
         os.mkdir(scratch)
-        said = run(TAUT, "report", self.certificate, "--pdf", "--no-check", "--out", self.path("page.pdf"), TMPDIR=scratch)
+        said = run(TAUT, "report", self.certificate, "--pdf", "--out", self.path("page.pdf"), TMPDIR=scratch)
         self.assertEqual(said.returncode, 0, said.stderr)
         with open(self.path("page.pdf"), "rb") as file:
             pdf = file.read()

@@ -31,7 +31,7 @@ class Show(unittest.TestCase):
             self.assertIn(expected, said.stdout)
         shown = json.loads(run(TAUT, "show", CASE, "--json").stdout)
         with tempfile.TemporaryDirectory() as folder:
-            run(TAUT, "plan", CASE, "--out", folder, "--no-check")
+            run(TAUT, "plan", CASE, "--out", folder)
             with open(os.path.join(folder, "certificate.json"), encoding="utf-8") as file:
                 certificate = json.load(file)
         self.assertEqual(shown["problem"], certificate["problem"])

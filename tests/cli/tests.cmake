@@ -18,6 +18,9 @@ set_tests_properties(cli.regress PROPERTIES LABELS "unit" TIMEOUT 1800)
 add_test(NAME cli.robustness COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/robustness_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.robustness PROPERTIES LABELS "unit" TIMEOUT 1800)
+add_test(NAME cli.compare COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/compare_test.py
+  $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
+set_tests_properties(cli.compare PROPERTIES LABELS "unit" TIMEOUT 1800)
 add_test(NAME cli.report COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cli/report_test.py
   $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 set_tests_properties(cli.report PROPERTIES LABELS "unit" TIMEOUT 1800)

@@ -15,7 +15,7 @@
 namespace {
 
 /// What the checker says. Not to the end of long proofs: what is read and what the first boxes are is what inputs differ in.
-std::string check(const std::string& text) {
+std::string said_of(const std::string& text) {
   using namespace taut::checker;
   constexpr std::chrono::milliseconds kMost{20};
   std::stop_source stop;
@@ -27,7 +27,7 @@ std::string check(const std::string& text) {
     stop.request_stop();
   });
   try {
-    return check_certificate(text, nullptr, {}, stop.get_token()).message;
+    return taut::checker::check(text, {.stop = stop.get_token()}).message;
   } catch (const Interrupted&) {
     return "it takes longer";
   }
@@ -38,7 +38,7 @@ std::string check(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace taut::checker;
   const std::string text(reinterpret_cast<const char*>(data), size);
-  if (check(text).empty()) __builtin_trap();
+  if (said_of(text).empty()) __builtin_trap();
   nlohmann::json sealed = nlohmann::json::parse(text, nullptr, false);
   if (sealed.is_discarded() || !sealed.is_object()) return 0;
   try {
@@ -46,6 +46,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const std::exception&) {
     return 0;  // numbers that no digest is made of
   }
-  if (check(sealed.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)).empty()) __builtin_trap();
+  if (said_of(sealed.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)).empty()) __builtin_trap();
   return 0;
 }

@@ -49,6 +49,20 @@ TEST_F(Files, AppearWholeOrNotAtAll) {
   EXPECT_EQ(count(), 2U);
 }
 
+TEST_F(Files, AreRemovedFirstAndOnlyIfTheOthersCanBeWritten) {
+  const std::array<fs::path, 2> old = {in_folder("path"), in_folder("never there")};
+  write_whole({{old[0], "of before"}});
+  EXPECT_THROW(write_whole({{in_folder("none/a"), "new"}}, old), InputError);
+  EXPECT_EQ(read_whole(old[0]), "of before");
+  write_whole({{in_folder("a"), "new"}}, old);
+  EXPECT_FALSE(fs::exists(old[0]));
+  fs::create_symlink("elsewhere", in_folder("path"));
+  write_whole({{in_folder("elsewhere"), "of before"}});
+  write_whole({{in_folder("a"), "newer"}, {old[0], "newer"}}, old);
+  EXPECT_TRUE(fs::is_symlink(old[0]));
+  EXPECT_EQ(read_whole(in_folder("elsewhere")), "newer");
+}
+
 TEST_F(Files, ASetIsOfOneWriter) {
   const std::array<fs::path, 3> paths = {in_folder("a"), in_folder("b"), in_folder("c")};
   for (int round = 0; round < 50; ++round) {

@@ -24,6 +24,7 @@ namespace {
 using taut::Certificate;
 using taut::Verdict;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kCases = TAUT_SOURCE_DIR "/cases/";
 const std::string kRobot1 = kCases + "robot1-slice-qs-qg.yaml";
@@ -40,11 +41,17 @@ std::string content_of(const std::filesystem::path& path) {
 std::string certificate_of_command(const std::string& command) {
   const std::filesystem::path out = std::filesystem::temp_directory_path() / fmt::format("taut-{}", ::getpid());
   const int status = std::system(
-      fmt::format("{} {} --no-check --out {} >/dev/null 2>&1", TAUT_PROGRAM, command, out.string()).c_str());
+      fmt::format("{} {} --max-seconds 0 --out {} >/dev/null 2>&1", TAUT_PROGRAM, command, out.string()).c_str());
   EXPECT_LE(WEXITSTATUS(status), 2) << command;
   std::string text = content_of(out / "certificate.json");
   std::filesystem::remove_all(out);
   return text;
+}
+
+/// path.csv without its last line, which names the certificate.
+std::string rows(const Certificate& certificate) {
+  const std::string text = certificate.path_csv();
+  return text.substr(0, text.rfind("# certificate.json"));
 }
 
 taut::Outcome outcome(const Certificate& certificate) { return taut::check(certificate).outcome; }
@@ -117,7 +124,7 @@ TEST(Plan, KeepsAndUsesAtlases) {
   EXPECT_GT(std::filesystem::file_size(atlas.path()), 1000U);
   options = {};
   options.atlas = atlas.path();
-  EXPECT_EQ(taut::plan(robot, options).path_csv(), first.path_csv());
+  EXPECT_EQ(rows(taut::plan(robot, options)), rows(first));
 }
 
 TEST(Plan, OfACaseWithoutAQueryIsAnInputError) {
@@ -138,9 +145,9 @@ TEST(Prove, ProvesAPlannedPathWithItsMargins) {
     const Certificate planned = taut::plan(robot);
     const Certificate proved = taut::prove(robot, planned.path());
     EXPECT_EQ(proved.verdict(), Verdict::kProved) << name;
-    EXPECT_EQ(proved.margins()->tension_N, planned.margins()->tension_N);
+    EXPECT_EQ(proved.theorem()->margins()->tension_N, planned.theorem()->margins()->tension_N);
     EXPECT_EQ(proved.boxes(), planned.boxes());
-    EXPECT_EQ(proved.path_csv(), planned.path_csv());
+    EXPECT_EQ(rows(proved), rows(planned));
     EXPECT_EQ(outcome(proved), taut::Outcome::kAccepted) << taut::check(proved).message;
   }
 }
@@ -163,8 +170,8 @@ TEST(Prove, RefutesWithAWitness) {
   const Certificate refuted =
       taut::prove(robot, {taut::Interpolation::kStraight, {{{-2.3, 1.6}, {}}, {{1.7, 1.7}, {}}}, {}});
   ASSERT_EQ(refuted.verdict(), Verdict::kRefuted);
-  EXPECT_FALSE(refuted.margins());
-  const taut::Witness witness = *refuted.witness();
+  EXPECT_FALSE(refuted.theorem()->margins());
+  const taut::Witness witness = *refuted.theorem()->witness();
   EXPECT_THAT(witness.kind, testing::StartsWith("tension"));
   EXPECT_TRUE(witness.kind == "tension_min" ? witness.value_upper <= witness.limit
                                             : witness.value_lower >= witness.limit);
@@ -288,9 +295,47 @@ TEST(Certificate, IsSavedAndLoadedByteForByte) {
   EXPECT_EQ(content_of(file.path()), planned.text());
   const Certificate loaded = Certificate::load(file.path());
   EXPECT_EQ(loaded.text(), planned.text());
-  EXPECT_EQ(loaded.verdict(), Verdict::kProved);
   EXPECT_EQ(loaded.case_name(), "robot1-slice-qs-qg");
-  EXPECT_THAT(loaded.claim(), HasSubstr("every"));
+}
+
+TEST(Theorem, IsMadeByTheCheckerAlone) {
+  static_assert(!std::is_default_constructible_v<taut::Theorem>);
+  const Certificate planned = taut::plan(taut::Case::load(kRobot1));
+  EXPECT_EQ(planned.verdict(), Verdict::kProved);
+  ASSERT_TRUE(planned.theorem());
+  EXPECT_EQ(planned.theorem()->verdict(), Verdict::kProved);
+  EXPECT_FALSE(planned.theorem()->witness());
+  EXPECT_THAT(planned.path_csv(), HasSubstr(planned.theorem()->certificate_sha256() + "\n"));
+
+  const Certificate loaded = Certificate::parse(planned.text());
+  EXPECT_EQ(loaded.verdict(), Verdict::kUnchecked);
+  EXPECT_FALSE(loaded.theorem());
+  const taut::CheckResult checked = taut::check(loaded);
+  ASSERT_TRUE(checked.theorem);
+  EXPECT_EQ(checked.theorem->verdict(), Verdict::kProved);
+  EXPECT_THAT(checked.theorem->claim(), HasSubstr("every"));
+  EXPECT_GT(checked.theorem->margins()->tension_N, 0);
+  EXPECT_EQ(checked.not_compared, (std::vector<std::string>{"case", "path file"}));
+
+  taut::PlanOptions no_time;
+  no_time.max_check_seconds = 0;
+  const Certificate unchecked = taut::plan(taut::Case::load(kRobot1), no_time);
+  EXPECT_EQ(unchecked.text(), planned.text());
+  EXPECT_EQ(unchecked.verdict(), Verdict::kUnchecked);
+  EXPECT_FALSE(unchecked.theorem());
+  taut::ReportOptions options;
+  options.format = taut::ReportFormat::kText;
+  EXPECT_THAT(taut::report(unchecked, options), HasSubstr("Proved:")) << "a report has it checked";
+  options.max_check_seconds = 0;
+  EXPECT_THAT(taut::report(loaded, options), testing::AllOf(HasSubstr("UNCHECKED: "), Not(HasSubstr("Proved:"))));
+  EXPECT_THAT(taut::report(planned, options), HasSubstr("Proved:")) << "there is a theorem already";
+}
+
+TEST(Theorem, IsNotMadeOfAForgedCertificate) {
+  const Certificate forged = Certificate::load(TAUT_SOURCE_DIR "/tests/attacks/f1.json");
+  EXPECT_EQ(forged.verdict(), Verdict::kUnchecked);
+  EXPECT_FALSE(taut::check(forged).theorem);
+  EXPECT_THROW(static_cast<void>(taut::report(forged)), taut::InputError);
 }
 
 TEST(Certificate, ThatWasAlteredIsNoneAndIsMalformed) {
@@ -335,7 +380,6 @@ TEST(Report, ComesInFourForms) {
   const Certificate planned = taut::plan(taut::Case::load(kRobot1));
   taut::ReportOptions options;
   options.document = "LIFT-1";
-  options.check = true;
   EXPECT_THAT(taut::report(planned, options),
               testing::AllOf(testing::StartsWith("<!DOCTYPE html>"), HasSubstr("LIFT-1")));
   options.format = taut::ReportFormat::kJson;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The Python module. Usage: taut_test.py TAUT SOURCE_DIR, with the module in PYTHONPATH."""
 import copy
+import hashlib
 import json
 import os
 import pickle
@@ -45,7 +46,7 @@ ROBOT = {
 def command(*arguments):
     """The certificate that a command of taut writes."""
     with tempfile.TemporaryDirectory() as out:
-        subprocess.run([TAUT, *arguments, "--no-check", "--out", out], capture_output=True, check=False, timeout=300)
+        subprocess.run([TAUT, *arguments, "--max-seconds", "0", "--out", out], capture_output=True, check=False, timeout=300)
         with open(os.path.join(out, "certificate.json"), encoding="utf-8") as file:
             return file.read()
 
@@ -77,7 +78,7 @@ class Cases(unittest.TestCase):
         planned = taut.plan(case)
         reference = taut.plan(taut.Case.load(ROBOT1))
         self.assertEqual(planned.path.waypoints.tolist(), reference.path.waypoints.tolist())
-        self.assertEqual(planned.margins, reference.margins)
+        self.assertEqual(planned.theorem.margins, reference.theorem.margins)
 
     def test_of_text(self):
         with open(ROBOT1, encoding="utf-8") as file:
@@ -129,12 +130,27 @@ class Certificates(unittest.TestCase):
     def test_say_what_is_proved(self):
         self.assertTrue(self.planned.is_proved)
         self.assertEqual(self.planned.case_name, "robot1-slice-qs-qg")
-        self.assertGreater(self.planned.margins.tension_N, 0)
-        self.assertIsNone(self.planned.witness)
+        self.assertGreater(self.planned.theorem.margins.tension_N, 0)
+        self.assertIsNone(self.planned.theorem.witness)
         self.assertEqual(self.planned.stretches, [])
         self.assertEqual(self.planned.data["verdict"], "proved")
         self.assertEqual(len(self.planned.path.waypoints), self.planned.segments + 1)
         self.assertIn("proved", repr(self.planned))
+
+    def test_have_a_theorem_where_the_checker_made_one(self):
+        self.assertEqual(self.planned.theorem.verdict, "proved")
+        self.assertEqual(self.planned.theorem.certificate_sha256, hashlib.sha256(self.planned.text.encode()).hexdigest())
+        loaded = taut.Certificate(self.planned.text)
+        self.assertEqual((loaded.verdict, loaded.theorem, loaded.is_proved), ("unchecked", None, False))
+        self.assertEqual(taut.check(loaded).theorem, self.planned.theorem)
+        unchecked = taut.plan(self.case, max_check_seconds=0)
+        self.assertEqual((unchecked.verdict, unchecked.theorem, unchecked.text), ("unchecked", None, self.planned.text))
+        self.assertIn("UNCHECKED: ", taut.report(loaded, "text", max_check_seconds=0))
+        self.assertEqual(taut.check(loaded, self.case).not_compared, ("path file",))
+        with open(os.path.join(CASES, "..", "tests", "attacks", "f1.json"), encoding="utf-8") as file:
+            forged = taut.Certificate(file.read())
+        self.assertIsNone(taut.check(forged).theorem)
+        self.assertRaises(taut.InputError, taut.report, forged)
 
     def test_are_saved_loaded_and_pickled(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -163,7 +179,7 @@ class Certificates(unittest.TestCase):
 
     def test_are_reported(self):
         self.assertTrue(taut.report(self.planned, document="LIFT-1").startswith("<!DOCTYPE html>"))
-        self.assertIn("confirmed", taut.report(self.planned, "json", check=True))
+        self.assertIn("confirmed", taut.report(self.planned, "json"))
         self.assertRaises(taut.InputError, taut.report, self.planned, "pdf")
 
 
@@ -220,10 +236,10 @@ class Proofs(unittest.TestCase):
     def test_that_refute(self):
         refuted = taut.prove(self.case, [[-2.3, 1.6], [1.7, 1.7]])
         self.assertEqual(refuted.verdict, "refuted")
-        witness = refuted.witness
+        witness = refuted.theorem.witness
         self.assertIn(witness.kind, ("tension_min", "tension_max"))
         self.assertTrue(witness.value[1] <= witness.limit or witness.value[0] >= witness.limit)
-        self.assertIsNone(refuted.margins)
+        self.assertIsNone(refuted.theorem.margins)
 
     def test_of_what_does_not_fit(self):
         for waypoints, message in (([1.0, 2.0], "shape"), ([[1.0, 2.0, 3.0]] * 2, "got 3 numbers, expected 2"),

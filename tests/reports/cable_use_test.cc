@@ -14,7 +14,7 @@ namespace taut {
 namespace {
 
 TEST(CableUse, ContainsEverySampleOfAProvedPath) {
-  const Scene scene(sample::proved());
+  const Scene scene = sample::scene(sample::proved());
   const CableUse use = cable_use(scene);
   EXPECT_EQ(use.source, CableUse::Source::kProved);
   for (const PathSample& sample : scene.samples) {
@@ -30,16 +30,17 @@ TEST(CableUse, ContainsEverySampleOfAProvedPath) {
 TEST(CableUse, SaysWhatItRestsOn) {
   nlohmann::json certificate = sample::proved();
   certificate["segments"][1]["boxes"] = nlohmann::json::array();
-  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kProvedParts);
+  EXPECT_EQ(cable_use(sample::scene(certificate)).source, CableUse::Source::kProvedParts);
   certificate = sample::proved();
   certificate["segments"].erase(1);
-  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kProvedParts) << "a segment is missing";
-  EXPECT_EQ(cable_use(Scene(sample::refuted())).source, CableUse::Source::kSamples);
-  EXPECT_EQ(cable_use(Scene(sample::no_path())).source, CableUse::Source::kNone);
+  EXPECT_EQ(cable_use(sample::scene(certificate)).source, CableUse::Source::kProvedParts) << "a segment is missing";
+  EXPECT_EQ(cable_use(sample::scene(sample::refuted())).source, CableUse::Source::kSamples);
+  EXPECT_EQ(cable_use(sample::scene(sample::no_path())).source, CableUse::Source::kNone);
   certificate = sample::undecided();
-  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kSamples);
+  EXPECT_EQ(cable_use(sample::scene(certificate)).source, CableUse::Source::kSamples);
   certificate["undecided"] = {{"reason", "no path was found"}, {"segment", nullptr}, {"box", nullptr}};
-  EXPECT_EQ(cable_use(Scene(certificate)).source, CableUse::Source::kNone) << "its waypoints are the query's alone";
+  EXPECT_EQ(cable_use(sample::scene(certificate)).source, CableUse::Source::kNone)
+      << "its waypoints are the query's alone";
 }
 
 TEST(Closest, IsTheCableNextToALimitByTheWidthBetweenThem) {

@@ -61,7 +61,7 @@ std::string tags_only(const std::string& page) {
 
 /// The page without what stands in its script elements; there have to be two, the data and the script.
 std::string report(const nlohmann::json& certificate, const ReportOptions& options = {}) {
-  std::string page = html_report(certificate, options);
+  std::string page = html_report(sample::scene(certificate), options);
   std::size_t scripts = 0;
   for (std::size_t begin = page.find("<script"); begin != std::string::npos; begin = page.find("<script", begin + 1)) {
     ++scripts;
@@ -89,7 +89,7 @@ const std::string& page_of(const std::string& name) {
 }
 
 ReportOptions named(const std::string& document, const std::string& revision, const std::string& date) {
-  return {document, revision, date, {}};
+  return {document, revision, date};
 }
 
 TEST(HtmlReport, SaysWhatWasProvedAndHowClose) {
@@ -136,24 +136,35 @@ TEST(HtmlReport, PrintsWhatItIsToldOfTheDocument) {
 }
 
 TEST(HtmlReport, SaysWhatTheCheckerFound) {
-  const auto page = [](Recheck::Result result) {
-    return report(sample::proved(), {"", "", "", {result, "taut-check 9.9", "so <it> is"}});
-  };
-  EXPECT_THAT(page_of("proved"), HasSubstr("Not re-checked. Before relying on it run: taut-check certificate.json"));
-  EXPECT_THAT(page(Recheck::Result::kConfirmed),
-              HasSubstr("taut-check 9.9, an independent program with other arithmetic, accepted"));
-  EXPECT_THAT(page(Recheck::Result::kConfirmed), HasSubstr("so &lt;it&gt; is"));
-  EXPECT_THAT(page(Recheck::Result::kConfirmed), Not(HasSubstr("REJECTED")));
-  EXPECT_THAT(page(Recheck::Result::kNoClaim), HasSubstr("it claims nothing"));
-  const std::string rejected = page(Recheck::Result::kRejected);
-  EXPECT_THAT(rejected, HasSubstr("REJECTED: taut-check 9.9 could not confirm this certificate"));
-  EXPECT_THAT(rejected, HasSubstr("What it found: so &lt;it&gt; is."));
-  EXPECT_THAT(rejected, Not(HasSubstr("Proved: at every pose")));
-  EXPECT_THAT(rejected, Not(HasSubstr("comes closest")));
-  for (const char* id : {"margins", "theorem", "stretches", "tolerances", "recheck"}) {
-    EXPECT_THAT(rejected, Not(HasSubstr(fmt::format("<section id=\"{}\">", id)))) << "what it claims is not repeated";
+  EXPECT_THAT(page_of("proved"), HasSubstr("taut-check 9.9, an independent program with other arithmetic, accepted"));
+  EXPECT_THAT(page_of("proved"), HasSubstr("so &lt;it&gt; is"));
+  EXPECT_THAT(page_of("proved"), Not(HasSubstr("UNCHECKED")));
+  EXPECT_THAT(page_of("undecided"), HasSubstr("it claims nothing"));
+}
+
+TEST(HtmlReport, RepeatsNothingOfAnUncheckedCertificate) {
+  const std::string page = html_report(sample::unchecked(sample::proved()));
+  EXPECT_THAT(page, HasSubstr("<div class=\"verdict unchecked\"><p>UNCHECKED: "));
+  EXPECT_THAT(page, HasSubstr("taut-check 9.9: so &lt;it&gt; is."));
+  EXPECT_THAT(page, HasSubstr("<title>Motion report: unchecked</title>"));
+  for (const char* claim : {"Proved: at every pose", "comes closest", "4.25e-02", "5.11e-02", "word by word"}) {
+    EXPECT_THAT(page, Not(HasSubstr(claim)));
   }
-  EXPECT_THAT(rejected, HasSubstr("<title>robot1-slice: rejected</title>"));
+  for (const char* id : {"margins", "margins-along", "theorem", "stretches", "tolerances", "tolerances-used"}) {
+    EXPECT_THAT(page, Not(HasSubstr(fmt::format("<section id=\"{}\">", id))));
+  }
+}
+
+TEST(HtmlReport, MarksFreeTextAsNotChecked) {
+  nlohmann::json certificate = sample::proved();
+  certificate["generator"] = {{"name", "Approved by"}, {"version", "nobody"}};
+  certificate["illustration"]["stats"] = {{"certified", "by nobody"}};
+  const std::string page = report(certificate);
+  EXPECT_THAT(page, HasSubstr("<h1><bdi>robot1-slice</bdi> <small>(name given in the case, not checked)</small></h1>"));
+  EXPECT_THAT(page, HasSubstr("made by (not checked)</td><td><bdi>Approved by nobody</bdi>"));
+  EXPECT_THAT(page, HasSubstr("as the program that wrote the certificate says (not checked): certified: by nobody"));
+  const std::string first_page = page.substr(0, page.find("</header>"));
+  EXPECT_THAT(first_page, Not(HasSubstr("by nobody")));
 }
 
 TEST(HtmlReport, PrintsClaimAndDigestsAsTheCertificateStatesThem) {
@@ -299,7 +310,7 @@ TEST(HtmlReport, EscapesEveryStringOfTheCertificate) {
 }
 
 TEST(HtmlReport, AllowsItsOwnScriptAndNoOther) {
-  const std::string page = html_report(sample::hostile());
+  const std::string page = html_report(sample::scene(sample::hostile()));
   const std::size_t begin = page.rfind("<script>") + std::string("<script>").size();
   const std::string script = page.substr(begin, page.rfind("</script>") - begin);
   std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
@@ -357,7 +368,7 @@ TEST(HtmlReport, StaysSmallForLongPathsAndLargeAtlases) {
   }
   const nlohmann::json chart = certificate["illustration"]["charts"][0];
   for (int k = 0; k < 500; ++k) certificate["illustration"]["charts"].push_back(chart);
-  EXPECT_LT(html_report(certificate).size(), 2'000'000u);
+  EXPECT_LT(html_report(sample::scene(certificate)).size(), 2'000'000u);
 }
 
 TEST(HtmlReport, SurvivesAbsurdNumbers) {

@@ -37,7 +37,7 @@ json long_path(std::size_t copies) {
 }
 
 TEST(ReportData, HasPosesAndProvedRangesAlongThePath) {
-  const Scene scene(sample::proved());
+  const Scene scene = sample::scene(sample::proved());
   const json data = report_data(scene);
   EXPECT_EQ(data["segments"], 2);
   EXPECT_EQ(data["samples"]["position"].size(), scene.samples.size());
@@ -52,7 +52,7 @@ TEST(ReportData, HasPosesAndProvedRangesAlongThePath) {
 }
 
 TEST(ReportData, RoundsProvedRangesOutward) {
-  const Scene scene(sample::proved());
+  const Scene scene = sample::scene(sample::proved());
   const json bands = report_data(scene)["bands"];
   std::size_t k = 0;
   for (const auto& segment : scene.ranges.segments) {
@@ -92,20 +92,20 @@ TEST(ReportData, PutsLongPathsTogetherWithoutLosingTheLeastAndTheGreatest) {
 TEST(ReportData, KeepsGapsBetweenBoxes) {
   json certificate = sample::proved();
   certificate["segments"][0]["boxes"] = json::parse(R"([["0","1/4"],["1/2","1"]])");
-  const json bands = report_data(Scene(certificate))["bands"];
+  const json bands = report_data(sample::scene(certificate))["bands"];
   std::size_t gaps = 0;
   for (std::size_t k = 1; k < bands["from"].size(); ++k) gaps += bands["from"][k] > bands["to"][k - 1] ? 1 : 0;
   EXPECT_EQ(gaps, 1u);
 }
 
 TEST(ReportData, TellsWhatIsNotProved) {
-  const json refuted = report_data(Scene(sample::refuted()));
+  const json refuted = report_data(sample::scene(sample::refuted()));
   EXPECT_EQ(refuted["witness"]["position"], 1.375);
   EXPECT_EQ(refuted["witness"]["cable"], 3);
-  const json undecided = report_data(Scene(sample::undecided()));
+  const json undecided = report_data(sample::scene(sample::undecided()));
   EXPECT_EQ(undecided["stretches"], json::parse(R"([{"from": 1.25, "to": 1.375, "violated": false}])"));
   EXPECT_TRUE(undecided["bands"].is_null());
-  EXPECT_EQ(report_data(Scene(sample::no_path()))["samples"]["position"].size(), 0u);
+  EXPECT_EQ(report_data(sample::scene(sample::no_path()))["samples"]["position"].size(), 0u);
 }
 
 TEST(ReportData, SetsWhatIsStatedBesideWhatIsProvedOfATolerance) {
@@ -117,26 +117,27 @@ TEST(ReportData, SetsWhatIsStatedBesideWhatIsProvedOfATolerance) {
       {"tolerance": "base_anchors", "stated": "7", "proved": "0.000183", "unit": "m"},
       {"tolerance": "load", "stated": "7", "proved": "0.0841", "unit": "N, N m"},
       {"tolerance": "unheard_of", "stated": "7", "proved": "1", "unit": "m"}])");
-  const json data = report_data(Scene(certificate));
+  const json data = report_data(sample::scene(certificate));
   EXPECT_EQ(data["tube_m"], 0.001);
   EXPECT_EQ(data["tolerances"], json::parse(R"([
       {"name": "base_anchors", "unit": "m", "stated": 0.0001, "proved": 0.000183},
       {"name": "load", "unit": "N, N m", "stated": 0.005, "proved": 0.0841}])"));
 }
 
-TEST(ReportData, RepeatsNoClaimOfARejectedCertificate) {
-  const json data = report_data(Scene(sample::proved()), true);
-  EXPECT_EQ(data["verdict"], "rejected");
+TEST(ReportData, RepeatsNoClaimOfAnUncheckedCertificate) {
+  const json data = report_data(sample::unchecked(sample::proved()));
+  EXPECT_EQ(data["verdict"], "unchecked");
+  EXPECT_TRUE(data["bands"].is_null());
   EXPECT_TRUE(data["margins"]["tension_N"].empty());
-  EXPECT_EQ(data["samples"], report_data(Scene(sample::proved()))["samples"]) << "what is computed is there";
-  EXPECT_TRUE(report_data(Scene(sample::refuted()), true)["witness"].is_null());
-  EXPECT_TRUE(report_data(Scene(sample::undecided()), true)["stretches"].empty());
+  EXPECT_EQ(data["samples"], report_data(sample::scene(sample::proved()))["samples"]) << "what is computed is there";
+  EXPECT_TRUE(report_data(sample::unchecked(sample::refuted()))["witness"].is_null());
+  EXPECT_TRUE(report_data(sample::unchecked(sample::undecided()))["stretches"].empty());
 }
 
 TEST(ReportData, HasOnlyFiniteNumbers) {
   json certificate = sample::proved();
   certificate["path"]["waypoints"][1]["x"] = {"0x1p+1023", "-0x1p+1023"};
-  const std::string text = script_safe(report_data(Scene(certificate)));
+  const std::string text = script_safe(report_data(sample::scene(certificate)));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   EXPECT_THAT(text, Not(HasSubstr("inf")));
   EXPECT_TRUE(json::accept(text));
@@ -145,7 +146,7 @@ TEST(ReportData, HasOnlyFiniteNumbers) {
 TEST(ReportData, CannotEndItsScriptElement) {
   json certificate = sample::hostile();
   certificate["problem"]["space"]["parameters"][0]["name"] = "phi";
-  EXPECT_THAT(script_safe(report_data(Scene(certificate))), Not(HasSubstr("<")));
+  EXPECT_THAT(script_safe(report_data(sample::scene(certificate))), Not(HasSubstr("<")));
   const json attack = sample::kAttack + "\xff";
   const std::string text = script_safe(attack);
   EXPECT_THAT(text, Not(HasSubstr("<")));
@@ -153,7 +154,7 @@ TEST(ReportData, CannotEndItsScriptElement) {
 }
 
 TEST(Plane, ColoursThePathsPosesAsTheyAre) {
-  const Scene scene(sample::proved());
+  const Scene scene = sample::scene(sample::proved());
   const Plane plane = sample_plane(scene).value();
   ASSERT_EQ(plane.cells.size(), static_cast<std::size_t>(plane.rows) * static_cast<std::size_t>(plane.columns));
   for (const PathSample& sample : scene.samples) {

@@ -1,9 +1,14 @@
-// Certificates for the report's tests: Robot 1 on its slice. Right in form, and the first steps of a real path;
-// digests, boxes and margins are made up, since a report does not check them.
+// Certificates for the tests of a report's words: Robot 1 on its slice. Right in form, and the first steps of a real path;
+// digests, boxes and margins are made up. No theorem can be made of them: what a report does with a theorem, and what it does
+// without one, is theorem_test.cc's and tests/cli/report_test.py's to look at.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+
+#include "certificate/certificate_view.h"
+#include "reports/summary/scene.h"
 
 namespace taut::sample {
 
@@ -105,6 +110,19 @@ inline nlohmann::json no_path() {
   result["undecided"] = {{"reason", "no path was found"}, {"segment", nullptr}, {"box", nullptr}};
   result["illustration"] = nullptr;
   return result;
+}
+
+/// What a report would show if the checker had confirmed it; what claims nothing stays so.
+inline Scene scene(const nlohmann::json& certificate) {
+  CertificateView view = read_certificate(certificate);
+  const bool is_claim = view.verdict != "undecided";
+  return {std::move(view),
+          {is_claim ? Recheck::Result::kConfirmed : Recheck::Result::kNoClaim, "taut-check 9.9", "so <it> is"}};
+}
+
+/// The same if the checker had not come to an end.
+inline Scene unchecked(const nlohmann::json& certificate) {
+  return {read_certificate(certificate), {Recheck::Result::kUnchecked, "taut-check 9.9", "so <it> is"}};
 }
 
 /// Every string that a report may show tries to break out of it.

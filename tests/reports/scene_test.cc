@@ -11,7 +11,7 @@ namespace taut {
 namespace {
 
 TEST(Scene, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
-  const Scene scene(sample::proved());
+  const Scene scene = sample::scene(sample::proved());
   ASSERT_EQ(scene.ranges.segments.size(), 2u);
   std::size_t seen = 0;
   for (const PathSample& sample : scene.samples) {
@@ -32,7 +32,7 @@ TEST(Scene, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
 }
 
 TEST(Scene, ReadsBoxesAsTheyAre) {
-  const Scene scene(sample::proved());
+  const Scene scene = sample::scene(sample::proved());
   ASSERT_EQ(scene.view.segment_boxes.size(), 2u);
   EXPECT_EQ(scene.view.segment_boxes[0], (std::vector<DyadicBox>{{0, 1}, {1, 1}}));
   EXPECT_EQ(scene.view.segment_boxes[1], (std::vector<DyadicBox>{{0, 0}}));
@@ -41,7 +41,7 @@ TEST(Scene, ReadsBoxesAsTheyAre) {
 TEST(Scene, LeavesOutBoxesThatAreNotHalvesOfHalves) {
   nlohmann::json certificate = sample::proved();
   certificate["segments"][0]["boxes"] = nlohmann::json::parse(R"([["0","1/4"],["1/4","3/4"],["3/4","1"]])");
-  EXPECT_EQ(Scene(certificate).view.segment_boxes[0], (std::vector<DyadicBox>{{0, 2}, {3, 2}}));
+  EXPECT_EQ(sample::scene(certificate).view.segment_boxes[0], (std::vector<DyadicBox>{{0, 2}, {3, 2}}));
 }
 
 TEST(Scene, RefusesBoxesThatAreNoNumbers) {

@@ -15,18 +15,17 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 Summary summary_of(const nlohmann::json& certificate, const ReportOptions& options = {}) {
-  return {Scene(certificate), options};
+  return {sample::scene(certificate), options};
 }
-
-const ReportOptions kRejected = {"", "", "", {Recheck::Result::kRejected, "taut-check 9.9", "box 3 is not proved"}};
 
 TEST(Summary, SaysTheSameAsTextMarkdownAndJson) {
   for (const nlohmann::json& certificate :
        {sample::proved(), sample::refuted(), sample::singular(), sample::undecided(), sample::no_path()}) {
-    const Summary summary = summary_of(certificate, {"LP-17", "C", "2024-02-29", {}});
+    const Summary summary = summary_of(certificate, {"LP-17", "C", "2024-02-29"});
     const std::string text = to_text(summary);
     const nlohmann::json json = to_json(summary);
-    EXPECT_THAT(text, StartsWith("LP-17, revision C, 2024-02-29: robot1-slice\n"));
+    EXPECT_THAT(text,
+                StartsWith("LP-17, revision C, 2024-02-29: robot1-slice (name given in the case, not checked)\n"));
     EXPECT_THAT(text, HasSubstr(summary.headline + "\n"));
     EXPECT_EQ(json["headline"], summary.headline);
     EXPECT_EQ(json["verdict"], certificate["verdict"]);
@@ -50,15 +49,20 @@ TEST(Summary, RoundsProvedRangesOutward) {
   EXPECT_EQ(tension["upper_limit"], 0.5);
 }
 
-TEST(Summary, RepeatsNothingOfARejectedCertificate) {
-  const Summary summary = summary_of(sample::proved(), kRejected);
-  EXPECT_EQ(summary.verdict, "rejected");
-  EXPECT_THAT(to_text(summary), HasSubstr("REJECTED: taut-check 9.9 could not confirm this certificate"));
-  EXPECT_THAT(to_text(summary), HasSubstr("box 3 is not proved"));
-  EXPECT_THAT(to_text(summary), Not(HasSubstr("Proved:")));
-  EXPECT_THAT(to_text(summary), Not(HasSubstr("Tension from")));
-  EXPECT_EQ(to_json(summary)["verdict"], "rejected");
-  EXPECT_EQ(to_json(summary)["recheck"]["result"], "rejected");
+TEST(Summary, RepeatsNothingOfAnUncheckedCertificate) {
+  for (const nlohmann::json& certificate :
+       {sample::proved(), sample::refuted(), sample::singular(), sample::undecided()}) {
+    const Summary summary(sample::unchecked(certificate), {});
+    EXPECT_EQ(summary.verdict, "unchecked");
+    EXPECT_THAT(to_text(summary), HasSubstr("UNCHECKED: whether this certificate is right is not known"));
+    EXPECT_THAT(to_text(summary), HasSubstr("so <it> is"));
+    for (const char* claim :
+         {"Proved:", "Refuted:", "Undecided:", "Reserves", "0.0425", "0.8123", "the determinant may"}) {
+      EXPECT_THAT(to_text(summary), Not(HasSubstr(claim)));
+    }
+    EXPECT_NE(to_json(summary)["cables_source"], "proved");
+    EXPECT_EQ(to_json(summary)["recheck"]["result"], "unchecked");
+  }
 }
 
 TEST(Summary, MakesNoMarkupOfWhatACertificateSays) {

@@ -1,4 +1,4 @@
-foreach(header markup samples scene travel report_data cable_use style summary html_report)
+foreach(header markup samples scene travel report_data cable_use style summary html_report theorem)
   taut_add_test(reports ${header} LABELS unit LIBS taut::reports fmt::fmt OpenSSL::Crypto)
 endforeach()
 

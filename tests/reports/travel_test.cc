@@ -48,9 +48,11 @@ TEST(Travel, StaysWithinTheMove) {
   EXPECT_EQ(scene.travel.distance_m(-1), 0);
 }
 
-TEST(Travel, HasNoTimeWhereThePathHasNone) { EXPECT_FALSE(Scene(sample::proved()).travel.time_s(1).has_value()); }
+TEST(Travel, HasNoTimeWhereThePathHasNone) {
+  EXPECT_FALSE(sample::scene(sample::proved()).travel.time_s(1).has_value());
+}
 
-TEST(Travel, OfNoPathIsNothing) { EXPECT_EQ(Scene(sample::no_path()).travel.distance_m(0), 0); }
+TEST(Travel, OfNoPathIsNothing) { EXPECT_EQ(sample::scene(sample::no_path()).travel.distance_m(0), 0); }
 
 }  // namespace
 }  // namespace taut

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return 3;
   const std::filesystem::path directory = argv[1];
   const auto write = [&](const char* name, const nlohmann::json& certificate) {
-    std::ofstream(directory / name) << taut::html_report(certificate);
+    std::ofstream(directory / name) << taut::html_report(taut::sample::scene(certificate));
   };
   write("proved.html", taut::sample::proved());
   write("refuted.html", taut::sample::refuted());
@@ -17,7 +17,5 @@ int main(int argc, char** argv) {
   write("undecided.html", taut::sample::undecided());
   write("no_path.html", taut::sample::no_path());
   write("hostile.html", taut::sample::hostile());
-  taut::ReportOptions rejected;
-  rejected.recheck.result = taut::Recheck::Result::kRejected;
-  std::ofstream(directory / "rejected.html") << taut::html_report(taut::sample::proved(), rejected);
+  std::ofstream(directory / "unchecked.html") << taut::html_report(taut::sample::unchecked(taut::sample::proved()));
 }

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     if (taut::refute_waypoint(prover, waypoint, 0, undecided) || !undecided.empty()) return 1;
   }
   const taut::v0::Certificate certificate = taut::v0::plan(taut::v0::Case::load(argv[1]));
-  const taut::checker::CheckResult checked = taut::checker::check_certificate(certificate.text());
+  const taut::checker::CheckResult checked = taut::checker::check(certificate.text());
   std::cout << checked.message << "\n";
   return checked.outcome == taut::checker::Outcome::kAccepted ? 0 : 1;
 }

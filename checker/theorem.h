@@ -1,0 +1,64 @@
+// What the checker has proved: the only thing in taut that is a verdict.
+//
+// In the manner of LCF provers: a Theorem has no public constructor, and check() is the only function that can make one.
+// Whoever is handed a Theorem therefore knows, by its type, that the checker has proved the claim; reports, exit codes and
+// the library take a Theorem where they state a verdict, and nothing else.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+namespace taut::checker {
+
+struct CheckOptions;
+struct CheckResult;
+
+/// The claim of a certificate, proved by this checker. Copies are cheap.
+class Theorem {
+ public:
+  enum class Verdict {
+    kProved,   ///< the claim holds along the whole path
+    kRefuted,  ///< it does not: the witness violates a limit or is singular
+  };
+  struct Counts {
+    std::size_t segments = 0;
+    std::size_t boxes = 0;
+    std::size_t pieces = 0;  ///< boxes after splitting: how many were proved at one go
+    int bits = 0;            ///< the highest precision that was needed
+  };
+
+  [[nodiscard]] Verdict verdict() const { return verdict_; }
+  /// What was proved or refuted, in words; the checker has compared them with the words that the format prescribes.
+  [[nodiscard]] const std::string& claim() const { return text("claim"); }
+  [[nodiscard]] const nlohmann::json& problem() const { return (*certificate_)["problem"]; }
+  [[nodiscard]] const nlohmann::json& path() const { return (*certificate_)["path"]; }
+  /// Proved lower bounds, decimals as the certificate writes them; an empty object unless proved.
+  [[nodiscard]] const nlohmann::json& margins() const { return (*certificate_)["margins"]; }
+  /// The violation; null unless refuted.
+  [[nodiscard]] const nlohmann::json& witness() const { return (*certificate_)["witness"]; }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+  /// SHA-256 of the bytes that were checked, 64 lower-case hex digits.
+  [[nodiscard]] const std::string& sha256() const { return sha256_; }
+  /// What was read from these bytes, so that what is shown is what was checked. Of it `generator`, `illustration`,
+  /// `source` and names are free text: no part of the theorem.
+  [[nodiscard]] const nlohmann::json& certificate() const { return *certificate_; }
+
+ private:
+  friend CheckResult check(const std::string& bytes, const CheckOptions& options);
+  Theorem(Verdict verdict, std::shared_ptr<const nlohmann::json> certificate, std::string sha256, Counts counts)
+      : verdict_(verdict), certificate_(std::move(certificate)), sha256_(std::move(sha256)), counts_(counts) {}
+
+  [[nodiscard]] const std::string& text(const char* key) const {
+    return (*certificate_)[key].get_ref<const std::string&>();
+  }
+
+  Verdict verdict_;
+  std::shared_ptr<const nlohmann::json> certificate_;
+  std::string sha256_;
+  Counts counts_;
+};
+
+}  // namespace taut::checker

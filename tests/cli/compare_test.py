@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""`taut-check` says what it compared a certificate with: case, path file, verdict, key; and refuses empty arguments.
+
+Usage: compare_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import json
+import os
+import shutil
+import subprocess
+import threading
+
+from command_line import AUDITS, CHECK, InFolder, ROBOT1, SOURCE, TAUT, main, run, text_of
+
+ROWS = ["phi[deg],theta[deg]", "-88.9,80.2", "-88,80.4", "-87.5,80.4", "-87,80.1"]
+
+
+class Compare(InFolder):
+    def check(self, *options, code, case=ROBOT1, certificate="certificate.json"):
+        said = run(CHECK, self.path(certificate), *([case] if case else []), *options)
+        self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        return said.stdout + said.stderr
+
+    def audit(self, *options, rows=tuple(ROWS), case=ROBOT1):
+        path = self.write("asked.csv", "\n".join(rows))
+        audited = run(TAUT, "audit", case, path, "--out", self.out, *options)
+        self.assertEqual(audited.returncode, 0, audited.stdout + audited.stderr)
+        return path
+
+    def test_an_audit_is_compared_with_its_path_file(self):
+        path = self.audit()
+        self.assertIn("; path file not compared;", self.check(code=0))
+        self.assertIn("; case not compared; path file not compared;", self.check(code=0, case=None))
+        for file in (path, self.path("path.csv")):
+            said = self.check("--path", file, code=0)
+            self.assertNotIn("path file not compared", said)
+            self.assertIn("not compared: the case's query;", said)
+        self.assertEqual(json.loads(self.check("--path", path, "--json", code=0))["not_compared"], ["the case's query"])
+
+    def test_another_path_is_rejected(self):
+        self.audit()
+        other = ROWS[:2] + ["-88.00000000000003,80.4"] + ROWS[3:]
+        reversed_rows = ROWS[:1] + ROWS[:0:-1]
+        for rows, said in ((other, "waypoint 1 differs from line 3"), (reversed_rows, "waypoint 0 differs from line 2"),
+                           (ROWS[:-1], "the certificate has 4 waypoints, the file has 3"),
+                           (ROWS + ["-86,80"], "the certificate has 4 waypoints, the file has 5"),
+                           (["# a remark"] + ROWS, "the file that was audited has another SHA-256")):
+            message = self.check("--path", self.write("other.csv", "\n".join(rows)), code=1)
+            self.assertTrue(message.startswith("rejected: the path is not that of "), message)
+            self.assertIn(said, message)
+
+    def test_another_law_is_rejected(self):
+        path = self.audit("--interpolation", "geodesic")
+        self.assertIn("the certificate's interpolation is geodesic, the file's is straight-in-parameters",
+                      self.check("--path", path, code=1))
+        self.check("--path", path, "--interpolation", "geodesic", code=0)
+        self.check("--path", self.path("path.csv"), code=0)
+        self.audit()
+        self.assertIn("the file's is geodesic", self.check("--path", path, "--interpolation", "geodesic", code=1))
+
+    def test_path_csv_of_another_certificate_is_rejected(self):
+        self.audit()
+        name = "# certificate.json SHA-256: "
+        text = text_of(self.path("path.csv"))
+        rows, digest = text.split(name)
+        self.assertRegex(digest, r"^[0-9a-f]{64}\n$")
+        altered = self.write("altered.csv", rows + name + digest.replace(digest[:2], "00" if digest[:2] != "00" else "11", 1))
+        self.assertIn("the file names another certificate's SHA-256", self.check("--path", altered, code=1))
+
+    def test_cable_lengths_are_compared_bit_for_bit(self):
+        case, path = (os.path.join(AUDITS, "robot1-cable-lengths" + end) for end in (".yaml", ".csv"))
+        self.assertEqual(run(TAUT, "audit", case, "--out", self.out).returncode, 0)
+        self.check("--path", path, code=0, case=case)
+        self.check("--path", self.path("path.csv"), code=0, case=case)
+        lines = text_of(self.path("path.csv")).splitlines()
+        cells = lines[2].split(",")
+        cells[-1] = repr(float(cells[-1]) * (1 + 1e-15))
+        changed = self.write("changed.csv", "\n".join(lines[:2] + [",".join(cells)] + lines[3:]))
+        self.assertIn("waypoint 1 differs", self.check("--path", changed, code=1, case=case))
+
+    def test_a_plan_is_compared_with_its_path_csv(self):
+        self.assertEqual(run(TAUT, "plan", ROBOT1, "--out", self.out).returncode, 0)
+        said = self.check("--path", self.path("path.csv"), code=0)
+        self.assertNotIn("not compared", said)
+        lines = text_of(self.path("path.csv")).splitlines()
+        swapped = self.write("swapped.csv", "\n".join([lines[0], "0" + lines[2][1:], "1" + lines[1][1:]] + lines[3:]))
+        self.assertIn("waypoint 0 differs from line 2", self.check("--path", swapped, code=1))
+
+    def test_path_csv_never_stands_beside_another_certificate(self):
+        self.assertEqual(run(TAUT, "plan", ROBOT1, "--out", self.out).returncode, 0)
+        first = text_of(self.path("path.csv"))
+        os.remove(self.path("report.html"))
+        os.mkdir(self.path("report.html"))  # so that nothing can be put in place
+        os.mkdir(self.path("report.html", "full"))
+        failed = run(TAUT, "plan", os.path.join(SOURCE, "cases", "robot1-slice-qs1-qg.yaml"), "--out", self.out)
+        self.assertEqual(failed.returncode, 3)
+        self.assertEqual(text_of(self.path("path.csv")), first)
+        self.check("--path", self.path("path.csv"), code=0)
+
+    def test_the_verdict_that_is_expected(self):
+        self.audit()
+        self.check("--expect", "proved", code=0)
+        self.assertIn("rejected: the certificate says proved, expected refuted", self.check("--expect", "refuted", code=1))
+        self.check("--expect", "undecided", code=3)
+
+    def test_time_runs_out(self):
+        self.audit()
+        said = self.check("--max-seconds", "0", code=2)
+        self.assertTrue(said.startswith("unchecked: nothing was proved, as no time was allowed for it"), said)
+        self.assertIsNone(json.loads(self.check("--max-seconds", "0", "--json", code=2))["verdict"])
+        case = os.path.join(AUDITS, "robot1-cable-lengths-tolerances.yaml")
+        run(TAUT, "audit", case, "--out", self.path("long"), "--max-seconds", "0")
+        said = self.check("--max-seconds", "0.05", code=2, case=case, certificate="long/certificate.json")
+        self.assertTrue(said.startswith("unchecked: the budget of 0.05 s ran out"), said)
+        for wrong in ("-1", "nan", "inf", "soon", ""):
+            self.check("--max-seconds", wrong, code=3)
+
+    def test_an_audit_that_was_not_checked_says_so(self):
+        path = self.write("asked.csv", "\n".join(ROWS))
+        said = run(TAUT, "audit", ROBOT1, path, "--out", self.out, "--max-seconds", "0")
+        self.assertEqual(said.returncode, 2, said.stderr)
+        self.assertIn("\nUNCHECKED: nothing was proved, as no time was allowed for it. Nothing is claimed of the path.\n",
+                      said.stdout)
+        self.assertNotIn("proved:", said.stdout)
+        self.assertNotIn("margin", said.stdout)
+        self.assertIn('<div class="verdict unchecked"><p>UNCHECKED: ', text_of(self.path("report.html")))
+        summary = json.loads(run(TAUT, "audit", ROBOT1, path, "--out", self.out, "--max-seconds", "0", "--json").stdout)
+        self.assertEqual((summary["verdict"], summary["margins"], summary["stretches"]), ("unchecked", {}, None))
+
+    def test_empty_arguments_are_errors(self):
+        self.audit()
+        certificate, path = self.path("certificate.json"), self.path("path.csv")
+        for arguments in (["", ROBOT1], [certificate, ""], [certificate, ROBOT1, "--path", ""],
+                          [certificate, ROBOT1, "--path", path, "--interpolation", ""], [certificate, "--expect", ""],
+                          [certificate, "--trust", ""], [certificate, "--threads", ""], [certificate, "--max-seconds", ""]):
+            said = run(CHECK, *arguments)
+            self.assertEqual((said.returncode, said.stdout), (3, ""), arguments)
+        before = sorted(os.listdir(self.out))
+        for arguments in (["plan", ""], ["audit", ROBOT1, ""], ["report", ""], ["init", ""], ["show", ""], ["regress", ""],
+                          ["explain", ""]):
+            self.assertEqual(run(TAUT, *arguments).returncode, 3, arguments)
+        for command, options in ((["plan", ROBOT1], ["--out", "--atlas", "--save-atlas", "--budget", "--sign"]),
+                                 (["audit", ROBOT1, path], ["--out", "--interpolation", "--bits", "--sign"]),
+                                 (["report", certificate], ["--out", "--document", "--revision", "--date"]),
+                                 (["show", ROBOT1], ["--out"])):
+            for option in options:
+                said = run(TAUT, *command, option, "", cwd=self.out)
+                self.assertEqual((said.returncode, said.stdout), (3, ""), (command, option))
+                self.assertIn(option, said.stderr, (command, option))
+        self.assertEqual(sorted(os.listdir(self.out)), before, "nothing was written")
+
+    def test_a_certificate_is_read_once_also_from_a_pipe(self):
+        self.audit()
+        pipe = self.path("pipe")
+        os.mkfifo(pipe)
+
+        def feed():
+            with open(self.path("certificate.json"), "rb") as source, open(pipe, "wb") as file:
+                shutil.copyfileobj(source, file)
+        feeder = threading.Thread(target=feed)
+        feeder.start()
+        said = subprocess.run([CHECK, pipe, ROBOT1, "--path", self.path("path.csv")], capture_output=True, text=True,
+                              timeout=60, check=False)
+        feeder.join()
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+
+    def test_the_forged_source_of_an_audit_is_noticed(self):
+        forged = os.path.join(SOURCE, "tests", "attacks", "f4.json")
+        case, path = (os.path.join(AUDITS, "robot1-planned" + end) for end in (".yaml", ".csv"))
+        said = run(CHECK, forged, case, "--path", path)
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        self.assertIn("the file that was audited has another SHA-256", said.stdout)
+
+
+if __name__ == "__main__":
+    main()
