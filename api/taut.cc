@@ -29,7 +29,7 @@
 #include "certify/undecided.h"
 #include "checker/check.h"
 #include "checker/errors.h"
-#include "checker/signature.h"
+#include "checker/format/signature.h"
 #include "kinematics/pose_conversion.h"
 #include "path_io/path_csv.h"
 #include "reports/page/html_report.h"

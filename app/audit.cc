@@ -308,7 +308,7 @@ class BatchWriter {
                            stretch_->end.segment + 1 == begin.segment;
     if (!continues) {
       close_stretch();
-      stretch_ = AuditStretch{begin, end, std::nullopt, std::nullopt, gap.reason};
+      stretch_ = AuditStretch{begin, end, std::nullopt, {}, std::nullopt, gap.reason};
     }
     stretch_->end = end;
     if (!stated.inner || !is_connected(stated)) {

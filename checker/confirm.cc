@@ -60,7 +60,7 @@ class Confirmation {
   Confirmation(const Certificate& certificate, const ConfirmOptions& options)
       : certificate_(certificate), problem_(certificate.problem), path_(certificate.path), options_(options) {}
 
-  Counts run() {
+  Theorem::Counts run() {
     require_waypoints_in_range();
     require_query();
     if (certificate_.witness) {
@@ -287,7 +287,7 @@ class Confirmation {
 
 }  // namespace
 
-Counts confirm(const Certificate& certificate, const ConfirmOptions& options) {
+Theorem::Counts confirm(const Certificate& certificate, const ConfirmOptions& options) {
   return Confirmation(certificate, options).run();
 }
 

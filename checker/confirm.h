@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "checker/format/reader.h"
+#include "checker/theorem.h"
 
 namespace taut::checker {
 
@@ -15,14 +16,8 @@ struct ConfirmOptions {
   std::function<void()> before_box = [] {};  ///< may throw, in any thread, to stop
 };
 
-struct Counts {
-  std::size_t segments = 0;
-  std::size_t boxes = 0;
-  int bits = 0;  ///< the highest precision that was used
-};
-
 /// Confirms the claim of a certificate that says "proved" or "refuted".
 /// @throws Rejected naming the first statement that is false or was not confirmed; whatever `before_box` throws.
-Counts confirm(const Certificate& certificate, const ConfirmOptions& options);
+Theorem::Counts confirm(const Certificate& certificate, const ConfirmOptions& options);
 
 }  // namespace taut::checker

@@ -20,7 +20,7 @@
 #include "checker/arguments.h"
 #include "checker/check.h"
 #include "checker/errors.h"
-#include "checker/signature.h"
+#include "checker/format/signature.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"
 
@@ -109,6 +109,7 @@ CheckResult check_file(const Arguments& arguments) {
   CheckResult malformed;
   try {
     CheckOptions options;
+    options.keeps_certificate = false;
     options.threads = arguments.threads;
     options.max_seconds = arguments.max_seconds;
     for (const std::string& path : arguments.key_paths)
@@ -169,7 +170,6 @@ nlohmann::json to_json(const CheckResult& result, double seconds) {
           {"audit", result.is_audit},
           {"segments", result.counts.segments},
           {"boxes", result.counts.boxes},
-          {"pieces", result.counts.pieces},
           {"bits", result.counts.bits},
           {"not_compared", result.not_compared},
           {"sha256", result.sha256},

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -26,25 +27,28 @@ class Theorem {
   struct Counts {
     std::size_t segments = 0;
     std::size_t boxes = 0;
-    std::size_t pieces = 0;  ///< boxes after splitting: how many were proved at one go
-    int bits = 0;            ///< the highest precision that was needed
+    int bits = 0;  ///< the highest precision that was used
   };
 
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   /// What was proved or refuted, in words; the checker has compared them with the words that the format prescribes.
   [[nodiscard]] const std::string& claim() const { return text("claim"); }
-  [[nodiscard]] const nlohmann::json& problem() const { return (*certificate_)["problem"]; }
-  [[nodiscard]] const nlohmann::json& path() const { return (*certificate_)["path"]; }
+  [[nodiscard]] const nlohmann::json& problem() const { return certificate()["problem"]; }
+  [[nodiscard]] const nlohmann::json& path() const { return certificate()["path"]; }
   /// Proved lower bounds, decimals as the certificate writes them; an empty object unless proved.
-  [[nodiscard]] const nlohmann::json& margins() const { return (*certificate_)["margins"]; }
+  [[nodiscard]] const nlohmann::json& margins() const { return certificate()["margins"]; }
   /// The violation; null unless refuted.
-  [[nodiscard]] const nlohmann::json& witness() const { return (*certificate_)["witness"]; }
+  [[nodiscard]] const nlohmann::json& witness() const { return certificate()["witness"]; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   /// SHA-256 of the bytes that were checked, 64 lower-case hex digits.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
   /// What was read from these bytes, so that what is shown is what was checked. Of it `generator`, `illustration`,
   /// `source` and names are free text: no part of the theorem.
-  [[nodiscard]] const nlohmann::json& certificate() const { return *certificate_; }
+  /// @throws std::logic_error where CheckOptions::keeps_certificate was off; so do those above that show parts of it.
+  [[nodiscard]] const nlohmann::json& certificate() const {
+    if (certificate_ == nullptr) throw std::logic_error("a theorem without its certificate");
+    return *certificate_;
+  }
 
  private:
   friend CheckResult check(const std::string& bytes, const CheckOptions& options);
@@ -52,7 +56,7 @@ class Theorem {
       : verdict_(verdict), certificate_(std::move(certificate)), sha256_(std::move(sha256)), counts_(counts) {}
 
   [[nodiscard]] const std::string& text(const char* key) const {
-    return (*certificate_)[key].get_ref<const std::string&>();
+    return certificate()[key].get_ref<const std::string&>();
   }
 
   Verdict verdict_;
