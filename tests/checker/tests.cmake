@@ -11,7 +11,3 @@ target_compile_definitions(checker_taut_check_test PRIVATE TAUT_CHECK="$<TARGET_
 add_dependencies(checker_taut_check_test taut-check)
 taut_add_test(checker agreement LABELS certificates LIBS taut::case taut_checker taut::certificate)
 taut_add_test(checker signature LABELS unit LIBS taut_checker taut::certificate OpenSSL::Crypto)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
-add_test(NAME checker.schema COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/certificates/schema_test.py
-  ${PROJECT_SOURCE_DIR})
-set_tests_properties(checker.schema PROPERTIES LABELS "certificates")
