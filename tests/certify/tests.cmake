@@ -17,7 +17,7 @@ if(TAUT_LAWS)
   foreach(arithmetic Interval Mp BoostDouble Checker)
     add_test(NAME certify.interval_laws_at_length.${arithmetic}
       COMMAND certify_test --gtest_filter=IntervalLaws/${arithmetic}*.OperationsEncloseTheirRange)
-    set_tests_properties(certify.interval_laws_at_length.${arithmetic} PROPERTIES LABELS slow TIMEOUT 3600
+    set_tests_properties(certify.interval_laws_at_length.${arithmetic} PROPERTIES LABELS "slow;nightly" TIMEOUT 3600
       ENVIRONMENT TAUT_INTERVAL_CASES=4000)
   endforeach()
 endif()

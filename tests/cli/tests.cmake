@@ -2,5 +2,5 @@ foreach(name end_to_end signature audit regress robustness report show)
   taut_add_script_test(cli ${name} LABELS unit TIMEOUT 1800
     ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 endforeach()
-taut_add_script_test(cli audit_tolerances LABELS slow TIMEOUT 1800
+taut_add_script_test(cli audit_tolerances LABELS slow nightly TIMEOUT 1800
   ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
