@@ -146,10 +146,11 @@ Explanation explained(Undecided reason) {
     case Undecided::kKernel:
       return entry("The checker's kernel does not confirm the proof",
                    "The prover came to a verdict, but found no boxes, or no way to a witness, with which the checker's own "
-                   "equations confirm it. Under laws by which poses are implied, a violation is also left open where the "
-                   "motion could not be followed to it from the path's beginning.",
+                   "equations confirm it.",
+                   "A motion very close to a limit or to a singular pose. Where poses are implied by cable lengths or "
+                   "constraints, a violation to which the motion could not be followed from the path's beginning.",
                    "Keep a little more away from limits and singular poses there, or make the tolerances smaller.",
-                   "open: the checker's kernel does not confirm what was found [U17]");
+                   "open: the checker's kernel does not confirm what was found [U17].");
   }
   return {};
 }

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """docs/certificate.schema.json holds of every well-formed certificate, true or false, and not of structural mutants.
 
-Usage: schema_test.py ROOT
+Usage: schema_test.py ROOT CERTIFICATES, the folder that expand.py wrote.
 """
 import glob, json, os, sys
 
 import jsonschema
 
-root = sys.argv[1]
+root, folder_of_cases = sys.argv[1:]
 with open(os.path.join(root, 'docs', 'certificate.schema.json')) as f:
     schema = json.load(f)
 jsonschema.Draft202012Validator.check_schema(schema)
@@ -16,7 +16,7 @@ failures = []
 
 
 def certificates(folder):
-    return sorted(glob.glob(os.path.join(root, 'tests', 'certificates', folder, '*.json')))
+    return sorted(glob.glob(os.path.join(folder_of_cases, folder, '*.json')))
 
 
 wellformed = certificates('accepted') + certificates('rejected')
@@ -26,12 +26,16 @@ for path in wellformed:
     if error is not None:
         failures.append('%s: %s' % (path, error.message[:200]))
 
-# What is against the format by its keys, types or texts alone. The others break rules between values, which no schema sees.
-STRUCTURAL = """claim_reworded claim_of_another_verdict constraint_with_a_name decimal_nan
-geodesic_with_lengths interpolation_unknown lengths_missing no_parameters normals_by_rows number_for_string one_waypoint
-pose_for_parameters pose_with_parameters quaternion_of_three query_of_one_waypoint source_of_capitals spline_of_three stretches_of_a_proved_path
-stretches_null_but_boxes stretches_open_without_a_reason stretches_with_a_reason tolerance_missing tolerance_of_five_anchors tube_decimal tube_infinite
-unknown_key waypoint_decimal waypoint_infinite expression_with_a_tab expression_not_ascii boxes_empty message_breaks_the_line""".split()
+# What is against the format by its keys, types or texts alone. The others break rules between values, which no schema
+# sees.
+STRUCTURAL = """
+claim_reworded claim_of_another_verdict constraint_with_a_name decimal_nan geodesic_with_lengths
+interpolation_unknown lengths_missing no_parameters normals_by_rows number_for_string one_waypoint
+pose_for_parameters pose_with_parameters quaternion_of_three query_of_one_waypoint source_of_capitals
+spline_of_three stretches_of_a_proved_path stretches_null_but_boxes stretches_open_without_a_reason
+stretches_with_a_reason tolerance_missing tolerance_of_five_anchors tube_decimal tube_infinite unknown_key
+waypoint_decimal waypoint_infinite expression_with_a_tab expression_not_ascii boxes_empty message_breaks_the_line
+""".split()
 caught = set()
 for path in certificates('malformed'):
     try:
@@ -42,14 +46,14 @@ for path in certificates('malformed'):
     if not validator.is_valid(value):
         caught.add(os.path.basename(path)[:-5])
 missed = [name for name in STRUCTURAL
-          if os.path.exists(os.path.join(root, 'tests', 'certificates', 'malformed', name + '.json')) and name not in caught]
+          if os.path.exists(os.path.join(folder_of_cases, 'malformed', name + '.json')) and name not in caught]
 for name in missed:
     failures.append('the schema allows malformed/%s.json' % name)
 
 # Every key of every object matters: without it, or with another beside it, a certificate is malformed.
 FREE = ('generator', 'illustration', 'constants')
 for name in ('stretches_open', 'tolerances_of_lengths', 'implied_sphere', 'refuted_by_a_deviation', 'refuted_singular'):
-    with open(os.path.join(root, 'tests', 'certificates', 'accepted', name + '.json')) as f:
+    with open(os.path.join(folder_of_cases, 'accepted', name + '.json')) as f:
         text = f.read()
 
     def walk(value, at):

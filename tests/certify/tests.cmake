@@ -16,8 +16,8 @@ taut_add_test(certify interval_laws LABELS unit laws LIBS taut::certify taut_che
 if(TAUT_LAWS)
   foreach(arithmetic Interval Mp BoostDouble Checker)
     add_test(NAME certify.interval_laws_at_length.${arithmetic}
-      COMMAND certify_interval_laws_test --gtest_filter=IntervalLaws/${arithmetic}*.OperationsEncloseTheirRange)
-    set_tests_properties(certify.interval_laws_at_length.${arithmetic} PROPERTIES LABELS slow TIMEOUT 3600
+      COMMAND certify_test --gtest_filter=IntervalLaws/${arithmetic}*.OperationsEncloseTheirRange)
+    set_tests_properties(certify.interval_laws_at_length.${arithmetic} PROPERTIES LABELS "slow;nightly" TIMEOUT 3600
       ENVIRONMENT TAUT_INTERVAL_CASES=4000)
   endforeach()
 endif()

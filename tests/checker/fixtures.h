@@ -1,4 +1,4 @@
-// What the checker's tests share: certificates of tests/certificates, and how to seal an altered one.
+// What the checker's tests share: the cases of tests/certificates, and how to seal an altered one.
 #pragma once
 
 #include <algorithm>
@@ -27,10 +27,10 @@ inline std::string read_text(const std::filesystem::path& path) {
 /// Sanitizers take ten times as long: in .ci/run they see a part of what is proved again and again, by night all of it.
 inline bool is_sampled() { return std::getenv("TAUT_SAMPLED") != nullptr; }
 
-/// tests/certificates/<folder>/*.json, in order; where sampled all that are malformed, and every fourth of the others.
+/// The cases of tests/certificates with the outcome `folder`, in order; where sampled all that are malformed, and every fourth of the others.
 inline std::vector<std::filesystem::path> certificates(const std::string& folder) {
   std::vector<std::filesystem::path> result;
-  for (const auto& entry : std::filesystem::directory_iterator(TAUT_SOURCE_DIR "/tests/certificates/" + folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(TAUT_CERTIFICATES "/" + folder)) {
     if (entry.path().extension() == ".json") result.push_back(entry.path());
   }
   std::sort(result.begin(), result.end());
@@ -41,7 +41,7 @@ inline std::vector<std::filesystem::path> certificates(const std::string& folder
 }
 
 inline nlohmann::json accepted(const std::string& name) {
-  return nlohmann::json::parse(read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/" + name + ".json"));
+  return nlohmann::json::parse(read_text(TAUT_CERTIFICATES "/accepted/" + name + ".json"));
 }
 
 /// Makes counts and digests right again, as far as what they count is still there.

@@ -145,7 +145,7 @@ TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
        {"An audit of the same path.", std::regex("/problem/query/waypoints: becomes \\[\\]")},
        {"A constant that nothing uses.", std::regex("/problem/space/constants: gets a key")},
        {"The path does not use the flip.", std::regex("/problem/space/flip: becomes null")},
-       {"Another robot, of which the claim holds as well (by the equations of make_certificates.py).",
+       {"Another robot, of which the claim holds as well (by the equations of make_bases.py).",
         std::regex("/problem/robot/base_anchors_m/(2/0|4/1|5/1): becomes 1e-400|"
                    "/problem/robot/(base|platform)_anchors_m: is reversed")}});
 }
@@ -215,7 +215,7 @@ TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {
 }
 
 TEST(Mutation, ACutFileIsMalformed) {
-  const std::string text = read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/robot1_near_start.json");
+  const std::string text = read_text(TAUT_CERTIFICATES "/accepted/robot1_near_start.json");
   const std::size_t end = text.find_last_of('}');
   for (std::size_t length = 0; length <= end; length += 97) {
     EXPECT_EQ(check(text.substr(0, length)).outcome, Outcome::kMalformed) << length;
@@ -224,7 +224,7 @@ TEST(Mutation, ACutFileIsMalformed) {
 }
 
 TEST(Mutation, AFlippedBitIsMalformed) {
-  const std::string text = read_text(TAUT_SOURCE_DIR "/tests/certificates/accepted/robot1_near_goal.json");
+  const std::string text = read_text(TAUT_CERTIFICATES "/accepted/robot1_near_goal.json");
   std::mt19937 random(6);
   for (int trial = 0; trial < 3000; ++trial) {
     std::string flipped = text;

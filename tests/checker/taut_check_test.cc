@@ -24,7 +24,7 @@ Output run(const std::string& arguments, const std::string& redirection = "2>/de
   return result;
 }
 
-const std::string kFolder = TAUT_SOURCE_DIR "/tests/certificates/";
+const std::string kFolder = TAUT_CERTIFICATES "/";
 
 TEST(TautCheck, ExitCodesSayTheOutcome) {
   EXPECT_EQ(run(kFolder + "accepted/robot1_near_goal.json").exit_code, 0);
@@ -41,7 +41,7 @@ TEST(TautCheck, ExitCodesSayTheOutcome) {
 TEST(TautCheck, AnotherCaseIsRejectedAndABrokenOneIsBadInput) {
   const std::string certificate = kFolder + "accepted/robot1_near_goal.json ";
   EXPECT_EQ(run(certificate + TAUT_SOURCE_DIR "/cases/robot1-slice-qs-qg.yaml").exit_code, 1);
-  EXPECT_EQ(run(certificate + kFolder + "make_certificates.py").exit_code, 3);
+  EXPECT_EQ(run(certificate + TAUT_SOURCE_DIR "/tests/certificates/make_bases.py").exit_code, 3);
   EXPECT_EQ(run(certificate + "no-such-case.yaml").exit_code, 3);
 }
 

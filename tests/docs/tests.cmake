@@ -1,5 +1,3 @@
-add_test(NAME docs.documents COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/documents_test.py
-  $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
-set_tests_properties(docs.documents PROPERTIES LABELS "documents" TIMEOUT 600)
-add_test(NAME docs.layers COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/docs/layers_test.py ${PROJECT_SOURCE_DIR})
-set_tests_properties(docs.layers PROPERTIES LABELS "unit" TIMEOUT 60)
+taut_add_script_test(docs documents LABELS documents TIMEOUT 600
+  ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
+taut_add_script_test(docs layers LABELS unit TIMEOUT 60 ARGUMENTS ${PROJECT_SOURCE_DIR})

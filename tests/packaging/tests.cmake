@@ -1,8 +1,6 @@
-add_test(NAME packaging.surface COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/packaging/surface_test.py
-  $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
-set_tests_properties(packaging.surface PROPERTIES LABELS "unit" TIMEOUT 60)
+taut_add_script_test(packaging surface LABELS unit TIMEOUT 60
+  ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 if(NOT TAUT_SANITIZE)  # what is installed then can't be used without
-  add_test(NAME packaging.library COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/packaging/library_test.py
-    ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:taut-check>)
-  set_tests_properties(packaging.library PROPERTIES LABELS "slow" TIMEOUT 600)
+  taut_add_script_test(packaging library LABELS slow TIMEOUT 600
+    ARGUMENTS ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:taut-check>)
 endif()

@@ -5,4 +5,4 @@ target_compile_definitions(soundness PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_D
 add_test(NAME soundness.campaign COMMAND soundness 3000)
 set_tests_properties(soundness.campaign PROPERTIES LABELS "laws" TIMEOUT 300)
 add_test(NAME soundness.long_campaign COMMAND soundness 10000000 7 --budget 60)
-set_tests_properties(soundness.long_campaign PROPERTIES LABELS "slow" TIMEOUT 900)
+set_tests_properties(soundness.long_campaign PROPERTIES LABELS "slow;nightly" TIMEOUT 900)
