@@ -59,6 +59,25 @@ std::string sha256_of(const PathInput& input) {
   return digest.hex();
 }
 
+/// A stream of a file's or a text's bytes that digests what is read from it, so that what is proved is what is digested.
+class DigestedStream : private std::streambuf, public std::istream {
+ public:
+  DigestedStream(std::unique_ptr<std::istream> source, Sha256& digest)
+      : std::istream(static_cast<std::streambuf*>(this)), source_(std::move(source)), digest_(digest) {}
+
+ private:
+  std::streamsize xsgetn(char* to, std::streamsize most) override {
+    source_->read(to, most);
+    if (source_->bad()) throw std::ios_base::failure("could not read on");  // to whoever reads, a bad stream
+    const std::streamsize count = source_->gcount();
+    digest_.update(std::string_view(to, static_cast<std::size_t>(count)));
+    return count;
+  }
+
+  std::unique_ptr<std::istream> source_;
+  Sha256& digest_;
+};
+
 std::string names(const Problem& problem) {
   std::vector<std::string> list;
   for (const Parameter& parameter : problem.space.parameters) list.push_back(parameter.name);
@@ -115,14 +134,18 @@ PathSource::PathSource(const Problem& problem, PathInput input, std::optional<In
   stays_ = waypoints_ == 1;
   if (stays_) description_ += "  one pose only: the platform stays there\n";
   waypoints_ = std::max<std::size_t>(waypoints_, 2);
-  sha256_ = sha256_of(input_);
+  if (!certificate_) sha256_ = sha256_of(input_);
   open();
 }
 
 PathSource::~PathSource() = default;
 
 void PathSource::read_certificate_path(std::optional<Interpolation> law) {
-  const nlohmann::json certificate = read_certificate(path_);
+  const std::string bytes = read_whole(path_);
+  const nlohmann::json certificate = parse_certificate(bytes, path_);
+  Sha256 digest;
+  digest.update(bytes);
+  sha256_ = digest.hex();
   const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
   if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate", {path_});
@@ -181,7 +204,14 @@ Path PathSource::whole_path() const {
 
 void PathSource::open() {
   if (certificate_) return;
-  file_ = std::make_unique<PathFile>(open_file());
+  std::unique_ptr<std::istream> text;
+  if (input_.text) {
+    text = std::make_unique<std::istringstream>(*input_.text);
+  } else {
+    text = std::make_unique<std::ifstream>(path_, std::ios::binary);
+  }
+  file_ = std::make_unique<PathFile>(std::make_unique<DigestedStream>(std::move(text), digest_), path_,
+                                     case_problem_.space, options_);
   maker_ = std::make_unique<WaypointMaker>(case_problem_, *header_, law_, path_);
 }
 
@@ -190,9 +220,19 @@ bool PathSource::has_times() const {
   return certificate_ ? !certificate_->times.empty() : header_->time.has_value();
 }
 
+/// The bytes that the waypoints were read from are those that were digested first.
+void PathSource::require_unchanged() {
+  if (certificate_ || is_unchanged_) return;
+  PathRow row;
+  if (file_->next(row) || digest_.hex() != sha256_) {  // the first reads on to the file's end
+    throw InputError(path_ + ": the file was changed while it was read", {path_});
+  }
+  is_unchanged_ = true;
+}
+
 bool PathSource::next(SourceWaypoint& result) {
   if (next_ == waypoints_) {
-    if (sha256_of(input_) != sha256_) throw InputError(path_ + ": the file was changed while it was read", {path_});
+    require_unchanged();
     return false;
   }
   const std::size_t k = next_++;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/sha256.h"
 #include "kinematics/segment.h"
 #include "path_io/path_file.h"
 #include "path_io/path_summary.h"
@@ -69,6 +70,7 @@ class PathSource {
  private:
   [[nodiscard]] PathFile open_file() const;
   void open();
+  void require_unchanged();
   /// @throws InputError where the start pose is plainly not one with the first row's lengths.
   void require_start(std::size_t line) const;
   void read_certificate_path(std::optional<Interpolation> law);
@@ -82,6 +84,8 @@ class PathSource {
   Interpolation law_ = Interpolation::kStraight;
   std::size_t waypoints_ = 0;
   std::string sha256_;
+  Sha256 digest_;  ///< of what file_ has read
+  bool is_unchanged_ = false;
   std::string description_;
   std::optional<Path> certificate_;  ///< the path of one
   std::unique_ptr<PathFile> file_;

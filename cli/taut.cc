@@ -11,6 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/planned_case.h"
+#include "app/recheck.h"
+#include "app/tolerance_table.h"
+#include "base/files.h"
+#include "base/input_error.h"
 #include "certificate/signature.h"
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"

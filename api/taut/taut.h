@@ -208,7 +208,7 @@ class TAUT_EXPORT Theorem {
 
 /// A stretch of an audited path that is not proved.
 struct Stretch {
-  Place begin, end;                                       ///< outside of them the path is proved
+  Place begin, end;                                       ///< outside of them a refuted path is proved
   std::optional<std::pair<Witness, Witness>> violations;  ///< the first and the last proved one
   std::string reason;                                     ///< why it is open; empty where there are violations
   std::string reason_code;                                ///< "U5": `taut explain` has more about it; may be empty

@@ -7,8 +7,8 @@
     print(certificate.verdict, certificate.theorem)
     certificate.save("certificate.json")
 
-A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that was loaded
-has none until check() has proved it again.
+A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that
+was loaded has none until check() has proved it again.
 
 SI and radians everywhere. Certificates are those of the commands `taut plan` and `taut audit`, byte for byte. All work releases the
 interpreter and is stopped by Ctrl-C. docs/library.md has the whole.
@@ -28,7 +28,8 @@ from . import _taut
 from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachine
 
 __all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path", "Place",
-           "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove", "report"]
+           "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove",
+           "report"]
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
@@ -171,7 +172,7 @@ class Theorem:
 @dataclasses.dataclass(frozen=True)
 class Stretch:
     """A stretch of an audited path that is not proved."""
-    begin: Place                                     #: outside of these two the path is proved
+    begin: Place                                     #: outside of these two a refuted path is proved
     end: Place
     violations: Optional[tuple[Witness, Witness]]    #: the first and the last proved one
     reason: str                                      #: why it is open; empty where there are violations
@@ -192,8 +193,8 @@ class Samples:
 class Certificate:
     """A claim with all that is needed to prove it again (docs/certificate-format.md).
 
-    One that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked, and whether it is
-    true is check()'s to say.
+    One that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked, and
+    whether it is true is check()'s to say.
     """
 
     def __init__(self, text: Union[str, bytes], name: str = "certificate") -> None:
@@ -372,7 +373,8 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
 
 @dataclasses.dataclass(frozen=True)
 class CheckResult:
-    outcome: str      #: "accepted", "rejected", "undecided" (the certificate claims nothing), "unchecked" or "malformed"
+    #: "accepted", "rejected", "undecided" (the certificate claims nothing), "unchecked" or "malformed"
+    outcome: str
     message: str      #: one line
     theorem: Optional[Theorem]  #: exactly where accepted
     signer: str       #: public key whose signature was verified, 64 hex digits, or empty
@@ -403,14 +405,15 @@ def check(certificate: Union[Certificate, bytes, FileName], case: Optional[Case]
     else:
         with open(certificate, "rb") as file:
             text = file.read()
-    outcome, message, theorem, *rest, not_compared = _taut.check(text, case and case._case, list(trusted_keys), max_seconds)
+    result = _taut.check(text, case and case._case, list(trusted_keys), max_seconds)
+    outcome, message, theorem, *rest, not_compared = result
     return CheckResult(outcome, message, _theorem(theorem), *rest, tuple(not_compared))
 
 
 def report(certificate: Certificate, format: str = "html", *, document: str = "", revision: str = "", date: str = "",
            max_check_seconds: float = CHECK_SECONDS) -> str:
-    """A page for people, made from the certificate alone: `taut report`. The checker proves the certificate again first, unless
-    it has a theorem already. Raises InputError where the checker rejects it.
+    """A page for people, made from the certificate alone: `taut report`. The checker proves the certificate again
+    first, unless it has a theorem already. Raises InputError where the checker rejects it.
 
     :param format: "html", "text", "markdown" or "json"
     :param max_check_seconds: that the checker may take; else the page is headed UNCHECKED

@@ -46,7 +46,8 @@ ROBOT = {
 def command(*arguments):
     """The certificate that a command of taut writes."""
     with tempfile.TemporaryDirectory() as out:
-        subprocess.run([TAUT, *arguments, "--max-seconds", "0", "--out", out], capture_output=True, check=False, timeout=300)
+        subprocess.run([TAUT, *arguments, "--max-seconds", "0", "--out", out], capture_output=True, check=False,
+                       timeout=300)
         with open(os.path.join(out, "certificate.json"), encoding="utf-8") as file:
             return file.read()
 
@@ -139,7 +140,8 @@ class Certificates(unittest.TestCase):
 
     def test_have_a_theorem_where_the_checker_made_one(self):
         self.assertEqual(self.planned.theorem.verdict, "proved")
-        self.assertEqual(self.planned.theorem.certificate_sha256, hashlib.sha256(self.planned.text.encode()).hexdigest())
+        self.assertEqual(self.planned.theorem.certificate_sha256,
+                         hashlib.sha256(self.planned.text.encode()).hexdigest())
         loaded = taut.Certificate(self.planned.text)
         self.assertEqual((loaded.verdict, loaded.theorem, loaded.is_proved), ("unchecked", None, False))
         self.assertEqual(taut.check(loaded).theorem, self.planned.theorem)
