@@ -108,11 +108,12 @@ nlohmann::json stretches_json(const Audit& audit, const PathSource& source) {
     const char* place_name = source.place_name();
     nlohmann::json inner;
     if (stretch.inner) {
-      const auto end = [&](const AuditPlace& place, const PathWitness& violation) {
-        return nlohmann::json{{"at", place_json(place, place_name)}, {"witness", to_json(violation)}};
+      const auto end = [&](const AuditPlace& place, nlohmann::json violation) {
+        for (const char* of_proof : {"motion", "proof", "at_proof", "to_proof"}) violation.erase(of_proof);
+        return nlohmann::json{{"at", place_json(place, place_name)}, {"witness", std::move(violation)}};
       };
-      inner = {end(stretch.inner_places->first, stretch.inner->first),
-               end(stretch.inner_places->second, stretch.inner->second)};
+      inner = {end(stretch.inner_places->first, stretch.inner_json.first),
+               end(stretch.inner_places->second, stretch.inner_json.second)};
     }
     stretches.push_back({{"outer", {place_json(stretch.begin, place_name), place_json(stretch.end, place_name)}},
                          {"inner", inner},
