@@ -345,6 +345,17 @@ std::optional<std::vector<KernelBox>> Elaborator::boxes(const Segment& segment,
   return result;
 }
 
+std::optional<KernelBox> Elaborator::one_box(const Segment& segment, const DyadicBox& box, int bits, int parts) const {
+  checker::Box asked;
+  asked.begin = to_rational(box.lower());
+  asked.end = to_rational(box.upper());
+  asked.bits = bits;
+  asked.parts = parts;
+  const auto is_inside = [&](const InnerPose& inner) { return asked.begin < inner.s && asked.end > inner.s; };
+  if (std::ranges::any_of(segment.inner_poses, is_inside)) return std::nullopt;
+  return Search(*this, segment).attempt(asked);
+}
+
 std::optional<std::vector<checker::Box>> Elaborator::motion(const Segment& segment, const Dyadic& begin,
                                                             const Dyadic& end) const {
   std::vector<checker::Box> result;

@@ -51,6 +51,11 @@ class Elaborator {
   [[nodiscard]] std::optional<std::vector<KernelBox>> boxes(const Segment& segment,
                                                             std::span<const DyadicBox> proved) const;
 
+  /// What the kernel proves of one box at one go, with the deviations' ways in so many parts; nothing where it does not
+  /// prove that all margins are positive, nor of a box that reaches across an inner pose.
+  [[nodiscard]] std::optional<KernelBox> one_box(const Segment& segment, const DyadicBox& box, int bits,
+                                                 int parts) const;
+
   /// Halves boxes of a proved path that state its least margins, up to 64 times, until half of what there is next to their
   /// midpoints is stated.
   void tighten(const std::function<Segment(std::size_t k)>& segment, std::vector<std::vector<KernelBox>>& boxes) const;

@@ -34,6 +34,7 @@
 #include <span>
 #include <utility>
 
+#include "certificate/elaborate.h"
 #include "tests/soundness/trial.h"
 
 namespace taut::campaign {
@@ -175,6 +176,8 @@ struct Tally {
   Count wrong{0}, looked_at{0}, violated_elsewhere{0};
   Count crossing{0}, crossing_refuted{0};  ///< segments along which det J changes its sign
   Count surveyed{0};
+  Count kernel_asked{0};                           ///< boxes with a violation inside that the checker's kernel was given
+  Count kernel_proofs{0}, kernel_confirmed{0};     ///< proofs that it was given, and those for which it found boxes
 };
 
 // ---- A trial ---------------------------------------------------------------------------------------------------------
@@ -216,6 +219,7 @@ class Judge {
     if (is_surveyed()) examine_survey(prover.survey(segment), proof.verdict);
     counts.boxes += proof.boxes_judged;
     counts.multiprecision += proof.boxes_multiprecision;
+    examine_kernel(segment, proof);
     Decades& decades = tally_.decades[table()];
     const auto d = static_cast<std::size_t>(decade_);
     if (proof.verdict == Verdict::kUndecided && !violated_ && has_tolerances() && is_violated_elsewhere()) {
@@ -248,6 +252,46 @@ class Judge {
   }
 
  private:
+  /// The checker's kernel must not prove a box in which a limit is broken, and should confirm what is proved.
+  void examine_kernel(const Segment& segment, const SegmentProof& proof) {
+    if (trial_.has_bad_reference || trial_.has_lost_row) return;
+    // Certificates know no lower limit of a tension below 0. A violated path stays so where the limit is 0.
+    Problem problem = trial_.problem;
+    problem.query.clear();
+    for (auto& limits : problem.robot.tension_N) {
+      if (limits.lower.front() != '-') continue;
+      if (!violated_ || limits.upper.front() == '-') return;
+      limits.lower = "0";
+    }
+    std::optional<Elaborator> made;
+    try {
+      made.emplace(problem, segment.law);
+    } catch (const checker::Malformed&) {
+      return;  // limits that no certificate may state
+    }
+    const Elaborator& elaborator = *made;
+    if (violated_) {
+      constexpr int kBoxes = 6;
+      for (int k = 0; k < kBoxes; ++k) {
+        const int depth = static_cast<int>(random_() % 50);
+        const auto all = static_cast<std::uint64_t>(1) << static_cast<unsigned>(depth);
+        const auto at = static_cast<std::uint64_t>(best_s_ * static_cast<double>(all));
+        const DyadicBox box{std::min(at, all - 1), depth};
+        constexpr std::array<int, 4> kBits = {32, 64, 128, 256};
+        ++tally_.kernel_asked;
+        if (elaborator.one_box(segment, box, kBits[random_() % 4], has_tolerances() ? 1 << (random_() % 5) : 1)) {
+          breach(fmt::format("the kernel proves a box of depth {} in which a limit is broken", depth));
+        }
+      }
+    } else if (proof.verdict == Verdict::kProved) {
+      ++tally_.kernel_proofs;
+      if (elaborator.boxes(segment, proof.boxes)) {
+        ++tally_.kernel_confirmed;
+      } else if (options_.list_undecided) {
+        report("not confirmed by the kernel", fmt::format("{} boxes", proof.boxes.size()));
+      }
+    }
+  }
   void breach(const std::string& what) {
     ++tally_.wrong;
     report("WRONG", what);
@@ -730,6 +774,8 @@ int run(const Options& options, double budget) {
   fmt::print("\n{} segments, seed {}: {:.1f} s, {:.0f} a second, {:.2f} ms of processor time each\n", done,
              options.seed, elapsed, static_cast<double>(done) / elapsed,
              1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done));
+  fmt::print("{} of {} proofs confirmed by the checker's kernel; {} boxes with violations given to it\n",
+             tally.kernel_confirmed.load(), tally.kernel_proofs.load(), tally.kernel_asked.load());
   fmt::print("{} points judged in 200 bits after proofs; {} WRONG\n", tally.looked_at.load(), tally.wrong.load());
   fmt::print("{} segments surveyed; {} across det J = 0, {} of them refuted\n", tally.surveyed.load(),
              tally.crossing.load(), tally.crossing_refuted.load());
