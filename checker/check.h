@@ -1,10 +1,10 @@
 // Is the claim of a certificate true? Proves it again, from the file alone.
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
-// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: theorem.h, errors.h, interval.h,
-// form.h, then krawczyk.h, motion.h, pose_proof.h, held.h, deviation.h and their .cc (the mathematics), check.cc (what is
-// proved of which poses), then exact.h, expression.h and certificate.h (that the numbers are those of the file);
-// signature.h if it matters who wrote it.
+// arithmetic, no heuristics that could matter. To believe "accepted", read in this order: theorem.h, errors.h,
+// interval.h, form.h, then krawczyk.h, motion.h, pose_proof.h, held.h, deviation.h and their .cc (the mathematics),
+// check.cc (what is proved of which poses), then exact.h, expression.h and certificate.h (that the numbers are those of
+// the file); signature.h if it matters who wrote it.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,9 @@ enum class Outcome {
 /// "accepted", "rejected", "undecided", "unchecked" or "malformed".
 [[nodiscard]] const char* name(Outcome outcome);
 
-/// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths these are
-/// the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m and 1e-6.
+/// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths
+/// these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m
+/// and 1e-6.
 struct ExpectedPath {
   struct Waypoint {
     std::vector<double> x;
