@@ -59,7 +59,8 @@ std::string sha256_of(const PathInput& input) {
   return digest.hex();
 }
 
-/// A stream of a file's or a text's bytes that digests what is read from it, so that what is proved is what is digested.
+/// A stream of a file's or a text's bytes that digests what is read from it, so that what is proved is what is
+/// digested.
 class DigestedStream : private std::streambuf, public std::istream {
  public:
   DigestedStream(std::unique_ptr<std::istream> source, Sha256& digest)

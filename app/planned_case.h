@@ -34,8 +34,8 @@ struct PlannedCaseOptions {
   double max_seconds = kCheckSeconds;  ///< that the checker may take
 };
 
-/// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it still
-/// has the best path so far checked.
+/// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it
+/// still has the best path so far checked.
 /// @throws as Planner::plan(); std::logic_error where the checker rejects the certificate.
 [[nodiscard]] PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                                     const Progress& progress, const std::stop_token& stop);

@@ -46,14 +46,15 @@ class NewFile {
   std::string buffer_;
 };
 
-/// All of them in this order, none where a folder has one's name; of sets that threads and processes rename into one folder,
-/// the last stays whole.
+/// All of them in this order, none where a folder has one's name; of sets that threads and processes rename into one
+/// folder, the last stays whole.
 /// @param remove_first  files that are removed before anything is renamed, if they are there. A file that must never be
 /// found beside others of another run is removed first and, if it is written again, renamed last.
 void rename_into_place(std::span<NewFile* const> files, std::span<const std::filesystem::path> remove_first = {});
 
-/// Writes all of them beside their paths, flushes them to disk, and only then removes and renames, as rename_into_place():
-/// none is replaced unless all could be written. @throws InputError naming the path and the system's reason.
+/// Writes all of them beside their paths, flushes them to disk, and only then removes and renames, as
+/// rename_into_place(): none is replaced unless all could be written. @throws InputError naming the path and the
+/// system's reason.
 void write_whole(const std::vector<FileContent>& files, std::span<const std::filesystem::path> remove_first = {});
 
 /// That a file may be written here, as far as can be told before it is. @throws InputError if not.

@@ -8,8 +8,8 @@
 
 namespace taut::checker {
 
-/// Refuses an empty argument to any option of `app` or of its commands. An empty argument usually is a variable of a script
-/// that was never set; to ignore it would be to do less than was asked for, such as not to sign.
+/// Refuses an empty argument to any option of `app` or of its commands. An empty argument usually is a variable of a
+/// script that was never set; to ignore it would be to do less than was asked for, such as not to sign.
 inline void refuse_empty_arguments(CLI::App& app) {
   const auto complaint = [](const std::string& text) {
     return text.empty() ? std::string("got '', expected an argument that is not empty") : std::string();

@@ -31,8 +31,9 @@ enum class Outcome {
 /// "accepted", "rejected", "undecided", "unchecked" or "malformed".
 [[nodiscard]] const char* name(Outcome outcome);
 
-/// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths these are
-/// the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m and 1e-6.
+/// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths
+/// these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m
+/// and 1e-6.
 struct ExpectedPath {
   struct Waypoint {
     std::vector<double> x;

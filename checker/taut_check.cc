@@ -1,5 +1,5 @@
-// taut-check CERTIFICATE [CASE] [--path FILE] [--expect VERDICT] [--trust PUBKEY.pem]…: proves the claim of a certificate
-// again, and says what it was compared with.
+// taut-check CERTIFICATE [CASE] [--path FILE] [--expect VERDICT] [--trust PUBKEY.pem]…: proves the claim of a
+// certificate again, and says what it was compared with.
 //
 // Results go to stdout; bad input is complained about on stderr, as wrong use is, and with --json on stdout too.
 // Exit codes: 0 accepted; 1 rejected, or not as expected; 2 the certificate itself is undecided, or the budget ran out;

@@ -1,8 +1,8 @@
 // What the checker has proved: the only thing in taut that is a verdict.
 //
-// In the manner of LCF provers: a Theorem has no public constructor, and check() is the only function that can make one.
-// Whoever is handed a Theorem therefore knows, by its type, that the checker has proved the claim; reports, exit codes and
-// the library take a Theorem where they state a verdict, and nothing else.
+// In the manner of LCF provers: a Theorem has no public constructor, and check() is the only function that can make
+// one. Whoever is handed a Theorem therefore knows, by its type, that the checker has proved the claim; reports, exit
+// codes and the library take a Theorem where they state a verdict, and nothing else.
 #pragma once
 
 #include <cstddef>

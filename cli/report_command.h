@@ -18,8 +18,8 @@ struct ReportArguments {
 
 void add_report_options(CLI::App& command, ReportArguments& arguments);
 
-/// @returns the exit code: 0, also of an undecided certificate; 1 where it was rejected, and nothing was written; 2 where it
-/// was not checked within the budget, or somebody asked to stop. @throws as main expects.
+/// @returns the exit code: 0, also of an undecided certificate; 1 where it was rejected, and nothing was written; 2
+/// where it was not checked within the budget, or somebody asked to stop. @throws as main expects.
 [[nodiscard]] int run_report(const ReportArguments& arguments);
 
 }  // namespace taut

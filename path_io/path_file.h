@@ -104,7 +104,8 @@ class PathFile {
   std::unique_ptr<Implementation> self_;
 };
 
-/// The last line of path.csv: a comment that names the certificate with which it was written by the SHA-256 of its bytes.
+/// The last line of path.csv: a comment that names the certificate with which it was written by the SHA-256 of its
+/// bytes.
 [[nodiscard]] std::string certificate_line(std::string_view sha256);
 /// The SHA-256 in such a line of a path file's text; empty where it has none.
 [[nodiscard]] std::string named_certificate(std::string_view text);

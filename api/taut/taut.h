@@ -4,8 +4,8 @@
 //   const taut::Certificate certificate = taut::plan(crane);
 //   if (certificate.verdict() == taut::Verdict::kProved) certificate.save("certificate.json");
 //
-// A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that was
-// loaded has none until check() has proved it again.
+// A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that
+// was loaded has none until check() has proved it again.
 //
 // What comes out is what the commands `taut plan` and `taut audit` write for the same input, byte for byte. SI and radians
 // everywhere.
@@ -188,7 +188,8 @@ struct Witness {
   bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
 };
 
-/// What the independent checker has proved. Only the checker makes one, so whoever has one has a verdict. Copies are cheap.
+/// What the independent checker has proved. Only the checker makes one, so whoever has one has a verdict. Copies are
+/// cheap.
 class TAUT_EXPORT Theorem {
  public:
   [[nodiscard]] Verdict verdict() const;                 ///< kProved or kRefuted
@@ -227,8 +228,8 @@ struct Sample {
 
 /// A claim with all that is needed to prove it again (docs/certificate-format.md). Copies are cheap.
 ///
-/// A certificate that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked, and
-/// whether it is true is check()'s to say.
+/// A certificate that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked,
+/// and whether it is true is check()'s to say.
 class TAUT_EXPORT Certificate {
  public:
   /// @throws InputError where the file can't be read, is no certificate, or was cut or altered.
@@ -241,7 +242,8 @@ class TAUT_EXPORT Certificate {
   /// What a file of it holds, byte for byte: JSON.
   [[nodiscard]] const std::string& text() const;
 
-  /// The theorem that the checker made of this text for plan(), prove() or audit(); nothing of a certificate that was loaded.
+  /// The theorem that the checker made of this text for plan(), prove() or audit(); nothing of a certificate that was
+  /// loaded.
   [[nodiscard]] std::optional<Theorem> theorem() const;
   [[nodiscard]] Verdict verdict() const;                 ///< the theorem's; kUndecided or kUnchecked without one
   [[nodiscard]] const std::string& case_name() const;    ///< free text
@@ -249,7 +251,8 @@ class TAUT_EXPORT Certificate {
   [[nodiscard]] const std::string& reason() const;       ///< only if undecided
   [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty
   [[nodiscard]] Path path() const;                       ///< bit for bit
-  /// As `taut plan` writes it of a proved path, for a machine to follow; its last line names this certificate's SHA-256.
+  /// As `taut plan` writes it of a proved path, for a machine to follow; its last line names this certificate's
+  /// SHA-256.
   [[nodiscard]] std::string path_csv() const;
   [[nodiscard]] std::size_t segments() const;
   [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
@@ -344,7 +347,8 @@ struct CheckResult {
   bool is_trusted = false;         ///< whether the signer is one of those asked for
   std::size_t segments = 0;
   std::size_t boxes = 0;
-  /// "case" or "path file" where the certificate was not compared with one, and what of the case does not matter to an audit.
+  /// "case" or "path file" where the certificate was not compared with one, and what of the case does not matter to an
+  /// audit.
   std::vector<std::string> not_compared;
 };
 
@@ -372,10 +376,10 @@ struct ReportOptions {
   double max_check_seconds = kCheckSeconds;  ///< that the checker may take; else the page is headed UNCHECKED
 };
 
-/// A page for people, made from the certificate alone: `taut report`. UTF-8. The checker proves the certificate again first,
-/// unless it has a theorem already.
-/// @throws InputError where the checker rejects the certificate, or a report can't show what is in it; Interrupted, before
-/// the page is made.
+/// A page for people, made from the certificate alone: `taut report`. UTF-8. The checker proves the certificate again
+/// first, unless it has a theorem already.
+/// @throws InputError where the checker rejects the certificate, or a report can't show what is in it; Interrupted,
+/// before the page is made.
 [[nodiscard]] TAUT_EXPORT std::string report(const Certificate& certificate, const ReportOptions& options = {});
 
 }  // namespace v0

@@ -1,9 +1,9 @@
 // The report: a certificate for the eye, one HTML page that an engineer can read, print and sign.
 //
-// Made from what the checker found, of the very bytes that it checked: a verdict is shown only where it made a theorem. A
-// certificate that was not checked within the budget is headed UNCHECKED, and nothing that it claims is shown. Pictures are
-// floating-point samples and say so. The page needs no network; its one script draws the plots, and nothing of the
-// certificate is shown unescaped.
+// Made from what the checker found, of the very bytes that it checked: a verdict is shown only where it made a theorem.
+// A certificate that was not checked within the budget is headed UNCHECKED, and nothing that it claims is shown.
+// Pictures are floating-point samples and say so. The page needs no network; its one script draws the plots, and
+// nothing of the certificate is shown unescaped.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -232,7 +232,8 @@ class Report(unittest.TestCase):
         self.assertEqual(run(TAUT, "report", self.certificate, "--text").returncode, 0)
 
     def test_wrong_use_is_refused(self):
-        for extra in (["--pdf", "--text"], ["--check"], ["--document", 'a"b'], ["--revision", "x" * 41],
+        for extra in (["--pdf", "--text"], ["--no-check"], ["--max-seconds", "-1"], ["--max-seconds", "nan"],
+                      ["--max-seconds", ""], ["--document", 'a"b'], ["--revision", "x" * 41],
                       ["--date", "<b>"]):
             self.assertEqual(run(TAUT, "report", self.certificate, *extra).returncode, 3, extra)
         for command in (("report", self.certificate, "--text"), ("plan", CASE, "--out", self.path("late")),

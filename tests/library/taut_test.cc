@@ -407,12 +407,13 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::Stretch), 376U);
   EXPECT_EQ(sizeof(taut::Sample), 216U);
   EXPECT_EQ(sizeof(taut::Certificate), 16U);
+  EXPECT_EQ(sizeof(taut::Theorem), 16U);
   EXPECT_EQ(sizeof(taut::Progress), 24U);
-  EXPECT_EQ(sizeof(taut::PlanOptions), 152U);
-  EXPECT_EQ(sizeof(taut::ProveOptions), 48U);
-  EXPECT_EQ(sizeof(taut::AuditOptions), 96U);
-  EXPECT_EQ(sizeof(taut::CheckResult), 128U);
-  EXPECT_EQ(sizeof(taut::CheckOptions), 56U);
+  EXPECT_EQ(sizeof(taut::PlanOptions), 160U);
+  EXPECT_EQ(sizeof(taut::ProveOptions), 56U);
+  EXPECT_EQ(sizeof(taut::AuditOptions), 104U);
+  EXPECT_EQ(sizeof(taut::CheckResult), 144U);
+  EXPECT_EQ(sizeof(taut::CheckOptions), 72U);
   EXPECT_EQ(sizeof(taut::ReportOptions), 120U);
 }
 

@@ -277,10 +277,10 @@ TEST(HtmlReport, RefutesByALengthInMillimetres) {
 TEST(HtmlReport, SaysWhatIsOpen) {
   const std::string& page = page_of("undecided");
   EXPECT_THAT(page, HasSubstr("Undecided: nothing is claimed about this move."));
-  EXPECT_THAT(page, HasSubstr("Reason: the determinant may vanish"));
+  EXPECT_THAT(page, HasSubstr("Reason, as the certificate gives it: the determinant may vanish"));
   EXPECT_THAT(page, HasSubstr("segment 1, between waypoints 1 and 2, from s = 1/4 to s = 3/8."));
   EXPECT_THAT(page, HasSubstr("What is open begins after "));
-  EXPECT_THAT(page_of("no path"), HasSubstr("Reason: no path was found"));
+  EXPECT_THAT(page_of("no path"), HasSubstr("Reason, as the certificate gives it: no path was found"));
 }
 
 TEST(HtmlReport, IsBalancedMarkup) {

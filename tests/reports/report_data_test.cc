@@ -74,7 +74,7 @@ TEST(ReportData, RoundsProvedRangesOutward) {
 }
 
 TEST(ReportData, PutsLongPathsTogetherWithoutLosingTheLeastAndTheGreatest) {
-  const Scene scene(long_path(4000));
+  const Scene scene = sample::scene(long_path(4000));
   const json data = report_data(scene);
   EXPECT_LE(data["samples"]["position"].size(), 2000u);
   ASSERT_LE(data["margins"]["from"].size(), 1500u);
