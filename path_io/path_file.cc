@@ -525,7 +525,7 @@ class PathFile::Implementation {
         case Column::Role::kIgnored: break;
         case Column::Role::kIndex: read_index(column, cell); break;
         case Column::Role::kTime: row.time_s = read_time(column, cell); break;
-        case Column::Role::kCoordinate: row.x[column.index] = read_number(column, cell); break;
+        case Column::Role::kCoordinate: row.x[column.index] = read_coordinate(column, cell); break;
         case Column::Role::kHalfTurns: row.half_turns[column.index] = read_half_turns(column, cell); break;
         case Column::Role::kStart:
           if (rows_ == 0 || !cell.empty()) start[column.index] = read_number(column, cell);
@@ -555,6 +555,14 @@ class PathFile::Implementation {
 
   [[nodiscard]] double read_number(const Column& column, std::string_view cell) const {
     return in_cell(column, cell, [&] { return column.to_si(cell); });
+  }
+
+  [[nodiscard]] double read_coordinate(const Column& column, std::string_view cell) const {
+    const double value = read_number(column, cell);
+    if (header_.form == PathForm::kCableLengths && !(value > 0)) {
+      fail(column.name, fmt::format("got '{}', expected a cable length above 0", shown(cell)));
+    }
+    return value;
   }
 
   [[nodiscard]] Decimal read_time(const Column& column, std::string_view cell) {
