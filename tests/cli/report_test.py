@@ -135,6 +135,14 @@ class Report(unittest.TestCase):
         said = run(TAUT, "plan", CASE, "--out", self.path("out"), "--json")
         self.assertEqual(json.loads(said.stdout)["recheck"]["result"], "confirmed")
 
+    def test_the_page_says_whose_works_it_contains(self):
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn("Output of taut, with the parts of taut that it contains, is not covered by the GPL", page)
+        for title in ("three 0.187.0 (MIT)", "@observablehq/plot 0.6.17 (ISC)", "d3-scale 4.0.3 (ISC)"):
+            self.assertIn(title, page)
+        self.assertIn("THE SOFTWARE IS PROVIDED", page)
+
     def test_summaries_go_to_standard_output(self):
         text = run(TAUT, "report", self.certificate, "--text", "--no-check")
         self.assertEqual(text.returncode, 0, text.stderr)
