@@ -1,9 +1,10 @@
 #include "checker/exact.h"
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
 
 #include "checker/errors.h"
 
@@ -82,11 +83,17 @@ mpq_class parse_dyadic(const std::string& text, const std::string& where) {
 }
 
 double parse_binary64(const std::string& text, const std::string& where) {
-  const double value = std::strtod(text.c_str(), nullptr);
-  char canonical[64];
-  std::snprintf(canonical, sizeof canonical, "%a", value);
-  // Equal to what "%a" prints of it: then the text is exact, whatever strtod did on its way.
-  if (text != canonical || !std::isfinite(value)) fail(text, where, "a finite binary64 as printed by %a");
+  const bool negative = text.starts_with('-');
+  const char* const end = text.data() + text.size();
+  const char* const digits = text.data() + std::min<std::size_t>(text.size(), negative ? 3 : 2);  // behind "0x"
+  double value = std::numeric_limits<double>::infinity();
+  std::from_chars(digits, end, value, std::chars_format::hex);
+  if (negative) value = -value;
+  char written[32];
+  const auto [last, error] = std::to_chars(written, written + sizeof written, std::abs(value), std::chars_format::hex);
+  const std::string canonical = (negative ? "-0x" : "0x") + std::string(written, last);
+  // Equal to what is written of it, as by "%a": then the text is exact, whatever from_chars did on its way.
+  if (!std::isfinite(value) || text != canonical) fail(text, where, "a finite binary64 as printed by %a");
   return value;
 }
 
