@@ -10,6 +10,8 @@
 #include <iostream>
 
 #include "base/input_error.h"
+#include "base/process.h"
+#include "base/sanitize.h"
 #include "case/case_file.h"
 #include "checker/check.h"
 #include "checker/errors.h"
@@ -91,10 +93,15 @@ int run(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "print nothing: the exit code says it");
   app.set_version_flag("--version", std::string("taut-check ") + TAUT_VERSION);
   app.footer("Exit codes: 0 accepted, 1 rejected, 2 the certificate says undecided, 3 malformed, 4 internal failure.");
+  app.failure_message([](const CLI::App* /*failed*/, const CLI::Error& error) {
+    return sanitize(error.what()) + "\nRun with --help for more information.\n";
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 3;
+    const int code = app.exit(error);
+    if (!std::cout.flush()) throw std::runtime_error("could not write to standard output");
+    return code == 0 ? 0 : 3;
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -114,11 +121,11 @@ int run(int argc, char** argv) {
   } else if (!quiet && result.outcome != Outcome::kMalformed) {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << result.message << ", " << time << "; " << describe_signer(result)
-              << std::endl;
+    std::cout << name(result.outcome) << ": " << sanitize(result.message) << ", " << time << "; "
+              << describe_signer(result) << std::endl;
   }
   if (!quiet && result.outcome == Outcome::kMalformed) {
-    std::cerr << name(result.outcome) << ": " << result.message << std::endl;
+    std::cerr << name(result.outcome) << ": " << sanitize(result.message) << std::endl;
   }
   if (!std::cout) throw std::runtime_error("could not write to standard output");
   return exit_code(result.outcome);
@@ -127,11 +134,17 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace taut::checker
 
+/// Before all other initialisation, which may fail for want of memory, too.
+[[gnu::constructor(101)]] static void prepare() { taut::prepare_process("taut-check", ""); }
+
 int main(int argc, char** argv) {
   try {
     return taut::checker::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "taut-check: internal failure: out of memory" << std::endl;
+    return 4;
   } catch (const std::exception& error) {
-    std::cerr << "taut-check: internal failure: " << error.what() << std::endl;
+    std::cerr << "taut-check: internal failure: " << taut::sanitize(error.what()) << std::endl;
     return 4;
   }
 }

@@ -10,6 +10,7 @@
 #include "app/recheck.h"
 #include "app/tolerance_table.h"
 #include "base/files.h"
+#include "base/sanitize.h"
 #include "case/case_file.h"
 #include "certificate/certificate_file.h"
 #include "certify/undecided.h"
@@ -190,7 +191,7 @@ int run_audit(const AuditArguments& arguments) {
   }
   const Audit& result = audited.audit;
   if (result.interrupted) {
-    fmt::print(stderr, "taut: interrupted: nothing was written\n");
+    complain("interrupted: nothing was written");
     return kUndecidedExit;
   }
   certificate.finish();
@@ -218,17 +219,17 @@ int run_audit(const AuditArguments& arguments) {
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(audited.tolerance_limits);
     object["recheck"] = to_json(rechecked);
-    fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", object.dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {
     print(result, source);
     fmt::print("{}", tolerance_table(audited.tolerance_limits));
     if (report) fmt::print("{}\n", sentence(rechecked));
-    fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(), report ? ", report.html" : "");
+    fmt::print("Written to {}: path.csv, certificate.json{}\n", sanitize(out.string()), report ? ", report.html" : "");
     if (!report) {
       fmt::print(
           "Of more than {} segments no report is made, nor are they re-checked, unless you ask for it:\n"
           "  taut report {}\n",
-          kMostReported, (out / "certificate.json").string());
+          kMostReported, sanitize((out / "certificate.json").string()));
     }
   }
   return exit_code(result.verdict);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "certificate/signature.h"
@@ -23,6 +24,10 @@ enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInput
 /// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
 /// @throws InputError as SigningKey
 [[nodiscard]] std::optional<SigningKey> load_signing_key(const std::string& path);
+
+/// Writes "taut: MESSAGE" on a line of its own to stderr. Where that can't be written, nothing happens: a closed stderr
+/// changes no exit code.
+void complain(std::string_view message);
 
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {

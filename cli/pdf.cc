@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "cli/subprocess.h"
 
 namespace taut {

@@ -9,7 +9,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "certificate/certificate_file.h"
 #include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
@@ -79,7 +79,7 @@ int run_report(const ReportArguments& arguments) {
     return render(arguments, certificate, options, interruption.token());
   });
   if (!made || interruption.token().stop_requested()) {
-    fmt::print(stderr, "taut: interrupted: nothing was written\n");
+    complain("interrupted: nothing was written");
     return kUndecidedExit;
   }
   const Rendered& rendered = *made;
@@ -93,13 +93,13 @@ int run_report(const ReportArguments& arguments) {
     if (std::filesystem::equivalent(target, arguments.certificate_path, not_there)) {
       throw InputErrorOfKind(
           InputKind::kUse,
-          fmt::format("--out: got '{}', which is the certificate, expected another file", shown(target.string())));
+          fmt::format("--out: got '{}', which is the certificate, expected another file", excerpt(target.string())));
     }
     write_whole({{target, rendered.content}});
-    fmt::print("{}\nWritten: {}\n", sentence(options.recheck), target.string());
+    fmt::print("{}\nWritten: {}\n", sentence(options.recheck), sanitize(target.string()));
   }
   if (options.recheck.result != Recheck::Result::kRejected) return kProvedExit;
-  fmt::print(stderr, "taut: {}: {}\n", arguments.certificate_path, sentence(options.recheck));
+  complain(fmt::format("{}: {}", arguments.certificate_path, sentence(options.recheck)));
   return kRefutedExit;
 }
 
