@@ -4,22 +4,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <string>
-
-#include "base/input_error.h"
-#include "problem/decimal.h"
-#include "problem/scalar.h"
 
 namespace taut {
 
-/// Accepts a decimal number for which `is_accepted` is true; `expected` describes such numbers in messages.
+/// Accepts a finite decimal number for which `is_accepted` is true; `expected` describes such numbers in messages.
 inline CLI::Validator number(const std::string& expected, bool (*is_accepted)(double)) {
   const auto complaint = [=](const std::string& text) -> std::string {
-    try {
-      if (is_accepted(ScalarTraits<double>::from_decimal(Decimal::parse(text).text()))) return "";
-    } catch (const InputError&) {  // then it isn't a number
-    }
-    return fmt::format("got '{}', expected {}", text, expected);
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
+    const bool is_number = error == std::errc() && read == end && std::isfinite(value);
+    return is_number && is_accepted(value) ? "" : fmt::format("got '{}', expected {}", text, expected);
   };
   return {complaint, ""};
 }

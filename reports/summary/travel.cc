@@ -5,7 +5,7 @@
 #include <string>
 
 #include "kinematics/pose_conversion.h"
-#include "kinematics/scalar.h"
+#include "problem/scalar.h"
 
 namespace taut {
 
