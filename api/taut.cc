@@ -130,6 +130,8 @@ auto within(InputKind kind, const Work& work) {
     throw_outside(error, error.kind());
   } catch (const taut::InputError& error) {
     throw_outside(error, kind);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw_outside(taut::InputError(error.what()), InputKind::kFile);
   } catch (const checker::Malformed& error) {  // of keys
     throw_outside(taut::InputError(error.what()), InputKind::kKey);
   } catch (const checker::Interrupted& error) {
