@@ -168,13 +168,13 @@ class Robustness(InFolder):
                 limited = ["bash", "-c", 'ulimit -c 0; ulimit -v "$1"; shift; exec "$@"', "bash", str(kilobytes), *command]
                 return subprocess.run(limited, capture_output=True, timeout=120, check=False).returncode
             too_little, enough = 4 << 10, 256 << 10
-            while enough - too_little > 64:
+            while enough - too_little > 512:
                 middle = (too_little + enough) // 2
                 if ends_with(middle) == 0:
                     enough = middle
                 else:
                     too_little = middle
-            codes = {kilobytes: ends_with(kilobytes) for kilobytes in range(enough // 2, enough, enough // 120)}
+            codes = {kilobytes: ends_with(kilobytes) for kilobytes in range(enough // 2, enough, enough // 80)}
             # 127: the loader had not enough to begin with.
             self.assertLessEqual(set(codes.values()), {0, 4, 126, 127}, codes)
             self.assertIn(4, codes.values())
