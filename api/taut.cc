@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 #include <immintrin.h>
-#include <langinfo.h>
 #include <mpfr.h>
 #include <tbb/task_arena.h>
 
 #include <cfenv>
-#include <clocale>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -90,18 +88,6 @@ class DefaultFloatingPoint {
   std::fenv_t environment_{};
 };
 
-/// Numbers are written and read with a point by functions that heed the locale.
-void require_decimal_point() {
-  // This thread's locale, and the process's, which other threads have.
-  const locale_t global = duplocale(LC_GLOBAL_LOCALE);
-  const std::string both = std::string(nl_langinfo(RADIXCHAR)) + nl_langinfo_l(RADIXCHAR, global);
-  freelocale(global);
-  if (both != "..") {
-    throw taut::UntrustworthyMachine(
-        "LC_NUMERIC: got a locale whose decimal point is none, expected that of C: setlocale(LC_NUMERIC, \"C\")");
-  }
-}
-
 /// MPFR keeps constants for each thread: those of a caller's thread go when it ends.
 struct MpfrConstants {
   MpfrConstants() = default;
@@ -154,13 +140,14 @@ auto within(InputKind kind, const Work& work) {
   const DefaultFloatingPoint environment;
   thread_local const MpfrConstants constants;
   try {
-    require_decimal_point();
     tbb::task_arena threads;  // begins with this thread's environment, whatever that of the caller's own tasks is
     return threads.execute(work);
   } catch (const taut::InputErrorOfKind& error) {
     throw_outside(error, error.kind());
   } catch (const taut::InputError& error) {
     throw_outside(error, kind);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw_outside(taut::InputError(error.what()), InputKind::kFile);
   } catch (const checker::Malformed& error) {  // of keys
     throw_outside(taut::InputError(error.what()), InputKind::kKey);
   } catch (const checker::Interrupted& error) {
@@ -556,7 +543,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const PathAudit audited = audit_path(
-        source, {options.max_bits, std::filesystem::temp_directory_path(), key ? &*key : nullptr},
+        source, {options.max_bits, temporary_folder(), key ? &*key : nullptr},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.audit.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

@@ -12,8 +12,8 @@
 
 #include "base/files.h"
 #include "base/input_kind.h"
+#include "base/sanitize.h"
 #include "base/sha256.h"
-#include "base/shown.h"
 #include "certificate/certificate.h"
 #include "certificate/certificate_file.h"
 
@@ -273,7 +273,8 @@ void PathSource::require_start(std::size_t line) const {
 }
 
 std::string PathSource::description() const {
-  std::string text = fmt::format("Read {}: {}Interpolation {}.\n", path_, description_, meaning(law_, problem_));
+  std::string text =
+      fmt::format("Read {}: {}Interpolation {}.\n", sanitize(path_), description_, meaning(law_, problem_));
   if (maker_ && maker_->is_converted()) {
     text +=
         "The file's poses were converted to this form in floating point: what is proved is about the converted "
@@ -301,7 +302,7 @@ std::string PathSource::remarks() const {
 }
 
 nlohmann::json PathSource::source() const {
-  return {{"file", shown(std::filesystem::path(path_).filename().string())}, {"sha256", sha256_}};
+  return {{"file", excerpt(std::filesystem::path(path_).filename().string())}, {"sha256", sha256_}};
 }
 
 }  // namespace taut

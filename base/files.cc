@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -23,6 +24,14 @@ namespace {
   throw InputErrorOfKind(InputKind::kFile,
                          fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)),
                          {path.string()});
+}
+
+/// Where the system can't tell, as of a link that leads to itself or a name that is too long, that is a failure of `action`.
+std::filesystem::file_status status_of(const std::filesystem::path& path, const char* action) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::status_known(status)) fail(path, action, error.value());
+  return status;
 }
 
 constexpr std::string_view kPart = ".part";
@@ -74,10 +83,9 @@ void remove_leftovers(const std::filesystem::path& path) {
 }  // namespace
 
 NewFile::NewFile(const std::filesystem::path& path) : path_(target_of(path)) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path_, error);
-  if (std::filesystem::is_other(status))
+  if (std::filesystem::is_other(status_of(path_, "write"))) {
     fail(path_, "write", EINVAL);  // a device or pipe, which no file should replace
+  }
   remove_leftovers(path_);
   do {
     temporary_ = temporary_name(path_);
@@ -119,7 +127,7 @@ void NewFile::finish() {
 }
 
 void NewFile::require_no_folder() const {
-  if (std::filesystem::is_directory(path_)) fail(path_, "write", EISDIR);
+  if (std::filesystem::is_directory(status_of(path_, "write"))) fail(path_, "write", EISDIR);
 }
 
 void NewFile::rename_into_place() {
@@ -178,7 +186,7 @@ void write_whole(const std::vector<FileContent>& files, std::span<const std::fil
 }
 
 void require_writable(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) fail(path, "write", EISDIR);
+  if (std::filesystem::is_directory(status_of(path, "write"))) fail(path, "write", EISDIR);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) != 0) fail(path, "write", errno);
 }
@@ -193,16 +201,26 @@ void require_another(const std::filesystem::path& written, const std::filesystem
                          {written.string()});
 }
 
-std::string read_whole(const std::filesystem::path& path) {
+std::string read_whole(const std::filesystem::path& path, std::size_t max_bytes) {
+  const std::filesystem::file_status status = status_of(path, "read");
+  if (std::filesystem::is_directory(status)) fail(path, "read", EISDIR);
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
+    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: got a device, expected a file", path.string()),
+                           {path.string()});
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path, "read", errno != 0 ? errno : ENOENT);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail(path, "read", EISDIR);
   std::string content;
   std::vector<char> piece(std::size_t{1} << 16U);
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
     content.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+    if (content.size() > max_bytes) {
+      throw InputErrorOfKind(
+          InputKind::kFile,
+          fmt::format("{}: got more than {} bytes, expected a smaller file", path.string(), max_bytes),
+          {path.string()});
+    }
   }
   if (file.bad()) fail(path, "read", errno != 0 ? errno : EIO);
   return content;
@@ -211,12 +229,29 @@ std::string read_whole(const std::filesystem::path& path) {
 void make_directories(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path)) {
+  if (error || !std::filesystem::is_directory(path, error)) {
     throw InputErrorOfKind(InputKind::kFile,
                            fmt::format("{}: could not make the directory: {}", path.string(),
                                        error ? error.message() : "a file is in the way"),
                            {path.string()});
   }
+}
+
+std::filesystem::path temporary_folder() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error) {
+    const char* const chosen = std::getenv("TMPDIR");
+    throw InputErrorOfKind(InputKind::kFile, fmt::format("TMPDIR: got '{}', expected a folder for temporary files",
+                                                         chosen != nullptr ? chosen : "nothing, and no /tmp"));
+  }
+  return folder;
+}
+
+std::filesystem::path make_temporary_folder(const std::string& prefix) {
+  std::string name = (temporary_folder() / (prefix + "-XXXXXX")).string();
+  if (::mkdtemp(name.data()) == nullptr) fail(name, "make the directory", errno);
+  return name;
 }
 
 }  // namespace taut

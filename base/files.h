@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -63,8 +64,17 @@ void require_writable(const std::filesystem::path& path);
 /// That what is to be written is not the file that is read. @throws InputError if it is.
 void require_another(const std::filesystem::path& written, const std::filesystem::path& read);
 
-/// @throws InputError naming the path and the system's reason.
-[[nodiscard]] std::string read_whole(const std::filesystem::path& path);
+/// The whole of a file or pipe of at most `max_bytes`. Devices, which may never end, are refused.
+/// @throws InputError naming the path and the system's reason, or that the file is larger; no more than it takes to see
+/// that is read.
+[[nodiscard]] std::string read_whole(const std::filesystem::path& path,
+                                     std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
+
+/// The folder for temporary files. @throws InputError where TMPDIR names no folder.
+[[nodiscard]] std::filesystem::path temporary_folder();
+
+/// A new folder in it with a name of its own, "PREFIX-XXXXXX". @throws InputError likewise.
+[[nodiscard]] std::filesystem::path make_temporary_folder(const std::string& prefix);
 
 /// Makes a directory and its parents. @throws InputError likewise.
 void make_directories(const std::filesystem::path& path);

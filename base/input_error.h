@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/shown.h"
+#include "base/sanitize.h"
 
 namespace taut {
 
@@ -22,7 +22,7 @@ struct InputPlace {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message, InputPlace place = {})
-      : std::runtime_error(without_control_characters(message)), place_(std::move(place)) {}
+      : std::runtime_error(sanitize(message)), place_(std::move(place)) {}
   [[nodiscard]] const InputPlace& place() const { return place_; }
 
  private:

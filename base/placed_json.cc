@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/shown.h"
+#include "base/sanitize.h"
 
 namespace taut {
 
@@ -30,7 +30,7 @@ const PlacedJson& PlacedJson::expect_keys(std::initializer_list<const char*> key
   }
   for (const auto& [key, member] : value_->items()) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-      throw FieldError(where_, "'" + shown(key) + "'", "expected only known keys");
+      throw FieldError(where_, "'" + excerpt(key) + "'", "expected only known keys");
     }
   }
   return *this;

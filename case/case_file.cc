@@ -1,6 +1,7 @@
 #include "case/case_file.h"
 
 #include <fmt/format.h>
+#include <utf8.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
@@ -18,7 +19,7 @@
 
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
 #include "problem/units.h"
@@ -36,11 +37,11 @@ bool is_list_of_scalars(const YAML::Node& node) {
 }
 
 std::string describe(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + shorten(node.Scalar()) + "'";
+  if (node.IsScalar()) return "'" + excerpt(node.Scalar()) + "'";
   if (node.IsMap()) return "a map";
   if (is_list_of_scalars(node)) {
     std::string items;
-    for (const YAML::Node& item : node) items += (items.empty() ? "" : ", ") + shorten(item.Scalar());
+    for (const YAML::Node& item : node) items += (items.empty() ? "" : ", ") + excerpt(item.Scalar());
     return "[" + items + "]";
   }
   return node.IsSequence() ? fmt::format("a list of {}", node.size()) : "nothing";
@@ -58,9 +59,9 @@ class Places {
 
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& path, const std::string& message) const {
     const std::string place = mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
-    throw InputError(without_control_characters(path.empty() ? fmt::format("{}: {}", place, message)
-                                                             : fmt::format("{}: {}: {}", place, path, message)),
-                     {file_, mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1, path});
+    throw InputError(
+        path.empty() ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, path, message),
+        {file_, mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1, path});
   }
 
   /// Says where in the file the problem's field is, or the closest thing around it.
@@ -171,7 +172,7 @@ Map Field::open_map(const std::string& expected) const {
     if (!entry.first.IsScalar()) places_->fail(entry.first.Mark(), path_, "got a compound key, expected a word");
     const std::string& key = entry.first.Scalar();
     if (!seen.insert(key).second) {
-      places_->fail(entry.first.Mark(), path_, fmt::format("got '{}' twice, expected each key once", shorten(key)));
+      places_->fail(entry.first.Mark(), path_, fmt::format("got '{}' twice, expected each key once", excerpt(key)));
     }
     entries.emplace_back(key, Field(*places_, entry.second, path_.empty() ? key : path_ + "." + key));
   }
@@ -197,7 +198,7 @@ Map Field::map(const std::vector<std::string>& keys) const {
   for (const auto& entry : node_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    const std::string shown = shorten(key);
+    const std::string shown = excerpt(key);
     const std::string& nearest = *std::min_element(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
       return edit_distance(a, shown) < edit_distance(b, shown);
     });
@@ -796,17 +797,15 @@ Case read_case(const Field& root) {
 
 /// @throws InputError at the first byte that is no part of a character.
 void require_utf8(const std::string& text, const Places& places) {
+  const std::size_t wrong = valid_utf8_prefix(text);
+  if (wrong == text.size()) return;
+  const std::string_view before = std::string_view(text).substr(0, wrong);
+  const std::size_t line = before.rfind('\n') + 1;  // where the byte's line begins; npos + 1 is 0
   YAML::Mark mark;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_character_length(std::string_view(text).substr(at));
-    if (length == 0) {
-      places.fail(mark, "",
-                  fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[at])));
-    }
-    mark.line += text[at] == '\n';
-    mark.column = text[at] == '\n' ? 0 : mark.column + 1;
-    at += length;
-  }
+  mark.line = static_cast<int>(std::ranges::count(before, '\n'));
+  mark.column = static_cast<int>(utf8::distance(before.begin() + static_cast<std::ptrdiff_t>(line), before.end()));
+  places.fail(mark, "",
+              fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[wrong])));
 }
 
 /// Listens to nothing.

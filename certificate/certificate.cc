@@ -7,8 +7,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <system_error>
 
@@ -23,9 +22,10 @@ namespace taut {
 using nlohmann::json;
 
 std::string hex_float(double x) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%a", x);
-  return text.data();
+  std::array<char, 32> digits{};
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), std::abs(x), std::chars_format::hex);
+  return (std::signbit(x) ? "-0x" : "0x") + std::string(digits.data(), end);
 }
 
 json to_json(const Margins& m) {
@@ -229,10 +229,16 @@ namespace {
 
 double binary64(const PlacedJson& field) {
   const std::string& literal = field.text();
-  const double value = std::strtod(literal.c_str(), nullptr);
+  const std::size_t digits = literal.starts_with('-') ? 3 : 2;  // behind "0x"
+  double magnitude = std::numeric_limits<double>::infinity();
+  if (literal.size() > digits) {
+    std::from_chars(literal.data() + digits, literal.data() + literal.size(), magnitude, std::chars_format::hex);
+  }
+  const double value = literal.starts_with('-') ? -magnitude : magnitude;
   // As the checker reads it: one way to write each.
-  if (literal != hex_float(value) || !std::isfinite(value))
+  if (!std::isfinite(value) || literal != hex_float(value)) {
     field.fail("a finite binary64 as %a prints it, such as \"0x1.8p+1\"");
+  }
   return value;
 }
 

@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -25,9 +23,7 @@ std::string canonical(const json& value) { return value.dump(-1, ' ', true); }
 void append_hex_floats(std::string& text, std::span<const double> values) {
   text += '[';
   for (std::size_t i = 0; i < values.size(); ++i) {
-    std::array<char, 40> number{};
-    const int size = std::snprintf(number.data(), number.size(), "%s\"%a\"", i == 0 ? "" : ",", values[i]);
-    text.append(number.data(), static_cast<std::size_t>(size));
+    text += (i == 0 ? "\"" : ",\"") + hex_float(values[i]) + "\"";
   }
   text += ']';
 }

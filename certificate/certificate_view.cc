@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -23,15 +24,11 @@ namespace {
 
 /// Nearest double of a decimal.
 double approximation(const PlacedJson& field) {
-  std::size_t used = 0;
   double value = 0;
   const std::string& text = field.text();
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::logic_error&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(value)) field.fail("a number in a string");
+  const char* const end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || read != end || !std::isfinite(value)) field.fail("a number in a string");
   return value;
 }
 

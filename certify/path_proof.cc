@@ -18,20 +18,7 @@ constexpr int kMarginDigits = 6;
 constexpr int kWitnessDigits = 17;       // or as many as it takes to show the violation,
 constexpr int kMostWitnessDigits = 600;  // if not more than this
 
-/// `digits` significant digits, rounded in the given direction.
-DecimalText decimal(const BigFloat& x, int digits, mpfr_rnd_t direction) {
-  char* text = nullptr;
-  if (direction == MPFR_RNDD) {
-    mpfr_asprintf(&text, "%.*RDe", digits - 1, x.get());
-  } else {
-    mpfr_asprintf(&text, "%.*RUe", digits - 1, x.get());
-  }
-  DecimalText result = text;
-  mpfr_free_str(text);
-  return result;
-}
-
-DecimalText decimal_below(double x) { return decimal(BigFloat(x), kMarginDigits, MPFR_RNDD); }
+DecimalText decimal_below(double x) { return BigFloat(x).to_decimal(kMarginDigits, MPFR_RNDD); }
 
 const DecimalText& limit_text(const Problem& problem, MarginId margin) {
   const auto cable = static_cast<std::size_t>(margin.cable);
@@ -57,8 +44,8 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
   const Decimal limit = Decimal::parse(witness.limit);
   const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
   for (int digits = kWitnessDigits; digits <= kMostWitnessDigits; digits *= 2) {
-    witness.value_lower = decimal(value.lower(), digits, MPFR_RNDD);
-    witness.value_upper = decimal(value.upper(), digits, MPFR_RNDU);
+    witness.value_lower = value.lower().to_decimal(digits, MPFR_RNDD);
+    witness.value_upper = value.upper().to_decimal(digits, MPFR_RNDU);
     if (is_lower ? Decimal::parse(witness.value_upper) <= limit : Decimal::parse(witness.value_lower) >= limit) break;
   }
   return witness;

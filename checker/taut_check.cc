@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/process.h"
+#include "base/sanitize.h"
 #include "case/case_file.h"
 #include "checker/arguments.h"
 #include "checker/check.h"
@@ -214,10 +216,15 @@ int run(int argc, char** argv) {
   CLI::App app("Proves the claim of a certificate again, independently of the program that wrote it.", "taut-check");
   Arguments arguments;
   add_options(app, arguments);
+  app.failure_message([](const CLI::App* /*failed*/, const CLI::Error& error) {
+    return sanitize(error.what()) + "\nRun with --help for more information.\n";
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 3;
+    const int code = app.exit(error);
+    if (!std::cout.flush()) throw std::runtime_error("could not write to standard output");
+    return code == 0 ? 0 : 3;
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -229,10 +236,11 @@ int run(int argc, char** argv) {
   } else if (!arguments.quiet && !is_malformed) {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << result.message << describe_not_compared(result) << "; " << time << "; "
+    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result) << "; " << time << "; "
               << describe_signer(result) << std::endl;
   }
-  if (!arguments.quiet && is_malformed) std::cerr << name(result.outcome) << ": " << result.message << std::endl;
+  if (!arguments.quiet && is_malformed) std::cerr << name(result.outcome) << ": " << sanitize(result.message)
+                                                << std::endl;
   if (!std::cout) throw std::runtime_error("could not write to standard output");
   return exit_code(result.outcome);
 }
@@ -240,11 +248,17 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace taut::checker
 
+/// Before all other initialisation, which may fail for want of memory, too.
+[[gnu::constructor(101)]] static void prepare() { taut::prepare_process("taut-check", ""); }
+
 int main(int argc, char** argv) {
   try {
     return taut::checker::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "taut-check: internal failure: out of memory" << std::endl;
+    return 4;
   } catch (const std::exception& error) {
-    std::cerr << "taut-check: internal failure: " << error.what() << std::endl;
+    std::cerr << "taut-check: internal failure: " << taut::sanitize(error.what()) << std::endl;
     return 4;
   }
 }

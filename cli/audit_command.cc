@@ -10,6 +10,7 @@
 #include "app/recheck.h"
 #include "app/tolerance_table.h"
 #include "base/files.h"
+#include "base/sanitize.h"
 #include "base/sha256.h"
 #include "case/case_file.h"
 #include "certify/undecided.h"
@@ -215,7 +216,7 @@ int run_audit(const AuditArguments& arguments) {
   }
   const Audit& result = audited.audit;
   if (result.interrupted) {
-    fmt::print(stderr, "taut: interrupted: nothing was written\n");
+    complain("interrupted: nothing was written");
     return kUndecidedExit;
   }
   certificate.finish();
@@ -246,14 +247,14 @@ int run_audit(const AuditArguments& arguments) {
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(limits);
     object["recheck"] = to_json(checked);
-    fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", object.dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {
     print(result, source, checked);
     fmt::print("{}{}\n", tolerance_table(limits), sentence(checked));
-    fmt::print("Written to {}: path.csv, certificate.json{}\n", out.string(), report ? ", report.html" : "");
+    fmt::print("Written to {}: path.csv, certificate.json{}\n", sanitize(out.string()), report ? ", report.html" : "");
     if (!report) {
       fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
-                 (out / "certificate.json").string());
+                 sanitize((out / "certificate.json").string()));
     }
   }
   return exit_code(checked);

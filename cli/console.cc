@@ -11,6 +11,7 @@
 
 #include "app/recheck.h"
 #include "base/files.h"
+#include "base/sanitize.h"
 #include "checker/arguments.h"
 
 namespace taut {
@@ -45,20 +46,26 @@ std::filesystem::path out_folder(const std::string& wanted, const std::string& f
 
 std::optional<SigningKey> load_signing_key(const std::string& path) {
   if (path.empty()) return std::nullopt;
-  SigningKey key(read_whole(path), path);
+  constexpr std::size_t kMaxKeyBytes = std::size_t{1} << 16U;  // an Ed25519 key in PEM has 119
+  SigningKey key(read_whole(path, kMaxKeyBytes), path);
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   constexpr auto kOthers = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
   if (std::filesystem::is_regular_file(status) && (status.permissions() & kOthers) != std::filesystem::perms::none) {
-    fmt::print(stderr, "taut: warning: {}: others than its owner may use this private key (chmod 600)\n", path);
+    complain(fmt::format("warning: {}: others than its owner may use this private key (chmod 600)", path));
   }
   return key;
+}
+
+void complain(std::string_view message) {
+  const std::string line = "taut: " + sanitize(message) + "\n";
+  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
 }
 
 ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) static_cast<void>(std::fputs("\r\033[K", stderr));
 }
 
 bool ProgressLine::is_due() {
@@ -70,7 +77,7 @@ bool ProgressLine::is_due() {
 
 void ProgressLine::print(const std::string& text) {
   shown_ = true;
-  fmt::print(stderr, "\r\033[K{}", text);
+  static_cast<void>(std::fputs(fmt::format("\r\033[K{}", text).c_str(), stderr));
   std::fflush(stderr);
 }
 

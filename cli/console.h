@@ -7,6 +7,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "certificate/signature.h"
@@ -28,6 +29,10 @@ void add_max_seconds_option(CLI::App& command, double& max_seconds);
 /// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
 /// @throws InputError as SigningKey
 [[nodiscard]] std::optional<SigningKey> load_signing_key(const std::string& path);
+
+/// Writes "taut: MESSAGE" on a line of its own to stderr. Where that can't be written, nothing happens: a closed stderr
+/// changes no exit code.
+void complain(std::string_view message);
 
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {

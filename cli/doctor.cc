@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "base/sanitize.h"
 #include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
 #include "cli/subprocess.h"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void line(bool is_well, const std::string& what, const std::string& found) {
-  fmt::print("{:<4} {:<22} {}\n", is_well ? "ok" : "!", what, found);
+  fmt::print("{:<4} {:<22} {}\n", is_well ? "ok" : "!", what, sanitize(found));
 }
 
 std::optional<std::string> in_path(const std::string& program) {

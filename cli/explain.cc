@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
 
@@ -298,7 +298,7 @@ int run_explain(const ExplainArguments& arguments) {
   const auto found = std::ranges::find(explanations(), wanted, &Explanation::code);
   if (found == explanations().end()) {
     throw InputErrorOfKind(InputKind::kUse, fmt::format("CODE: got '{}', expected one of those that taut explain lists",
-                                                        shown(arguments.code)));
+                                                        excerpt(arguments.code)));
   }
   fmt::print("{}", to_text(*found));
   return kProvedExit;

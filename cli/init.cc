@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
+#include "base/sanitize.h"
 #include "cli/console.h"
 #include "cli/new_case_text.h"
 
@@ -24,7 +25,8 @@ std::string new_case(const std::string& name) {
 }
 
 int run_init(const std::string& path) {
-  if (std::filesystem::exists(path))
+  std::error_code unknown;  // then writing it says why
+  if (std::filesystem::exists(path, unknown))
     throw InputErrorOfKind(InputKind::kUse, path + ": got a file that exists, expected a new one", {path});
   std::string name = std::filesystem::path(path).stem().string();
   const bool is_plain = std::ranges::all_of(name, [](char c) {
@@ -33,7 +35,7 @@ int run_init(const std::string& path) {
   });
   if (name.empty() || !is_plain || name.size() > 100) name = "new-case";
   write_whole({{path, new_case(name)}});
-  fmt::print("Written: {}. Change it to your machine, then: taut plan {}\n", path, path);
+  fmt::print("Written: {0}. Change it to your machine, then: taut plan {0}\n", sanitize(path));
   return kProvedExit;
 }
 

@@ -4,16 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <sstream>
 #include <vector>
 
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "cli/subprocess.h"
 
 namespace taut {
@@ -22,14 +20,7 @@ namespace {
 /// A new directory for temporary files; removed with all that is in it.
 class ScratchDirectory {
  public:
-  ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "taut-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw InputErrorOfKind(InputKind::kFile,
-                             fmt::format("{}: could not make a directory: {}", name, std::strerror(errno)), {name});
-    }
-    path_ = name;
-  }
+  ScratchDirectory() : path_(make_temporary_folder("taut")) {}
   ~ScratchDirectory() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -43,7 +34,8 @@ class ScratchDirectory {
 };
 
 bool is_program(const std::filesystem::path& path) {
-  return std::filesystem::is_regular_file(path) && ::access(path.c_str(), X_OK) == 0;
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
 }
 
 /// Whether a program of that name is in PATH, or at that place if it contains a slash.
@@ -65,7 +57,7 @@ std::vector<std::string> browsers() {
 /// The end of what a program printed.
 std::string last_words(const std::string& text) {
   constexpr std::size_t kMost = 400;
-  return shown(text.size() > kMost ? text.substr(text.size() - kMost) : text);
+  return sanitize(text.size() > kMost ? text.substr(text.size() - kMost) : text);
 }
 
 /// The address of a file, whatever the names on the way to it contain.

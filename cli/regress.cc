@@ -1,7 +1,6 @@
 #include "cli/regress.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
 
 #include <algorithm>
 #include <atomic>
@@ -18,7 +17,7 @@
 #include "base/input_error.h"
 #include "base/input_kind.h"
 #include "base/placed_json.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "case/case_file.h"
 #include "cli/console.h"
 #include "cli/subprocess.h"
@@ -42,11 +41,7 @@ class ResultFolder {
       path_ = wanted;
       return;
     }
-    std::string name = (fs::temp_directory_path() / "taut-regress-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw InputError(fmt::format("{}: {}", name, std::generic_category().message(errno)));
-    }
-    path_ = name;
+    path_ = make_temporary_folder("taut-regress");
   }
   ~ResultFolder() {
     std::error_code ignored;
@@ -204,15 +199,6 @@ void run(const fs::path& file, const fs::path& out, const RegressOptions& option
 
 // --- JUnit -------------------------------------------------------------------------------------------------------------
 
-/// Text that XML 1.0 may have.
-std::string xml_text(const std::string& text) {
-  std::string lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    lines += (lines.empty() ? "" : "\n") + without_control_characters(line);
-  return lines;
-}
-
 void add_property(pugi::xml_node& properties, const std::string& name, const std::string& value) {
   pugi::xml_node property = properties.append_child("property");
   property.append_attribute("name") = name.c_str();
@@ -222,7 +208,7 @@ void add_property(pugi::xml_node& properties, const std::string& name, const std
 void add_trouble(pugi::xml_node& testcase, const char* kind, const std::string& type, const std::string& message) {
   pugi::xml_node trouble = testcase.append_child(kind);
   trouble.append_attribute("type") = type.c_str();
-  trouble.append_attribute("message") = xml_text(message).c_str();
+  trouble.append_attribute("message") = sanitize_lines(message).c_str();
 }
 
 bool is_margin(const std::string& quantity) { return quantity.ends_with("_margin") || quantity == "wrench_scale"; }
@@ -252,6 +238,7 @@ void collect_cases(const fs::path& folder, std::set<fs::path>& seen, std::vector
 std::vector<fs::path> find_cases(const fs::path& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
+  if (!fs::status_known(status)) throw InputError(folder.string() + ": could not read: " + error.message());
   if (!fs::exists(status)) throw InputError(folder.string() + ": got nothing, expected a folder of cases");
   if (!fs::is_directory(status)) return {folder};
   std::vector<fs::path> result;
@@ -308,7 +295,7 @@ std::vector<std::string> compare(const Baseline& baseline, std::vector<Regressed
   std::set<std::string> gone;
   for (const auto& [name, ignored] : baseline.cases) gone.insert(name);
   for (RegressedCase& regressed : cases) {
-    const std::string name = valid_utf8(regressed.name);
+    const std::string name = sanitize(regressed.name);
     gone.erase(name);
     const auto before = baseline.cases.find(name);
     if (before == baseline.cases.end() || !regressed.measurement) continue;
@@ -369,7 +356,7 @@ std::string baseline_text(const std::vector<RegressedCase>& cases) {
   json entries = json::object();
   for (const RegressedCase& regressed : cases) {
     if (!regressed.measurement) continue;
-    json& entry = entries[valid_utf8(regressed.name)];
+    json& entry = entries[sanitize(regressed.name)];
     entry["verdict"] = regressed.measurement->verdict;
     for (const auto& [quantity, value] : regressed.measurement->quantities) entry[quantity] = value;
   }
@@ -388,7 +375,7 @@ std::string junit_text(const std::string& suite_name, const std::vector<Regresse
     errors += regressed.error.empty() ? 0 : 1;
     failures += regressed.error.empty() && !regressed.differences.empty() ? 1 : 0;
   }
-  suite.append_attribute("name") = xml_text(suite_name).c_str();
+  suite.append_attribute("name") = sanitize_lines(suite_name).c_str();
   suite.append_attribute("tests") = cases.size() + gone.size();
   suite.append_attribute("failures") = failures;
   suite.append_attribute("errors") = errors;
@@ -397,7 +384,7 @@ std::string junit_text(const std::string& suite_name, const std::vector<Regresse
   const auto add = [&](const std::string& case_name, double time) {
     pugi::xml_node testcase = suite.append_child("testcase");
     testcase.append_attribute("classname") = "taut.regress";
-    testcase.append_attribute("name") = xml_text(case_name).c_str();
+    testcase.append_attribute("name") = sanitize_lines(case_name).c_str();
     testcase.append_attribute("time") = fmt::format("{:.3f}", time).c_str();
     return testcase;
   };

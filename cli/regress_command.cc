@@ -10,8 +10,9 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "cli/console.h"
+#include "cli/number_option.h"
 
 namespace taut {
 namespace {
@@ -28,14 +29,13 @@ void print_table(const std::vector<RegressedCase>& cases) {
   fmt::print("{:<{}}  {:<9}  {:>8} {:>8} {:>11} {:>11} {:>9} {:>8}\n", "case", width, "verdict", "segments", "boxes",
              "tension [N]", "length [m]", "scale", "time [s]");
   for (const RegressedCase& regressed : cases) {
-    fmt::print("{:<{}}  {:<9}  {:>8} {:>8} {:>11} {:>11} {:>9} {:>8.2f}{}\n",
-               without_control_characters(valid_utf8(regressed.name)), width,
+    fmt::print("{:<{}}  {:<9}  {:>8} {:>8} {:>11} {:>11} {:>9} {:>8.2f}{}\n", sanitize(regressed.name), width,
                regressed.measurement ? regressed.measurement->verdict : "-", cell(regressed, "segments", "{:.0f}"),
                cell(regressed, "boxes", "{:.0f}"), cell(regressed, "tension_margin", "{:.4g}"),
                cell(regressed, "length_margin", "{:.4g}"), cell(regressed, "wrench_scale", "{:.4g}"), regressed.seconds,
                regressed.is_as_declared() ? "" : "  <- differs");
-    if (!regressed.error.empty()) fmt::print("    {}\n", regressed.error);
-    for (const std::string& difference : regressed.differences) fmt::print("    {}\n", difference);
+    if (!regressed.error.empty()) fmt::print("    {}\n", sanitize(regressed.error));
+    for (const std::string& difference : regressed.differences) fmt::print("    {}\n", sanitize(difference));
   }
 }
 
@@ -45,20 +45,6 @@ int exit_code(const std::vector<RegressedCase>& cases, const std::vector<std::st
   if (any([](const RegressedCase& c) { return c.is_bad_input; })) return kBadInputExit;
   const bool differs = !gone.empty() || any([](const RegressedCase& c) { return !c.is_as_declared(); });
   return differs ? kRefutedExit : kProvedExit;
-}
-
-std::string positive_number(const std::string& text) {
-  double value = 0;
-  return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0
-             ? ""
-             : "got '" + text + "', expected a number above 0";
-}
-
-std::string part(const std::string& text) {
-  double value = 0;
-  return CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 1
-             ? ""
-             : "got '" + text + "', expected a number from 0 to 1";
 }
 
 bool is_junit(const std::string& text) {
@@ -76,7 +62,7 @@ void require_replaceable(const char* option, const std::string& file, bool (*is_
   throw InputErrorOfKind(InputKind::kUse,
                          fmt::format("{}: got '{}', which is another file or named as a case, expected a new file or "
                                      "an earlier one of taut regress {}",
-                                     option, shown(file), option));
+                                     option, excerpt(file), option));
 }
 
 }  // namespace
@@ -89,13 +75,13 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments) {
   command.add_flag("--update", arguments.update, "write the baseline instead of comparing with it")->needs(baseline);
   command
       .add_option("--tolerance", arguments.tolerance, "relative change for the worse that is let pass (default: 0.05)")
-      ->check(part);
+      ->check(number("a number from 0 to 1", [](double x) { return x >= 0 && x <= 1; }));
   command.add_option("--jobs", arguments.options.jobs, "cases at a time (default: one a core)")
       ->check(CLI::Range(1, 1024));
   command.add_option("--timeout", arguments.options.most_seconds, "seconds for one case (default: 600)")
-      ->check(positive_number);
+      ->check(positive_number());
   command.add_option("--budget", arguments.budget, "seconds of planning a case, before its own")
-      ->check(positive_number);
+      ->check(positive_number());
   command.add_flag("--check", arguments.options.check, "have each certificate proved again by taut-check");
   command.add_option("--out", arguments.out, "keep the results here, a folder a case (default: thrown away)");
   command.add_flag("--json", arguments.json, "print the results as JSON");
@@ -125,7 +111,7 @@ int run_regress(RegressArguments arguments) {
         interruption.token());
   }
   if (cases.size() < files.size()) {
-    fmt::print(stderr, "taut: interrupted after {} of {} cases: nothing was written\n", cases.size(), files.size());
+    complain(fmt::format("interrupted after {} of {} cases: nothing was written", cases.size(), files.size()));
     return kUndecidedExit;
   }
   std::vector<std::string> gone;
@@ -157,9 +143,9 @@ int run_regress(RegressArguments arguments) {
   if (baseline && on_budget > 0) {
     fmt::print("{} of them plan on a budget: only their verdicts are compared with the baseline.\n", on_budget);
   }
-  for (const std::string& name : gone) fmt::print("{}: is in the baseline, and is no more\n", name);
+  for (const std::string& name : gone) fmt::print("{}: is in the baseline, and is no more\n", sanitize(name));
   fmt::print("{} of {} cases as declared, in {:.1f} s.\n", as_declared, cases.size(), seconds.count());
-  for (const FileContent& file : written) fmt::print("Written: {}\n", file.path.string());
+  for (const FileContent& file : written) fmt::print("Written: {}\n", sanitize(file.path.string()));
   return code;
 }
 

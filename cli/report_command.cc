@@ -9,7 +9,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "certificate/certificate_file.h"
 #include "certificate/certificate_view.h"
 #include "certify/arithmetic/rounding.h"
@@ -86,7 +86,7 @@ int run_report(const ReportArguments& arguments) {
     return render(arguments, checked, options, interruption.token());
   });
   if (!made || interruption.token().stop_requested()) {
-    fmt::print(stderr, "taut: interrupted: nothing was written\n");
+    complain("interrupted: nothing was written");
     return kUndecidedExit;
   }
   const Rendered& rendered = *made;
@@ -100,13 +100,13 @@ int run_report(const ReportArguments& arguments) {
     if (std::filesystem::equivalent(target, arguments.certificate_path, not_there)) {
       throw InputErrorOfKind(
           InputKind::kUse,
-          fmt::format("--out: got '{}', which is the certificate, expected another file", shown(target.string())));
+          fmt::format("--out: got '{}', which is the certificate, expected another file", excerpt(target.string())));
     }
     write_whole({{target, rendered.content}});
-    fmt::print("{}\nWritten: {}\n", sentence(checked), target.string());
+    fmt::print("{}\nWritten: {}\n", sentence(checked), sanitize(target.string()));
   }
   if (checked.outcome != checker::Outcome::kUnchecked) return kProvedExit;
-  fmt::print(stderr, "taut: {}: {}\n", arguments.certificate_path, sentence(checked));
+  complain(fmt::format("{}: {}", arguments.certificate_path, sentence(checked)));
   return kUndecidedExit;
 }
 

@@ -7,7 +7,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "case/case_file.h"
 #include "cli/console.h"
 #include "reports/page/robot_drawing.h"
@@ -24,7 +24,7 @@ void add_show_options(CLI::App& command, ShowArguments& arguments) {
 int run_show(const ShowArguments& arguments) {
   if (!arguments.out.empty() && !arguments.out.ends_with(".svg")) {
     throw InputErrorOfKind(InputKind::kUse,
-                           fmt::format("--out: got '{}', expected a file that ends in .svg", shown(arguments.out)));
+                           fmt::format("--out: got '{}', expected a file that ends in .svg", excerpt(arguments.out)));
   }
   if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
   const Case case_ = load_case(arguments.case_path);
@@ -33,8 +33,8 @@ int run_show(const ShowArguments& arguments) {
   if (arguments.json) {
     fmt::print("{}\n", to_json(summary).dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}", to_text(summary));
-    if (!arguments.out.empty()) fmt::print("\nWritten: {}\n", arguments.out);
+    fmt::print("{}", sanitize_lines(to_text(summary)));
+    if (!arguments.out.empty()) fmt::print("\nWritten: {}\n", sanitize(arguments.out));
   }
   return kProvedExit;
 }

@@ -16,6 +16,8 @@
 #include "app/tolerance_table.h"
 #include "base/files.h"
 #include "base/input_error.h"
+#include "base/process.h"
+#include "base/sanitize.h"
 #include "certificate/signature.h"
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
@@ -25,6 +27,7 @@
 #include "cli/doctor.h"
 #include "cli/explain.h"
 #include "cli/init.h"
+#include "cli/number_option.h"
 #include "cli/pdf.h"
 #include "cli/regress_command.h"
 #include "cli/report_command.h"
@@ -157,7 +160,7 @@ int run_plan(const PlanArguments& arguments) {
          checked.outcome == checker::Outcome::kUndecided ? checked.certificate->at("undecided") : nlohmann::json()},
         {"recheck", to_json(checked)},
         {"out", out.string()}};
-    fmt::print("{}\n", summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", summary.dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}\n", plan_sentence(result, checked));
     if (s.charts > 0) {
@@ -172,11 +175,11 @@ int run_plan(const PlanArguments& arguments) {
       if (is_proved) fmt::print("{}.\n", length_sentence(s));
       fmt::print("{}", tolerance_table(limits));
     }
-    fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), out.string(),
+    fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
                is_proved ? "path.csv, " : "");
     if (saves_atlas) {
       fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
-                 planned.whole_atlas ? ", all that can be reached," : "", arguments.save_atlas);
+                 planned.whole_atlas ? ", all that can be reached," : "", sanitize(arguments.save_atlas));
     }
   }
   return exit_code(checked);
@@ -196,8 +199,8 @@ int run(int argc, char** argv) {
       message = argc > 1 ? fmt::format("got '{}', expected a command:", argv[1]) : "expected a command:";
       for (const CLI::App* known : failed->get_subcommands({})) message += " " + known->get_name();
     }
-    return fmt::format("{} [{}]\nRun with --help for more information: {}{} --help\n", message, code(InputKind::kUse),
-                       failed->get_name(), command);
+    return fmt::format("{} [{}]\nRun with --help for more information: {}{} --help\n", sanitize(message),
+                       code(InputKind::kUse), failed->get_name(), command);
   });
   app.footer(
       "Exit codes of plan and audit, whose verdict is the independent checker's: 0 proved, 1 refuted, 2 undecided or "
@@ -215,11 +218,7 @@ int run(int argc, char** argv) {
       ->needs(save_atlas);
   plan_command
       ->add_option("--budget", plan_arguments.budget_seconds, "seconds for planning and proving, before the case's own")
-      ->check([](const std::string& text) {
-        double seconds = 0;
-        const bool is_number = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
-        return is_number && seconds > 0 ? "" : "got '" + text + "', expected a number of seconds above 0";
-      });
+      ->check(positive_number("a number of seconds above 0"));
   plan_command->add_option("--sign", plan_arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   plan_command->add_flag("--json", plan_arguments.json, "print the result as JSON");
   add_max_seconds_option(*plan_command, plan_arguments.max_seconds);
@@ -276,25 +275,32 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace taut
 
+/// Before all other initialisation, which may fail for want of memory, too.
+[[gnu::constructor(101)]] static void prepare() { taut::prepare_process("taut", taut::kInternalCode); }
+
 int main(int argc, char** argv) {
+  const auto failed = [](const std::exception& error, const auto& code, int exit_code) {
+    taut::complain(fmt::format("{} [{}]", error.what(), code));
+    return exit_code;
+  };
   try {
     const int code = taut::run(argc, argv);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw std::runtime_error("could not write to standard output");
     return code;
   } catch (const taut::InputErrorOfKind& error) {
-    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::code(error.kind()));
-    return taut::kBadInputExit;
+    return failed(error, taut::code(error.kind()), taut::kBadInputExit);
   } catch (const taut::InputError& error) {
-    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::code(taut::InputKind::kUse));
-    return taut::kBadInputExit;
+    return failed(error, taut::code(taut::InputKind::kUse), taut::kBadInputExit);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(error, taut::code(taut::InputKind::kFile), taut::kBadInputExit);
   } catch (const taut::BrowserFailed& error) {
-    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::kBrowserFailedCode);
-    return taut::kInternalExit;
+    return failed(error, taut::kBrowserFailedCode, taut::kInternalExit);
   } catch (const taut::UntrustworthyMachine& error) {
-    fmt::print(stderr, "taut: {} [{}]\n", error.what(), taut::kUntrustworthyCode);
-    return taut::kInternalExit;
+    return failed(error, taut::kUntrustworthyCode, taut::kInternalExit);
+  } catch (const std::bad_alloc&) {
+    taut::complain(fmt::format("internal failure: out of memory [{}]", taut::kInternalCode));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "taut: internal failure: {} [{}]\n", error.what(), taut::kInternalCode);
-    return taut::kInternalExit;
+    taut::complain(fmt::format("internal failure: {} [{}]", error.what(), taut::kInternalCode));
   }
+  return taut::kInternalExit;
 }

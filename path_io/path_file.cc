@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "problem/scalar.h"
 
 namespace taut {
@@ -270,7 +270,7 @@ class PathFile::Implementation {
       fail("", fmt::format(
                    "got '{}', expected a header such as px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg], or the "
                    "eight numbers of TUM: t x y z qx qy qz qw",
-                   shown(first)));
+                   excerpt(first)));
     }
     header_.format = PathFormat::kTum;
     header_.form = PathForm::kQuaternion;
@@ -305,7 +305,7 @@ class PathFile::Implementation {
       const std::string_view rest = cell.substr(open + 1);
       title.unit = std::string(trimmed(rest.substr(0, rest.find(']'))));
       if (!rest.ends_with(']') || rest.find(']') + 1 != rest.size() || title.unit.empty()) {
-        fail("", fmt::format("got the column '{}', expected NAME[UNIT]", shown(cell)));
+        fail("", fmt::format("got the column '{}', expected NAME[UNIT]", excerpt(cell)));
       }
     }
     return title;
@@ -322,13 +322,13 @@ class PathFile::Implementation {
       titles.push_back(read_title(cell));
       Title& title = titles.back();
       title.name = canonical(title.name);
-      if (title.name.empty()) fail("", fmt::format("got the column '{}', expected a name", shown(cell)));
+      if (title.name.empty()) fail("", fmt::format("got the column '{}', expected a name", excerpt(cell)));
       if (title.name.find_first_not_of("+-.0123456789eE ") == std::string::npos) {
         fail("", fmt::format("got '{}', expected a header such as px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]",
-                             shown(line)));
+                             excerpt(line)));
       }
       if (contains(names, title.name)) {
-        fail("", fmt::format("got the column '{}' twice, expected each once{}", shown(title.name),
+        fail("", fmt::format("got the column '{}' twice, expected each once{}", excerpt(title.name),
                              is_time(title.name) ? " (t and time are one)" : ""));
       }
       names.push_back(title.name);
@@ -373,7 +373,7 @@ class PathFile::Implementation {
         add(i == 0 ? Column::Role::kIndex : Column::Role::kIgnored, 0, titles[i], one);
       } else {
         fail("", fmt::format("got the unknown column '{}', expected x.NAME and half_turns.NAME with NAME one of {}",
-                             shown(name), join(coordinates)));
+                             excerpt(name), join(coordinates)));
       }
     }
   }
@@ -467,7 +467,7 @@ class PathFile::Implementation {
     std::vector<std::string> unknown;
     for (const std::string& name : seen) {
       if (std::none_of(poses.begin(), poses.end(), [&](const auto& pose) { return contains(pose.names, name); })) {
-        unknown.push_back(shown(name));
+        unknown.push_back(excerpt(name));
       }
     }
     if (!unknown.empty()) fail("", fmt::format("got the unknown column '{}', expected {}", unknown.front(), choices));
@@ -481,8 +481,8 @@ class PathFile::Implementation {
 
   [[nodiscard]] Unit unit_of(const Title& title, Quantity quantity) const {
     const auto complain = [&] {
-      fail(shown(title.name),
-           fmt::format("got {}, expected {}", title.unit.empty() ? "no unit" : "the unit '" + shown(title.unit) + "'",
+      fail(excerpt(title.name),
+           fmt::format("got {}, expected {}", title.unit.empty() ? "no unit" : "the unit '" + excerpt(title.unit) + "'",
                        expected_units(quantity)));
     };
     const bool may_be_bare = quantity == Quantity::kPure || quantity == Quantity::kPlainAngle;
@@ -525,7 +525,7 @@ class PathFile::Implementation {
         case Column::Role::kIgnored: break;
         case Column::Role::kIndex: read_index(column, cell); break;
         case Column::Role::kTime: row.time_s = read_time(column, cell); break;
-        case Column::Role::kCoordinate: row.x[column.index] = read_number(column, cell); break;
+        case Column::Role::kCoordinate: row.x[column.index] = read_coordinate(column, cell); break;
         case Column::Role::kHalfTurns: row.half_turns[column.index] = read_half_turns(column, cell); break;
         case Column::Role::kStart:
           if (rows_ == 0 || !cell.empty()) start[column.index] = read_number(column, cell);
@@ -547,7 +547,7 @@ class PathFile::Implementation {
       const std::size_t expected = message.rfind(", expected");
       const bool has_comma = cell.find(',') != std::string_view::npos;
       fail(column.name,
-           fmt::format("got '{}'{}{}", shown(cell),
+           fmt::format("got '{}'{}{}", excerpt(cell),
                        expected == std::string::npos ? ", expected a decimal number" : message.substr(expected),
                        has_comma ? ", with a decimal point" : ""));
     }
@@ -557,11 +557,19 @@ class PathFile::Implementation {
     return in_cell(column, cell, [&] { return column.to_si(cell); });
   }
 
+  [[nodiscard]] double read_coordinate(const Column& column, std::string_view cell) const {
+    const double value = read_number(column, cell);
+    if (header_.form == PathForm::kCableLengths && !(value > 0)) {
+      fail(column.name, fmt::format("got '{}', expected a cable length above 0", excerpt(cell)));
+    }
+    return value;
+  }
+
   [[nodiscard]] Decimal read_time(const Column& column, std::string_view cell) {
     const Decimal time = in_cell(column, cell, [&] { return Decimal::parse(cell) * column.to_si.unit().factor; });
     if (rows_ > 0 && !(time > *previous_.time_s)) {
-      fail(column.name, fmt::format("got {} s behind the {} s of line {}, expected a later time", shown(time.text()),
-                                    shown(previous_.time_s->text()), previous_.line));
+      fail(column.name, fmt::format("got {} s behind the {} s of line {}, expected a later time", excerpt(time.text()),
+                                    excerpt(previous_.time_s->text()), previous_.line));
     }
     return time;
   }
@@ -571,7 +579,7 @@ class PathFile::Implementation {
     int value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size() || std::abs(value) > most) {
-      fail(column.name, fmt::format("got '{}', expected {}", shown(cell), expected));
+      fail(column.name, fmt::format("got '{}', expected {}", excerpt(cell), expected));
     }
     return value;
   }
@@ -579,7 +587,7 @@ class PathFile::Implementation {
   void read_index(const Column& column, std::string_view cell) const {
     const std::string expected = std::to_string(rows_);
     if (cell != expected) {
-      fail(column.name, fmt::format("got '{}', expected {}: they are numbered from 0", shown(cell), expected));
+      fail(column.name, fmt::format("got '{}', expected {}: they are numbered from 0", excerpt(cell), expected));
     }
   }
 

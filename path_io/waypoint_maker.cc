@@ -23,7 +23,7 @@ Interpolation usual_law(const PathHeader& header) {
 
 WaypointMaker::WaypointMaker(const Problem& problem, const PathHeader& header, Interpolation law,
                              const std::string& file)
-    : problem_(problem), header_(header), law_(law), sampler_(problem) {
+    : problem_(problem), header_(header), law_(law), file_(file), sampler_(problem) {
   const bool is_spline = header.format == PathFormat::kTautControlPoints;
   if (is_spline != (law == Interpolation::kCubicBSpline)) {
     throw InputError(fmt::format("{}: got {}", file,
@@ -110,7 +110,15 @@ const Waypoint& WaypointMaker::next(const PathRow& row, const std::vector<double
   if (law_ == Interpolation::kCableLengths) {
     const std::array<double, kCables> lengths = cable_lengths(sampler_.model(), pose);
     const bool given = header_.form == PathForm::kCableLengths;
-    for (std::size_t i = 0; i < kCables; ++i) waypoint_.x.push_back(given ? row.x[i] : lengths[i]);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const double length = given ? row.x[i] : lengths[i];
+      if (!(length > 0)) {
+        throw InputError(fmt::format("{}:{}: got a pose in which cable {} has the length 0, expected lengths above 0",
+                                     file_, row.line, i + 1),
+                         {file_, row.line});
+      }
+      waypoint_.x.push_back(length);
+    }
   }
   return waypoint_;
 }

@@ -26,7 +26,8 @@ class WaypointMaker {
   [[nodiscard]] Interpolation law() const { return law_; }
   [[nodiscard]] bool is_converted() const { return is_converted_; }
 
-  /// The next row's. `start` is PathFile::start(), of which the first row needs to know. The result is valid until the next call.
+  /// The next row's. `start` is PathFile::start(), of which the first row needs to know. The result is valid until the
+  /// next call. @throws InputError where the pose gives a cable the length 0 and the law joins lengths.
   [[nodiscard]] const Waypoint& next(const PathRow& row, const std::vector<double>& start);
 
   /// Of cable lengths: the first line for which no pose was found next to that of the line before. Its waypoint's reference stays
@@ -43,6 +44,7 @@ class WaypointMaker {
   Problem problem_;
   PathHeader header_;
   Interpolation law_;
+  std::string file_;
   bool is_converted_ = false;
   PoseSampler sampler_;  ///< of the case
   std::optional<RigidPose> query_start_;

@@ -181,11 +181,10 @@ int parse_expression(const ExpressionText& text, TapeBuilder& builder) {
   try {
     return parse(text, builder);
   } catch (const Complaint& complaint) {
-    const auto shown = [](const std::string& s) { return s.size() > 60 ? s.substr(0, 60) + "…" : s; };
     const std::string rest(complaint.where, text.end());
-    throw InputError(fmt::format("expression '{}', column {}: got {}, {}", shown(text),
-                                 complaint.where - text.begin() + 1, rest.empty() ? "its end" : "'" + shown(rest) + "'",
-                                 complaint.expected));
+    throw InputError(fmt::format("expression '{}', column {}: got {}, {}", excerpt(text),
+                                 complaint.where - text.begin() + 1,
+                                 rest.empty() ? "its end" : "'" + excerpt(rest) + "'", complaint.expected));
   }
 }
 

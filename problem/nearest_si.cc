@@ -1,13 +1,8 @@
 #include "problem/nearest_si.h"
 
-#include <fmt/format.h>
+#include <mpfr.h>
 
-#include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -17,135 +12,71 @@
 namespace taut {
 namespace {
 
-/// Grows as needed; what is usual here fits without allocation.
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<512>>;
+constexpr mpfr_prec_t kFirstBits = 128;  // decides all but one number in 10^20
 
-/// ±digits · 10^exponent
-struct ShortDecimal {
-  bool negative = false;
-  std::uint64_t digits = 0;
-  int exponent = 0;
+class Number {
+ public:
+  explicit Number(mpfr_prec_t bits) { mpfr_init2(x_, bits); }
+  ~Number() { mpfr_clear(x_); }
+  Number(const Number&) = delete;
+  Number& operator=(const Number&) = delete;
+  [[nodiscard]] mpfr_ptr get() { return x_; }
+
+ private:
+  mpfr_t x_;
 };
 
-/// The decimal, if it is one of at most kMaxDigits digits and a plain exponent; nothing for all else, which is for Decimal.
-std::optional<ShortDecimal> read_short(std::string_view text) {
-  constexpr int kMaxDigits = 18;
-  constexpr int kMaxExponent = 99;
-  ShortDecimal result;
-  if (!text.empty() && (text.front() == '-' || text.front() == '+')) {
-    result.negative = text.front() == '-';
-    text.remove_prefix(1);
-  }
-  int digits = 0;
-  bool behind_point = false;
-  while (!text.empty() && (std::isdigit(static_cast<unsigned char>(text.front())) != 0 || text.front() == '.')) {
-    if (text.front() == '.') {
-      if (behind_point) return std::nullopt;
-      behind_point = true;
-    } else {
-      result.digits = 10 * result.digits + static_cast<std::uint64_t>(text.front() - '0');
-      result.exponent -= behind_point ? 1 : 0;
-      if (++digits > kMaxDigits) return std::nullopt;
-    }
-    text.remove_prefix(1);
-  }
-  if (digits == 0) return std::nullopt;
-  if (text.empty()) return result;
-  if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
-  text.remove_prefix(1);
-  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
-  int exponent = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exponent);
-  if (error != std::errc() || end != text.data() + text.size() || std::abs(exponent) > kMaxExponent) {
-    return std::nullopt;
-  }
-  result.exponent += exponent;
-  return result;
+/// Whether a result is far inside the range that Decimal allows what was typed to have.
+bool is_usual(double x) {
+  constexpr double kMost = 1e250;
+  return std::abs(x) < kMost && std::abs(x) > 1 / kMost;
 }
 
-/// floor(2^bits · arctan(1/n)), up to one for each term of the series.
-Integer scaled_arctan_of_reciprocal(unsigned n, unsigned bits) {
-  Integer power = (Integer(1) << bits) / n;
-  Integer sum = power;
-  for (unsigned k = 1; power != 0; ++k) {
-    power /= n * n;
-    const Integer term = power / (2 * k + 1);
-    if (k % 2 == 0) {
-      sum += term;
-    } else {
-      sum -= term;
-    }
-  }
-  return sum;
-}
-
-/// 2^bits · pi lies between this and this + 2. (Machin: pi = 16 arctan(1/5) − 4 arctan(1/239).)
-Integer scaled_pi_below(unsigned bits) {
-  // Each of fewer than `bits` terms of a series is off by less than 2 units; 40 · bits < 2^kGuardBits.
-  constexpr unsigned kGuardBits = 32;
-  const unsigned fine = bits + kGuardBits;
-  const Integer pi = 16 * scaled_arctan_of_reciprocal(5, fine) - 4 * scaled_arctan_of_reciprocal(239, fine);
-  return (pi - 40 * fine) >> kGuardBits;
-}
-
-/// x · 2^exponent to nearest, ties upward. @pre x >= 2^53
-double rounded(const Integer& x, int exponent) {
-  constexpr unsigned kMantissaBits = 53;
-  const unsigned excess = msb(x) + 1 - kMantissaBits;
-  auto mantissa = static_cast<std::uint64_t>(x >> excess);
-  if (bit_test(x, excess - 1)) ++mantissa;
-  return std::ldexp(static_cast<double>(mantissa), static_cast<int>(excess) + exponent);
-}
-
-/// The binary64 nearest to p/q degrees in radians, which is no tie as it is irrational. @pre p, q > 0; the result is normal.
-double nearest_radians(const Integer& p, const Integer& q) {
-  constexpr unsigned kFirstBits = 128;
-  static const Integer first_pi = scaled_pi_below(kFirstBits);
-  const Integer divisor = 180 * q;
-  for (unsigned bits = kFirstBits;; bits *= 2) {
-    const Integer pi = bits == kFirstBits ? first_pi : scaled_pi_below(bits);
-    const Integer below = p * pi;
-    constexpr unsigned kQuotientBits = 100;
-    const unsigned shift = msb(divisor) + kQuotientBits > msb(below) ? msb(divisor) + kQuotientBits - msb(below) : 0;
-    const int exponent = -static_cast<int>(bits + shift);
-    const double low = rounded((below << shift) / divisor, exponent);
-    const double high = rounded(((below + 2 * p) << shift) / divisor + 1, exponent);
-    if (low == high) return low;
-  }
-}
-
-Integer ten_to_the(int n) { return pow(Integer(10), static_cast<unsigned>(n)); }
-
-double radians(const ShortDecimal& degrees) {
-  const Integer digits(degrees.digits);
-  return degrees.exponent >= 0 ? nearest_radians(digits * ten_to_the(degrees.exponent), 1)
-                               : nearest_radians(digits, ten_to_the(-degrees.exponent));
+/// Whether this may be a decimal: mpfr_strtofr() takes "inf", "nan" and blanks besides.
+bool has_only_decimal_characters(const std::string& text) {
+  return text.find_first_not_of("+-.0123456789eE") == std::string::npos;
 }
 
 }  // namespace
 
-NearestSi::NearestSi(Unit unit) : unit_(std::move(unit)) {
-  if (const auto factor = read_short(unit_.factor.text())) {
-    factor_digits_ = factor->digits;
-    factor_exponent_ = factor->exponent;
-    for (; factor_digits_ % 10 == 0; factor_digits_ /= 10) ++factor_exponent_;
+NearestSi::NearestSi(Unit unit) : unit_(std::move(unit)), factor_(unit_.factor.text()) {}
+
+std::optional<double> NearestSi::at_precision(const std::string& text, long bits) const {
+  if (!has_only_decimal_characters(text)) return std::nullopt;
+  Number value(bits), factor(bits), error(bits), bound(bits);
+  char* end = nullptr;
+  mpfr_strtofr(value.get(), text.c_str(), &end, 10, MPFR_RNDN);
+  if (end != text.c_str() + text.size() || mpfr_regular_p(value.get()) == 0) return std::nullopt;
+  if (unit_.is_degree) {
+    mpfr_const_pi(factor.get(), MPFR_RNDN);
+    mpfr_div_ui(factor.get(), factor.get(), 180, MPFR_RNDN);
+  } else {
+    mpfr_set_str(factor.get(), factor_.c_str(), 10, MPFR_RNDN);
   }
+  mpfr_mul(value.get(), value.get(), factor.get(), MPFR_RNDN);
+  // Four roundings, each off by at most 2^-bits of the value; and that of the bounds themselves.
+  mpfr_mul_2si(error.get(), value.get(), 4 - bits, MPFR_RNDA);
+  mpfr_sub(bound.get(), value.get(), error.get(), MPFR_RNDN);
+  const double one_side = mpfr_get_d(bound.get(), MPFR_RNDN);
+  mpfr_add(bound.get(), value.get(), error.get(), MPFR_RNDN);
+  if (mpfr_get_d(bound.get(), MPFR_RNDN) != one_side) return std::nullopt;
+  return one_side;
 }
 
-double NearestSi::operator()(std::string_view text) const {
-  const auto typed = read_short(text);
-  if (typed && typed->digits == 0) return 0;
-  if (typed && unit_.is_degree) return typed->negative ? -radians(*typed) : radians(*typed);
-  if (typed && factor_digits_ == 1) {
-    const double magnitude =
-        ScalarTraits<double>::from_decimal(fmt::format("{}e{}", typed->digits, typed->exponent + factor_exponent_));
-    return typed->negative ? -magnitude : magnitude;
+double NearestSi::operator()(std::string_view typed) const {
+  constexpr std::size_t kUsualSize = 40;
+  if (typed == "0") return 0;
+  if (typed.size() <= kUsualSize) {
+    const auto result = at_precision(std::string(typed), kFirstBits);
+    if (result && is_usual(*result)) return *result;
   }
-  const Decimal value = Decimal::parse(text) * unit_.factor;
-  if (!unit_.is_degree || value.sign() == 0) return ScalarTraits<double>::from_decimal(value.text()) + 0.0;
-  const auto exact = value.rational();
-  const double magnitude = nearest_radians(Integer(abs(numerator(exact))), Integer(denominator(exact)));
-  return value.sign() < 0 ? -magnitude : magnitude;
+  const Decimal value = Decimal::parse(typed);
+  if (value.sign() == 0) return 0;
+  if (!unit_.is_degree) return ScalarTraits<double>::from_decimal((value * unit_.factor).text());  // may be a tie
+  const std::string text = value.text();
+  for (mpfr_prec_t bits = 2 * kFirstBits;; bits *= 2) {  // irrational, so that some precision decides
+    if (const auto result = at_precision(text, bits)) return *result;
+  }
 }
 
 }  // namespace taut

@@ -1,6 +1,8 @@
 // Typed numbers to SI and binary64, with one rounding and that to nearest: for tables, where there are many.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "problem/units.h"
@@ -20,9 +22,11 @@ class NearestSi {
   [[nodiscard]] double operator()(std::string_view text) const;
 
  private:
+  /// Nothing where that many bits of precision don't decide, the text is not a decimal, or it is zero.
+  [[nodiscard]] std::optional<double> at_precision(const std::string& text, long bits) const;
+
   Unit unit_;
-  unsigned long factor_digits_ = 0;  ///< the unit's factor is factor_digits_ · 10^factor_exponent_
-  int factor_exponent_ = 0;
+  std::string factor_;
 };
 
 }  // namespace taut

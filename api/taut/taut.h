@@ -73,7 +73,7 @@ class TAUT_EXPORT Interrupted : public std::runtime_error {
   ~Interrupted() override;
 };
 
-/// This machine does not round as told, or the process has an LC_NUMERIC without a decimal point: nothing can be proved.
+/// This machine does not round as told: nothing can be proved.
 class TAUT_EXPORT UntrustworthyMachine : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -93,6 +93,19 @@ class BigFloat {
   friend bool operator==(const BigFloat& a, const BigFloat& b) { return mpfr_equal_p(a.x_, b.x_) != 0; }
   friend bool operator!=(const BigFloat& a, const BigFloat& b) { return !(a == b); }
 
+  /// `digits` significant digits (at least 2), rounded in the given direction: "-1.25e-03".
+  [[nodiscard]] std::string to_decimal(int digits, mpfr_rnd_t rounding) const {
+    if (mpfr_number_p(x_) == 0) return mpfr_nan_p(x_) != 0 ? "nan" : mpfr_sgn(x_) < 0 ? "-inf" : "inf";
+    mpfr_exp_t exponent = 0;
+    char* const all = mpfr_get_str(nullptr, &exponent, 10, static_cast<std::size_t>(digits), x_, rounding);
+    std::string text = all;
+    mpfr_free_str(all);
+    text.insert(text.starts_with('-') ? 2 : 1, ".");
+    exponent -= mpfr_zero_p(x_) != 0 ? 0 : 1;  // MPFR's point is before the first digit
+    const std::string power = std::to_string(exponent < 0 ? -exponent : exponent);
+    return text + (exponent < 0 ? "e-" : "e+") + (power.size() < 2 ? "0" : "") + power;
+  }
+
   [[nodiscard]] double to_double(mpfr_rnd_t rounding = MPFR_RNDN) const { return mpfr_get_d(x_, rounding); }
 
   /// Calls an MPFR function (result, arguments…, rounding).

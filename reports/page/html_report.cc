@@ -5,7 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "reports/page/first_page.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
@@ -53,7 +53,7 @@ void require_plain(const ReportOptions& options) {
       throw InputErrorOfKind(
           InputKind::kUse,
           fmt::format("{}: got '{}', expected at most {} letters, digits, blanks and . , : ; / _ + - # ( )", what,
-                      shown(text), kLongest));
+                      excerpt(text), kLongest));
     }
   };
   require(options.document, "document");

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
+#include "problem/scalar.h"
 #include "reports/page/plane.h"
 
 namespace taut {
@@ -19,8 +21,12 @@ namespace {
 
 constexpr std::size_t kMostBins = 1500;  ///< of boxes and of segments; finer than the pixels of a wide plot
 
-/// Nearest with seven digits.
-double shortened(double x) { return std::strtod(fmt::format("{:.6e}", x).c_str(), nullptr); }
+/// Nearest with so many digits. @pre x is finite
+double shortened(double x, int digits = 7) {
+  const std::string text = fmt::format("{:.{}e}", x, digits - 1);
+  std::from_chars(text.data(), text.data() + text.size(), x);  // leaves x where the result would be infinite
+  return x;
+}
 
 json number(double x) { return std::isfinite(x) ? json(shortened(x)) : json(); }
 
@@ -196,7 +202,7 @@ json margins(const std::vector<SegmentView>& segments) {
       for (std::size_t i = k; i < std::min(k + together, segments.size()); ++i) {
         const std::string& text = segments[i].margins.*margin;
         if (text.empty()) continue;
-        const double value = std::strtod(text.c_str(), nullptr);
+        const double value = ScalarTraits<double>::from_decimal(text);
         least = std::min(value, least.value_or(value));
       }
       list.push_back(least ? outward(*least, false) : json());
@@ -280,7 +286,7 @@ json tolerances(const CertificateView& view) {
     result.push_back({{"name", limit.tolerance},
                       {"unit", limit.unit},
                       {"stated", number(found->second)},
-                      {"proved", number(std::strtod(limit.proved.c_str(), nullptr))}});
+                      {"proved", number(ScalarTraits<double>::from_decimal(limit.proved))}});
   }
   return result;
 }
@@ -298,7 +304,7 @@ json plane(const Scene& scene) {
     window.push_back(numbers(std::array{plane->window[j].lower, plane->window[j].upper}));
   }
   // Thousands of points, for a picture: four digits will do, and keep the page small.
-  const auto drawn = [&](double x) { return json(std::strtod(fmt::format("{:.4g}", x).c_str(), nullptr)); };
+  const auto drawn = [&](double x) { return std::isfinite(x) ? json(shortened(x, 4)) : json(); };
   json singular = json::array();
   for (const auto& piece : plane->singular) {
     for (const double x : piece) singular.push_back(drawn(x));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/shown.h"
+#include "base/sanitize.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -34,7 +34,7 @@ std::vector<CableRow> cable_rows(const CableUse& use) {
 
 /// Markdown that shows `text` and is no markup of its own: what could be is escaped. On one line.
 std::string markdown(const std::string& text) {
-  const std::string plain = without_control_characters(text);
+  const std::string plain = sanitize(text);
   std::string result;
   for (std::size_t i = 0; i < plain.size(); ++i) {
     const std::string_view rest = std::string_view(plain).substr(i);
@@ -105,7 +105,7 @@ std::string document_number(const std::string& footer_sha256) {
 std::string to_text(const Summary& s) {
   constexpr std::size_t kWidest = 12;  // of the statements' titles
   std::string text;
-  const auto line = [&](const std::string& content) { text += without_control_characters(content) + "\n"; };
+  const auto line = [&](const std::string& content) { text += sanitize(content) + "\n"; };
   line(fmt::format("{}{}{}: {} ({})", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
                    s.date.empty() ? "" : ", " + s.date, s.name, kNameNote));
   line(s.headline);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kinematics/pose_conversion.h"
+#include "problem/scalar.h"
 
 namespace taut {
 
@@ -36,7 +37,7 @@ Travel::Travel(const Sampler& sampler, const Path& path) {
     last = pose;
   }
   if (path.interpolation == Interpolation::kCubicBSpline) return;
-  for (const std::string& time : path.times) times_s_.push_back(std::strtod(time.c_str(), nullptr));
+  for (const std::string& time : path.times) times_s_.push_back(ScalarTraits<double>::from_decimal(time));
 }
 
 double Travel::at(const std::vector<double>& values, double position) const {

@@ -25,16 +25,7 @@ std::string rounded(double x, int digits, mpfr_rnd_t direction) {
   if (x == 0) return "0";
   if (is_absurd(x)) return fmt::format("{:.{}g}", x, digits);
   const PrecisionScope precision(64);
-  const BigFloat exact(x);
-  char* text = nullptr;
-  if (direction == MPFR_RNDD) {
-    mpfr_asprintf(&text, "%.*RDe", digits - 1, exact.get());
-  } else {
-    mpfr_asprintf(&text, "%.*RUe", digits - 1, exact.get());
-  }
-  const std::string result = text;
-  mpfr_free_str(text);
-  return plain(result);
+  return plain(BigFloat(x).to_decimal(digits, direction));
 }
 
 }  // namespace

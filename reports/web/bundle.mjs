@@ -47,6 +47,11 @@ function licenceOf(name) {
   return { title: `${name} ${version} (${license})`, text: text ?? `Licence: ${license}` };
 }
 
+const kOwnNotice = `This script is part of a report that taut made. Copyright the taut authors.
+Output of taut, with the parts of taut that it contains, is not covered by the GPL: you may use, copy, change and pass on
+this page under terms of your choice, by the output exception of taut's licence (LICENSE-EXCEPTION), as long as the notices
+below are kept.`;
+
 /// A comment with the licence of each package; a text that several share is written once, below all their copyrights.
 function notices(packages) {
   const groups = new Map();
@@ -59,7 +64,7 @@ function notices(packages) {
     groups.set(terms, [...(groups.get(terms) ?? []), `${title}. ${owners}`]);
   }
   const body = [...groups].map(([terms, owners]) => `${owners.join("\n")}\n\n${terms}`).join("\n\n----\n\n");
-  return `/*! This script contains the following works.\n\n${body.replaceAll("*/", "* /")}\n*/`;
+  return `/*!\n${kOwnNotice}\nIt contains the following works.\n\n${body.replaceAll("*/", "* /")}\n*/`;
 }
 
 /// As adjacent raw string literals: one alone may be too long for some compilers.

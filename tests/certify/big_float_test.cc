@@ -70,6 +70,20 @@ TEST(BigFloat, KeepsItsLimbsWhereAVectorMovesIt) {
   for (std::size_t k = 0; k < many.size(); ++k) expect_third(many[k], kPrecisions[k % 5]);
 }
 
+TEST(BigFloat, IsPrintedAsMpfrPrintsIt) {
+  for (const double x : {0.0, -0.0, 1.0, -2.5, 9.9999999, 1e-5, 1e100, -1e-300, 5e-324}) {
+    for (const int digits : {2, 6, 40}) {
+      char* expected = nullptr;
+      mpfr_asprintf(&expected, "%.*RDe", digits - 1, BigFloat(x).get());
+      EXPECT_EQ(BigFloat(x).to_decimal(digits, MPFR_RNDD), expected);
+      mpfr_free_str(expected);
+      mpfr_asprintf(&expected, "%.*RUe", digits - 1, BigFloat(x).get());
+      EXPECT_EQ(BigFloat(x).to_decimal(digits, MPFR_RNDU), expected);
+      mpfr_free_str(expected);
+    }
+  }
+}
+
 TEST(BigFloat, CopiesOfZerosInfinitiesAndNaNKeepKindAndSignAndNaNIsAFault) {
   for (const mpfr_prec_t bits : kPrecisions) {
     const PrecisionScope precision(bits);

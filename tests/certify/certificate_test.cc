@@ -3,8 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <random>
 
 #include "base/input_error.h"
 #include "base/sha256.h"
@@ -24,6 +30,20 @@ TEST(HexFloat, ReadsBackBitForBit) {
     EXPECT_EQ(std::strtod(hex_float(x).c_str(), nullptr), x);
   }
   EXPECT_EQ(hex_float(-2.3), "-0x1.2666666666666p+1");
+}
+
+TEST(HexFloat, IsWhatCPrints) {
+  std::mt19937_64 random(20261122);
+  for (int trial = 0; trial < 100'000; ++trial) {
+    std::uint64_t bits = random();
+    if (trial % 4 == 0) bits &= ~(std::uint64_t{0x7FF} << 52U);  // subnormal
+    if (trial % 5 == 0) bits &= ~std::uint64_t{0} << (random() % 53);
+    const auto x = std::bit_cast<double>(bits);
+    if (!std::isfinite(x)) continue;
+    std::array<char, 40> printed{};
+    std::snprintf(printed.data(), printed.size(), "%a", x);
+    ASSERT_EQ(hex_float(x), printed.data());
+  }
 }
 
 TEST(Sha256, IsThatOfTheCanonicalText) {

@@ -287,6 +287,25 @@ class Audit(Audits):
         quaternion[:] = [(float.fromhex(x) * 1.008).hex().replace("0x0.0p+0", "0x0p+0") for x in quaternion]
         self.refused(sealed(certificate), "of length 1.008, expected 1 within 0.001", name="certificate.json")
 
+    def test_cable_lengths_are_above_0(self):
+        table = text_of(os.path.join(AUDITS, "robot1-cable-lengths.csv"))
+        first = table.splitlines()[2].split(",")[8]
+        for seen, line in ((first, 3), ("427.4781", 4)):
+            for wrong in ("0", "-5", "-0.0"):
+                with self.subTest(line=line, wrong=wrong):
+                    self.refused(table.replace(f",{seen},", f",{wrong},"),
+                                 f"path.csv:{line}: l1: got '{wrong}', expected a cable length above 0 [E4]")
+        # Poses that are converted to lengths: at this one an anchor of the platform meets one of the base.
+        anchors = ["[0, 300, 0]", "[0, 300, 0]", "[0, -150, 0]", "[-259.8076, -150, 0]",
+                   "[259.8076, -150, 0]", "[259.8076, -150, 0]"]
+        machine = MACHINE % ("[0.01, 60]", "{}")
+        machine = re.sub(r"base_anchors: .*", f"base_anchors: [{', '.join(anchors)}]", machine).replace("space: {}\n", "")
+        case = self.write("case.yaml", machine)
+        path = self.write("met.csv", COLUMNS + "0,0,272,0,0,0\n0,0,0,0,0,0\n")
+        said = run(TAUT, "audit", case, path, "--interpolation", "cable-lengths", "--out", self.path("refused"))
+        self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
+        self.assertIn("met.csv:3: got a pose in which cable", said.stderr)
+
     def test_reserves_are_those_of_the_plan(self):
         planned = json.loads(run(TAUT, "plan", ROBOT1, "--out", self.path("plan"), "--json").stdout)
         audited = self.audit(ROBOT1, self.path("plan", "path.csv"))

@@ -155,6 +155,16 @@ class Report(unittest.TestCase):
         self.assertIn("UNCHECKED: ", said.stdout)
         self.assertIn("UNCHECKED by taut-check", said.stderr)
 
+    def test_the_page_says_whose_works_it_contains(self):
+        with open(self.path("report.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn("Output of taut, with the parts of taut that it contains, is not covered by the GPL", page)
+        with open(os.path.join(SOURCE, "package-lock.json"), encoding="utf-8") as file:
+            packages = json.load(file)["packages"]
+        for name, licence in (("three", "MIT"), ("@observablehq/plot", "ISC"), ("d3-scale", "ISC")):
+            self.assertIn(f"{name} {packages['node_modules/' + name]['version']} ({licence})", page)
+        self.assertIn("THE SOFTWARE IS PROVIDED", page)
+
     def test_summaries_go_to_standard_output(self):
         text = run(TAUT, "report", self.certificate, "--text")
         self.assertEqual(text.returncode, 0, text.stderr)

@@ -12,6 +12,7 @@ import shutil
 import stat
 import subprocess
 import time
+import unicodedata
 import unittest
 
 from command_line import CASES, CHECK, InFolder, TAUT, main, run, text_of
@@ -122,11 +123,28 @@ class Robustness(InFolder):
         self.assertEqual(ran.returncode, 0)
         self.assert_whole(out)
         # No standard output: the result can't be said, the files are whole and hold nothing but themselves.
-        shutil.rmtree(out)
-        ran = subprocess.run(["bash", "-c", '"$1" plan "$2" --out "$3" >&- 2>&-', "bash", TAUT, CASE, out],
-                             capture_output=True, timeout=120, check=False)
-        self.assertNotEqual(ran.returncode, 0)
-        self.assert_whole(out)
+        for closed in (">&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            shutil.rmtree(out)
+            ran = subprocess.run(["bash", "-c", f'"$1" plan "$2" --out "$3" {closed}', "bash", TAUT, CASE, out],
+                                 capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(ran.returncode, 4)
+            self.assertIn("could not write to standard output" if "2>" not in closed else "", ran.stderr)
+            self.assert_whole(out)
+
+    def test_closed_standard_streams_change_no_exit_code(self):
+        """Except that results which can't be written are a failure: 4."""
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("out")).returncode, 0)
+        certificate = self.path("out", "certificate.json")
+        for program, arguments, usual in ((TAUT, ["show", CASE], 0), (TAUT, ["doctor"], 0), (TAUT, ["--help"], 0),
+                                          (TAUT, ["plan", "nothing.yaml"], 3), (TAUT, ["--nothing"], 3),
+                                          (TAUT, ["report", certificate, "--text"], 0), (CHECK, [certificate], 0),
+                                          (CHECK, ["--help"], 0), (CHECK, ["nothing.json"], 3)):
+            for closed in ("<&-", ">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+                with self.subTest(arguments=arguments, closed=closed):
+                    ran = subprocess.run(["bash", "-c", f'program=$1; shift; "$program" "$@" {closed}', "bash", program,
+                                          *arguments], capture_output=True, timeout=120, check=False)
+                    self.assertEqual(ran.returncode, 4 if usual == 0 and ">&- " in closed + " " and closed != "2>&-"
+                                     else usual, ran.stderr)
 
     @unittest.skipIf("TAUT_SANITIZED" in os.environ, "sanitizers take terabytes of addresses")
     def test_little_memory_is_a_failure_and_no_other_verdict(self):
@@ -139,6 +157,107 @@ class Robustness(InFolder):
             if os.path.exists(self.path("out")):
                 self.assert_whole(self.path("out"))
         self.assertGreater(len(codes), 1, "some were too little, and some enough")
+
+    @unittest.skipIf("TAUT_SANITIZED" in os.environ, "sanitizers take terabytes of addresses")
+    def test_no_amount_of_memory_makes_it_abort(self):
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("out"), "--no-check").returncode, 0)
+        commands = ([TAUT, "plan", CASE, "--out", self.path("out"), "--no-check"],
+                    [CHECK, self.path("out", "certificate.json")])
+        for command in commands:
+            def ends_with(kilobytes, command=command):
+                limited = ["bash", "-c", 'ulimit -c 0; ulimit -v "$1"; shift; exec "$@"', "bash", str(kilobytes), *command]
+                return subprocess.run(limited, capture_output=True, timeout=120, check=False).returncode
+            too_little, enough = 4 << 10, 256 << 10
+            while enough - too_little > 512:
+                middle = (too_little + enough) // 2
+                if ends_with(middle) == 0:
+                    enough = middle
+                else:
+                    too_little = middle
+            codes = {kilobytes: ends_with(kilobytes) for kilobytes in range(enough // 2, enough, enough // 80)}
+            # 127: the loader had not enough to begin with.
+            self.assertLessEqual(set(codes.values()), {0, 4, 126, 127}, codes)
+            self.assertIn(4, codes.values())
+
+    def test_names_that_no_file_can_have_are_bad_input(self):
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("out")).returncode, 0)
+        certificate = self.path("out", "certificate.json")
+        os.symlink("loop", self.path("loop"))
+        for ending in (".yaml", ".svg"):
+            os.symlink("loop" + ending, self.path("loop" + ending))
+        long_name = self.path("x" * 300)
+        for name, reason in ((self.path("loop"), "Too many levels of symbolic links"), (long_name, "File name too long")):
+            for arguments in (["report", certificate, "--text", "--out", name], ["report", certificate, "--out", name],
+                              ["report", name], ["plan", CASE, "--out", name], ["plan", CASE, "--save-atlas", name],
+                              ["plan", CASE, "--sign", name], ["audit", AUDITED, name, "--out", self.path("audit")],
+                              ["audit", AUDITED, "--out", name], ["show", name], ["show", CASE, "--out", name + ".svg"],
+                              ["init", name + ".yaml"], ["regress", name],
+                              ["regress", os.path.dirname(AUDITED), "--junit", name]):
+                with self.subTest(arguments=arguments):
+                    ran = run(TAUT, *arguments, cwd=self.out)
+                    self.assertEqual(ran.returncode, 3, ran.stdout + ran.stderr)
+                    self.assertRegex(ran.stderr, r"^taut: .*\[E\d\]\n$")
+                    self.assertIn(reason, ran.stderr)
+            self.assertEqual(run(CHECK, name).returncode, 3)
+
+    def test_a_folder_for_temporary_files_that_is_none_is_bad_input(self):
+        self.assertEqual(run(TAUT, "plan", CASE, "--out", self.path("out")).returncode, 0)
+        nowhere = {**os.environ, "TMPDIR": self.path("nowhere")}
+        for arguments in (["report", self.path("out", "certificate.json"), "--pdf"], ["regress", CASE]):
+            ran = run(TAUT, *arguments, env=nowhere)
+            self.assertEqual(ran.returncode, 3, ran.stdout + ran.stderr)
+            self.assertIn(f"TMPDIR: got '{self.path('nowhere')}', expected a folder for temporary files", ran.stderr)
+
+    def test_devices_are_not_read_to_their_end(self):
+        for arguments in (["plan", CASE, "--sign", "/dev/zero"], ["audit", AUDITED, "--sign", "/dev/zero"],
+                          ["report", "/dev/zero"], ["show", "/dev/zero"], ["plan", "/dev/zero"],
+                          ["audit", AUDITED, "/dev/zero"], ["regress", CASE, "--baseline", "/dev/zero"]):
+            with self.subTest(arguments=arguments):
+                limited = ["bash", "-c", 'ulimit -v 800000; exec "$@"', "bash", TAUT, *arguments]
+                ran = run(*(limited if "TAUT_SANITIZED" not in os.environ else limited[4:]), cwd=self.out)
+                self.assertEqual(ran.returncode, 3, ran.stdout + ran.stderr)
+                self.assertIn("/dev/zero", ran.stderr)
+
+    def assert_steers_nothing(self, ran):
+        """What was printed is UTF-8 without control and format characters."""
+        for text in (ran.stdout.decode("utf-8"), ran.stderr.decode("utf-8")):
+            steering = {c for c in text if c != "\n" and unicodedata.category(c) in ("Cc", "Cf", "Zl", "Zp")}
+            self.assertEqual(steering, set(), text)
+
+    def test_names_cannot_steer_a_terminal(self):
+        hostile = "\x1b[31m\u202e\u200b\u0085\u2028".encode() + b"\x9b\xff\xe2\x80"
+        folder = os.path.join(self.out.encode(), hostile)
+        os.mkdir(folder)
+        nothing = hostile + b"."
+        case = os.path.join(folder, b"case.yaml")
+        with open(case, "wb") as file:
+            file.write("# A case \u202e with a description \x9b.\n".encode() + text_of(CASE).encode())
+        out = os.path.join(folder, b"out")
+        certificate = os.path.join(out, b"certificate.json")
+        for expected, arguments in (
+                (0, ["plan", case, "--out", out]), (0, ["plan", case, "--out", out, "--json"]),
+                (0, ["plan", case, "--out", out, "--save-atlas", os.path.join(folder, b"atlas")]),
+                (0, ["audit", case, os.path.join(out, b"path.csv"), "--out", out + b"2"]),
+                (0, ["audit", case, os.path.join(out, b"path.csv"), "--out", out + b"2", "--json"]),
+                (0, ["show", case]), (0, ["show", case, "--out", case + b".svg"]),
+                (0, ["report", certificate, "--text"]), (0, ["report", certificate, "--markdown"]),
+                (0, ["report", certificate]), (0, ["regress", folder, "--junit", os.path.join(folder, b"junit")]),
+                (0, ["init", os.path.join(folder, b"new.yaml")]), (3, ["init", case]), (3, ["plan", nothing]),
+                (3, ["audit", case, nothing]), (3, ["report", nothing]), (3, ["report", case]), (3, ["show", nothing]),
+                (3, ["regress", nothing]), (3, ["plan", case, "--sign", nothing]), (3, ["explain", nothing]),
+                (3, [nothing]), (3, ["plan", case, "--budget", nothing]), (3, ["plan", case, b"--" + nothing]),
+                (3, ["audit", case, "--interpolation", nothing]), (3, ["audit", case, "--bits", nothing]),
+                (3, ["regress", case, "--tolerance", nothing]), (3, ["report", certificate, "--document", nothing])):
+            with self.subTest(arguments=arguments):
+                ran = subprocess.run([TAUT, *arguments], capture_output=True, timeout=300, check=False, cwd=self.out)
+                self.assertEqual(ran.returncode, expected, ran.stdout + ran.stderr)
+                self.assert_steers_nothing(ran)
+        for expected, arguments in ((0, [certificate, case]), (3, [nothing]), (3, [case]), (3, [certificate, nothing]),
+                                    (3, [certificate, "--trust", nothing]), (3, [certificate, b"--" + nothing])):
+            with self.subTest(arguments=arguments):
+                ran = subprocess.run([CHECK, *arguments], capture_output=True, timeout=300, check=False, cwd=self.out)
+                self.assertEqual(ran.returncode, expected, ran.stdout + ran.stderr)
+                self.assert_steers_nothing(ran)
 
     def test_progress_is_for_terminals_only(self):
         self.assertEqual(run(TAUT, "audit", AUDITED, "--out", self.path("out")).stderr, "")

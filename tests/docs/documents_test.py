@@ -56,6 +56,19 @@ class Documents(unittest.TestCase):
                     count += 1
         self.assertGreater(count, 12)
 
+    def test_every_source_states_its_licence(self):
+        sources = (".cc", ".h", ".h.in", ".py", ".js", ".mjs", ".css", ".cmake", ".cmake.in", ".sh", "CMakeLists.txt")
+        count = 0
+        for folder, folders, files in os.walk(SOURCE):
+            folders[:] = [name for name in folders if name not in ("build", "node_modules", "out", ".git", "__pycache__")]
+            for path in (os.path.join(folder, name) for name in files):
+                with open(path, "rb") as file:
+                    beginning = file.read(200)
+                if path.endswith(sources) or beginning.startswith(b"#!"):
+                    count += 1
+                    self.assertIn(b"SPDX-License-Identifier: GPL-3.0-or-later", beginning, path)
+        self.assertGreater(count, 300)
+
     def test_the_workflows_commands_run(self):
         """Beside a folder cases, with taut's sources in taut/."""
         for workflow in sorted(glob.glob(os.path.join(SOURCE, "docs", "ci", "*.yml"))):

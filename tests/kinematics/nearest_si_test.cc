@@ -50,6 +50,15 @@ TEST(NearestSi, IsTheNearestBinary64) {
   }
 }
 
+TEST(NearestSi, HoldsAtTheEndsOfTheRange) {
+  for (const char* name : {"m", "deg"}) {
+    const Unit unit = *find_unit(name);
+    for (const char* text : {"1e-299", "-1e-299", "9.99e299", "0e500", "1000000000000000000000000000000000000000000"}) {
+      EXPECT_EQ(NearestSi(unit)(text), by_mpfr(text, unit) + 0.0) << text << " " << name;
+    }
+  }
+}
+
 TEST(NearestSi, DecidesDegreesNextToATie) {
   // The decimal next to m·180/pi with m halfway between two binary64, to 90 digits: below and above it.
   const NearestSi degrees(*find_unit("deg"));

@@ -303,7 +303,9 @@ TEST(PathFile, WhatWasWrittenInSiIsReadBitForBit) {
       tum_text += fmt::format("{} {}\n", k, row_text(quaternions.back(), ' '));
       parameter_text +=
           fmt::format("{},{},{},0\n", k, row_text(parameters.emplace_back(random.numbers(2)), ','), k % 3);
-      length_text += row_text(lengths.emplace_back(random.numbers(6)), '\t') + "\n";
+      lengths.push_back(random.numbers(6));
+      for (double& length : lengths.back()) length = std::abs(length);  // above 0, as lengths have to be
+      length_text += row_text(lengths.back(), '\t') + "\n";
     }
     EXPECT_EQ(read(angle_text).x(), angles);
     EXPECT_EQ(read(quaternion_text).x(), quaternions);

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Manual pages and completions name just the options that the programs have.
+"""Manual pages and completions name just the options that the programs have; packages say whose works are in them.
 
 Usage: surface_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
+import json
 import os
 import re
 import subprocess
 import sys
+import tempfile
+import tomllib
 import unittest
 
 TAUT, CHECK, SOURCE = sys.argv[1:4]
@@ -72,6 +75,53 @@ class Surface(unittest.TestCase):
                                    os.path.join(PACKAGING, page)], capture_output=True, text=True, timeout=60,
                                   check=False)
             self.assertEqual((said.returncode, said.stderr), (0, ""))
+
+
+class Packages(unittest.TestCase):
+    def test_pyproject_agrees_with_cmake(self):
+        with open(os.path.join(SOURCE, "pyproject.toml"), "rb") as file:
+            project = tomllib.load(file)
+        build = project["tool"]["scikit-build"]
+        lists = {folder: text_of("..", folder, "CMakeLists.txt") for folder in (".", "python", "packaging")}
+        version = build["metadata"]["version"]
+        self.assertEqual(project["project"]["dynamic"], ["version"])
+        found = re.search(version["regex"], text_of("..", version["input"]))
+        said = subprocess.run([TAUT, "--version"], capture_output=True, text=True, check=True, timeout=60).stdout
+        self.assertEqual(said, f"taut {found.group('value')}\n")
+        self.assertIn(f'DESCRIPTION "{project["project"]["description"]}"', lists["."])
+        for name in build["cmake"]["define"]:
+            self.assertTrue(name.startswith("CMAKE_") or re.search(rf"(option|set)\({name} ", "".join(lists.values())), name)
+        for component in build["install"]["components"]:
+            self.assertRegex(lists["packaging"], rf"COMPONENT {component}\b")
+        for target in build["build"]["targets"]:
+            self.assertIn(f"install(TARGETS {target} ", lists["packaging"])
+        for folder in build["wheel"]["packages"]:
+            self.assertTrue(os.path.exists(os.path.join(SOURCE, folder, "__init__.py")))
+        for file in [project["project"]["readme"], *build["wheel"]["license-files"]]:
+            self.assertTrue(os.path.exists(os.path.join(SOURCE, file)), file)
+
+    def test_the_bill_of_materials_names_what_the_script_contains(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bills = []
+            for name in ("a.json", "b.json"):
+                path = os.path.join(folder, name)
+                subprocess.run([os.path.join(SOURCE, "scripts", "sbom"), path], check=True, timeout=60,
+                               env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
+                with open(path, encoding="utf-8") as file:
+                    bills.append(file.read())
+        self.assertEqual(*bills)
+        bill = json.loads(bills[0])
+        self.assertEqual((bill["spdxVersion"], bill["creationInfo"]["created"]), ("SPDX-2.3", "2023-11-14T22:13:20Z"))
+        packages = {package["name"]: package for package in bill["packages"]}
+        lock = json.loads(text_of("..", "package-lock.json"))["packages"]
+        for name in ("three", "@observablehq/plot", "d3"):
+            self.assertEqual(packages[name]["versionInfo"], lock[f"node_modules/{name}"]["version"])
+            self.assertEqual(packages[name]["licenseDeclared"], lock[f"node_modules/{name}"]["license"])
+        self.assertNotIn("esbuild", packages)
+        identifiers = {package["SPDXID"] for package in bill["packages"]} | {"SPDXRef-DOCUMENT"}
+        self.assertEqual(len(identifiers), len(bill["packages"]) + 1)
+        for relation in bill["relationships"]:
+            self.assertLessEqual({relation["spdxElementId"], relation["relatedSpdxElement"]}, identifiers)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,63 @@
+#include "base/process.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <initializer_list>
+#include <new>
+
+namespace taut {
+namespace {
+
+constexpr int kInternalExit = 4;
+const char* program_name = "";
+const char* failure_code = "";
+
+/// Without memory of its own, and safe in a signal handler.
+void write_to_stderr(const char* text) { static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text))); }
+
+[[noreturn]] void end_with(const char* reason) {
+  for (const char* part : {program_name, ": internal failure: ", reason}) write_to_stderr(part);
+  if (*failure_code != '\0') {
+    for (const char* part : {" [", failure_code, "]"}) write_to_stderr(part);
+  }
+  write_to_stderr("\n");
+  ::_exit(kInternalExit);
+}
+
+extern "C" void end_at_abort(int /*signal*/) { end_with("aborted"); }
+
+[[noreturn]] void end_at_terminate() {
+  if (const std::exception_ptr thrown = std::current_exception()) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+      end_with("out of memory");
+    } catch (const std::exception& error) {
+      end_with(error.what());
+    } catch (...) {
+    }
+  }
+  end_with("an exception that could not be caught, or no memory for one");
+}
+
+/// Opened for reading where writing is meant and the other way round, so that every use fails as that of a closed one.
+void replace_if_closed(int descriptor) {
+  if (::fcntl(descriptor, F_GETFD) >= 0) return;
+  static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));  // takes the lowest number
+}
+
+}  // namespace
+
+void prepare_process(const char* program, const char* code) noexcept {
+  program_name = program;
+  failure_code = code;
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) replace_if_closed(descriptor);
+  std::signal(SIGABRT, end_at_abort);
+  std::set_terminate(end_at_terminate);
+}
+
+}  // namespace taut

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""The programs are hardened as a distribution's packages are, whatever the compiler's own defaults.
+
+Usage: hardening_test.py BUILD_DIR PROGRAM…
+"""
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+BUILD, *PROGRAMS = sys.argv[1:]
+
+
+def readelf(*arguments):
+    return subprocess.run(["readelf", "--wide", *arguments], capture_output=True, text=True, check=True, timeout=60).stdout
+
+
+class Hardening(unittest.TestCase):
+    def test_programs_are_loaded_anywhere_and_sealed(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.assertRegex(readelf("--file-header", program), r"Type:\s+DYN ")
+                segments = readelf("--program-headers", program)
+                self.assertIn("GNU_RELRO", segments)
+                self.assertNotRegex(segments, r"GNU_STACK.* RWE ")
+                self.assertRegex(readelf("--dynamic", program), r"\(FLAGS(_1)?\).*NOW")
+
+    def test_programs_guard_the_stack(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.assertIn("__stack_chk_fail", readelf("--dyn-syms", program))
+
+    def test_all_sources_are_compiled_so(self):
+        with open(os.path.join(BUILD, "compile_commands.json"), encoding="utf-8") as file:
+            commands = json.load(file)
+        self.assertGreater(len(commands), 50)
+        for entry in commands:
+            for option in ("-fstack-protector-strong", "-fcf-protection", "-D_FORTIFY_SOURCE=2"):
+                self.assertIn(option, entry["command"].split(), entry["file"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
