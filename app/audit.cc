@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/audit.h"
 
 #include <fmt/format.h>
@@ -129,7 +130,10 @@ class BatchReader {
 class BatchProver {
  public:
   BatchProver(const Prover& prover, const Elaborator& elaborator, const PathSource& source)
-      : elaborator_(elaborator), prover_(prover), law_(source.law()), csv_(source.problem(), source.law(), source.has_times()) {}
+      : elaborator_(elaborator),
+        prover_(prover),
+        law_(source.law()),
+        csv_(source.problem(), source.law(), source.has_times()) {}
 
   [[nodiscard]] std::string csv_header() const { return csv_.header(); }
 
@@ -375,7 +379,7 @@ class BatchWriter {
   const Elaborator& elaborator_;
   Interpolation law_;
   bool has_witness_ = false;
-  bool is_followed_ = true;               ///< by proved boxes and `way_`, up to now
+  bool is_followed_ = true;              ///< by proved boxes and `way_`, up to now
   std::vector<checker::MotionBox> way_;  ///< of gaps before the first witness, where the motion is implied
   bool sharpens_;
   std::vector<std::shared_ptr<const Batch>> kept_;  ///< whose segments are not written yet

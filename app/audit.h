@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One audit: every segment of a path that something else made, proved or not, and where not.
 //
 // Waypoints are read, segments are proved on all cores, and what comes out is written, all at once and in batches: memory does

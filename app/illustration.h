@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The picture data of a search, for reports: charts and counts, in floating point. Proves nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An audit, and the certificate that is handed out of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A path to be audited, waypoint by waypoint, wherever it comes from: a path file of any kind, or a certificate.
 #pragma once
 

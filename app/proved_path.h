@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A path that somebody else made, proved as a whole from memory.
 #pragma once
 

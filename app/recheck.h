@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The independent checker, called on a certificate that this program wrote or reports: its theorem is the verdict.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far tolerances may grow, for people and for machines.
 #pragma once
 

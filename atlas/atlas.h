@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An atlas: charts that cover a manifold, grown one by one (multidimensional continuation).
 //
 // Chart i has a centre x_i with tangent space Phi_i, a radius r_i within which the tangent space is close to the

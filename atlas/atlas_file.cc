@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "atlas/atlas_file.h"
 
 #define XXH_INLINE_ALL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Atlas files: the charts that one query made, for the next (docs/atlas-file.md).
 //
 // An atlas only proposes, so nothing in a file can make a proof wrong. The file is checked so that one that is damaged, of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plain values to bytes and back, in the order of memory; for files of this machine's kind.
 #pragma once
 

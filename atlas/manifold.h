@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The manifold that an atlas covers: a smooth n-dimensional surface in R^N whose points are named by m coordinates.
 //
 // symbol  name                  meaning

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the charts near a point without looking at all of them.
 //
 // Points have kDimension coordinates: any fixed choice of ambient coordinates, since leaving some out only shortens

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of a chart's tangent space that is the chart's own: a cube around the centre, clipped by neighbours.
 //
 // A bounded polytope in R^n with the origin inside, kept as a simple one: each vertex lies on exactly n facets and has

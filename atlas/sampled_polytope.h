@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of a chart's tangent space that is the chart's own, known along a few rays only.
 //
 // In more than three dimensions the polytope of a chart (polytope.h) has too many vertices to keep: a cell of a Poisson

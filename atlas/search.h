@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shortest and quickly found paths on an atlas that is grown while it is searched.
 //
 // A path runs from the start through centres of neighbouring charts to the goal. Start and goal are centres of charts

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a finished atlas of a surface (n = 2) tells about the surface: area and Euler characteristic.
 //
 // The charts' polygons give each chart a cyclic order of neighbours, a rotation system, in which faces are traced

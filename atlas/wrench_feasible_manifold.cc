@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "atlas/wrench_feasible_manifold.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The wrench-feasible C-space as a manifold for the atlas.
 //
 // The navigation manifold F(x) = 0 (kinematics/navigation_manifold.h) is a graph over the pose, and its components and their

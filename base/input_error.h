@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The outside world is wrong: a case file, a path, a flag, a certificate. Caught once, in main; exit code 3.
 #pragma once
 

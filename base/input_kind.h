@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What kind of input is wrong: what stands behind an error's code.
 #pragma once
 

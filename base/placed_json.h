@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // JSON from outside: each value knows where it stands, so that what is wrong with it has a place.
 #pragma once
 

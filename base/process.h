@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a program sets up before anything else, so that it ends with an exit code of its own whatever happens.
 #pragma once
 

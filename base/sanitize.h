@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text from files and command lines, made safe to print.
 #pragma once
 

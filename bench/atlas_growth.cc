@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What charts cost as atlases grow: time and memory per chart, from 10^2 to 10^5 charts of the wrench-feasible C-spaces of
 // the cases, with two, three and six free parameters.
 //

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Audits of long paths: segments a second on one core and on all, and memory, which must not grow with the path.
 
 Usage: audits.py RESULTS TAUT [--quick]     writes RESULTS/audit.md

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How wide the interval arithmetics' results are: of each operation on points, in ulps of the exact result, against MPFR at 2100
 // bits. A correctly rounded operation gives 1 (or 0, where the result is exact).
 //

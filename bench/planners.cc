@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // taut beside OMPL on the paper's queries: time to a proved path against time to an unproved one, and both lengths.
 //
 // Every query is planned by taut (greedy and A*, each with the path as found and the path pulled taut, each by the case's

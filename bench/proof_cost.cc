@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a proof costs, in units of what everybody else does: samples of the pose.
 //
 // Proves 2,000 random feasible segments of 0.15 rad of each robot's slice and sphere, and divides the time by that of one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Queries on a stored atlas: what a new query costs, proof included, where an earlier run has charted everything that can be
 // reached (docs/atlas-file.md), beside the same query without the file.
 //

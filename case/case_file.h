@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Case files: YAML in, exact Problem out (docs/case-format.md).
 #pragma once
 

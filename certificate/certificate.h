@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes certificates (docs/certificate-format.md): the theorem, its exact inputs, and the boxes that prove it.
 #pragma once
 

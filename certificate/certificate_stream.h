@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a certificate of any length in constant memory: waypoints and segments are spooled to unnamed files as they come, and put
 // together at the end, when the verdict is known. What is written is what make_certificate() would make of the same parts.
 #pragma once

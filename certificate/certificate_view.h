@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A certificate as the report reads it (docs/certificate-format.md): types instead of JSON, nothing checked but its
 // form. What it claims is no verdict: a Scene shows it only where the checker has made a theorem of it. Numbers that
 // the report only prints stay the strings that they are.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "certificate/elaborate.h"
 
 #include <tbb/parallel_for.h>
@@ -9,8 +10,8 @@
 #include <cmath>
 #include <limits>
 
-#include "checker/format/exact.h"
 #include "checker/format/cursor.h"
+#include "checker/format/exact.h"
 #include "checker/format/parts.h"
 #include "checker/kernel/motion.h"
 #include "kinematics/pose_conversion.h"
@@ -601,8 +602,7 @@ std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const P
       if (found.deviation) {
         witness.deviation = to_kernel(*found.deviation);
         if (witness.deviation->cable_lengths && moves_platform(*witness.deviation)) {
-          const checker::Geometry stated =
-              commanded_geometry(machine, problem_, search.path(), 0, witness.at_box);
+          const checker::Geometry stated = commanded_geometry(machine, problem_, search.path(), 0, witness.at_box);
           if (!Way(machine, stated, approx_, *witness.deviation, bits).follow()) continue;
         }
       }

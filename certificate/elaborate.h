@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Finds how the checker's kernel proves what the prover has proved: boxes, precisions, places of implied motions, ways of
 // deviations, and the margins that the kernel confirms.
 //

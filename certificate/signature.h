@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Signatures of certificates (docs/certificate-format.md, "signature"): who vouches for a file. They prove nothing about the robot.
 //
 // Ed25519 as OpenSSL does it; keys are PEM as `openssl genpkey -algorithm ed25519` writes them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/box_proof.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The heart: enclosures of lengths, tensions and margins over one box of one segment.
 //
 // Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any approximation of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What tensions and lengths do over boxes of a path, in numbers: for reports. Margins say whether limits are kept; these say
 // what is between them.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Proposes where a machine that holds its cables' lengths may be found: inner poses and tubes of a segment's reference.
 //
 // The reference is a polyline near the motion, which Newton's method finds in floating point, and each of its pieces has a tube of a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/path_proof.h"
 
 #include <fmt/format.h>

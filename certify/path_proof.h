@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Proves a path segment by segment, on all cores, and gathers the margins of the whole. Boxes that state the path's least margins
 // are then halved, up to 64 times, until half of what there is is stated.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Proves or refutes one segment, or says of each of its parts which: boxes from box_proof.h, bisection, a ladder of
 // precisions.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far each tolerance alone may grow before the proof of a path fails.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Why something stayed undecided: each reason with the words that certificates and messages tell it in, and a short code that stays.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of command-line arguments that taut and taut-check share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/check.h"
 
 #include <openssl/evp.h>
@@ -158,9 +159,9 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
     return refuted + ", " + plural(stretches, "stretch") + " (" + std::to_string(open) +
            " open), and nothing outside of them: " + boxes + bits;
   }
-  return audit + "proved again: " + plural(result.counts.segments, "segment") + ", " + boxes + ", tension margin >= " +
-         certificate.margins[0] + " N, length margin >= " + certificate.margins[1] + " m, wrench scale >= " +
-         certificate.margins[2] + bits;
+  return audit + "proved again: " + plural(result.counts.segments, "segment") + ", " + boxes +
+         ", tension margin >= " + certificate.margins[0] + " N, length margin >= " + certificate.margins[1] +
+         " m, wrench scale >= " + certificate.margins[2] + bits;
 }
 
 /// Signer, case, path file and verdict are those that were asked for.
@@ -182,8 +183,8 @@ void require_asked_for(const Certificate& certificate, const CheckOptions& optio
   if (!options.expect || certificate.verdict == Verdict::kUndecided) return;
   const bool expects_proved = *options.expect == Theorem::Verdict::kProved;
   if (expects_proved != (certificate.verdict == Verdict::kProved)) {
-    throw Rejected(std::string("the certificate says ") + (expects_proved ? "refuted, expected proved"
-                                                                           : "proved, expected refuted"));
+    throw Rejected(std::string("the certificate says ") +
+                   (expects_proved ? "refuted, expected proved" : "proved, expected refuted"));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Is the claim of a certificate true? Proves it again, from the file alone.
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
@@ -54,7 +55,7 @@ struct CheckOptions {
   std::vector<std::string> trusted{};        ///< unless empty: public keys (signature.h), one of which must have signed
   unsigned threads = 0;                      ///< to prove with; 0: as many as there are cores
   std::optional<double> max_seconds{};       ///< budget; 0: read and compare, but prove nothing; nothing: no end
-  std::stop_token stop{};  ///< asks to stop: looked at before each box
+  std::stop_token stop{};                    ///< asks to stop: looked at before each box
   /// Whether result and theorem hold what was read as JSON, for whoever shows it; takes many times the file's memory.
   bool keeps_certificate = true;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/confirm.h"
 
 #include <flint/flint.h>
@@ -105,7 +106,8 @@ class Confirmation {
     const Segment segment = certificate_.segment(k);
     const Margins& margins = segment.margins;
     if (!segment.boxes.empty() && (margins.tension <= 0 || margins.length <= 0 || margins.wrench_scale < 1)) {
-      throw Rejected("segment " + std::to_string(k) + ": claims a margin that is not positive, or a wrench scale below 1");
+      throw Rejected("segment " + std::to_string(k) +
+                     ": claims a margin that is not positive, or a wrench scale below 1");
     }
     for (const Box& box : segment.boxes) {
       at_precision(box.bits, name_of(k, box), [&](const Machine& machine) {
@@ -203,9 +205,8 @@ class Confirmation {
     }
     for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
       constexpr int kBits = 256;
-      at_precision(kBits, "waypoint " + std::to_string(k), [&](const Machine&) {
-        require_in_range(problem_, stated_parameters(path_.waypoints[k]));
-      });
+      at_precision(kBits, "waypoint " + std::to_string(k),
+                   [&](const Machine&) { require_in_range(problem_, stated_parameters(path_.waypoints[k])); });
     }
   }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // taut-check CERTIFICATE [CASE] [--path FILE] [--expect VERDICT] [--trust PUBKEY.pem]…: proves the claim of a
 // certificate again, and says what it was compared with.
 //
@@ -236,11 +237,11 @@ int run(int argc, char** argv) {
   } else if (!arguments.quiet && !is_malformed) {
     char time[32];
     std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result) << "; " << time << "; "
-              << describe_signer(result) << std::endl;
+    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result) << "; "
+              << time << "; " << describe_signer(result) << std::endl;
   }
-  if (!arguments.quiet && is_malformed) std::cerr << name(result.outcome) << ": " << sanitize(result.message)
-                                                << std::endl;
+  if (!arguments.quiet && is_malformed)
+    std::cerr << name(result.outcome) << ": " << sanitize(result.message) << std::endl;
   if (!std::cout) throw std::runtime_error("could not write to standard output");
   return exit_code(result.outcome);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the checker has proved: the only thing in taut that is a verdict.
 //
 // In the manner of LCF provers: a Theorem has no public constructor, and check() is the only function that can make

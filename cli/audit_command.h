@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `taut audit`: its arguments, what it writes and what it says (docs/audits.md).
 #pragma once
 

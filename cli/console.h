@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What commands share: exit codes, interruption, a progress line, keys.
 #pragma once
 

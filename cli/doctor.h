@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `taut doctor`: whether this machine can be trusted with proofs, and has what taut makes use of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/explain.h"
 
 #include <fmt/format.h>
@@ -144,13 +145,14 @@ Explanation explained(Undecided reason) {
                    "taut show prints its tensions, lengths and margins: move it to where all are positive.",
                    "undecided: waypoint 0 or 1 of the query is outside the manifold in floating point [U16].");
     case Undecided::kKernel:
-      return entry("The checker's kernel does not confirm the proof",
-                   "The prover came to a verdict, but found no boxes, or no way to a witness, with which the checker's own "
-                   "equations confirm it.",
-                   "A motion very close to a limit or to a singular pose. Where poses are implied by cable lengths or "
-                   "constraints, a violation to which the motion could not be followed from the path's beginning.",
-                   "Keep a little more away from limits and singular poses there, or make the tolerances smaller.",
-                   "open: the checker's kernel does not confirm what was found [U17].");
+      return entry(
+          "The checker's kernel does not confirm the proof",
+          "The prover came to a verdict, but found no boxes, or no way to a witness, with which the checker's own "
+          "equations confirm it.",
+          "A motion very close to a limit or to a singular pose. Where poses are implied by cable lengths or "
+          "constraints, a violation to which the motion could not be followed from the path's beginning.",
+          "Keep a little more away from limits and singular poses there, or make the tolerances smaller.",
+          "open: the checker's kernel does not confirm what was found [U17].");
   }
   return {};
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `taut explain`: what the short code behind a message means, what usually causes it and what to do. One table, of which
 // docs/errors.md is a print.
 #pragma once

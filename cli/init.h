@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `taut init`: a commented case to begin from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A page as PDF, printed by a Chromium that the user has: it knows the page's style sheet and script as no library does.
 #pragma once
 

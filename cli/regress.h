@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Regression proofs: every case of a folder is planned or audited, each by a taut of its own, and held to what it declares and to
 // what an earlier run measured.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `taut regress`: its arguments and what it says (docs/regress.md).
 #pragma once
 

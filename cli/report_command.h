@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // taut report: a certificate for people, on a page, on paper or in a log.
 #pragma once
 

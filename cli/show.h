@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `taut show`: what a case was understood to say, and a drawing of the robot. Proves nothing.
 #pragma once
 

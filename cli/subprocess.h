@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Programs that taut starts: without a shell, and never left behind.
 #pragma once
 

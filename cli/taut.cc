@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // taut: plans motions of cable-driven hexapods and proves them. Command line and exit codes; decides nothing itself.
 #include <fmt/format.h>
 

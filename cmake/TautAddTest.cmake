@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # taut_add_test(<folder> <header> LABELS <label>… LIBS <target>… [PROGRAM <name>] [SHARDS <count>] [COST <seconds>]
 #   [TIMEOUT <seconds>])
 # compiles tests/<folder>/<header>_test.cc into the folder's test program, <folder>_test, and registers its tests as one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Audits a table that this program makes, an arc that somebody thinks is safe: audit_table CASE.yaml
 //
 // The case has the parameters phi and theta, as cases/robot1-slice-qs-qg.yaml.

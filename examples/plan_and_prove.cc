@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plans a case, writes what comes out, and proves a path of its own: plan_and_prove CASE.yaml FOLDER
 #include <taut/taut.h>
 

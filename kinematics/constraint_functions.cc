@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "kinematics/constraint_functions.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The implicit constraints C(λ) = 0 of a space in floating point: what the search needs, and the proof's first guess.
 #pragma once
 

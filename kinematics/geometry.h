@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cables and force densities at a pose (design: no square root but in the lengths).
 //
 //   d_i = p + R b_i − a_i                                                    cable vector A_i→B_i                 (1)

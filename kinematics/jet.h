@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // First-order jets: a value and its N partial derivatives, for forward differentiation of the equations.
 #pragma once
 

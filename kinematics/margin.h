@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Margins: what a claim is a conjunction of.
 //
 // A margin is a function of the pose that must be positive. The prover knows no particular ones: it walks the list that comes

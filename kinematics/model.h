@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The problem in numbers of one scalar: anchors, limits, load and the pose as a function of the parameters.
 //
 // Model<double> is an approximation, Model<MpInterval> an enclosure of the exact Problem. Frames: W world, P platform,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long a motion is, by any distance between near poses. Floating point, for comparison and reports.
 #pragma once
 

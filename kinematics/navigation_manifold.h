@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The navigation manifold M of the paper: F(x) = 0 over 90 variables, as a graph over the pose.
 //
 // x = (p, τ, d_1…d_6, d, f0, v_1…v_6, g, s, t), 3 + 3 + 18 + 6 + 6 + 36 + 6 + 6 + 6 = 90 numbers, subject to 84 equations:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Poses from one form to another, in floating point: angles, quaternions, cable lengths.
 //
 // For waypoints that are given in one form and joined in another. What comes out is rounded to binary64, and it is those waypoints

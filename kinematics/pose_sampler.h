@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A problem in binary64: poses, statics and distances to the limits at points of its space.
 //
 // For what proposes and what draws; nothing here is proved.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Paths: exact waypoints and the law that joins them.
 //
 // Two laws run through the parameters of the problem's space. Waypoint k is the parameter vector λ_k with

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tensions at one pose: the unique balance f0 of w0, and how far each tension moves over the wrench set K.
 //
 //   Y = D^-1,  f0_i = d_i (Y w0)_i,  v_ii = d_i |y_i L|,  E^-1 = L L^T,  y_i the i-th row of Y                (4)–(6)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // path.csv: the waypoints that were proved, bit for bit, so that `taut audit` reads them back.
 #pragma once
 

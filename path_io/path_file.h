@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Path files: the poses that another program planned, one row at a time (docs/audits.md).
 //
 // Formats, told apart by the first line that is neither blank nor a comment:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What was read from a path file, at a glance: so that a wrong unit or a wrong column is seen.
 #pragma once
 

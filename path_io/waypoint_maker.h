@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a path file as waypoints of an interpolation law (segment.h), one at a time.
 //
 // Where the law's coordinates are the file's, the waypoints are the file's numbers, bit for bit. Otherwise they are computed in

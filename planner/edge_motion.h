@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The motion of an edge, in binary64: straight in the parameters or, in a space with constraints, what segment.h makes of that.
 #pragma once
 

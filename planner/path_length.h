@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How long a motion is, by the cost that a case names, in binary64.
 //
 // A motion straight in the parameters curves in space, as does one on constraints: its length is that of its own curve, not the distance between its

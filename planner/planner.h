@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One plan, end to end: atlas, search, path, proof.
 //
 // The search proposes and the prover decides. A path is sought on edges that look clear of limits at sampled poses

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shortens a path: what a search through chart centres leaves jerky is pulled taut.
 //
 // Alternates three moves on the vertices between start and goal, as long as they pay: a vertex is left out; a vertex is

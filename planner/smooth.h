@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rounds a path's corners: its straight segments become a cubic B-spline, twice continuously differentiable, with the
 // path's vertices as control points. Every segment of the spline is proved again; where one is not, more control points
 // are put on the edges around it, which pulls the spline to the path that is known to be good.

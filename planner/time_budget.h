@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A limit on time as a stop token, so that everything that can be interrupted can be given a deadline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact decimal numbers: what a number typed in a case file means.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Expressions that a user writes in a case file, evaluated on any scalar.
 //
 // Grammar: docs/certificate-format.md. Parsed once (Boost.Spirit X3) into a tape of operations on numbered slots;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The grammar of docs/certificate-format.md, in Boost.Spirit X3. Every choice is settled by the next token, so an
 // operation goes on the tape as soon as it is read.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Typed numbers to SI and binary64, with one rounding and that to nearest: for tables, where there are many.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The exact problem: robot, load, space of poses and query, as exact decimals and expressions in SI units.
 //
 // A Problem is what a case file means, after units are resolved and before anything is rounded. It is written

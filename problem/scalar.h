@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scalar concept: what the equations of kinematics/ may ask of a number.
 //
 // double, Interval (certify/arithmetic/interval.h), MpInterval (certify/arithmetic/mp_interval.h) and the centred forms over them all

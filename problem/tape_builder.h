@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the parser of expressions makes a tape: each distinct operation gets one instruction. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units of a case file, as exact decimal factors to SI.
 #pragma once
 

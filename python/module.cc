@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // taut._taut: the library's interface as Python sees it. What people use is in taut/__init__.py.
 //
 // Work is done in a thread of its own, with the interpreter released; the calling thread wakes up now and then, calls `progress`

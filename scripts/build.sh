@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by ./taut, ./taut-check and ./test, with `root` set to the source tree: builds build/release when it is
 # out of date. Anything that goes wrong here exits with 4, taut's code for an internal failure.
 # shellcheck shell=bash

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // taut as a library: plans motions of cable-driven hexapods, proves them, and hands out certificates (docs/library.md).
 //
 //   const taut::Case crane = taut::Case::load("crane.yaml");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A multiprecision number: mpfr_t with value semantics, at the precision that this thread works in.
 //
 // Arithmetic operators round to nearest and are for approximations; directed rounding goes through MpfrRounding

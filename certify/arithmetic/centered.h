@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Centred forms: a function of one variable t over an interval T, enclosed at its midpoint and by its slope.
 //
 // Claim.  Centered<I>{at_mid, slope, range} stands for a function x, differentiable on T, with

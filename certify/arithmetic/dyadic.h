@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where on a segment: exact binary fractions of [0, 1].
 //
 // Nearly all boxes are so shallow that their ends are binary64 numbers; a margin of 1e-40 takes boxes of width 2^-67.

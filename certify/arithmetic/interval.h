@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fast enclosing scalar: a bounded interval of doubles, (−lower, upper) packed in one SSE register.
 //
 // Claim.  While the thread rounds upward (run_upward) and Faults<Interval> is not raised, every operation's result

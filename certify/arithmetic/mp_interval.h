@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The multiprecision enclosing scalar: Boost.Interval over MPFR with every rounding directed.
 //
 // MpfrRounding is the rounding policy: each elementary operation, square root and transcendental is MPFR's own, correctly

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bounds of inverses of matrices close to the identity, rounded upward; for both proof scalars.
 //
 // Let |I − M| <= N entry by entry, with ρ = max row sum of N < 1. Then M is non-singular and

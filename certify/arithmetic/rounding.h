@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Directed rounding: the one place where the floating-point environment is touched.
 //
 // Interval (interval.h) keeps (−lower, upper) in one register and is right only while this thread rounds upward.

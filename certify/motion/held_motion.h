@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pose of a machine that holds its cables' lengths: existence, uniqueness and an enclosure, over one box of a segment.
 //
 // The pose is sought around the reference (p_ref, R_ref)(t) of the piece in which the box is (kinematics/segment.h), in that piece's

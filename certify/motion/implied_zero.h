@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The parametric Krawczyk operator: the only zero y(t) in Y = [−r, r]^K of K equations g(y, t) = 0, for all t of a box T.
 //
 // For T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If ρ < 1 there is at

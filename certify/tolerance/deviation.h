@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One deviation within the tolerances, as exact numbers: what a refutation shows where the undisturbed machine is safe.
 #pragma once
 

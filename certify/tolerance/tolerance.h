@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What deviations within the tolerances can do to a box: how far lengths and tensions change.
 //
 // A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking error. It is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The theorems in words. A certificate carries the text that belongs to its verdict, character by character, and
 // whoever writes a certificate includes this header. docs/certificate-format.md repeats the texts.
 #pragma once

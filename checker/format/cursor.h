@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A JSON value that knows the path of keys that leads to it, so that an error names its place.
 #pragma once
 

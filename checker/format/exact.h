@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The exact numbers of a certificate. All of them are strings, and none is rounded when it is read.
 #pragma once
 

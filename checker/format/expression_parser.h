@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the expressions of certificates by recursive descent (docs/certificate-format.md):
 //
 //     sum      = product { ("+" | "-") product }

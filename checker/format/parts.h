@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Readers of the parts of a certificate, on values that know their place. All of them throw Malformed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/errors.h"
 #include "checker/format/expression_parser.h"
 #include "checker/format/parts.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a certificate and checks its form: docs/certificate-format.md, version 4. Proves nothing about the robot.
 #pragma once
 

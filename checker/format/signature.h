@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Who signed a certificate: "signature" in docs/certificate-format.md. Says nothing about whether its claim is true.
 #pragma once
 

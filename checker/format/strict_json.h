@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the JSON of a certificate in one pass that checks, digests, and hands over long lists element by element.
 #pragma once
 
@@ -21,7 +22,7 @@ struct Element {
 /// `illustration`. The digests are those of canonical JSON.
 struct Outline {
   nlohmann::json json;
-  std::string problem;          ///< canonical JSON
+  std::string problem;      ///< canonical JSON
   std::string body_sha256;  ///< of all but `footer` and `signature`
   std::string path_sha256;
   std::string problem_sha256;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the parts of a certificate that say how it is proved, as reader.h reads them.
 #pragma once
 

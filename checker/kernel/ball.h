@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers that enclose: balls over Arb, at the precision set by the innermost WorkingPrecision.
 //
 // A Ball stands for a real number x that we do not know exactly: it holds a binary number m and a bound r with
@@ -36,7 +37,10 @@ class Ball {
  public:
   Ball() { arb_init(x_); }
   explicit Ball(int x) : Ball() { arb_set_si(x_, x); }
-  explicit Ball(double x) : Ball() { arb_set_d(x_, x); require_finite(); }  ///< exact
+  explicit Ball(double x) : Ball() {
+    arb_set_d(x_, x);
+    require_finite();
+  }  ///< exact
   explicit Ball(const mpq_class& x) : Ball() {
     fmpq_t q;
     fmpq_init(q);
@@ -46,11 +50,19 @@ class Ball {
   }
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
-  Ball& operator=(const Ball& other) { arb_set(x_, other.x_); return *this; }
-  Ball& operator=(Ball&& other) noexcept { arb_swap(x_, other.x_); return *this; }
+  Ball& operator=(const Ball& other) {
+    arb_set(x_, other.x_);
+    return *this;
+  }
+  Ball& operator=(Ball&& other) noexcept {
+    arb_swap(x_, other.x_);
+    return *this;
+  }
   ~Ball() { arb_clear(x_); }
 
-  [[nodiscard]] static Ball pi() { return make([](arb_ptr r) { arb_const_pi(r, bits()); }); }
+  [[nodiscard]] static Ball pi() {
+    return make([](arb_ptr r) { arb_const_pi(r, bits()); });
+  }
 
   [[nodiscard]] arb_srcptr get() const { return x_; }
   [[nodiscard]] bool is_zero() const { return arb_is_zero(x_) != 0; }
@@ -80,10 +92,19 @@ class Ball {
   friend Ball operator-(const Ball& a) {
     return make([&](arb_ptr r) { arb_neg(r, a.x_); });
   }
-  Ball& operator+=(const Ball& b) { arb_add(x_, x_, b.x_, bits()); return *this; }
-  Ball& operator-=(const Ball& b) { arb_sub(x_, x_, b.x_, bits()); return *this; }
+  Ball& operator+=(const Ball& b) {
+    arb_add(x_, x_, b.x_, bits());
+    return *this;
+  }
+  Ball& operator-=(const Ball& b) {
+    arb_sub(x_, x_, b.x_, bits());
+    return *this;
+  }
   /// *this += a b
-  Ball& add_product(const Ball& a, const Ball& b) { arb_addmul(x_, a.x_, b.x_, bits()); return *this; }
+  Ball& add_product(const Ball& a, const Ball& b) {
+    arb_addmul(x_, a.x_, b.x_, bits());
+    return *this;
+  }
 
  private:
   void require_finite() const {
@@ -139,7 +160,9 @@ inline Ball plus_minus(const Ball& a, const Ball& b) {
 /// Every number of magnitude up to that of b.
 inline Ball plus_minus(const Ball& b) { return plus_minus(Ball(), b); }
 /// The larger of two nonnegative single numbers.
-inline const Ball& larger(const Ball& a, const Ball& b) { return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0 ? b : a; }
+inline const Ball& larger(const Ball& a, const Ball& b) {
+  return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0 ? b : a;
+}
 
 /// Analytic functions of one variable.
 enum class Function { kInverse, kSqrt, kSin, kCos, kExp, kLog, kAsin, kAcos, kAtan };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/box_proof.h"
 
 #include "checker/kernel/deviation.h"
@@ -16,8 +17,8 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
   std::optional<Bounds> result;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Form& length = geometry.length[i];
-    const Ball largest_variation = magnitude((length * tensions.variation[i]).range()) +
-                                   Ball(0.5) * (loss.tension[i][0] + loss.tension[i][1]);
+    const Ball largest_variation =
+        magnitude((length * tensions.variation[i]).range()) + Ball(0.5) * (loss.tension[i][0] + loss.tension[i][1]);
     for (const std::size_t side : {0, 1}) {
       const auto inside = [&](const Form& quantity, const std::array<Ball, 2>& limits) {
         return side == 0 ? quantity - Form(limits[0]) : Form(limits[1]) - quantity;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The theorem of a proved box, from the clauses: motion.h (where the machine is), machine.h (machine, loads, limits) and
 // deviation.h (what tolerances take away).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/deviation.h"
 
 namespace taut::checker {
@@ -62,8 +63,8 @@ class Family {
       b_size_[i] = length_bound(machine.platform[i]) + whole_.platform[i];
       r_size_[i] = length_bound(machine.arms[i]) + whole_.platform[i] + whole_.load_point;
       if (length_controlled) {
-        rho_[i] = magnitude((length_start_[i] + whole_.length[i]) *
-                            (whole_.length[i] + whole_.base[i] + whole_.platform[i]));
+        rho_[i] =
+            magnitude((length_start_[i] + whole_.length[i]) * (whole_.length[i] + whole_.base[i] + whole_.platform[i]));
       }
       Vector6<Ball> column;
       for (std::size_t r = 0; r < 6; ++r) column[r] = inverse.approximate()[r][i];
@@ -78,7 +79,10 @@ class Family {
   /// @throws Undefined where the guess does not hold.
   void advance(const Ball& share, const Ball& until, int guesses) {
     const Ball growth(1.125);
-    const Ball least = Ball::make([](arb_ptr r) { arb_set_ui(r, 1); arb_mul_2exp_si(r, r, -4 * Ball::bits()); });
+    const Ball least = Ball::make([](arb_ptr r) {
+      arb_set_ui(r, 1);
+      arb_mul_2exp_si(r, r, -4 * Ball::bits());
+    });
     const Moves before = moves_;
     Moves guess = before;
     set(before, until);
@@ -98,8 +102,8 @@ class Family {
 
   /// Bounds of |F_r'| for c = -1 and c = 1.
   [[nodiscard]] std::array<Ball, 2> tension_rates(std::size_t r) const {
-    Vectors turned;          // r_i x (h_ri + q_ri)
-    Vector6<Ball> overlap;   // z_r . z_i / V_r
+    Vectors turned;         // r_i x (h_ri + q_ri)
+    Vector6<Ball> overlap;  // z_r . z_i / V_r
     for (std::size_t i = 0; i < 6; ++i) {
       turned[i] = cross(r_[i], h_[r][i] + q_[r][i]);
       for (std::size_t j = 0; j < 6 && i != r; ++j) overlap[i] += z_[r][j] * z_[i][j];
@@ -250,8 +254,8 @@ class Family {
 
 }  // namespace
 
-MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const Inverse& inverse,
-                       bool length_controlled, int parts, int guesses) {
+MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled,
+                       int parts, int guesses) {
   MarginLoss result;
   const Ball share = Ball(1) / Ball(parts);
   Family family(machine, geometry, inverse, length_controlled);

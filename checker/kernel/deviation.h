@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "deviations": by how much tensions and lengths of a machine within the tolerances differ from the stated one's.
 //
 // Scale a deviation (machine.h) by t from 0 to 1, the rotation along its axis: that is within the tolerances, too. Let f' be

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Expressions of the certificate's grammar, as flat trees, evaluated on enclosing scalars (forms or jets).
 #pragma once
 
@@ -12,8 +13,25 @@
 namespace taut::checker {
 
 enum class Op {
-  kNumber, kPi, kParameter, kAdd, kSubtract, kMultiply, kDivide, kNegate, kPower,
-  kSqrt, kSin, kCos, kTan, kExp, kLog, kAsin, kAcos, kAtan, kAtan2,
+  kNumber,
+  kPi,
+  kParameter,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kNegate,
+  kPower,
+  kSqrt,
+  kSin,
+  kCos,
+  kTan,
+  kExp,
+  kLog,
+  kAsin,
+  kAcos,
+  kAtan,
+  kAtan2,
 };
 
 /// Operands stand before the operations that use them; the last node is the value of the whole.

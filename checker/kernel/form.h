@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A real function of one variable u in [-1, 1], enclosed to first order; and numbers with their partial derivatives.
 //
 // A Form says of a function f, continuous on [-1, 1]:

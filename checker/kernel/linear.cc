@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/linear.h"
 
 #include <arb_mat.h>

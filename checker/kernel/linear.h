@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear algebra in three and six dimensions, over balls and forms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Clauses "machine", "loads" and "limits": tensions and lengths at every pose of a box, and how far inside their limits.
 //
 // Every quantity is a Form in u in [-1, 1], which stands for the place in the box (motion.h).

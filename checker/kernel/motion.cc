@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/motion.h"
 
 #include <algorithm>
@@ -144,8 +145,7 @@ Matrix3<Form> geodesic(const Quaternion& q0, const Quaternion& q1, const Form& s
   const Vector3<mpq_class> u_u1 = cross(u, u1);
   Vector3<mpq_class> v;  // of conj(q0) q1, turned so that c is positive
   for (std::size_t i = 0; i < 3; ++i) v[i] = (q0[3] * u1[i] + q1[3] * u[i] + u_u1[i]) * (c < 0 ? -1 : 1);
-  const Matrix3<Form> R0 =
-      rotation({Form(Ball(q0[0])), Form(Ball(q0[1])), Form(Ball(q0[2])), Form(Ball(q0[3]))});
+  const Matrix3<Form> R0 = rotation({Form(Ball(q0[0])), Form(Ball(q0[1])), Form(Ball(q0[2])), Form(Ball(q0[3]))});
   const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   if (squared == 0) return R0;
 
@@ -325,8 +325,8 @@ void require_in_range(const Problem& problem, const std::vector<Form>& parameter
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const Parameter& parameter = problem.parameters[j];
     if (parameter.kind != ParameterKind::kRange) continue;
-    for (const Form& excess : {parameters[j] - parameter.lower.evaluate<Form>({}),
-                               parameter.upper.evaluate<Form>({}) - parameters[j]}) {
+    for (const Form& excess :
+         {parameters[j] - parameter.lower.evaluate<Form>({}), parameter.upper.evaluate<Form>({}) - parameters[j]}) {
       if (!certainly_nonnegative(excess.range())) throw Undefined(parameter.name + " may be outside its range");
     }
   }

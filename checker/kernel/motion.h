@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "motion": where the path leads, over a box of one of its segments.
 //
 // A box is a part [s0, s1] of a segment, written s = m + r u with u in [-1, 1].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a witness claims: a limit broken at one pose of the path, or a sign change of det J between two.
 //
 // A limit kind: at the pose of the path (shown by motion.h, at one place), for the machine as the problem states it or with

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the kernel is asked about, as exact numbers: a problem, a path through it, boxes of the path, and witnesses.
 //
 // These are plain data. format/ fills them from a certificate and vouches for their form (sizes, signs, order); the
@@ -89,9 +90,9 @@ struct InnerPose {
 struct Path {
   Law law = Law::kStraight;
   std::vector<Waypoint> waypoints;
-  std::vector<double> tubes;                         ///< one a segment where the space has constraints, else none
-  std::vector<PoseTube> pose_tubes;                  ///< one a segment under kCableLengths, up to its first inner pose
-  std::vector<std::vector<InnerPose>> inner_poses;   ///< likewise, by rising s
+  std::vector<double> tubes;                        ///< one a segment where the space has constraints, else none
+  std::vector<PoseTube> pose_tubes;                 ///< one a segment under kCableLengths, up to its first inner pose
+  std::vector<std::vector<InnerPose>> inner_poses;  ///< likewise, by rising s
 
   [[nodiscard]] std::size_t control_points() const { return law == Law::kCubicBSpline ? 4 : 2; }
   [[nodiscard]] std::size_t segments() const {
@@ -173,10 +174,10 @@ enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSing
 struct Witness {
   WitnessKind kind = WitnessKind::kSingular;
   PathPoint at;
-  Box at_box;              ///< [s, s] and how the pose there is shown
-  PathPoint to;            ///< kSingular only; the others use what follows
-  Box to_box;              ///< likewise
-  std::size_t cable = 0;   ///< 0 to 5
+  Box at_box;             ///< [s, s] and how the pose there is shown
+  PathPoint to;           ///< kSingular only; the others use what follows
+  Box to_box;             ///< likewise
+  std::size_t cable = 0;  ///< 0 to 5
   mpq_class value_lower;
   mpq_class value_upper;
   std::optional<WitnessDeviation> deviation;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A motion that equations imply: where the zero y(u) of g(y, u) = 0 is, for every u in [-1, 1], and that it is the only one.
 //
 // Let Y be a box of k unknowns and G enclose the partial derivatives of g by y on all of Y and for all u. By the mean

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Plans a case, looks at the path, and audits one of one's own: tutorial.py [CASE.yaml [FOLDER]]
 
 Writes plan.png, audit.png, certificate.json and report.html into FOLDER (default: here). CASE is cases/robot1-slice-qs-qg.yaml if none is

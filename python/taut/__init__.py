@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Plans motions of cable-driven hexapods, and proves them.
 
     import taut

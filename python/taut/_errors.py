@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What goes wrong. That something is not proved is a verdict, no error."""
 
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report's first page: all that whoever signs it has to know, on one sheet of A4 in usual cases.
 #pragma once
 

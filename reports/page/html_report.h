@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report: a certificate for the eye, one HTML page that an engineer can read, print and sign.
 //
 // Made from what the checker found, of the very bytes that it checked: a verdict is shown only where it made a theorem.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // HTML that can't be broken by what it shows: text becomes markup by escaping only.
 //
 // Certificates come from anywhere; a case may be called "<script>". So markup has a type of its own. It is made from

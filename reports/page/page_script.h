@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The script that draws the report's plots and the picture of the move in the reader's browser: all of reports/web/
 // with the libraries that it uses, bundled when taut is built.
 #pragma once

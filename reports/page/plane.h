@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The plane of two parameters: which of its poses keep the limits, where J is singular, and the charts of the atlas. Sampled on a
 // grid in floating point: for a picture.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report's sections with pictures: the move, and plots of what happens along it.
 //
 // The page says in words what there is to see and has an empty place for each picture, a <div data-plot="…">, which the page's

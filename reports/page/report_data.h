@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the page's script draws: the robot, poses along the path, proved ranges and margins, and the plane of two parameters, as
 // one JSON object that the page carries.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The robot of a case as a picture for people, before anything is planned.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report's sections behind its first page: what a certificate says, in full, in words and tables. Some are empty where there is
 // nothing to say.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The robot in a few poses, drawn once and for all: for paper, and for browsers that draw no moving picture. Floating point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a move asks of each cable: the least and the greatest tension and length, and how close that comes to the limits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a case was understood to say: robot, load, space, and each waypoint of its query with lengths, tensions and margins. Numbers of
 // the case are exact; what is computed from them is floating point, and no verdict: nothing here is proved.
 #pragma once

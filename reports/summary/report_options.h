@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a report says that is not in the certificate: how the document is called, and what the independent checker found.
 #pragma once
 

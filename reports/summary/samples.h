@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a certificate's path and slice look like in floating point. For pictures: nothing here is proved.
 #pragma once
 

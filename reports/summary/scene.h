@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a report is made from: the certificate, and floating-point samples of what it is about.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a certificate says, in sentences that an engineer would sign. Plain text: the page, the text and the Markdown summaries
 // say the same words.
 #pragma once

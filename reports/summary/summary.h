@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The first page as data, and in the three forms that are not HTML: plain text, Markdown, JSON. All say the same.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far into the move a place of the path is: the way of the platform's origin, the angle that the platform has turned, time.
 // Floating point.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the plots' horizontal axis counts: segments, metres, degrees or seconds into the move.
 import { between, locate } from "./data.js";
 import { degrees, text } from "./words.js";

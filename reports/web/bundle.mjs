@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // bundle.mjs OUT.cc: bundles main.js and what it imports into one script, and writes it as a C++ source that defines
 // what reports/page/page_script.h declares. OUT.cc.d says what it was made from. The script opens with the licences of all
 // packages in it.

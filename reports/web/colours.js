@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours that depend on the reader's theme, and the scale of the cables.
 
 /// A custom property of the page's style, as three.js reads colours: "#1f5f99".

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The place that all pictures show: one position along the path, shared by the plots and the robot.
 
 export class Cursor {

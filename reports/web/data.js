@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the certificate's report knows, as report_data.cc wrote it into the page. SI units and radians; columns of numbers, null
 // where there is none.
 //

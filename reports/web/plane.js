@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The plane of two parameters: where the limits are kept, the line det J = 0, the atlas, the path.
 import * as Plot from "@observablehq/plot";
 import { between, locate } from "./data.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The controls below the robot: play, scrub, step through segments; and what is at the cursor, in numbers.
 import { between, locate, status } from "./data.js";
 import { decimalsFor, degrees, element, fixed, text } from "./words.js";

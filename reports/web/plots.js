@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plots along the path: tensions, lengths, margins and pose, each a panel with one shared cursor.
 import * as Plot from "@observablehq/plot";
 import { between, extent, locate } from "./data.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which tolerance bites: how much of what each alone could be is used up by what is stated.
 import * as Plot from "@observablehq/plot";
 import { atMost, degrees, element, text } from "./words.js";

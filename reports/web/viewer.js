@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The robot in three dimensions: base, cables, platform, load, the path and the tube around it.
 import {
   AmbientLight,

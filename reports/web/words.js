@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as text.
 
 /// Four significant digits, no exponent where it can be read without, a real minus sign.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Manifolds with known answers, for the tests of atlas/.
 #pragma once
 

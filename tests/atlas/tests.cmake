@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 taut_add_test(atlas manifold LABELS unit LIBS taut::atlas)
 taut_add_test(atlas polytope LABELS unit LIBS taut::atlas)
 taut_add_test(atlas sampled_polytope LABELS unit LIBS taut::atlas)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes every case of the certificate tests as a file of its own, as the tests read them.
 
 Usage: expand.py FOLDER. Writes FOLDER/{accepted,rejected,malformed}/NAME.json, with NAME.txt beside it: why the case

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Edits of cases do what README.md says, and those that could do nothing unnoticed are errors."""
 import unittest
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the base certificates of the tests, bases/*.json, in floating point and from equations of its own.
 
 It is no prover: it samples a short path, claims margins a little below what it saw, and leaves it to the checker to

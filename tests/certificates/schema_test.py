@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """docs/certificate.schema.json holds of every well-formed certificate, true or false, and not of structural mutants.
 
 Usage: schema_test.py ROOT CERTIFICATES, the folder that expand.py wrote.

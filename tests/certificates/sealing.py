@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What make_bases.py and expand.py share: the texts of numbers and boxes, what follows from the rest of a certificate,
 and how a certificate is laid out in a file."""
 import hashlib, json

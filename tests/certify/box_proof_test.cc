@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes against the oracle: at points of each box, everything that is claimed about the whole of it.
 #include "certify/box_proof.h"
 

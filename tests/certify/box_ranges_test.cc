@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ranges against the oracle at points of boxes, against deviating machines, and against the margins that were proved.
 #include "certify/box_ranges.h"
 

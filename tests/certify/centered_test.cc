@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Centred forms against 300-bit samples: value at the midpoint, slope and range of composite functions.
 #include "certify/arithmetic/centered.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fast interval: its packing, and its sine and cosine where they could go wrong.
 #include "certify/arithmetic/interval.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Multiprecision intervals: precision, its mixing, and Boost's silent answers that would not be faults by themselves.
 #include "certify/arithmetic/mp_interval.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Statics of single poses against two oracles: 600 poses printed to 50 digits, and J about the origin in 200 bits.
 #include <gtest/gtest.h>
 

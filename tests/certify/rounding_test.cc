@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The floating-point environment: set, kept, restored; and the measured reasons why it is handled as it is.
 #include "certify/arithmetic/rounding.h"
 

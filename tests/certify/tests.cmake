@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 taut_add_test(certify big_float LABELS unit LIBS taut::certify)
 taut_add_test(certify segment_proof LABELS unit LIBS taut::case taut::certify)
 taut_add_test(certify path_proof LABELS unit LIBS taut::case taut::certify)

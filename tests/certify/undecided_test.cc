@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of reasons, and that whatever says one has its code.
 #include "certify/undecided.h"
 

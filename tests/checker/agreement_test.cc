@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prover and checker, each held against the other: what one proves the other confirms.
 #include <gtest/gtest.h>
 

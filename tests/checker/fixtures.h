@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the checker's tests share: the cases of tests/certificates, and how to seal an altered one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every field of a certificate matters: alter one, and the checker must notice, or what is said must still be true.
 #include <gtest/gtest.h>
 

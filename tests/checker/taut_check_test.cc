@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The executable's surface: exit codes and what it prints.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Certificates of each kind, and what becomes of them after one edit: a base, a JSON patch, and the expected message.
 #include <gtest/gtest.h>
 #include <openssl/evp.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`taut audit` through the command line: what is read, what is proved, what is listed, and with which exit code.
 
 Usage: audit_test.py TAUT TAUT_CHECK SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`taut audit` of tolerances that are far too large for a machine that is held by lengths: some of it takes its time.
 
 Usage: audit_tolerances_test.py TAUT TAUT_CHECK SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`taut-check` says what it compared a certificate with: case, path file, verdict, key; and refuses empty arguments.
 
 Usage: compare_test.py TAUT TAUT_CHECK SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """End to end through the command line: what a user types, what appears, and with which exit code.
 
 Usage: end_to_end_test.py TAUT TAUT_CHECK SOURCE_DIR

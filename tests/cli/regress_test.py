@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`taut regress` through the command line: what runs, what counts as a difference, what is written, and with which exit code.
 
 Usage: regress_test.py TAUT TAUT_CHECK SOURCE_DIR

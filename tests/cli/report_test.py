@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """taut report: pages, PDF and summaries of certificates, re-checked.
 
     report_test.py TAUT TAUT_CHECK SOURCE_DIRECTORY

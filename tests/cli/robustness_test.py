@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the outside world does to taut: kill -9, full and read-only disks, no terminal, no memory, two at once.
 
 Whatever it is, a result that is there is whole, and what was there before is replaced by a whole one or not at all.

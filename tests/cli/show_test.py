@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """taut show and taut explain, and that each code that is printed is explained.
 
 Usage: show_test.py TAUT TAUT_CHECK SOURCE_DIR

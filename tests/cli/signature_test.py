@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Signed certificates through the command line, with keys that the openssl command makes.
 
 Usage: signature_test.py TAUT TAUT_CHECK SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The documents keep their word: every command in them runs and ends as they say, and every link leads somewhere.
 
 Commands are the lines of ```sh blocks. One that ends otherwise than with 0 says so: "# exits with 1".

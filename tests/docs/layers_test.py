@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """No include and no link runs up: every room uses only the rooms that docs/architecture.md allows it.
 
 Usage: layers_test.py SOURCE_DIR

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An atlas file is refused, or the query is planned and proved all the same: a file only says where to look. Its header is sealed
 // again, so that what the tables hold is looked at.
 #include <unistd.h>

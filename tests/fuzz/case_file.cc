@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A case file is refused with an InputError, or it is a problem that can be written down and modelled.
 #include "case/case_file.h"
 

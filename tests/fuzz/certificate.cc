@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The checker says something of every certificate, also of those whose counts and digests are right. Nothing is accepted that was not
 // among the seeds by another name: what the claims say is mutation_test.cc's to look at.
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A path file is refused with an InputError, or its rows are finite numbers, with times that rise.
 #include "path_io/path_file.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotations, cable vectors and the force-density matrix.
 #include "kinematics/geometry.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Jets against difference quotients in 300 bits.
 #include "kinematics/jet.h"
 

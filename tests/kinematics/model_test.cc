@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The problem in numbers: enclosed decimals, the load frame, and the axes of K.
 #include "kinematics/model.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The navigation manifold: x(q) satisfies F, dx/dq lies in the kernel of dF.
 #include "kinematics/navigation_manifold.h"
 

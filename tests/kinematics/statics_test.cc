@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tensions at one pose: by hand, by Eigen, and by what they must balance.
 #include "kinematics/statics.h"
 

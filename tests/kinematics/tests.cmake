@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 find_library(RAPIDCHECK_LIBRARY rapidcheck REQUIRED)
 taut_add_test(kinematics decimal LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics expression LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plans and proofs for robots that share nothing with the paper's: no paired anchors, no plane, no axis that is down.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 find_package(Threads REQUIRED)
 taut_add_test(library time_budget LABELS unit LIBS Threads::Threads)
 taut_add_test(library files LABELS unit LIBS taut::base Threads::Threads)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An oracle for statics by another route than the product's: straight from the paper's frame F1.
 //
 // J about the origin O with columns (u_i ; a_i × u_i); w0 and K carried from the load point to O by the wrench transform

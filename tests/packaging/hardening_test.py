@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The programs are hardened as a distribution's packages are, whatever the compiler's own defaults.
 
 Usage: hardening_test.py BUILD_DIR PROGRAM…

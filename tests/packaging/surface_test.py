@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Manual pages and completions name just the options that the programs have; packages say whose works are in them.
 
 Usage: surface_test.py TAUT TAUT_CHECK SOURCE_DIR

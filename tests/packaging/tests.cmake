@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 taut_add_script_test(packaging surface LABELS unit TIMEOUT 60
   ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 if(NOT TAUT_SANITIZE)  # what is installed then can't be used without

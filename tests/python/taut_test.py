@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The Python module. Usage: taut_test.py TAUT SOURCE_DIR, with the module in PYTHONPATH."""
 import copy
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 if(TAUT_PYTHON)
   taut_add_script_test(python taut LABELS unit ARGUMENTS $<TARGET_FILE:taut> ${PROJECT_SOURCE_DIR})
   taut_add_script_test(python tutorial LABELS unit ARGUMENTS ${PROJECT_SOURCE_DIR})

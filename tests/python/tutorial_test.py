@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The tutorial runs and draws. Usage: tutorial_test.py SOURCE_DIR, with the module in PYTHONPATH."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // browser_test.mjs TAUT WRITE_SAMPLES CASES [SCREENSHOTS]: reports of planned, audited and made-up certificates, in Debian's
 // Chromium. Needs npm's packages (scripts/install-web) and chromium; fails without them. Prints sizes and times; asserts none.
 import assert from "node:assert/strict";

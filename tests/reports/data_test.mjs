@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the page's script does with its data. Run by node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Certificates for the tests of a report's words: Robot 1 on its slice. Right in form, and the first steps of a real
 // path; digests, boxes and margins are made up. No theorem can be made of them: what a report does with a theorem, and
 // what it does without one, is theorem_test.cc's and tests/cli/report_test.py's to look at.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours of the style sheet in which text is set, against WCAG 2: a contrast of at least 4.5 to 1, in each theme and on paper.
 #include "reports/page/style.h"
 

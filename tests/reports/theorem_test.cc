@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a certificate's bytes to a report: what is shown with a theorem, and without one.
 #include "checker/theorem.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Words of the page's script: what is proved never looks better than it is. Run by node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";

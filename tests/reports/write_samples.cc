@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // write_samples DIR: the reports of the sample certificates, for browser_test.sh.
 #include <filesystem>
 #include <fstream>

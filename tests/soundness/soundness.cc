@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The soundness campaign: random robots, segments of every law and tolerances, half of them with a hidden violation, against a
 // 200-bit oracle (machine.h, trial.h).
 //
@@ -176,8 +177,8 @@ struct Tally {
   Count wrong{0}, looked_at{0}, violated_elsewhere{0};
   Count crossing{0}, crossing_refuted{0};  ///< segments along which det J changes its sign
   Count surveyed{0};
-  Count kernel_asked{0};                           ///< boxes with a violation inside that the checker's kernel was given
-  Count kernel_proofs{0}, kernel_confirmed{0};     ///< proofs that it was given, and those for which it found boxes
+  Count kernel_asked{0};                        ///< boxes with a violation inside that the checker's kernel was given
+  Count kernel_proofs{0}, kernel_confirmed{0};  ///< proofs that it was given, and those for which it found boxes
 };
 
 // ---- A trial ---------------------------------------------------------------------------------------------------------

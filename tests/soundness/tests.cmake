@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 find_package(CLI11 REQUIRED)
 add_executable(soundness soundness/soundness.cc soundness/trial.cc)
 target_link_libraries(soundness PRIVATE taut_common taut_case taut_certificate taut_certify CLI11::CLI11 fmt::fmt TBB::tbb)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random trials: a robot, a segment of some law, and tolerances.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The enclosing scalars that laws are typed over: how each is run, made and read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the tests hold enclosures against: a 300-bit MPFR number that models the scalar concept, and operands chosen to hurt.
 //
 // An enclosure's ends have at most 300 bits and rounding is monotone, so an exact value inside an enclosure stays inside

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every operation of the interval arithmetics with what it must enclose: its exact range over a box of operands.
 //
 // The ranges come from MPFR alone, at kOracleBits, rounded down at the lower and up at the upper end: an enclosure whose ends

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small linear systems at the working precision, for oracles.
 #pragma once
 

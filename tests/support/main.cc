@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // gtest's main, with --file=NAME_test.cc: runs the tests that this file defines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The two reconstructed robots of the paper, as the cases under cases/ define them.
 #pragma once
 

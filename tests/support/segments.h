@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spaces of poses with their exact pose functions, and random segments through them.
 #pragma once
 

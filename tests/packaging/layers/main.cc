@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // layers CASE.yaml: a query's waypoints judged by the prover itself, and a plan by the library.
 #include <taut/taut.h>
 
