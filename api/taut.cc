@@ -27,7 +27,7 @@
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
 #include "checker/check.h"
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/signature.h"
 #include "kinematics/pose_conversion.h"
 #include "path_io/path_csv.h"

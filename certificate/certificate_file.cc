@@ -7,7 +7,7 @@
 #include "base/input_error.h"
 #include "base/input_kind.h"
 #include "base/placed_json.h"
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/reader.h"
 
 namespace taut {

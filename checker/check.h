@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/theorem.h"
 
 namespace taut::checker {

@@ -22,7 +22,7 @@
 #include "case/case_file.h"
 #include "checker/arguments.h"
 #include "checker/check.h"
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/signature.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"

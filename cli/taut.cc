@@ -59,14 +59,19 @@ std::string plan_sentence(const Plan& plan, const checker::CheckResult& checked)
   if (checked.outcome == checker::Outcome::kUnchecked) {
     return fmt::format("UNCHECKED: {}. Nothing is claimed of the path.", checked.message);
   }
+  if (checked.outcome == checker::Outcome::kUndecided && proof.verdict != Verdict::kUndecided) {
+    return fmt::format("undecided: {}.", with_code(Reason(Undecided::kKernel).text()));
+  }
   switch (proof.verdict) {
-    case Verdict::kProved:
+    case Verdict::kProved: {
+      const checker::Theorem& theorem = checked.theorem.value();
+      const auto margin = [&](const char* key) { return theorem.margins().at(key).get<std::string>(); };
       return fmt::format(
           "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} {}segments in "
-          "{} "
-          "boxes.\nProved margins: tension {} N, length {} m, wrench_scale {}.",
-          proof.segments.size(), plan.path.interpolation == Interpolation::kCubicBSpline ? "spline " : "", proof.boxes,
-          proof.margins.tension_N, proof.margins.length_m, proof.margins.wrench_scale);
+          "{} boxes.\nProved margins: tension {} N, length {} m, wrench_scale {}.",
+          theorem.counts().segments, plan.path.interpolation == Interpolation::kCubicBSpline ? "spline " : "",
+          theorem.counts().boxes, margin("tension_N"), margin("length_m"), margin("wrench_scale"));
+    }
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;
       const std::string where = plan.refuted_waypoint
@@ -138,8 +143,8 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.json) {
     const nlohmann::json summary = {
         {"verdict", verdict_name(checked)},
-        {"segments", result.proof.segments.size()},
-        {"boxes", result.proof.boxes},
+        {"segments", checked.counts.segments},
+        {"boxes", checked.counts.boxes},
         {"charts", s.charts},
         {"charts_stored", s.charts_stored},
         {"nodes_expanded", s.nodes_expanded},

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 

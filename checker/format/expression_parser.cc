@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/exact.h"
 
 namespace taut::checker {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/parts.h"
 
 namespace taut::checker {

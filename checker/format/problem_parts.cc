@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/expression_parser.h"
 #include "checker/format/parts.h"
 #include "checker/kernel/form.h"

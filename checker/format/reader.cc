@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/claims.h"
 #include "checker/format/parts.h"
 #include "checker/format/signature.h"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/sha256.h"
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

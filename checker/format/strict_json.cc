@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/sha256.h"
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

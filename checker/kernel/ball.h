@@ -15,7 +15,7 @@
 
 #include <utility>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "tests/checker/fixtures.h"
 
 namespace taut::checker {

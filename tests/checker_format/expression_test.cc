@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/expression_parser.h"
 #include "checker/kernel/form.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "base/sha256.h"
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "checker/format/claims.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
