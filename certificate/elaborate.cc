@@ -252,7 +252,7 @@ class Elaborator::Search {
 
   template <class Try>
   bool cover(const mpq_class& begin, const mpq_class& end, const Try& succeeds) {
-    constexpr int kMostParts = 64;
+    constexpr int kMostWayParts = 64;
     constexpr int kPatience = 4;
     const bool has_tolerances = elaborator_.has_tolerances();
     std::vector<Task> open;
@@ -285,7 +285,7 @@ class Elaborator::Search {
       if (task.halvings >= kPatience) {
         const Task before = task;
         task.halvings = 0;
-        if (has_tolerances && task.parts < kMostParts) task.parts *= 4;
+        if (has_tolerances && task.parts < kMostWayParts) task.parts *= 4;
         if (task.rung + 1 < kBits.size()) ++task.rung;
         if (succeeds(box(task.begin, task.end))) continue;
         if (!has_tolerances) task = before;
@@ -294,7 +294,7 @@ class Elaborator::Search {
         ++task.halvings;
         open.push_back({middle, task.end, task.rung, task.parts, task.halvings});
         open.push_back({task.begin, middle, task.rung, task.parts, task.halvings});
-      } else if (has_tolerances && task.parts < kMostParts) {
+      } else if (has_tolerances && task.parts < kMostWayParts) {
         task.parts *= 4;
         open.push_back(task);
       } else if (task.rung + 1 < kBits.size()) {
@@ -453,7 +453,7 @@ class Way {
 
   /// Fills in poses and boxes.
   bool follow() {
-    constexpr int kMostHalvings = 8;
+    constexpr int kMostStepHalvings = 8;
     RigidPose here = rigid_pose(stated_.pose);
     by_.poses = {inner_pose(0, here)};
     by_.boxes.clear();
@@ -466,7 +466,7 @@ class Way {
       if (there && show(tau, next, *there)) {
         tau = next;
         here = *there;
-      } else if (++halvings > kMostHalvings) {
+      } else if (++halvings > kMostStepHalvings) {
         return false;
       }
     }
