@@ -1,0 +1,92 @@
+// What the kernel's tests share: the robots as the kernel reads them, and numbers of 200 bits to hold its balls against,
+// which come from MPFR by other equations than the kernel's (tests/soundness/machine.h).
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "checker/errors.h"
+#include "checker/format/expression_parser.h"
+#include "checker/format/parts.h"
+#include "checker/kernel/motion.h"
+#include "tests/soundness/machine.h"
+#include "tests/support/checker_enclosing.h"
+#include "tests/support/robots.h"
+
+namespace taut::checker {
+
+/// Bits of the BigFloats that the kernel is held against.
+inline constexpr mpfr_prec_t kOracleBits = 200;
+
+inline Problem to_kernel(const taut::Problem& problem) {
+  const Json json = to_json(problem);
+  return read_problem(Cursor(json, "problem"));
+}
+
+/// Whether the ball may hold the value, which is known to about 1e-40 of what it is made of.
+inline bool holds(const Ball& ball, const BigFloat& value, double error = 1e-40) {
+  if (mpfr_number_p(value.get()) == 0) return false;
+  const WorkingPrecision precision(4096);
+  return arb_overlaps(ball.get(), plus_minus(exactly(value), Ball(error)).get()) != 0;
+}
+/// Whether the form may have the value at u.
+inline bool holds(const Form& form, double u, const BigFloat& value, double error = 1e-40) {
+  const WorkingPrecision precision(4096);
+  return holds(form.at + form.slope * Ball(u), value, error);
+}
+
+inline double width(const Ball& x) { return 2 * mag_get_d(arb_radref(x.get())); }
+inline double approx(const Ball& x) { return arf_get_d(arb_midref(x.get()), ARF_RND_NEAR); }
+
+inline std::string print(const Ball& x) {
+  return testing::digits(lower_end(x)) + " to " + testing::digits(upper_end(x));
+}
+
+inline double uniform(std::mt19937_64& random, double lower, double upper) {
+  return std::uniform_real_distribution<double>(lower, upper)(random);
+}
+
+/// A box of so many 2^-depth; both ends exact.
+inline Box dyadic_box(int begin, int end, int depth, int bits = 128) {
+  Box box;
+  box.begin = mpq_class(begin, 1 << depth);
+  box.end = mpq_class(end, 1 << depth);
+  box.begin.canonicalize();
+  box.end.canonicalize();
+  box.bits = bits;
+  return box;
+}
+
+/// The place of u in the box.
+inline BigFloat place(const Box& box, double u) {
+  const auto big = [](const mpq_class& x) {
+    BigFloat result;
+    mpfr_set_q(result.get(), x.get_mpq_t(), MPFR_RNDN);
+    return result;
+  };
+  return big((box.begin + box.end) / 2) + big((box.end - box.begin) / 2) * BigFloat(u);
+}
+
+/// u = -1, 1, 0 and then at random.
+inline std::vector<double> samples(std::mt19937_64& random, int count) {
+  std::vector<double> result = {-1, 1, 0};
+  while (static_cast<int>(result.size()) < count) result.push_back(uniform(random, -1, 1));
+  return result;
+}
+
+inline void expect_pose(const Frame& frame, double u, const campaign::RigidPose<BigFloat>& pose) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(holds(frame.p[i], u, pose.p[i])) << "p" << i << " at u = " << u;
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_TRUE(holds(frame.R[i][j], u, pose.r[i][j])) << "R" << i << j << " at " << u;
+  }
+}
+
+inline Waypoint waypoint(std::vector<double> x) {
+  std::vector<int> none(x.size(), 0);
+  return {std::move(x), std::move(none), {}};
+}
+
+}  // namespace taut::checker
