@@ -84,6 +84,21 @@ inline void expect_pose(const Frame& frame, double u, const campaign::RigidPose<
   }
 }
 
+/// z of motion.h: where a pose is in the tube around a reference.
+inline std::vector<double> in_tube(const campaign::RigidPose<double>& pose,
+                                   const campaign::RigidPose<double>& reference, const PoseTube& tube) {
+  campaign::Rows<double> transposed;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) transposed[i][j] = reference.r[j][i];
+  }
+  const auto Q = multiply(pose.r, transposed);
+  const double scale = tube.turn * (1 + Q[0][0] + Q[1][1] + Q[2][2]);
+  std::vector<double> z;
+  for (std::size_t c = 0; c < 3; ++c) z.push_back((pose.p[c] - reference.p[c]) / tube.position);
+  z.insert(z.end(), {(Q[2][1] - Q[1][2]) / scale, (Q[0][2] - Q[2][0]) / scale, (Q[1][0] - Q[0][1]) / scale});
+  return z;
+}
+
 inline Waypoint waypoint(std::vector<double> x) {
   std::vector<int> none(x.size(), 0);
   return {std::move(x), std::move(none), {}};

@@ -15,11 +15,14 @@ namespace {
 const Form kU(Ball(), Ball(1));
 Form constant(double x) { return Form(Ball(x)); }
 
-/// Some equations in the first unknowns, on forms and on jets.
+using Row = std::vector<Ball>;
+using Rows = std::vector<Row>;
+
+/// Some equations in the first unknowns.
 class Given : public Equations {
  public:
   using OnForms = std::function<std::vector<Form>(const Vector6<Form>& y)>;
-  using OnBalls = std::function<std::vector<std::vector<Ball>>(const Vector6<Ball>& Y)>;
+  using OnBalls = std::function<Rows(const Vector6<Ball>& Y)>;
   Given(std::size_t unknowns, OnForms residual, OnBalls jacobian)
       : unknowns_(unknowns), residual_(std::move(residual)), jacobian_(std::move(jacobian)) {}
   [[nodiscard]] std::size_t unknowns() const override { return unknowns_; }
@@ -31,7 +34,7 @@ class Given : public Equations {
   }
   [[nodiscard]] Matrix6<Ball> jacobian(const Vector6<Ball>& Y) const override {
     Matrix6<Ball> result;
-    const std::vector<std::vector<Ball>> G = jacobian_(Y);
+    const Rows G = jacobian_(Y);
     for (std::size_t i = 0; i < unknowns_; ++i) {
       for (std::size_t j = 0; j < unknowns_; ++j) result[i][j] = G[i][j];
     }
@@ -47,13 +50,13 @@ class Given : public Equations {
 /// y^2 = c + rate u.
 Given square(double c, double rate = 0) {
   return {1, [=](const auto& y) { return std::vector{sqr(y[0]) - constant(c) - Ball(rate) * kU}; },
-          [](const auto& Y) { return std::vector{std::vector{Ball(2) * Y[0]}}; }};
+          [](const auto& Y) { return Rows{Row{Ball(2) * Y[0]}}; }};
 }
 
 /// slope y = rate u, the slope somewhere in the ball.
 Given line(const Ball& slope, const Ball& rate) {
   return {1, [=](const auto& y) { return std::vector{slope * y[0] - rate * kU}; },
-          [=](const auto&) { return std::vector{std::vector{slope}}; }};
+          [=](const auto&) { return Rows{Row{slope}}; }};
 }
 
 /// A circle about (a, 0) and one about (-a, 0), of radii r and q + rate u, meet at two points, one above.
@@ -66,8 +69,8 @@ Given circles(double a, double r, double q, double rate, double from_y) {
           },
           [=](const auto& Y) {
             const Ball up = Y[1] + Ball(from_y);
-            return std::vector{std::vector{Ball(2) * (Y[0] - Ball(a)), Ball(2) * up},
-                               std::vector{Ball(2) * (Y[0] + Ball(a)), Ball(2) * up}};
+            return Rows{Row{Ball(2) * (Y[0] - Ball(a)), Ball(2) * up},
+                               Row{Ball(2) * (Y[0] + Ball(a)), Ball(2) * up}};
           }};
 }
 
@@ -85,7 +88,7 @@ TEST(Zero, IsTheOneOfARootForEveryU) {
                           [](const auto& y) {
                             return std::vector{sqr(y[0] + constant(0.5)) - constant(0.25) - Ball(1.0 / 16) * kU};
                           },
-                          [](const auto& Y) { return std::vector{std::vector{Ball(2) * Y[0] + Ball(1)}}; }};
+                          [](const auto& Y) { return Rows{Row{Ball(2) * Y[0] + Ball(1)}}; }};
     const Vector6<Form> y = only_zero(equations, Ball(0.25), {{0.0}, {1.0 / 16}, 0.008, narrowings});
     for (int k = -50; k <= 50; ++k) {
       const double u = k / 50.0;
@@ -147,7 +150,7 @@ TEST(Zero, NarrowingsOnlyNarrow) {
                           [](const auto& y) {
                             return std::vector{sqr(y[0] + constant(0.25)) - constant(1.0 / 16) - Ball(1.0 / 256) * kU};
                           },
-                          [](const auto& Y) { return std::vector{std::vector{Ball(2) * Y[0] + Ball(0.5)}}; }};
+                          [](const auto& Y) { return Rows{Row{Ball(2) * Y[0] + Ball(0.5)}}; }};
     return only_zero(equations, Ball(0.1875), {{0}, {1.0 / 128}, 0.01, narrowings})[0];
   };
   double before = width(shifted(0).range());
@@ -168,7 +171,7 @@ TEST(Zero, RefusesTwoCloseZerosInOneTube) {
   for (int k = 1; k < 40; ++k) {
     const double apart = std::ldexp(1, -k);  // y (y - apart)
     const Given equations{1, [=](const auto& y) { return std::vector{y[0] * (y[0] - constant(apart))}; },
-                          [=](const auto& Y) { return std::vector{std::vector{Ball(2) * Y[0] - Ball(apart)}}; }};
+                          [=](const auto& Y) { return Rows{Row{Ball(2) * Y[0] - Ball(apart)}}; }};
     EXPECT_THROW((void)only_zero(equations, Ball(apart), {{0}, {0}, apart / 64}), Undefined) << k;
     EXPECT_THROW((void)only_zero(equations, Ball(1), {{0}, {0}, apart / 64}), Undefined) << k;
     EXPECT_THROW((void)only_zero(equations, Ball(0.5 * apart), {{0}, {0}, apart / 64}), Undefined) << k;
@@ -186,7 +189,7 @@ TEST(Zero, RefusesATubeThatIsTooWide) {
 
 TEST(Zero, RefusesAZeroOutsideOfTheTube) {
   const Given far{1, [](const auto& y) { return std::vector{y[0] - constant(2)}; },
-                  [](const auto&) { return std::vector{std::vector{Ball(1)}}; }};
+                  [](const auto&) { return Rows{Row{Ball(1)}}; }};
   EXPECT_THROW((void)only_zero(far, Ball(1), {{0}, {0}, 0.5}), Undefined);
   EXPECT_THROW((void)only_zero(far, Ball(1), {{2}, {0}, 0.5}), Undefined);
   EXPECT_THROW((void)only_zero(far, Ball(1), {{1}, {0}, 1}), Undefined);
