@@ -21,7 +21,8 @@ namespace taut::checker {
 /// Bits of the BigFloats that the kernel is held against.
 inline constexpr mpfr_prec_t kOracleBits = 200;
 
-inline Problem to_kernel(const taut::Problem& problem) {
+inline Problem to_kernel(taut::Problem problem) {
+  problem.query.clear();  // of other parameters, where the space was replaced
   const Json json = to_json(problem);
   return read_problem(Cursor(json, "problem"));
 }
