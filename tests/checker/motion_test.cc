@@ -21,6 +21,13 @@ std::vector<double> random_pose(std::mt19937_64& random) {
   for (int k = 0; k < 4; ++k) x.push_back(uniform(random, -1, 1));
   return x;
 }
+/// Where cables are far from each other's planes, so that lengths tell the pose.
+std::vector<double> upright_pose(std::mt19937_64& random) {
+  std::vector<double> x = random_pose(random);
+  for (std::size_t i = 3; i < 6; ++i) x[i] *= 0.3;
+  x[6] = 1;
+  return x;
+}
 std::vector<double> near_to(std::vector<double> x, double step, std::mt19937_64& random) {
   for (double& c : x) c += step * uniform(random, -1, 1);
   return x;
@@ -36,9 +43,19 @@ Box random_box(std::mt19937_64& random) {
   return dyadic_box(begin, begin + 1, depth, random() % 2 == 0 ? 64 : 128);
 }
 
+/// The geometry over a box; nothing where cables may have no length, as they may over large boxes.
+std::optional<Geometry> geometry(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+  try {
+    return commanded_geometry(Machine(problem), problem, path, k, box);
+  } catch (const Undefined&) {
+    return std::nullopt;
+  }
+}
+
 TEST(Motion, StraightAndSplineSegmentsAreWhereTheirLawsSay) {
   const PrecisionScope oracle(kOracleBits);
   std::mt19937_64 random(1);
+  int shown_boxes = 0;
   for (int trial = 0; trial < 200 && !HasFailure(); ++trial) {
     const Problem problem = to_kernel(robot(trial));
     Path path;
@@ -52,8 +69,9 @@ TEST(Motion, StraightAndSplineSegmentsAreWhereTheirLawsSay) {
     const std::size_t k = random() % path.segments();
     const Box box = random_box(random);
     const WorkingPrecision precision(box.bits);
-    const Machine machine(problem);
-    const Geometry whole = commanded_geometry(machine, problem, path, k, box);
+    const auto whole = geometry(problem, path, k, box);
+    if (!whole) continue;
+    ++shown_boxes;
     for (const double u : samples(random, 10)) {
       const BigFloat s = place(box, u), one(1.0), six(6.0);
       std::vector<BigFloat> weights = {one - s, s};
@@ -69,14 +87,16 @@ TEST(Motion, StraightAndSplineSegmentsAreWhereTheirLawsSay) {
           x[j] += weights[i] * (BigFloat(w.x[j]) + oracle::pi() * BigFloat(w.half_turns[j]));
         }
       }
-      expect_pose(whole.pose, u, pose_of(x));
+      expect_pose(whole->pose, u, pose_of(x));
     }
   }
+  EXPECT_GT(shown_boxes, 100);
 }
 
 TEST(Motion, GeodesicsTurnAtAConstantRateTheShorterWay) {
   const PrecisionScope oracle(kOracleBits);
   std::mt19937_64 random(2);
+  int shown_boxes = 0;
   for (int trial = 0; trial < 200 && !HasFailure(); ++trial) {
     const Problem problem = to_kernel(robot(trial));
     Path path;
@@ -89,9 +109,14 @@ TEST(Motion, GeodesicsTurnAtAConstantRateTheShorterWay) {
     path.waypoints = {{first, {}, {}}, {second, {}, {}}};
     const Box box = random_box(random);
     const WorkingPrecision precision(box.bits);
-    const Geometry whole = commanded_geometry(Machine(problem), problem, path, 0, box);
-    for (const double u : samples(random, 10)) expect_pose(whole.pose, u, campaign::slerp(first, second, place(box, u)));
+    const auto whole = geometry(problem, path, 0, box);
+    if (!whole) continue;
+    ++shown_boxes;
+    for (const double u : samples(random, 10)) {
+      expect_pose(whole->pose, u, campaign::slerp(first, second, place(box, u)));
+    }
   }
+  EXPECT_GT(shown_boxes, 100);
 }
 
 TEST(Motion, AGeodesicOfHalfATurnIsRefused) {
@@ -185,14 +210,14 @@ TEST(Motion, LengthsLeadToTheOnlyPoseInTheTube) {
     const auto exact = campaign::make_machine<BigFloat>(stated);
     Path path;
     path.law = Law::kCableLengths;
-    std::vector<double> first = random_pose(random);
+    const std::vector<double> first = upright_pose(random);
     const std::vector<double> second = near_to(first, std::exp(uniform(random, -9, -3.5)), random);
     for (const std::vector<double>& x : {first, second}) {
       Waypoint& w = path.waypoints.emplace_back(Waypoint{x, {}, {}});
       const auto lengths = campaign::lengths(machine, campaign::mixed<double>(x, x, 0.0));
       w.x.insert(w.x.end(), lengths.begin(), lengths.end());
     }
-    path.pose_tubes = {{0.01, 0.03}};
+    path.pose_tubes = {{0.004, 0.015}};
     path.inner_poses = {{}};
     const Box box = random_box(random);
     const auto solve = [&]<class S>(const campaign::Machine<S>& of, const S& s) {

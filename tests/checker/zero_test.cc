@@ -106,7 +106,7 @@ TEST(Zero, IsWhereCirclesAndSpheresMeet) {
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   int shown = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const double a = uniform(0.3, 1), r = uniform(1.2, 2), q = r + uniform(-0.3, 0.3), rate = uniform(-0.05, 0.05);
+    const double a = uniform(0.3, 1), r = uniform(1.2, 2), q = r + uniform(-0.02, 0.02), rate = uniform(-0.005, 0.005);
     const auto exact = [&](double u) {  // x = (q^2 - r^2) / 4a
       const BigFloat second = BigFloat(q) + BigFloat(rate) * BigFloat(u), big_r(r * r), big_a(a);
       const BigFloat x = (second * second - big_r) / (BigFloat(4.0) * big_a);
@@ -122,10 +122,10 @@ TEST(Zero, IsWhereCirclesAndSpheresMeet) {
       near.at.push_back(at(0));
       near.slope.push_back((at(1) - at(-1)) / 2);
     }
-    near.radius = 0.02;
+    near.radius = 0.001;
     near.narrowings = trial % 5;
     try {
-      const Vector6<Form> y = only_zero(equations, Ball(0.7), near);
+      const Vector6<Form> y = only_zero(equations, Ball(0.125), near);
       ++shown;
       for (int k = -8; k <= 8; ++k) {
         const auto& [x, above] = exact(k / 8.0);
