@@ -24,18 +24,20 @@ json streamed(const Problem& problem, const Path& path, const PathProof& proof, 
     const bool has_inner_poses = k < path.inner_poses.size();
     stream.add_pose_tube(path.pose_tubes[k], has_inner_poses ? path.inner_poses[k] : std::vector<InnerPose>());
   }
+  const KernelProof kernel = confirmed(problem, path, proof);
   CertificateStream::Ending ending;
-  ending.verdict = proof.verdict;
+  ending.verdict = kernel.verdict;
   ending.illustration = illustration;
-  for (std::size_t k = 0; k < proof.segments.size(); ++k) {
-    const Margins* margins = proof.verdict == Verdict::kProved ? &proof.segment_margins[k] : nullptr;
-    const std::vector<DyadicBox> boxes = margins != nullptr ? proof.segments[k].boxes : std::vector<DyadicBox>();
-    stream.add_segment(segment_text(k, k + control_points(path.interpolation) - 1, boxes, margins), boxes.size());
+  const bool has_tolerances = problem.tolerances.has_value();
+  for (std::size_t k = 0; k < path.segments(); ++k) {
+    const KernelSegment segment = kernel.verdict == Verdict::kProved ? kernel.segments[k] : KernelSegment();
+    stream.add_segment(segment_text(segment, k, k + control_points(path.interpolation) - 1, has_tolerances),
+                       segment.boxes.size());
   }
-  if (proof.verdict == Verdict::kProved) ending.margins = proof.margins;
-  if (proof.witness) ending.witness = to_json(*proof.witness);
-  if (proof.verdict == Verdict::kUndecided) {
-    ending.undecided = {{"reason", proof.reason.text()}, {"segment", nullptr}, {"box", nullptr}};
+  if (kernel.verdict == Verdict::kProved) ending.margins = kernel.margins;
+  if (kernel.witness) ending.witness = to_json(*proof.witness, *kernel.witness, segment_of(*proof.witness));
+  if (kernel.verdict == Verdict::kUndecided) {
+    ending.undecided = {{"reason", kernel.reason.text()}, {"segment", nullptr}, {"box", nullptr}};
   }
   std::string text;
   stream.finish(ending, [&](std::string_view piece) { text += piece; });

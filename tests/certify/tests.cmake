@@ -13,9 +13,9 @@ taut_add_test(certify tolerance_limits LABELS unit LIBS taut::case taut::certify
 foreach(header rounding interval mp_interval dyadic centered motion box_proof box_ranges oracle)
   taut_add_test(certify ${header} LABELS unit laws LIBS taut::certify taut::case)
 endforeach()
-taut_add_test(certify interval_laws LABELS unit laws LIBS taut::certify taut_checker)
+taut_add_test(certify interval_laws LABELS unit laws LIBS taut::certify)
 if(TAUT_LAWS)
-  foreach(arithmetic Interval Mp BoostDouble Checker)
+  foreach(arithmetic Interval Mp BoostDouble)
     add_test(NAME certify.interval_laws_at_length.${arithmetic}
       COMMAND certify_test --gtest_filter=IntervalLaws/${arithmetic}*.OperationsEncloseTheirRange)
     set_tests_properties(certify.interval_laws_at_length.${arithmetic} PROPERTIES LABELS "slow;nightly" TIMEOUT 3600

@@ -7,13 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "checker/certificate.h"
+#include "base/sha256.h"
 
 namespace taut::checker {
 
@@ -28,7 +27,8 @@ inline std::string read_text(const std::filesystem::path& path) {
 /// Sanitizers take ten times as long: in .ci/run they see a part of what is proved again and again, by night all of it.
 inline bool is_sampled() { return std::getenv("TAUT_SAMPLED") != nullptr; }
 
-/// The cases of tests/certificates with the outcome `folder`, in order; where sampled all that are malformed, and every fourth of the others.
+/// The cases of tests/certificates with the outcome `folder`, in order; where sampled all that are malformed, and every
+/// fourth of the others.
 inline std::vector<std::filesystem::path> certificates(const std::string& folder) {
   std::vector<std::filesystem::path> result;
   for (const auto& entry : std::filesystem::directory_iterator(TAUT_CERTIFICATES "/" + folder)) {
@@ -49,10 +49,10 @@ inline nlohmann::json accepted(const std::string& name) {
 inline void seal(nlohmann::json& certificate) {
   if (!certificate.is_object()) return;
   const auto size_of = [](const nlohmann::json& json) { return json.is_array() ? json.size() : 0; };
-  if (certificate.contains("problem")) certificate["problem_sha256"] = digest(certificate["problem"]);
+  if (certificate.contains("problem")) certificate["problem_sha256"] = taut::sha256(certificate["problem"]);
   std::size_t waypoints = 0;
   if (certificate.contains("path")) {
-    certificate["path_sha256"] = digest(certificate["path"]);
+    certificate["path_sha256"] = taut::sha256(certificate["path"]);
     if (certificate["path"].is_object()) waypoints = size_of(certificate["path"].value("waypoints", nlohmann::json()));
   }
   std::size_t boxes = 0;
@@ -63,29 +63,9 @@ inline void seal(nlohmann::json& certificate) {
     }
   }
   certificate.erase("footer");
-  const std::string sha256 = digest(certificate);
+  const std::string digest = taut::sha256(certificate);
   certificate["footer"] = {
-      {"waypoints", waypoints}, {"segments", size_of(segments)}, {"boxes", boxes}, {"sha256", sha256}};
-}
-
-/// A uniformly random rational k/1024 in [lower, upper].
-inline mpq_class random_rational(std::mt19937& random, int lower, int upper) {
-  return mpq_class(std::uniform_int_distribution<int>(lower * 1024, upper * 1024)(random), 1024);
-}
-
-/// Whether every number of `inner` is in `outer`.
-inline bool contains(const Interval& outer, const Interval& inner) {
-  return mpfr_lessequal_p(outer.lower(), inner.lower()) && mpfr_lessequal_p(inner.upper(), outer.upper());
-}
-
-/// Whether the two may enclose the same number.
-inline bool meet(const Interval& a, const Interval& b) {
-  return mpfr_lessequal_p(a.lower(), b.upper()) && mpfr_lessequal_p(b.lower(), a.upper());
-}
-
-inline double width(const Interval& a) {
-  const WorkingPrecision precision(512);
-  return mpfr_get_d((hull(a, a) - middle(a)).upper(), MPFR_RNDU) * 2;
+      {"waypoints", waypoints}, {"segments", size_of(segments)}, {"boxes", boxes}, {"sha256", digest}};
 }
 
 }  // namespace taut::checker

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Signatures: what the prover signs the checker verifies, and nothing else. Through the command line: tests/cli/signature_test.py.
-#include "checker/signature.h"
+// Signatures: what the prover signs the checker verifies, and nothing else. Through the command line:
+// tests/cli/signature_test.py.
+#include "checker/format/signature.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

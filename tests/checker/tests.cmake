@@ -1,10 +1,16 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-foreach(header form expression exact)
-  taut_add_test(checker ${header} LABELS unit LIBS taut_checker)
+foreach(header zero)
+  taut_add_test(checker ${header} LABELS unit LIBS taut_checker taut::certify)
 endforeach()
-foreach(header interval krawczyk pose_proof)
-  taut_add_test(checker ${header} LABELS unit laws LIBS taut_checker)
+foreach(header form machine motion deviation refutation)
+  taut_add_test(checker ${header} LABELS unit laws LIBS taut_checker taut::certify taut::case)
 endforeach()
+taut_add_test(checker ball LABELS unit laws LIBS taut_checker taut::certify)
+if(TAUT_LAWS)
+  add_test(NAME checker.ball_laws_at_length
+    COMMAND checker_test --gtest_filter=BallLaws/*.OperationsEncloseTheirRange)
+  set_tests_properties(checker.ball_laws_at_length PROPERTIES LABELS "slow;nightly" TIMEOUT 3600
+    ENVIRONMENT TAUT_INTERVAL_CASES=4000)
+endif()
 taut_add_test(checker check LABELS certificates LIBS taut_checker SHARDS 2 COST 30)
 taut_add_test(checker mutation LABELS certificates LIBS taut_checker SHARDS 3 COST 40)
 taut_add_test(checker taut_check LABELS certificates LIBS taut_checker)

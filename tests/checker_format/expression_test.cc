@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "checker/kernel/errors.h"
 #include "checker/format/expression_parser.h"
+#include "checker/kernel/errors.h"
 #include "checker/kernel/form.h"
 
 namespace taut::checker {

@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "base/sha256.h"
-#include "checker/kernel/errors.h"
 #include "checker/format/claims.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
 #include "checker/format/strict_json.h"
 #include "checker/format/writer.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

@@ -14,7 +14,6 @@ namespace taut::testing {
 struct Fast {
   using I = Interval;
   static constexpr mpfr_prec_t kBits = 53;
-  static constexpr bool kHasCut = false;  ///< atan2 is a fault on all of its cut
   static I make(const Operand& x) { return {x.lower, x.upper}; }
   static I from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
   static I pi() { return ScalarTraits<I>::pi(); }
@@ -29,7 +28,6 @@ template <class Scalar, mpfr_prec_t Bits>
 struct Multiprecision {
   using I = Scalar;
   static constexpr mpfr_prec_t kBits = Bits;
-  static constexpr bool kHasCut = false;
   static I make(const Operand& x) { return {x.lower, x.upper}; }
   static I from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
   static I pi() { return ScalarTraits<I>::pi(); }

@@ -6,8 +6,11 @@
 // and 2100 bits tell any of them from any multiple of a quarter turn.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -252,7 +255,7 @@ struct Arctangent : Operation {
 };
 struct Angle : Operation {
   static constexpr const char* kName = "atan2(a, b)";
-  static constexpr double kUlps = kUnboundedUlps;  // near 0 the checker's is a difference of right angles
+  static constexpr double kUlps = kUnboundedUlps;  // near 0 some are differences of right angles
   static constexpr int kOperands = 2;
   static bool defined(const Operand& y, const Operand& x) { return !(oracle_detail::holds_zero(y) && x.lower <= 0); }
   template <class S>
@@ -294,6 +297,62 @@ inline double ulps_beyond(const BigFloat& x, const BigFloat& exact, mpfr_prec_t 
   if (mpfr_regular_p(exact.get()) == 0) return kUnboundedUlps;
   mpfr_mul_2si(distance.get(), distance.get(), bits - mpfr_get_exp(exact.get()), MPFR_RNDU);
   return std::abs(distance.to_double(MPFR_RNDA));
+}
+
+inline bool extreme(const BigFloat& x) {
+  const BigFloat size = abs(x);
+  return size > BigFloat(1e290) || (size < BigFloat(1e-290) && size != BigFloat(0.0));
+}
+inline bool extreme(const Operand& x) { return extreme(BigFloat(x.lower)) || extreme(BigFloat(x.upper)); }
+
+inline bool finite(const BigFloat& x) { return mpfr_number_p(x.get()) != 0; }
+
+inline int random_cases() {
+  constexpr int kQuickCases = 600;
+  const char* const wanted = std::getenv("TAUT_INTERVAL_CASES");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+  return wanted == nullptr ? kQuickCases : std::atoi(wanted);
+}
+
+/// Random operands, folded into the domain where that is [−1, 1]; a few are left as they are.
+template <class Op>
+Operand random_operand(Operands& operands) {
+  const Operand x = operands.interval();
+  if (!Op::kUnit || operands.coin(0.1)) return x;
+  const auto fold = [](double end) { return std::abs(end) > 1 ? 1 / end : end; };
+  const auto [lower, upper] = std::minmax({fold(x.lower), fold(x.upper)});
+  return {lower, upper};
+}
+
+/// Zeros of both signs, subnormals, the largest, edges of domains and their neighbours, what is next to multiples of a quarter
+/// turn, huge angles; as points, next to each other, and as wide as any two of them are apart.
+inline const std::vector<Operand>& directed_operands() {
+  static const std::vector<Operand> all = [] {
+    using Limits = std::numeric_limits<double>;
+    constexpr double kTiny = Limits::denorm_min();
+    constexpr double kMax = Limits::max();
+    std::vector<double> points = {
+        0.0, kTiny, 3 * kTiny, Limits::min(), 0x1.fffffffffffffp-1023, 0x1p-511, 0x1p-27, 0.5, 0x1.fffffffffffffp-1,
+        1.0, 0x1.0000000000001p+0, 2.0, 3.0, 0x1p+26, 0x1p+53, 0x1p+511, 0x1p+512, 1e300, kMax, std::nextafter(kMax, 0),
+        // just below and above pi/4, pi/2, pi, 3/2 pi, 2 pi, 100 pi, the end of the table of sines, a
+        // double that is 2^-60 from a multiple of pi/2, and huge angles
+        0x1.921fb54442d18p-1, 0x1.921fb54442d19p-1, 0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0, 0x1.921fb54442d18p+1,
+        0x1.921fb54442d19p+1, 0x1.2d97c7f3321d2p+2, 0x1.2d97c7f3321d3p+2, 0x1.921fb54442d18p+2, 0x1.921fb54442d19p+2,
+        0x1.3a28c59d5433bp+8, 0x1.3a28c59d5433cp+8, 8.0, 0x1.fffffffffffffp+2, 0x1.6ac5b262ca1ffp+849, 1e6, 1e22,
+        0x1p+1023,
+        // where exp overflows, and where it leaves the normal and the subnormal numbers
+        0x1.62e42fefa39efp+9, 0x1.62e42fefa39f0p+9, 0x1.6232bdd7abcd2p+9, 0x1.74910d52d3051p+9, 0x1.74910d52d3052p+9,
+        746.0};
+    for (std::size_t n = points.size(); n-- > 0;) points.push_back(-points[n]);
+    std::vector<Operand> operands = {{-0.0, 0.0}, {0.0, -0.0}};
+    for (const double x : points) operands.push_back({x, x});
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+      for (std::size_t k = i % 2; k < points.size(); k += 4) {
+        if (points[i] < points[k]) operands.push_back({points[i], points[k]});
+      }
+    }
+    return operands;
+  }();
+  return all;
 }
 
 }  // namespace taut::testing

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What tolerances take from the margins, held against machines that deviate: at random, and as far as they can against
+// one cable's tension.
+#include "checker/kernel/deviation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/checker/kernel.h"
+
+namespace taut::checker {
+namespace {
+
+using campaign::Deviation;
+using campaign::RigidPose;
+using campaign::StaticsAt;
+
+std::string decimal(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9f", x);
+  return text;
+}
+
+/// Tolerances that are about `size` times half a millimetre, some of them none at all.
+TolerancesText tolerances(std::mt19937_64& random, double size, bool length_controlled) {
+  const auto random_decimal = [&](double most) {
+    return random() % 5 == 0 ? std::string("0") : decimal(size * most * uniform(random, 0.2, 1));
+  };
+  TolerancesText result;
+  std::array<DecimalText, 6> lengths;
+  for (std::size_t i = 0; i < 6; ++i) {
+    result.base_anchor_m[i] = random_decimal(5e-4);
+    result.platform_anchor_m[i] = random_decimal(5e-4);
+    result.wrench[i] = (random() % 2 == 0 ? "-" : "") + random_decimal(i < 3 ? 0.02 : 0.001);
+    lengths[i] = random_decimal(5e-4);
+  }
+  result.load_point_m = random_decimal(1e-3);
+  result.position_m = random_decimal(5e-4);
+  result.orientation_rad = random_decimal(3e-3);
+  if (length_controlled) result.cable_length_m = lengths;
+  return result;
+}
+
+/// At the pose of the machine that deviates; nothing where that is not found.
+template <class S>
+std::optional<StaticsAt<S>> deviating(const campaign::Machine<S>& machine, const campaign::Tolerances<S>& within,
+                                      RigidPose<S> pose, const Deviation& by) {
+  const campaign::Machine<S> deviant = campaign::deviate(machine, within, by);
+  if (within.held_by_lengths) {
+    const campaign::Six<S> commanded = campaign::lengths(machine, pose);
+    constexpr int kSteps = 4;  // along the way to the deviation, so that no other assembly is found
+    for (int step = 1; step <= kSteps; ++step) {
+      const S share(static_cast<double>(step) / kSteps);
+      campaign::Machine<S> between = machine;
+      campaign::Six<S> wanted;
+      for (std::size_t i = 0; i < 6; ++i) {
+        between.a[i] = machine.a[i] + share * (deviant.a[i] - machine.a[i]);
+        between.b[i] = machine.b[i] + share * (deviant.b[i] - machine.b[i]);
+        wanted[i] = commanded[i] + share * within.length[i] * S(by.length[i]);
+      }
+      const auto found = campaign::hold(between, pose, wanted, 30);
+      if (!found) return std::nullopt;
+      pose = *found;
+    }
+  }
+  pose.p = pose.p + campaign::scaled(within.position, by.position);
+  pose.r = multiply(campaign::turn(campaign::scaled(within.turn, by.turn)), pose.r);
+  return campaign::statics(deviant, pose);
+}
+
+/// Each block just inside of its unit ball.
+void extend(Deviation& x) {
+  campaign::for_each_block(x, [](std::span<double> block) {
+    double size = 0;
+    for (const double c : block) size += c * c;
+    if (size == 0) return;
+    for (double& c : block) c *= (1 - 1e-12) / std::sqrt(size);
+  });
+}
+
+Deviation random_deviation(std::mt19937_64& random) {
+  Deviation x;
+  campaign::for_each_block(x, [&](std::span<double> block) {
+    for (double& c : block) c = uniform(random, -1, 1);
+  });
+  extend(x);
+  if (random() % 3 == 0) {
+    campaign::for_each_block(x, [&](std::span<double> block) {
+      const double part = uniform(random, 0, 1);
+      for (double& c : block) c *= part;
+    });
+  }
+  return x;
+}
+
+/// As far as possible up the gradient of what `target` says of the machine that deviates.
+template <class Target>
+Deviation steepest(const Target& target) {
+  Deviation x;
+  Deviation gradient;
+  std::vector<double*> into;
+  campaign::for_each_block(gradient, [&](std::span<double> block) {
+    for (double& c : block) into.push_back(&c);
+  });
+  std::vector<double*> from;
+  campaign::for_each_block(x, [&](std::span<double> block) {
+    for (double& c : block) from.push_back(&c);
+  });
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    *from[k] = 0.05;
+    const double up = target(x);
+    *from[k] = -0.05;
+    *into[k] = up - target(x);
+    *from[k] = 0;
+  }
+  extend(gradient);
+  return gradient;
+}
+
+struct Seen {
+  int boxes = 0;
+  int undefined = 0;
+  double largest = 0;  ///< share of a bound that was reached
+};
+
+void expect_bounds(const taut::Problem& problem, bool length_controlled, std::mt19937_64& random, Seen& seen) {
+  const PrecisionScope oracle(kOracleBits);
+  const WorkingPrecision precision(64);
+  const Problem stated = to_kernel(problem);
+  const Machine machine(stated);
+  std::vector<double> from = {uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05), uniform(random, 0.25, 0.38),
+                              uniform(random, -3, 3),       uniform(random, 0.2, 1.2),    uniform(random, -0.6, 0.6)};
+  std::vector<double> to = from;
+  const double step = std::exp(uniform(random, -12, -4));
+  for (double& x : to) x += step * uniform(random, -1, 1);
+  Path path;
+  path.waypoints = {waypoint(from), waypoint(to)};
+  const int parts = 1 << (random() % 4);
+  const int guesses = 1 + static_cast<int>(random() % 5);
+  MarginLoss loss;
+  try {
+    const Geometry geometry = commanded_geometry(machine, stated, path, 0, dyadic_box(0, 1, 0, 64));
+    loss = margin_loss(machine, geometry, Inverse(geometry.D), length_controlled, parts, guesses);
+  } catch (const Undefined&) {
+    ++seen.undefined;
+    return;
+  }
+  ++seen.boxes;
+  const auto big_machine = campaign::make_machine<BigFloat>(problem);
+  const auto big_tolerances = campaign::make_tolerances<BigFloat>(problem);
+  const auto machine_d = campaign::make_machine<double>(problem);
+  const auto tolerances_d = campaign::make_tolerances<double>(problem);
+  const double u = random() % 3 == 0 ? (random() % 2 == 0 ? -1 : 1) : uniform(random, -1, 1);
+  const auto pose = [&]<class S>(S) {
+    std::array<S, 6> x;
+    for (std::size_t j = 0; j < 6; ++j) x[j] = S(from[j]) + (S(to[j]) - S(from[j])) * (S(1.0) + S(u)) / S(2.0);
+    return RigidPose<S>{{x[0], x[1], x[2]}, campaign::orientation(x[3], x[4], x[5])};
+  };
+  const RigidPose<BigFloat> at = pose(BigFloat(0.0));
+  const StaticsAt<BigFloat> before = campaign::statics(big_machine, at);
+
+  std::vector<Deviation> deviations;
+  for (int k = 0; k < 6; ++k) deviations.push_back(random_deviation(random));
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (const double sign : {-1.0, 1.0}) {
+      for (const double side : {-1.0, 1.0}) {
+        deviations.push_back(steepest([&](const Deviation& x) {
+          const auto there = deviating(machine_d, tolerances_d, pose(0.0), x);
+          return there ? sign * (there->tension[i] + side * there->variation[i]) : 0;
+        }));
+      }
+    }
+    deviations.push_back(steepest([&](const Deviation& x) {
+      const auto there = deviating(machine_d, tolerances_d, pose(0.0), x);
+      return there ? there->length[i] : 0;
+    }));
+  }
+  for (const Deviation& deviation : deviations) {
+    const auto after = deviating(big_machine, big_tolerances, at, deviation);
+    ASSERT_TRUE(after) << "the kernel says that this machine has its pose";
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto expect = [&](const Ball& bound, const BigFloat& change, const char* what) {
+        const double limit = upper_end(bound).to_double(MPFR_RNDU);
+        const double size = std::abs(change.to_double());
+        EXPECT_TRUE(abs(change) <= upper_end(bound) + BigFloat(1e-35))
+            << what << " of cable " << i << " changes by " << size << ", not by " << limit << "; parts " << parts
+            << ", guesses " << guesses << ", lengths controlled " << length_controlled << ", step " << step;
+        if (limit > 1e-9) seen.largest = std::max(seen.largest, size / limit);
+      };
+      expect(loss.tension[i][0], (after->tension[i] - after->variation[i]) - (before.tension[i] - before.variation[i]),
+             "least tension");
+      expect(loss.tension[i][1], (after->tension[i] + after->variation[i]) - (before.tension[i] + before.variation[i]),
+             "largest tension");
+      expect(loss.length[i], after->length[i] - before.length[i], "length");
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+void expect_bounds(bool length_controlled) {
+  std::mt19937_64 random(length_controlled ? 11 : 12);
+  Seen seen;
+  const std::array<taut::Problem, 2> robots = {testing::free_flying(testing::robot1_slice()),
+                                               testing::free_flying(testing::robot2_sphere())};
+  for (int trial = 0; trial < 120 && !::testing::Test::HasFailure(); ++trial) {
+    taut::Problem problem = robots[static_cast<std::size_t>(trial % 2)];
+    if (trial % 3 == 0) problem.load.point_m = {"0.02", "-0.03", "0.05"};
+    problem.tolerances = tolerances(random, std::exp(uniform(random, -3, 1.2)), length_controlled);
+    expect_bounds(problem, length_controlled, random, seen);
+  }
+  std::printf("  %d boxes, %d undefined, at most %.3f of a bound\n", seen.boxes, seen.undefined, seen.largest);
+  EXPECT_GT(seen.boxes, 40) << seen.undefined << " were undefined";
+  EXPECT_GT(seen.largest, 0.6) << "no deviation comes close to what is bounded: is there an error in the test?";
+}
+
+TEST(Deviation, TakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_bounds(false); }
+TEST(Deviation, TakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_bounds(true); }
+
+/// At one pose, with these tolerances.
+MarginLoss loss_at(const taut::Problem& problem, const std::vector<double>& at, bool length_controlled, int parts = 8) {
+  const Problem stated = to_kernel(problem);
+  const Machine machine(stated);
+  Path path;
+  path.waypoints = {waypoint(at), waypoint(at)};
+  const Geometry geometry = commanded_geometry(machine, stated, path, 0, dyadic_box(0, 1, 0, 64));
+  return margin_loss(machine, geometry, Inverse(geometry.D), length_controlled, parts, 4);
+}
+const std::vector<double> kPlain = {0.01, 0.02, 0.35, 0.3, 0.5, 0.6};
+
+TEST(Deviation, NoToleranceTakesNothing) {
+  taut::Problem problem = testing::free_flying(testing::robot1_slice());
+  problem.tolerances = TolerancesText{};
+  for (const bool length_controlled : {false, true}) {
+    const MarginLoss loss = loss_at(problem, kPlain, length_controlled);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_LT(upper_end(loss.length[i]).to_double(), 1e-12);
+      for (const Ball& x : loss.tension[i]) EXPECT_LT(upper_end(x).to_double(), 1e-12);
+    }
+  }
+}
+
+TEST(Deviation, MorePartsAreTighter) {
+  taut::Problem problem = testing::free_flying(testing::robot1_slice());
+  std::mt19937_64 random(3);
+  for (const bool length_controlled : {false, true}) {
+    problem.tolerances = tolerances(random, 0.5, length_controlled);
+    double before = std::numeric_limits<double>::infinity();
+    for (const int parts : {1, 2, 4, 8, 16}) {
+      const double now = upper_end(loss_at(problem, kPlain, length_controlled, parts).tension[0][0]).to_double();
+      EXPECT_LT(now, before * 1.01) << parts;
+      before = now;
+    }
+  }
+}
+
+TEST(Deviation, ThatMayReachASingularPoseIsRefused) {
+  taut::Problem problem = testing::free_flying(testing::robot1_slice());
+  problem.tolerances = TolerancesText{};
+  for (const std::string huge : {"0.05", "0.3", "10"}) {
+    problem.tolerances = TolerancesText{};
+    problem.tolerances->position_m = huge;
+    problem.tolerances->orientation_rad = "0.9";
+    EXPECT_THROW((void)loss_at(problem, kPlain, false), Undefined) << huge;
+    problem.tolerances = TolerancesText{};
+    problem.tolerances->cable_length_m = std::array<DecimalText, 6>{huge, huge, huge, huge, huge, huge};
+    EXPECT_THROW((void)loss_at(problem, kPlain, true), Undefined) << huge;
+  }
+  // A platform that is almost in the plane of the base: every deviation of a few millimetres may bring it there.
+  problem.tolerances = TolerancesText{};
+  problem.tolerances->position_m = "0.005";
+  EXPECT_THROW((void)loss_at(problem, {0.01, 0.02, 0.004, 0.3, 0.001, 0.2}, false), Undefined);
+}
+
+}  // namespace
+}  // namespace taut::checker
