@@ -301,7 +301,7 @@ def dyadic(k, m):
 
 
 def certificate(pr, pa, verdict, **more):
-    c = {'format': 'taut-certificate', 'version': 3, 'generator': {'name': 'make_bases.py', 'version': '1'},
+    c = {'format': 'taut-certificate', 'version': 4, 'generator': {'name': 'make_bases.py', 'version': '1'},
          'verdict': verdict, 'problem': pr, 'path': pa, 'segments': [],
          'witness': None, 'stretches': None, 'source': None, 'undecided': None, 'illustration': None}
     c.update(more)
