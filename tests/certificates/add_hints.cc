@@ -33,7 +33,7 @@ class Hints {
       const checker::Segment segment = certificate_.segment(k);
       json boxes = json::array();
       for (const Box& box : segment.boxes) {
-        const auto proves = [&](Box& part) { return prove(k, segment.margins, part); };
+        const auto proves = [&](Box& part, std::size_t rung) { return prove(k, segment.margins, part, rung); };
         for (const Box& part : cover(k, box, proves)) boxes.push_back(to_json(part, has_tolerances()));
       }
       result_["segments"][k]["boxes"] = std::move(boxes);
@@ -69,60 +69,45 @@ class Hints {
     return near.has_value();
   }
 
-  /// Looks for hints with which the kernel proves the box, with these margins. Leaves the first that make sense if none do.
-  bool prove(std::size_t k, const checker::Margins& margins, Box& box) {
-    constexpr std::array<int, 4> kGuesses = {1, 2, 4, 12};
-    constexpr std::array<int, 4> kParts = {1, 4, 16, 64};
-    const Box before = box;
-    for (std::size_t rung = 0; rung < kBits.size(); ++rung) {
-      Box tried = before;
-      tried.bits = kBits[rung];
-      if (has_tolerances()) tried.parts = kParts[std::min(rung, kParts.size() - 1)];
-      for (const int guesses : kGuesses) {
-        tried.guesses = guesses;
-        const bool holds = is_true([&] {
-          const checker::WorkingPrecision precision(tried.bits);
-          const checker::Machine& machine = this->machine(tried.bits);
-          if (!place(k, tried)) return false;
-          if (rung == 0) box = tried;
-          const checker::Bounds bounds = prove_box(machine, problem(), path(), k, tried);
-          require_near_waypoints(machine, problem(), path(), k, tried);
-          const auto is_kept = [](const checker::Ball& bound, const mpq_class& claimed) {
-            return certainly_nonnegative(bound - checker::Ball(claimed));
-          };
-          return is_kept(bounds.tension, margins.tension) && is_kept(bounds.length, margins.length) &&
-                 is_kept(bounds.wrench_scale, margins.wrench_scale);
-        });
-        if (holds) {
-          box = tried;
-          return true;
-        }
-        if (!has_tolerances()) break;
-      }
-      if (gave_up_ && rung == 1) break;
-    }
-    return false;
+  /// Looks for hints of this rung with which the kernel proves the box, with these margins. Leaves what it tried.
+  bool prove(std::size_t k, const checker::Margins& margins, Box& box, std::size_t rung) {
+    constexpr std::array<int, kBits.size()> kParts = {1, 4, 16, 16, 16};
+    constexpr std::array<int, 3> kGuesses = {1, 3, 12};
+    box.bits = kBits[rung];
+    if (!has_tolerances()) return is_proved(k, margins, box);
+    box.parts = kParts[rung];
+    return std::ranges::any_of(kGuesses, [&](int guesses) {
+      box.guesses = guesses;
+      return is_proved(k, margins, box);
+    });
   }
 
-  bool show_motion(std::size_t k, Box& box) {
-    const Box before = box;
-    for (const int bits : kBits) {
-      Box tried = before;
-      tried.bits = bits;
-      const bool holds = is_true([&] {
-        const checker::WorkingPrecision precision(bits);
-        if (!place(k, tried)) return false;
-        if (bits == kBits[0]) box = tried;
-        (void)commanded_geometry(machine(bits), problem(), path(), k, tried);
-        require_near_waypoints(machine(bits), problem(), path(), k, tried);
-        return true;
-      });
-      if (holds) {
-        box = tried;
-        return true;
-      }
-    }
-    return false;
+  bool is_proved(std::size_t k, const checker::Margins& margins, Box& box) {
+    work_ += box.parts * box.guesses;
+    return is_true([&] {
+      const checker::WorkingPrecision precision(box.bits);
+      const checker::Machine& machine = this->machine(box.bits);
+      if (!place(k, box)) return false;
+      const checker::Bounds bounds = prove_box(machine, problem(), path(), k, box);
+      require_near_waypoints(machine, problem(), path(), k, box);
+      const auto is_kept = [](const checker::Ball& bound, const mpq_class& claimed) {
+        return certainly_nonnegative(bound - checker::Ball(claimed));
+      };
+      return is_kept(bounds.tension, margins.tension) && is_kept(bounds.length, margins.length) &&
+             is_kept(bounds.wrench_scale, margins.wrench_scale);
+    });
+  }
+
+  bool show_motion(std::size_t k, Box& box, std::size_t rung) {
+    ++work_;
+    box.bits = kBits[rung];
+    return is_true([&] {
+      const checker::WorkingPrecision precision(box.bits);
+      if (!place(k, box)) return false;
+      (void)commanded_geometry(machine(box.bits), problem(), path(), k, box);
+      require_near_waypoints(machine(box.bits), problem(), path(), k, box);
+      return true;
+    });
   }
 
   template <class Statement>
@@ -136,40 +121,59 @@ class Hints {
     }
   }
 
-  /// Parts of the box, halved where `proves` only holds of halves. Where it does not even hold of a midpoint, what is left
-  /// is stated as it is.
+  struct Task {
+    Box box;
+    std::size_t rung = 0;
+    int halvings = 0;
+  };
+
+  /// Parts of the box, halved where `proves(box, rung)` holds of a midpoint but not of all of a box. Where it does not even
+  /// hold of a midpoint, at any rung, what is left is stated as it is.
   template <class Proves>
   std::vector<Box> cover(std::size_t k, const Box& whole, const Proves& proves) {
+    constexpr int kMostWork = 1000;
+    constexpr int kMostHalvings = 16;  ///< on one rung
     std::vector<Box> result;
-    std::vector<Box> open = {whole};
+    std::vector<Task> open = {{whole}};
     if (k < path().inner_poses.size()) {
       for (const checker::InnerPose& inner : path().inner_poses[k]) {
-        if (inner.s <= open.back().begin || inner.s >= open.back().end) continue;
+        if (inner.s <= open.back().box.begin || inner.s >= open.back().box.end) continue;
         open.push_back(open.back());
-        open[open.size() - 2].end = open.back().begin = inner.s;
+        open[open.size() - 2].box.end = open.back().box.begin = inner.s;
       }
       std::ranges::reverse(open);
     }
-    for (int attempts = 0; !open.empty(); ++attempts) {
-      constexpr int kMostAttempts = 1000;
-      Box box = open.back();
+    work_ = 0;
+    while (!open.empty()) {
+      Task task = open.back();
       open.pop_back();
-      if (proves(box)) {
+      Box box = task.box;
+      if (proves(box, task.rung)) {
         result.push_back(box);
         continue;
       }
-      Box middle = box;
-      middle.begin = middle.end = (box.begin + box.end) / 2;
-      const mpq_class at = middle.begin;
-      if (gave_up_ || attempts >= kMostAttempts || !proves(middle)) {
+      const mpq_class middle = (box.begin + box.end) / 2;
+      Box point = task.box;
+      point.begin = point.end = middle;
+      if (gave_up_ || work_ > kMostWork) {
         gave_up_ = true;
         result.push_back(box);
-        continue;
+      } else if (task.halvings < kMostHalvings && proves(point, task.rung)) {
+        ++task.halvings;
+        open.push_back(task);
+        open.back().box.begin = middle;
+        open.push_back(task);
+        open.back().box.end = middle;
+      } else if (task.rung + 1 < kBits.size()) {
+        ++task.rung;
+        task.halvings = 0;
+        open.push_back(task);
+      } else {
+        gave_up_ = true;
+        box = task.box;
+        (void)proves(box, 0);  // to state it as it would be if it were true
+        result.push_back(box);
       }
-      open.push_back(box);
-      open.back().begin = at;
-      open.push_back(box);
-      open.back().end = at;
     }
     return result;
   }
@@ -200,7 +204,7 @@ class Hints {
       box.end = k == last.segment ? last.s : mpq_class(1);
       if (box.begin == box.end) continue;
       box.near = witness.at_box.near;
-      for (Box& part : cover(k, box, [&](Box& tried) { return show_motion(k, tried); })) {
+      for (Box& part : cover(k, box, [&](Box& tried, std::size_t rung) { return show_motion(k, tried, rung); })) {
         motion.push_back(to_json(checker::MotionBox{k, std::move(part)}));
       }
     }
@@ -265,6 +269,7 @@ class Hints {
   checker::Certificate certificate_;
   json result_;
   std::map<int, std::unique_ptr<checker::Machine>> machines_;
+  int work_ = 0;
   bool gave_up_ = false;  ///< once something is false, it does not matter what else is
 };
 

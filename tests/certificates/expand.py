@@ -194,6 +194,10 @@ def text_of(certificate, edits):
             if text.count(value[0].encode('latin-1')) != 1:
                 raise CaseError('%s: this does not occur exactly once' % value[0])
             text = text.replace(*(part.encode('latin-1') for part in value))
+        elif operation == 'last':
+            value, whole = (json.loads(text), value)
+            value[whole] = value.pop(whole)
+            text = json.dumps(value, indent=1).encode('ascii')
         elif operation == 'repeat':
             text = value[0].encode('latin-1') * value[1]
         else:
