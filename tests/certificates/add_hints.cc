@@ -131,7 +131,7 @@ class Hints {
   /// hold of a midpoint, at any rung, what is left is stated as it is.
   template <class Proves>
   std::vector<Box> cover(std::size_t k, const Box& whole, const Proves& proves) {
-    constexpr int kMostWork = 1000;
+    constexpr int kMostWork = 2000;
     constexpr int kMostHalvings = 16;  ///< on one rung
     std::vector<Box> result;
     std::vector<Task> open = {{whole}};

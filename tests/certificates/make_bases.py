@@ -444,10 +444,15 @@ def tolerant(pr, pa, boxes=8, below=0.98, samples=4, without=None):
         seen = dict(pr, held=pa['interpolation'] == 'straight-in-cable-lengths')
         sampled = [robust(seen, frame(pr, parameters(pr, pa, k, i / samples)), without) for i in range(samples + 1)]
         lowest = [min(m[j] for m in sampled) * below for j in range(3)]
+        lowest[2] = 1 + SCALE_BELOW * (lowest[2] - 1)
         assert lowest[0] > 0 and lowest[1] > 0 and lowest[2] >= 1, (pr['name'], k, lowest)
         segments.append(segment(k, n, lowest, boxes))
     return of_segments(pr, pa, segments)
 
+
+# With tolerances the checker bounds the wrench scale by the least margin over the largest variation of a box: 1 + m / v.
+# That may be far below the truth.
+SCALE_BELOW = 0.7
 
 KINDS = {'base_anchor_m': ['0.0001'] * 6, 'platform_anchor_m': ['0.0001'] * 6, 'load_point_m': '0.0002',
          'wrench': ['0.003', '-0.002', '0.02', '0.0001', '0', '0'], 'position_m': '0.0001',
@@ -647,7 +652,7 @@ def tolerated():
     """Tolerances of each law."""
     near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
     ends = straight(waypoint([-2.3, 1.6]), waypoint([-2.2, 1.55]))
-    yield 'tolerances', tolerant(with_tolerances(near, **KINDS), ends, below=0.93)
+    yield 'tolerances', tolerant(with_tolerances(near, **KINDS), ends, below=0.9)
     held = with_tolerances(near, **LESS, cable_length_m=['0.000005'] * 6)
     yield 'tolerances_held_by_lengths', tolerant(held, ends, below=0.85)
 
