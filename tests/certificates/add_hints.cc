@@ -23,6 +23,7 @@ using checker::Box;
 using nlohmann::json;
 
 constexpr std::array<int, 5> kBits = {64, 128, 256, 512, 1024};
+constexpr std::size_t kRungs = 4;  ///< of parts, where there are tolerances
 
 class Hints {
  public:
@@ -71,15 +72,31 @@ class Hints {
 
   /// Looks for hints of this rung with which the kernel proves the box, with these margins. Leaves what it tried.
   bool prove(std::size_t k, const checker::Margins& margins, Box& box, std::size_t rung) {
-    constexpr std::array<int, kBits.size()> kParts = {1, 4, 16, 16, 16};
+    if (!has_tolerances()) return at_some_precision(k, box, [&] { return is_proved(k, margins, box); });
+    constexpr std::array<int, kRungs> kParts = {1, 4, 16, 64};
     constexpr std::array<int, 3> kGuesses = {1, 3, 12};
-    box.bits = kBits[rung];
-    if (!has_tolerances()) return is_proved(k, margins, box);
     box.parts = kParts[rung];
     return std::ranges::any_of(kGuesses, [&](int guesses) {
       box.guesses = guesses;
       return is_proved(k, margins, box);
     });
+  }
+
+  /// If not, the box is stated at the least precision.
+  template <class Holds>
+  bool at_some_precision(std::size_t k, Box& box, const Holds& holds) {
+    const Box before = box;
+    for (const int bits : kBits) {
+      box = before;
+      box.bits = bits;
+      if (holds()) return true;
+    }
+    box = before;
+    (void)is_true([&] {
+      const checker::WorkingPrecision precision(box.bits);
+      return place(k, box);
+    });
+    return false;
   }
 
   bool is_proved(std::size_t k, const checker::Margins& margins, Box& box) {
@@ -98,15 +115,16 @@ class Hints {
     });
   }
 
-  bool show_motion(std::size_t k, Box& box, std::size_t rung) {
-    ++work_;
-    box.bits = kBits[rung];
-    return is_true([&] {
-      const checker::WorkingPrecision precision(box.bits);
-      if (!place(k, box)) return false;
-      (void)commanded_geometry(machine(box.bits), problem(), path(), k, box);
-      require_near_waypoints(machine(box.bits), problem(), path(), k, box);
-      return true;
+  bool show_motion(std::size_t k, Box& box) {
+    return at_some_precision(k, box, [&] {
+      ++work_;
+      return is_true([&] {
+        const checker::WorkingPrecision precision(box.bits);
+        if (!place(k, box)) return false;
+        (void)commanded_geometry(machine(box.bits), problem(), path(), k, box);
+        require_near_waypoints(machine(box.bits), problem(), path(), k, box);
+        return true;
+      });
     });
   }
 
@@ -131,7 +149,7 @@ class Hints {
   /// hold of a midpoint, at any rung, what is left is stated as it is.
   template <class Proves>
   std::vector<Box> cover(std::size_t k, const Box& whole, const Proves& proves) {
-    constexpr int kMostWork = 2000;
+    constexpr int kMostWork = 5000;
     constexpr int kMostHalvings = 16;  ///< on one rung
     std::vector<Box> result;
     std::vector<Task> open = {{whole}};
@@ -164,7 +182,7 @@ class Hints {
         open.back().box.begin = middle;
         open.push_back(task);
         open.back().box.end = middle;
-      } else if (task.rung + 1 < kBits.size()) {
+      } else if (has_tolerances() && task.rung + 1 < kRungs) {
         ++task.rung;
         task.halvings = 0;
         open.push_back(task);
@@ -204,7 +222,7 @@ class Hints {
       box.end = k == last.segment ? last.s : mpq_class(1);
       if (box.begin == box.end) continue;
       box.near = witness.at_box.near;
-      for (Box& part : cover(k, box, [&](Box& tried, std::size_t rung) { return show_motion(k, tried, rung); })) {
+      for (Box& part : cover(k, box, [&](Box& tried, std::size_t) { return show_motion(k, tried); })) {
         motion.push_back(to_json(checker::MotionBox{k, std::move(part)}));
       }
     }
