@@ -7,8 +7,8 @@
 #include "base/input_error.h"
 #include "base/input_kind.h"
 #include "base/placed_json.h"
-#include "checker/kernel/errors.h"
 #include "checker/format/reader.h"
+#include "checker/kernel/errors.h"
 
 namespace taut {
 

@@ -164,6 +164,20 @@ std::optional<checker::NearZero> near_zero(const WithEquations& with, const chec
 
 }  // namespace
 
+std::optional<checker::NearZero> find_motion(const checker::Machine& machine, const checker::Problem& problem,
+                                             const checker::Path& path, std::size_t k, const checker::Box& box) {
+  const WithEquations with = [&](const checker::Box& over, const std::function<void(const checker::Equations&)>& use) {
+    with_equations(machine, problem, path, k, over,
+                   [&](const checker::Equations& equations, const Ball&) { use(equations); });
+  };
+  try {
+    const checker::WorkingPrecision precision(box.bits);
+    return near_zero(with, box);
+  } catch (const checker::Undefined&) {
+    return std::nullopt;
+  }
+}
+
 mpq_class to_rational(const Dyadic& x) {
   mpq_class result(mpz_class(x.k.str()), mpz_class(1) << static_cast<unsigned long>(x.depth));
   result.canonicalize();
@@ -228,17 +242,7 @@ class Elaborator::Search {
   /// Where the motion is, if it is implied.
   bool place_motion(checker::Box& box) {
     if (!elaborator_.is_implied_) return true;
-    const WithEquations with = [&](const checker::Box& over,
-                                   const std::function<void(const checker::Equations&)>& use) {
-      with_equations(elaborator_.machine(box.bits), elaborator_.problem_, path_, 0, over,
-                     [&](const checker::Equations& equations, const Ball&) { use(equations); });
-    };
-    try {
-      const checker::WorkingPrecision precision(box.bits);
-      box.near = near_zero(with, box);
-    } catch (const checker::Undefined&) {
-      box.near.reset();
-    }
+    box.near = find_motion(elaborator_.machine(box.bits), elaborator_.problem_, path_, 0, box);
     return box.near.has_value();
   }
 
@@ -542,6 +546,15 @@ class Way {
   int bits_;
 };
 
+}  // namespace
+
+bool find_way(const checker::Machine& machine, const checker::Geometry& stated, const Model<double>& model,
+              checker::WitnessDeviation& deviation, int bits) {
+  return Way(machine, stated, model, deviation, bits).follow();
+}
+
+namespace {
+
 bool moves_platform(const checker::WitnessDeviation& by) {
   const auto is_zero = [](const mpq_class& x) { return x == 0; };
   const auto are_zero = [&](const auto& rows) {
@@ -603,7 +616,7 @@ std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const P
         witness.deviation = to_kernel(*found.deviation);
         if (witness.deviation->cable_lengths && moves_platform(*witness.deviation)) {
           const checker::Geometry stated = commanded_geometry(machine, problem_, search.path(), 0, witness.at_box);
-          if (!Way(machine, stated, approx_, *witness.deviation, bits).follow()) continue;
+          if (!find_way(machine, stated, approx_, *witness.deviation, bits)) continue;
         }
       }
       const Ball seen = witnessed_quantity(machine, problem_, search.path(), witness);

@@ -22,8 +22,8 @@
 #include "case/case_file.h"
 #include "checker/arguments.h"
 #include "checker/check.h"
-#include "checker/kernel/errors.h"
 #include "checker/format/signature.h"
+#include "checker/kernel/errors.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "checker/kernel/errors.h"
 #include "checker/format/exact.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

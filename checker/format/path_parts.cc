@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "checker/kernel/errors.h"
 #include "checker/format/parts.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

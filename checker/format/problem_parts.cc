@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "checker/kernel/errors.h"
 #include "checker/format/expression_parser.h"
 #include "checker/format/parts.h"
+#include "checker/kernel/errors.h"
 #include "checker/kernel/form.h"
 
 namespace taut::checker {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "checker/kernel/errors.h"
 #include "checker/format/claims.h"
 #include "checker/format/parts.h"
 #include "checker/format/signature.h"
 #include "checker/format/strict_json.h"
+#include "checker/kernel/errors.h"
 
 namespace taut::checker {
 namespace {

@@ -2,18 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes every case of the certificate tests as a file of its own, as the tests read them.
 
-Usage: expand.py FOLDER. Writes FOLDER/{accepted,rejected,malformed}/NAME.json, with NAME.txt beside it: why the case
-is there and, after "expect: ", what the checker's message must contain. README.md describes the format of cases/.
+Usage: expand.py FOLDER ADD_HINTS. Writes FOLDER/{accepted,rejected,malformed}/NAME.json, with NAME.txt beside it: why
+the case is there and, after "expect: ", what the checker's message must contain. ADD_HINTS is the program that says
+how the checker proves a certificate (add_hints.cc). README.md describes the format of cases/.
 """
-import copy, glob, json, os, re, shutil, sys
+import copy, glob, json, os, re, shutil, subprocess, sys
+from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 
 import yaml
 
-from sealing import CLAIMS, box, hex64, seal
+from sealing import CLAIMS, box, hex64, seal, with_hints
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-KEYS = {'name', 'why', 'base', 'edit', 'text', 'seal', 'expect', 'message'}
+KEYS = {'name', 'why', 'base', 'edit', 'hints', 'text', 'seal', 'expect', 'message'}
 OUTCOMES = ('accepted', 'rejected', 'malformed')
 
 
@@ -50,16 +52,23 @@ def is_base(case):
     return os.path.exists(os.path.join(HERE, 'bases', case['name'] + '.json'))
 
 
-def certificate_of(cases, name, users=()):
-    """The certificate of a case, before its bytes are edited."""
+def draft_of(cases, name, users=()):
+    """The certificate of a case without what says how it is proved."""
     if name not in cases or name in users:
         raise CaseError('%s: no such base, or one that needs itself' % name)
     case = cases[name]
     if is_base(case):
         with open(os.path.join(HERE, 'bases', name + '.json'), encoding='ascii') as f:
             return seal(json.load(f))
-    certificate = copy.deepcopy(certificate_of(cases, case['base'], users + (name,)))
+    if not case.get('seal', True):
+        return draft_of(cases, case['base'], users + (name,))
     edits = case.get('edit', [])
+    certificate = edited(draft_of(cases, case['base'], users + (name,)), edits, name)
+    return seal(certificate, tops(edits))
+
+
+def edited(certificate, edits, name):
+    certificate = copy.deepcopy(certificate)
     for edit in edits:
         before = copy.deepcopy(certificate)
         try:
@@ -68,8 +77,42 @@ def certificate_of(cases, name, users=()):
             raise CaseError('%s: %s: %s' % (name, edit, error)) from error
         if certificate == before:
             raise CaseError('%s: %s: it changes nothing' % (name, edit))
-    about = {edit['path'].split('/')[1] for edit in edits}
-    return seal(certificate, about) if case.get('seal', True) else certificate
+    return certificate
+
+
+def tops(edits):
+    """The keys of the top level that edits are about."""
+    return {edit['path'].split('/')[1] for edit in edits}
+
+
+def certificates_of(cases, names, add_hints):
+    """The certificates of cases, before their bytes are edited. Those that need the same search share it."""
+    drafts = {name: seal(with_hints(draft_of(cases, name)), tops(cases[name].get('edit', []))) for name in names}
+    lines = list({json.dumps(draft, sort_keys=True) for draft in drafts.values()})
+
+    def search(part):
+        run = subprocess.run([add_hints], input='\n'.join(part) + '\n', stdout=subprocess.PIPE, text=True, check=True)
+        return run.stdout.splitlines()
+
+    workers = os.cpu_count() or 1
+    parts = [part for part in (lines[k::workers] for k in range(workers)) if part]
+    with ThreadPoolExecutor(workers) as pool:
+        found = dict(zip((line for part in parts for line in part),
+                         (line for answer in pool.map(search, parts) for line in answer)))
+    return {name: finished(cases, name, json.loads(found[json.dumps(draft, sort_keys=True)]))
+            for name, draft in drafts.items()}
+
+
+def finished(cases, name, certificate):
+    """With the edits of hints, those of bases first; sealed."""
+    case, chain = cases[name], [name]
+    while 'base' in cases[chain[0]]:
+        chain.insert(0, cases[chain[0]]['base'])
+    for user in chain:
+        certificate = edited(certificate, cases[user].get('hints', []), user)
+    if case.get('seal', True):
+        return seal(certificate, tops(case.get('edit', []) + case.get('hints', [])))
+    return edited(seal(certificate), case['edit'], name)
 
 
 def places(value, path):
@@ -131,12 +174,13 @@ def boxes(path, value):
         if isinstance(value, int):
             value = [[Fraction(k, value), Fraction(k + 1, value)] for k in range(value)]
         return [box(*ends) for ends in value]
-    return box(*value) if re.fullmatch('/segments/[^/]+/boxes/[^/]+', path) else value
+    is_box = re.fullmatch('/segments/[^/]+/boxes/[^/]+', path) and isinstance(value, list)
+    return box(*value) if is_box else value
 
 
 def text_of(certificate, edits):
     """The file's bytes: the certificate's, edited. One character of an edit is one byte."""
-    text = (json.dumps(certificate, indent=1, ensure_ascii=True) + '\n').encode('ascii')
+    text = (json.dumps(certificate, indent=1, ensure_ascii=True, sort_keys=True) + '\n').encode('ascii')
     for edit in edits:
         (operation, value), = edit.items()
         if operation == 'keep':
@@ -147,6 +191,14 @@ def text_of(certificate, edits):
             text = text + value.encode('latin-1')
         elif operation == 'double':
             text = text.replace(value.encode('latin-1'), (value + ', ' + value).encode('latin-1'), 1)
+        elif operation == 'replace':
+            if text.count(value[0].encode('latin-1')) != 1:
+                raise CaseError('%s: this does not occur exactly once' % value[0])
+            text = text.replace(*(part.encode('latin-1') for part in value))
+        elif operation == 'last':
+            value, whole = (json.loads(text), value)
+            value[whole] = value.pop(whole)
+            text = json.dumps(value, indent=1).encode('ascii')
         elif operation == 'repeat':
             text = value[0].encode('latin-1') * value[1]
         else:
@@ -162,18 +214,18 @@ def write(folder, case, text):
         f.write(case['why'] + '\n' + ('expect: ' + case['message'] + '\n' if 'message' in case else ''))
 
 
-def main(folder):
+def main(folder, add_hints):
     cases = read_cases()
     for outcome in OUTCOMES:
         shutil.rmtree(os.path.join(folder, outcome), ignore_errors=True)
         os.makedirs(os.path.join(folder, outcome))
-    for name, case in cases.items():
-        write(folder, case, text_of(certificate_of(cases, name), case.get('text', [])))
+    for name, certificate in certificates_of(cases, list(cases), add_hints).items():
+        write(folder, cases[name], text_of(certificate, cases[name].get('text', [])))
     print('%d certificates in %s' % (len(cases), folder))
 
 
 if __name__ == '__main__':
     try:
-        main(sys.argv[1])
+        main(*sys.argv[1:])
     except CaseError as error:
         sys.exit('expand.py: %s' % error)

@@ -302,7 +302,7 @@ def dyadic(k, m):
 
 
 def certificate(pr, pa, verdict, **more):
-    c = {'format': 'taut-certificate', 'version': 3, 'generator': {'name': 'make_bases.py', 'version': '1'},
+    c = {'format': 'taut-certificate', 'version': 4, 'generator': {'name': 'make_bases.py', 'version': '1'},
          'verdict': verdict, 'problem': pr, 'path': pa, 'segments': [],
          'witness': None, 'stretches': None, 'source': None, 'undecided': None, 'illustration': None}
     c.update(more)
@@ -445,10 +445,15 @@ def tolerant(pr, pa, boxes=8, below=0.98, samples=4, without=None):
         seen = dict(pr, held=pa['interpolation'] == 'straight-in-cable-lengths')
         sampled = [robust(seen, frame(pr, parameters(pr, pa, k, i / samples)), without) for i in range(samples + 1)]
         lowest = [min(m[j] for m in sampled) * below for j in range(3)]
+        lowest[2] = 1 + SCALE_BELOW * (lowest[2] - 1)
         assert lowest[0] > 0 and lowest[1] > 0 and lowest[2] >= 1, (pr['name'], k, lowest)
         segments.append(segment(k, n, lowest, boxes))
     return of_segments(pr, pa, segments)
 
+
+# With tolerances the checker bounds the wrench scale by the least margin over the largest variation of a box: 1 + m / v.
+# That may be far below the truth.
+SCALE_BELOW = 0.7
 
 KINDS = {'base_anchor_m': ['0.0001'] * 6, 'platform_anchor_m': ['0.0001'] * 6, 'load_point_m': '0.0002',
          'wrench': ['0.003', '-0.002', '0.02', '0.0001', '0', '0'], 'position_m': '0.0001',
@@ -630,7 +635,7 @@ def between_given_poses():
                     pose_tubes=[(2**-9, 2**-8)] * 2)
     yield 'lengths', proved(free, winches, 4, samples=60)
     yield 'lengths_inner', proved(free, bent(free, start, tilted(-2.1, 1.5), 4, (2**-9, 2**-8)), 16, samples=60)
-    yield 'lengths_inner_still', proved(free, bent(free, start, start, 2, (2**-20, 2**-20)), 1, samples=1)
+    yield 'lengths_inner_still', proved(free, bent(free, start, start, 2, (2**-20, 2**-20)), 2, samples=1)
 
     # A single pose, whose lengths are those of 1 mm below the reference.
     here, below = ([0, 0, 0.35], quaternion(0, 0.1, 0.6)), ([0, 0, 0.351], quaternion(0, 0.1, 0.6))
@@ -648,7 +653,7 @@ def tolerated():
     """Tolerances of each law."""
     near = problem('robot1-near-start', ROBOT1, SLICE, [['-2.3', '1.6'], ['-2.2', '1.55']])
     ends = straight(waypoint([-2.3, 1.6]), waypoint([-2.2, 1.55]))
-    yield 'tolerances', tolerant(with_tolerances(near, **KINDS), ends, below=0.93)
+    yield 'tolerances', tolerant(with_tolerances(near, **KINDS), ends, below=0.9)
     held = with_tolerances(near, **LESS, cable_length_m=['0.000005'] * 6)
     yield 'tolerances_held_by_lengths', tolerant(held, ends, below=0.85)
 

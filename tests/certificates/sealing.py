@@ -1,35 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What make_bases.py and expand.py share: the texts of numbers and boxes, what follows from the rest of a certificate,
 and how a certificate is laid out in a file."""
-import hashlib, json
+import copy, hashlib, json, os, re
 
 MARGINS = ('tension_N', 'length_m', 'wrench_scale')
 
-CLAIMS = {
-    'proved': 'For every s along the path, every machine, load and pose within the stated tolerances, '
-              'and every wrench w in K: the force Jacobian J is non-singular, the unique f with J f = '
-              'w satisfies f_lo,i < f_i < f_hi,i, and d_lo,i < d_i < d_hi,i, for all six cables i = '
-              '1..6. The path is given by its exact waypoints and interpolation law; robot, load, '
-              'limits and tolerances are the exact numbers of the problem. Where the pose is only '
-              'implied, by constraints or by the lengths of the cables, it is the one in its tube, '
-              'exactly one for every s. A machine that holds its cables\' lengths and deviates is at '
-              'the pose to which its deviation leads as it grows from zero. That these poses exist is '
-              'part of the claim.',
-    'refuted': 'The path is not wrench-feasible: at the witness pose of the path some wrench w in K '
-               'needs a tension outside its open limits, or a cable length is outside its open limits, '
-               'or the force Jacobian J is singular at some pose between the two witness poses. Robot '
-               'and load are there as the problem states them, or differ by the deviation that the '
-               'witness states, which is within the tolerances. The pose of a machine that deviates is '
-               'the one to which its deviation leads: where it holds its cables\' lengths, as anchors and '
-               'lengths deviate more and more from nothing on; and then by the deviation in tracking. '
-               'Where stretches are listed, the claim of a proved path holds outside of them, and each '
-               'stretch that has witnesses is violated at both of them.',
-    'undecided': 'Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.',
-}
+CLAIMS_FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'checker', 'format', 'claims.h')
+
+
+def claims():
+    """The theorems in words, by verdict."""
+    with open(CLAIMS_FILE, encoding='utf-8') as f:
+        found = re.findall(r'char\* k(\w+)Claim =((?:\s*"[^"]*")+);', f.read())
+    return {verdict.lower(): ''.join(re.findall('"([^"]*)"', texts)) for verdict, texts in found}
+
+
+CLAIMS = claims()
 
 
 def box(lower, upper):
-    """A box of a segment, from fractions or their texts. The one place that says what boxes look like."""
+    """A box of a segment in bases and edits, from fractions or their texts. How it is proved is found later."""
     return [str(lower), str(upper)]
 
 
@@ -64,6 +54,44 @@ def seal(certificate, keep=()):
     c['footer'] = {'waypoints': len(c['path']['waypoints']), 'segments': len(c['segments']),
                    'boxes': sum(len(s['boxes']) for s in c['segments']), 'sha256': digest(c)}
     return c
+
+
+def near(unknowns):
+    """Where the solution is, if nothing is known."""
+    return {'at': ['0x0p+0'] * unknowns, 'narrowings': 2, 'radius': '0x1p-20', 'slope': ['0x0p+0'] * unknowns}
+
+
+def with_hints(certificate):
+    """The certificate with all keys that say how it is proved, where it lacks them, but without any search for them."""
+    c = copy.deepcopy(certificate)
+    constraints = c['problem']['space'].get('constraints')
+    is_of_lengths = c['path'].get('interpolation') == 'straight-in-cable-lengths'
+    unknowns = 6 if is_of_lengths else len(constraints) if isinstance(constraints, list) else 0
+    proof = {'bits': 64, **({'near': near(unknowns)} if unknowns else {})}
+    rates = {'guesses': 1, 'parts': 1} if c['problem'].get('tolerances') else {}
+    for segment in c['segments']:
+        if isinstance(segment.get('boxes'), list):
+            segment['boxes'] = [b if isinstance(b, dict) else {**proof, **rates, 's': b} for b in segment['boxes']]
+    witnesses = [c['witness']] + [w for s in c['stretches'] or [] for w in s.get('inner') or []]
+    for witness in witnesses:
+        if not isinstance(witness, dict):
+            continue
+        for key in ('at_proof', 'to_proof') if witness.get('kind') == 'singular' else ('proof',):
+            witness.setdefault(key, proof)
+        witness.setdefault('motion', [])
+        deviation = witness.get('deviation')
+        if isinstance(deviation, dict) and 'cable_lengths_m' in deviation:
+            moved = [x for key in ('base_anchors_m', 'platform_anchors_m') for row in deviation[key] for x in row]
+            still = all(float(x) == 0 for x in moved + deviation['cable_lengths_m'])
+            deviation.setdefault('way', None if still else way())
+    return c
+
+
+def way():
+    """How a deviation leads somewhere, if nothing is known."""
+    poses = [{'position': ['0x0p+0', '0x0p+0', '0x1p-2'], 'quaternion': ['0x0p+0'] * 3 + ['0x1p+0'], 'tau': tau,
+              'tube': {'position': '0x1p-5', 'turn': '0x1p-5'}} for tau in ('0', '1')]
+    return {'boxes': [{'bits': 64, 'near': near(6), 's': ['0', '1']}], 'poses': poses}
 
 
 def without_implied(certificate):

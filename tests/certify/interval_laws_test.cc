@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of the prover's interval arithmetics, in the way of the tests of IEEE 1788 (ITF1788): a result contains the exact
 // range, found by MPFR alone to 2100 bits (tests/support/interval_operations.h); it is at most a few ulps beyond it at
 // either end; and it is a fault wherever some member of the operands is outside of the domain or the range overflows. Those

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/form.h"
 
 #include <gtest/gtest.h>
@@ -91,8 +92,9 @@ bool expect_enclosed(const std::string& text, std::mt19937_64& random) {
     const BigFloat value = exact(x.value(u, random), y.value(u, random));
     if (!form) continue;
     const double scale = std::min(1e290, 1e-30 * (1 + std::abs(value.to_double())));
-    EXPECT_TRUE(holds(*form, u, value, scale)) << text << " at u = " << u << ": " << testing::digits(value) << " is not in "
-                                               << print(form->at) << " + u (" << print(form->slope) << ")";
+    EXPECT_TRUE(holds(*form, u, value, scale))
+        << text << " at u = " << u << ": " << testing::digits(value) << " is not in " << print(form->at) << " + u ("
+        << print(form->slope) << ")";
     EXPECT_TRUE(holds(form->range(), value, scale)) << text << " at u = " << u;
     if (::testing::Test::HasFailure()) return true;
   }

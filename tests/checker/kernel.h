@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "checker/errors.h"
 #include "checker/format/expression_parser.h"
 #include "checker/format/parts.h"
+#include "checker/kernel/errors.h"
 #include "checker/kernel/motion.h"
 #include "tests/soundness/machine.h"
 #include "tests/support/checker_enclosing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Signatures: what the prover signs the checker verifies, and nothing else. Through the command line:
 // tests/cli/signature_test.py.
 #include "checker/format/signature.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 foreach(header zero)
   taut_add_test(checker ${header} LABELS unit LIBS taut_checker taut::certify)
 endforeach()

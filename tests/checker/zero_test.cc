@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "checker/errors.h"
+#include "checker/kernel/errors.h"
 #include "tests/support/checker_enclosing.h"
 
 namespace taut::checker {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The checker's balls as one more arithmetic of enclosing.h, with the names that the prover's scalars have.
 #pragma once
 
