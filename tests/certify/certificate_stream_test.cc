@@ -140,7 +140,9 @@ TEST(CertificateStream, SignsWhatAWholeCertificateIsSignedFor) {
       });
   json certificate = json::parse(text);
   EXPECT_EQ(certificate["signature"], json({{"value", "x"}}));
+  EXPECT_EQ(certificate["footer"]["sha256"], digest);
   certificate.erase("signature");
+  certificate.erase("footer");
   EXPECT_EQ(sha256(certificate), digest);
 }
 

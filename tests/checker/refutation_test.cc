@@ -9,8 +9,8 @@
 namespace taut::checker {
 namespace {
 
-constexpr double kTubePosition = 0.008;
-constexpr double kTubeTurn = 0.02;
+constexpr double kTubePosition = 0.002;
+constexpr double kTubeTurn = 0.008;
 
 using campaign::RigidPose;
 
@@ -41,8 +41,8 @@ struct Scene {
     witness.cable = 2;
     witness.deviation.emplace();
     for (std::size_t i = 0; i < 6; ++i) {
-      witness.deviation->base_anchors[i] = {mpq_class(1, 4096), mpq_class(-1, 2048), mpq_class(1, 4096)};
-      witness.deviation->platform_anchors[i] = {mpq_class(-1, 2048), 0, mpq_class(1, 4096)};
+      witness.deviation->base_anchors[i] = {mpq_class(1, 65536), mpq_class(-1, 32768), mpq_class(1, 65536)};
+      witness.deviation->platform_anchors[i] = {mpq_class(-1, 32768), 0, mpq_class(1, 65536)};
     }
     witness.deviation->load_point = {mpq_class(1, 1024), 0, mpq_class(-1, 1024)};
     witness.deviation->wrench = mpq_class(-3, 4);
@@ -50,7 +50,7 @@ struct Scene {
     witness.deviation->turn = {mpq_class(1, 512), mpq_class(1, 512), 0};
     if (!length_controlled) return;
     witness.deviation->cable_lengths.emplace();
-    for (std::size_t i = 0; i < 6; ++i) (*witness.deviation->cable_lengths)[i] = mpq_class(i % 2 == 0 ? 1 : -1, 2048);
+    for (std::size_t i = 0; i < 6; ++i) (*witness.deviation->cable_lengths)[i] = mpq_class(i % 2 == 0 ? 1 : -1, 32768);
   }
 
   template <class S>

@@ -368,7 +368,7 @@ TEST(Reader, SaysWhoSigned) {
   std::size_t size = public_key.size();
   ASSERT_EQ(EVP_PKEY_get_raw_public_key(key.get(), public_key.data(), &size), 1);
   Json json = Json::parse(sealed(proved()));
-  const std::string text = "taut certificate " + digest(json);
+  const std::string text = "taut certificate " + json["footer"]["sha256"].get<std::string>();
   const std::vector<unsigned char> bytes(text.begin(), text.end());
   const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   std::vector<unsigned char> value(64);
@@ -381,8 +381,7 @@ TEST(Reader, SaysWhoSigned) {
 
   Json other = json;
   other["footer"]["boxes"] = 5;
-  EXPECT_EQ(message(canonical(other)).find("signature.value: expected a signature of this certificate by that key"),
-            0U);
+  EXPECT_EQ(message(canonical(other)).find("footer.boxes: expected"), 0U);
   value[5] ^= 1;
   json["signature"]["value"] = hex(value);
   EXPECT_EQ(message(canonical(json)).find("signature.value: expected a signature of this certificate by that key"), 0U);

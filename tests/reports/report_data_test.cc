@@ -92,7 +92,8 @@ TEST(ReportData, PutsLongPathsTogetherWithoutLosingTheLeastAndTheGreatest) {
 
 TEST(ReportData, KeepsGapsBetweenBoxes) {
   json certificate = sample::proved();
-  certificate["segments"][0]["boxes"] = json::parse(R"([["0","1/4"],["1/2","1"]])");
+  certificate["segments"][0]["boxes"] = json::parse(R"([{"bits": 64, "s": ["0", "1/4"]},
+          {"bits": 64, "s": ["1/2", "1"]}])");
   const json bands = report_data(sample::scene(certificate))["bands"];
   std::size_t gaps = 0;
   for (std::size_t k = 1; k < bands["from"].size(); ++k) gaps += bands["from"][k] > bands["to"][k - 1] ? 1 : 0;

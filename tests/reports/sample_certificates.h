@@ -42,7 +42,7 @@ inline nlohmann::json certificate() {
                        "sigma": "sigma0*pi/180"}, "constraints": []},
     "query": {"waypoints": [["-2.3","1.6"], ["-2.3","1.3"]]}})");
   json result = {{"format", "taut-certificate"},
-                 {"version", 3},
+                 {"version", 4},
                  {"generator", {{"name", "taut"}, {"version", "0.1.0"}}},
                  {"verdict", ""},
                  {"claim", "The claim of this certificate, word by word: f_lo,i < f_i < f_hi,i."},
@@ -71,9 +71,9 @@ inline nlohmann::json proved() {
   nlohmann::json result = certificate();
   result["verdict"] = "proved";
   result["segments"] = nlohmann::json::parse(R"([
-      {"from": 0, "to": 1, "boxes": [["0","1/2"], ["1/2","1"]],
+      {"from": 0, "to": 1, "boxes": [{"bits": 64, "s": ["0", "1/2"]}, {"bits": 64, "s": ["1/2", "1"]}],
        "margins": {"tension_N": "5.11e-02", "length_m": "1.061e-02", "wrench_scale": "2.92e+00"}},
-      {"from": 1, "to": 2, "boxes": [["0","1"]],
+      {"from": 1, "to": 2, "boxes": [{"bits": 64, "s": ["0", "1"]}],
        "margins": {"tension_N": "4.25e-02", "length_m": "1.234e-02", "wrench_scale": "2.71e+00"}}])");
   result["margins"] = {{"tension_N", "4.25e-02"}, {"length_m", "1.061e-02"}, {"wrench_scale", "2.71e+00"}};
   result["footer"]["segments"] = 2;
