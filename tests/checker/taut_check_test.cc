@@ -49,7 +49,8 @@ TEST(TautCheck, AnotherCaseIsRejectedAndABrokenOneIsBadInput) {
 TEST(TautCheck, PrintsASentence) {
   const Output proved = run(kFolder + "accepted/robot1_near_goal.json");
   EXPECT_TRUE(proved.text.starts_with("accepted: proved again: 1 segment, 4 boxes (")) << proved.text;
-  EXPECT_TRUE(run(kFolder + "rejected/anchor_moved.json").text.starts_with("rejected: not confirmed: segment 0, box ["));
+  EXPECT_TRUE(
+      run(kFolder + "rejected/anchor_moved.json").text.starts_with("rejected: not confirmed: segment 0, box ["));
   EXPECT_EQ(run("--quiet " + kFolder + "malformed/cut.json").text, "");
 }
 
