@@ -7,16 +7,30 @@
 #include "base/input_error.h"
 #include "base/input_kind.h"
 #include "base/placed_json.h"
-#include "checker/format/reader.h"
+#include "checker/format/strict_json.h"
 #include "checker/kernel/errors.h"
 
 namespace taut {
 
+namespace {
+
+void require_unaltered(const nlohmann::json& certificate, const std::string& sha256) {
+  const nlohmann::json::json_pointer place("/footer/sha256");
+  static const nlohmann::json kNone;
+  const nlohmann::json& stated = certificate.is_object() && certificate.contains(place) ? certificate.at(place) : kNone;
+  if (stated == sha256) return;
+  PlacedJson(stated, "footer.sha256").fail("the digest of this file: it is no certificate, or was cut or altered");
+}
+
+}  // namespace
+
 nlohmann::json parse_certificate(const std::string& text, const std::string& name) {
   return reading(InputKind::kCertificate, name, [&] {
     try {
-      (void)checker::read_certificate(text);
-      return nlohmann::json::parse(text);
+      const std::string digest = checker::read_json(text, [](const auto&, const auto&) {}).body_sha256;
+      nlohmann::json certificate = nlohmann::json::parse(text);
+      require_unaltered(certificate, digest);
+      return certificate;
     } catch (const checker::Malformed& error) {
       throw InputError(fmt::format("got {}, expected a certificate", error.what()));
     }

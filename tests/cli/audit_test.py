@@ -63,7 +63,7 @@ class Audit(Audits):
     def cover(self, certificate, segments):
         """Proved boxes and outer intervals are the whole path, and don't overlap."""
         pieces = [(segment["from"] + fraction(a), segment["from"] + fraction(b))
-                  for segment in certificate["segments"] for a, b in segment["boxes"]]
+                  for segment in certificate["segments"] for a, b in (box["s"] for box in segment["boxes"])]
         pieces += [tuple(position(place) for place in stretch["outer"]) for stretch in certificate["stretches"] or []]
         pieces.sort()
         self.assertEqual(pieces[0][0], 0)
@@ -241,7 +241,7 @@ class Audit(Audits):
         forged = self.write("forged.json", sealed(certificate))
         checked = run(CHECK, forged)
         self.assertEqual(checked.returncode, 1, checked.stdout + checked.stderr)
-        self.assertIn("the pose on the constraints at its begin is next to what the path states", checked.stdout)
+        self.assertIn("the pose on the constraints may not be next to what the path states at a waypoint", checked.stdout)
         self.assertEqual(run(TAUT, "audit", case, forged, "--out", self.path("forged")).returncode, 3)
 
     def test_witnesses_are_where_parameters_are_in_their_ranges(self):

@@ -4,6 +4,7 @@
 
 Usage: compare_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
+import hashlib
 import json
 import os
 import shutil
@@ -13,6 +14,14 @@ import threading
 from command_line import AUDITS, CHECK, InFolder, ROBOT1, SOURCE, TAUT, main, run, text_of
 
 ROWS = ["phi[deg],theta[deg]", "-88.9,80.2", "-88,80.4", "-87.5,80.4", "-87,80.1"]
+
+
+def sealed(certificate):
+    """With the digest of what it says."""
+    footer = certificate.pop("footer")
+    body = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    footer["sha256"] = hashlib.sha256(body.encode()).hexdigest()
+    return json.dumps({**certificate, "footer": footer}, sort_keys=True)
 
 
 class Compare(InFolder):
@@ -168,8 +177,15 @@ class Compare(InFolder):
         self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
 
     def test_the_forged_source_of_an_audit_is_noticed(self):
-        forged = os.path.join(SOURCE, "tests", "attacks", "f4.json")
         case, path = (os.path.join(AUDITS, "robot1-planned" + end) for end in (".yaml", ".csv"))
+        out = self.path("audited")
+        self.assertEqual(run(TAUT, "audit", case, path, "--out", out).returncode, 0)
+        with open(os.path.join(out, "certificate.json"), encoding="utf-8") as file:
+            certificate = json.load(file)
+        certificate["source"]["sha256"] = "0" * 64
+        forged = self.path("forged.json")
+        with open(forged, "w", encoding="utf-8") as file:
+            file.write(sealed(certificate))
         said = run(CHECK, forged, case, "--path", path)
         self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
         self.assertIn("the file that was audited has another SHA-256", said.stdout)

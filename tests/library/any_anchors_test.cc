@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "certificate/certificate.h"
+#include "checker/check.h"
 #include "planner/planner.h"
 #include "reports/page/html_report.h"
 
@@ -53,7 +54,10 @@ void expect_proved(const Robot& robot) {
     }
   }
   const auto certificate = make_certificate(the_case.problem, plan.path, plan.proof, nullptr);
-  EXPECT_NE(html_report(certificate).find("proved"), std::string::npos);
+  const checker::CheckResult checked = checker::check(certificate.dump());
+  ASSERT_TRUE(checked.theorem) << checked.message;
+  EXPECT_EQ(checked.theorem->verdict(), checker::Theorem::Verdict::kProved);
+  EXPECT_NE(html_report(checked).find("proved"), std::string::npos);
 }
 
 /// Every anchor its own, none in the plane of the others.
