@@ -93,14 +93,15 @@ struct KernelProof {
 /// The segment on which a witness is; that of a waypoint begins there.
 [[nodiscard]] std::size_t segment_of(const PathWitness& witness);
 
-/// Where the implied motion of a box of segment k is, at the precision of the box; nothing where it is not found. It need
-/// not be what the kernel can prove.
+/// Where the implied motion of a box of segment k is, at the precision of the box; nothing where it is not found. It
+/// need not be what the kernel can prove.
 /// @pre `machine` is of the precision of the box
 [[nodiscard]] std::optional<checker::NearZero> find_motion(const checker::Machine& machine,
                                                            const checker::Problem& problem,
                                                            const checker::Path& path, std::size_t k,
                                                            const checker::Box& box);
-/// Fills in poses and boxes of the way that a deviation leads from `stated`; false where the kernel can't be led to its end.
+/// Fills in poses and boxes of the way that a deviation leads from `stated`; false where the kernel can't be led to its
+/// end.
 /// @param model  the machine as the problem states it
 [[nodiscard]] bool find_way(const checker::Machine& machine, const checker::Geometry& stated,
                             const Model<double>& model, checker::WitnessDeviation& deviation, int bits);
