@@ -99,8 +99,8 @@ struct KernelProof {
 /// The segment on which a witness is; that of a waypoint begins there.
 [[nodiscard]] std::size_t segment_of(const PathWitness& witness);
 
-/// Where the implied motion of a box of segment k is, at the precision of the box; nothing where it is not found. It need
-/// not be what the kernel can prove.
+/// Where the implied motion of a box of segment k is, at the precision of the box; nothing where it is not found. It
+/// need not be what the kernel can prove.
 /// @pre `machine` is of the precision of the box
 [[nodiscard]] std::optional<checker::NearZero> find_motion(const checker::Machine& machine,
                                                            const checker::Problem& problem, const checker::Path& path,

@@ -2,8 +2,8 @@
 // Says how the kernel proves what a certificate of the tests states: expand.py gives it certificates that are complete but
 // for that, one on each line, and gets them back, in order.
 //
-// A box of a segment becomes one or more boxes that the kernel proves at one go. Where it proves none, because what the
-// certificate states is false, the box stays as it is, and has hints that would do for a neighbour that is true. What is
+// A box of a segment becomes one or more boxes that the kernel proves at one go. Where it proves none, because what
+// the certificate states is false, the box stays as it is, and has hints that would do if it were true. What is
 // malformed is left alone.
 #include <algorithm>
 #include <array>
@@ -146,8 +146,8 @@ class Hints {
     int halvings = 0;
   };
 
-  /// Parts of the box, halved where `proves(box, rung)` holds of a midpoint but not of all of a box. Where it does not even
-  /// hold of a midpoint, at any rung, what is left is stated as it is.
+  /// Parts of the box, halved where `proves(box, rung)` holds of a midpoint but not of all of a box. Where it does not
+  /// even hold of a midpoint, at any rung, what is left is stated as it is.
   template <class Proves>
   std::vector<Box> cover(std::size_t k, const Box& whole, const Proves& proves) {
     constexpr int kMostWork = 5000;

@@ -196,9 +196,9 @@ def text_of(certificate, edits):
                 raise CaseError('%s: this does not occur exactly once' % value[0])
             text = text.replace(*(part.encode('latin-1') for part in value))
         elif operation == 'last':
-            value, whole = (json.loads(text), value)
-            value[whole] = value.pop(whole)
-            text = json.dumps(value, indent=1).encode('ascii')
+            whole = json.loads(text)
+            whole[value] = whole.pop(value)
+            text = (json.dumps(whole, indent=1, ensure_ascii=True) + '\n').encode('ascii')
         elif operation == 'repeat':
             text = value[0].encode('latin-1') * value[1]
         else:

@@ -36,6 +36,10 @@ pose_for_parameters pose_with_parameters quaternion_of_three query_of_one_waypoi
 spline_of_three stretches_of_a_proved_path stretches_null_but_boxes stretches_open_without_a_reason
 stretches_with_a_reason tolerance_missing tolerance_of_five_anchors tube_decimal tube_infinite unknown_key
 waypoint_decimal waypoint_infinite expression_with_a_tab expression_not_ascii boxes_empty message_breaks_the_line
+bits_31 bits_4097 bits_as_text bits_missing box_with_an_unknown_key box_without_its_ends near_decimal near_infinite
+near_radius_infinite near_radius_missing narrowings_9 narrowings_negative parts_0 parts_65 guesses_0 guesses_17
+proof_missing proof_with_ends proof_with_parts proof_of_a_singular_pose motion_missing motion_without_a_segment
+way_of_one_pose version_3
 """.split()
 caught = set()
 for path in certificates('malformed'):
@@ -70,6 +74,8 @@ for name in ('stretches_open', 'tolerances_of_lengths', 'implied_sphere', 'refut
 
     for place in walk(json.loads(text), ()):
         for change in ('lose', 'rename', 'number'):
+            if change == 'lose' and place[-1] == 'near':
+                continue  # it is there where poses are implied, which no schema sees
             mutant = json.loads(text)
             holder = mutant
             for step in place[:-1]:
