@@ -205,13 +205,14 @@ void CertificateStream::finish(const Ending& ending, const Write& write, const S
       },
       path_digest);
   digest("}");
+  const std::string body_digest = whole.hex();
   const bool has_segments = ending.verdict != Verdict::kUndecided;
   const std::string footer = canonical({{"waypoints", waypoints_->count()},
                                         {"segments", has_segments ? segments_->count() : 0},
                                         {"boxes", has_segments ? boxes_ : 0},
-                                        {"sha256", whole.hex()}});
+                                        {"sha256", body_digest}});
   write(",\"footer\":" + footer);
-  if (sign) write(",\"signature\":" + canonical(sign(whole.hex())));
+  if (sign) write(",\"signature\":" + canonical(sign(body_digest)));
   write("}\n");
 }
 

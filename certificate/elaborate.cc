@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/arithmetic/rounding.h"
 #include "checker/format/cursor.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
@@ -311,6 +312,7 @@ class Elaborator::Search {
     return true;
   }
 
+  rounding_detail::NearestGuard nearest_;  ///< so that guesses are the same whatever mode the caller has
   const Elaborator& elaborator_;
   checker::Path path_;
   int attempts_ = 0;
@@ -414,22 +416,17 @@ template <class IsEnough>
 std::optional<std::pair<DecimalText, DecimalText>> decimals(const Ball& x, const IsEnough& is_enough) {
   constexpr int kFewestDigits = 17;
   constexpr int kMostDigits = 600;
-  const auto print = [](const char* format, const Ball& end, int digits) {
-    mpfr_t number;
-    mpfr_init2(number, std::max<mpfr_prec_t>(arf_bits(arb_midref(end.get())), 64));
-    arf_get_mpfr(number, arb_midref(end.get()), MPFR_RNDN);  // exact
-    char* text = nullptr;
-    mpfr_asprintf(&text, format, digits - 1, number);
-    DecimalText result = text;
-    mpfr_free_str(text);
-    mpfr_clear(number);
-    return result;
+  const auto print = [](const Ball& end, int digits, mpfr_rnd_t rounding) {
+    const PrecisionScope precision(std::max<mpfr_prec_t>(arf_bits(arb_midref(end.get())), 64));
+    BigFloat number;
+    arf_get_mpfr(number.get(), arb_midref(end.get()), MPFR_RNDN);  // exact
+    return number.to_decimal(digits, rounding);
   };
   const Ball low = lowest(x);
   const Ball high = highest(x);
   for (int digits = kFewestDigits; digits <= kMostDigits; digits *= 2) {
-    DecimalText below = print("%.*RDe", low, digits);
-    DecimalText above = print("%.*RUe", high, digits);
+    DecimalText below = print(low, digits, MPFR_RNDD);
+    DecimalText above = print(high, digits, MPFR_RNDU);
     if (is_enough(exact(below), exact(above))) return {{std::move(below), std::move(above)}};
   }
   return std::nullopt;

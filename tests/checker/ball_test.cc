@@ -51,7 +51,9 @@ class BallLaws : public ::testing::Test {
       // The ball of a wide operand holds numbers beyond its ends; that of a single number is the number.
       const bool is_plain = a.thin() && (Op::kOperands == 1 || b.thin()) && !extreme(a) && !extreme(b) &&
                             !extreme(range.lower) && !extreme(range.upper);
-      if (is_plain && !Op::kMayGiveUp) fail("undefined within the domain");
+      // With 32 bits 1 - x^2 of a binary64 next to 1 may enclose 0.
+      const bool is_coarse = std::is_same_v<A, Checker<32>>;
+      if (is_plain && !Op::kMayGiveUp && !is_coarse) fail("undefined within the domain");
       return;
     }
     if (!(lower_end(result) <= range.lower && range.upper <= upper_end(result))) {
