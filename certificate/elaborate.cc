@@ -202,13 +202,14 @@ class Elaborator::Search {
     });
   }
 
-  bool show_motion(const mpq_class& begin, const mpq_class& end, std::vector<checker::Box>& out) {
+  bool show_motion(const mpq_class& begin, const mpq_class& end, checker::Ranges ranges,
+                   std::vector<checker::Box>& out) {
     return cover(begin, end, [&](checker::Box box) {
       if (!place_motion(box)) return false;
       const checker::Machine& machine = elaborator_.machine(box.bits);
       try {
         const checker::WorkingPrecision precision(box.bits);
-        (void)commanded_geometry(machine, elaborator_.problem_, path_, 0, box);
+        (void)commanded_geometry(machine, elaborator_.problem_, path_, 0, box, ranges);
         require_near_waypoints(machine, elaborator_.problem_, path_, 0, box);
       } catch (const checker::Undefined&) {
         return false;
@@ -367,7 +368,8 @@ std::optional<std::vector<checker::Box>> Elaborator::motion(const Segment& segme
                                                             const Dyadic& end) const {
   std::vector<checker::Box> result;
   if (begin == end) return result;
-  if (!Search(*this, segment).show_motion(to_rational(begin), to_rational(end), result)) return std::nullopt;
+  if (!Search(*this, segment).show_motion(to_rational(begin), to_rational(end), checker::Ranges::kIgnored, result))
+    return std::nullopt;
   return result;
 }
 
@@ -604,7 +606,7 @@ std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const P
                              determinant_at(machine, problem_, search.path(), witness.to, witness.to_box);
         if (!certainly_negative(product)) continue;
         std::vector<checker::Box> between;
-        if (!search.show_motion(witness.at.s, witness.to.s, between)) return std::nullopt;
+        if (!search.show_motion(witness.at.s, witness.to.s, checker::Ranges::kRequired, between)) return std::nullopt;
         for (checker::Box& box : between) witness.motion.push_back({0, std::move(box)});
         return result;
       }
@@ -616,7 +618,13 @@ std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const P
           if (!find_way(machine, stated, approx_, *witness.deviation, bits)) continue;
         }
       }
-      const Ball seen = witnessed_quantity(machine, problem_, search.path(), witness);
+      // With some room for rounding: the checker sees the segment as a part of the path.
+      const Ball exact_value = witnessed_quantity(machine, problem_, search.path(), witness);
+      const Ball rounding = Ball::make([bits](arb_ptr r) {
+        arb_set_ui(r, 1);
+        arb_mul_2exp_si(r, r, 12 - bits);
+      });
+      const Ball seen = plus_minus(exact_value, rounding * magnitude(exact_value));
       const bool is_lower =
           witness.kind == checker::WitnessKind::kTensionMin || witness.kind == checker::WitnessKind::kLengthMin;
       const mpq_class limit = exact(found.limit);

@@ -178,7 +178,11 @@ class Confirmation {
     std::vector<std::pair<mpq_class, mpq_class>> parts;
     for (const MotionBox& part : witness.motion) {
       at_precision(part.box.bits, name + ": motion: " + name_of(part.segment, part.box), [&](const Machine& machine) {
-        (void)commanded_geometry(machine, problem_, path_, part.segment, part.box);
+        // Between the places of a sign change, too, parameters are in their ranges.
+        const bool is_between = witness.kind == WitnessKind::kSingular &&
+                                abscissa({part.segment, part.box.end}) > abscissa(earlier(witness));
+        const Ranges ranges = is_between ? Ranges::kRequired : Ranges::kIgnored;
+        (void)commanded_geometry(machine, problem_, path_, part.segment, part.box, ranges);
         require_near_waypoints(machine, problem_, path_, part.segment, part.box);
       });
       parts.emplace_back(abscissa({part.segment, part.box.begin}), abscissa({part.segment, part.box.end}));

@@ -113,9 +113,6 @@ class Ball {
   arb_t x_;
 };
 
-inline Ball sqr(const Ball& a) {
-  return Ball::make([&](arb_ptr r) { arb_sqr(r, a.get(), Ball::bits()); });
-}
 inline Ball sqrt(const Ball& a) {
   return Ball::make([&](arb_ptr r) { arb_sqrt(r, a.get(), Ball::bits()); });
 }
@@ -142,14 +139,21 @@ inline Ball lowest(const Ball& a) {
 inline Ball least_magnitude(const Ball& a) {
   return Ball::make([&](arb_ptr r) { arb_get_abs_lbound_arf(arb_midref(r), a.get(), Ball::bits()); });
 }
-/// Every number from any in a to any in b.
-inline Ball hull(const Ball& a, const Ball& b) {
-  return Ball::make([&](arb_ptr r) { arb_union(r, a.get(), b.get(), Ball::bits()); });
-}
 /// The number in the middle of a, exactly.
 inline Ball middle(const Ball& a) {
   return Ball::make([&](arb_ptr r) { arf_set(arb_midref(r), arb_midref(a.get())); });
 }
+/// Every number from any in a to any in b.
+inline Ball hull(const Ball& a, const Ball& b) {
+  return Ball::make([&](arb_ptr r) { arb_union(r, a.get(), b.get(), Ball::bits()); });
+}
+/// A square is not negative: where the ball of the product would hold negative numbers, [0, |a|^2] does instead.
+inline Ball sqr(const Ball& a) {
+  const auto square = [](const Ball& x) { return Ball::make([&](arb_ptr r) { arb_sqr(r, x.get(), Ball::bits()); }); };
+  Ball result = square(a);
+  return certainly_nonnegative(result) ? result : hull(Ball(), square(magnitude(a)));
+}
+
 /// a, widened by every number of magnitude up to that of b.
 inline Ball plus_minus(const Ball& a, const Ball& b) {
   return Ball::make([&](arb_ptr r) {

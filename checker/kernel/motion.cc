@@ -361,7 +361,7 @@ Frame reference_line(std::span<const double> begin, const mpq_class& s_begin, st
 }
 
 Geometry commanded_geometry(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box) {
+                            const Box& box, Ranges ranges) {
   if (path.law == Law::kGeodesic) return machine.geometry(geodesic(path, k, box));
   if (path.law == Law::kCableLengths) {
     const LengthControlled controlled = length_controlled(machine, path, k, box);
@@ -371,7 +371,7 @@ Geometry commanded_geometry(const Machine& machine, const Problem& problem, cons
   }
   const std::vector<Form> at = parameters(problem, path, k, box);
   // Between waypoints inside their ranges parameters stay inside, by convexity; those of an implied motion need not.
-  if (!problem.constraints.empty()) require_in_range(problem, at);
+  if (!problem.constraints.empty() && ranges == Ranges::kRequired) require_in_range(problem, at);
   return machine.geometry(frame(coordinates(problem, at)));
 }
 

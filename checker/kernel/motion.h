@@ -57,10 +57,13 @@ struct LengthControlled {
 [[nodiscard]] Frame reference_line(std::span<const double> begin, const mpq_class& s_begin, std::span<const double> end,
                                    const mpq_class& s_end, const Box& box);
 
+/// Whether parameters of an implied motion have to be in their ranges. They need not on the way to a witness.
+enum class Ranges { kRequired, kIgnored };
+
 /// The machine as the problem states it, at the pose that is commanded: all of its geometry over a box of segment k that
-/// reaches across no inner pose. @throws Undefined where that is not proved, or parameters may leave their ranges.
+/// reaches across no inner pose. @throws Undefined where that is not proved.
 [[nodiscard]] Geometry commanded_geometry(const Machine& machine, const Problem& problem, const Path& path,
-                                          std::size_t k, const Box& box);
+                                          std::size_t k, const Box& box, Ranges ranges = Ranges::kRequired);
 
 /// Where the space has constraints and the box begins or ends at a joint of the path: that the pose there, which is on the
 /// constraints, is next to what the path states. Normals and tube are the certificate's own choice, and could lead anywhere.

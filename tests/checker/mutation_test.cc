@@ -115,7 +115,9 @@ struct Rule {
 /// What only says how the kernel is to find a proof: alterations with which it still finds one prove the same claim.
 const char* const kHow =
     "/(segments/./boxes/.|witness/(motion/.|proof|at_proof|to_proof|deviation/way/boxes/.)|stretches/.*proof)"
-    "/(bits|parts|guesses|near/(at/.|slope/.|radius|narrowings)): .*";
+    "/(bits|parts|guesses|near/(at/.|slope/.|radius|narrowings)): .*"
+    "|.*/near/(at|slope): is reversed|/witness/motion: gets one more"
+    "|/witness/deviation/way/poses/./tube/(position|turn): .*";
 
 /// Each accepted alteration below `root` is one of these, and each of these occurs.
 void expect_accepted_mutants(const std::string& name, const std::string& root, std::vector<Rule> rules) {
@@ -176,10 +178,7 @@ TEST(Mutation, OfAnImpliedMotionOnlyTrueStatementsPass) {
                           {minus_zero,
                            other_normals,
                            {"A wider tube, with one motion too.", std::regex("/path/tubes/0: becomes 0x1p\\+0")}});
-  expect_accepted_mutants(
-      "implied_within_range", "/problem/space/constraints",
-      {{"The same surface.", std::regex("/problem/space/constraints/0: changes its sign")},
-       {"Another, of which it is true.", std::regex("/problem/space/constraints/0: becomes \"x\"")}});
+  expect_accepted_mutants("implied_within_range", "/problem/space/constraints", {});
 }
 
 TEST(Mutation, OfLawsOfPosesOnlyTrueStatementsPass) {
@@ -188,9 +187,7 @@ TEST(Mutation, OfLawsOfPosesOnlyTrueStatementsPass) {
   expect_accepted_mutants("lengths_still", "/path", {minus_zero});
   expect_accepted_mutants(
       "lengths_inner_still", "/path",
-      {minus_zero,
-       {"-0 is 0.", std::regex("/path/pose_tubes/0/inner/0/position/.: changes its sign"), true},
-       {"Where nothing moves, no inner pose is needed.", std::regex("/path/pose_tubes/0: loses inner")}});
+      {minus_zero, {"-0 is 0.", std::regex("/path/pose_tubes/0/inner/0/position/.: changes its sign"), true}});
 }
 
 /// What is left when all that only says how is left out.
@@ -225,9 +222,7 @@ TEST(Mutation, OfTolerancesOnlyTrueStatementsPass) {
   const Rule minus_zero = {"-0 is 0.", std::regex("/.*: changes its sign"), true};
   const Rule tiny = {"Far less than the 0.4 % that the margin claimed leaves, or a smaller tolerance.",
                      std::regex("/.*: becomes 1e-400")};
-  expect_accepted_mutants(
-      "tight_position", "/problem/tolerances",
-      {minus_zero, tiny, {"The machine as it is stated.", std::regex("/problem/tolerances: becomes null")}});
+  expect_accepted_mutants("tight_position", "/problem/tolerances", {minus_zero, tiny});
   expect_accepted_mutants("refuted_by_a_deviation", "/witness/deviation", {minus_zero});
   const Rule no_load = {"No load deviates.", std::regex("/witness/deviation/wrench: becomes 1e-400")};
   expect_accepted_mutants("refuted_by_held_lengths", "/witness/deviation", {minus_zero, no_load});
@@ -242,8 +237,7 @@ TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {
   if (share() > 1) GTEST_SKIP() << "tries all of them";
   EXPECT_EQ(claims(accepted_mutants(accepted("refuted_tension_min"), "/witness")),
             (std::set<std::string>{"/witness/value/0: becomes -1e400", "/witness/value/0: gets a leading 2",
-                                   "/witness/value/1: becomes 1e-400", "/witness/value/1: becomes 1e400",
-                                   "/witness/value/1: changes its sign"}));  // both ends of it are negative
+                                   "/witness/value/1: becomes 1e-400"}));  // both ends of it are negative
   EXPECT_EQ(claims(accepted_mutants(accepted("refuted_singular"), "/witness")), std::set<std::string>{});
   EXPECT_EQ(claims(accepted_mutants(accepted("refuted_implied_singular"), "/witness")), std::set<std::string>{});
   EXPECT_EQ(

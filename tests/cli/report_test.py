@@ -90,7 +90,7 @@ class Report(unittest.TestCase):
                 (with_("abc", "margins", "tension_N"),
                  'margins.tension_N: got "abc", expected a decimal number in a string'),
                 (with_("2/3", "segments", 0, "boxes", 0, "s", 1),
-                 'segments[0].boxes[0][1]: got "2/3", expected a dyadic from 0 to 1'),
+                 'segments[0].boxes[0].s[1]: got "2/3", expected a dyadic from 0 to 1'),
                 (with_(-1, "segments", 0, "from"),
                  "segments[0].from: got -1, expected a whole number from 0 to 2147483647"),
                 (with_([], "path", "waypoints"), "path.waypoints: got [], expected at least two of a proved path"),
