@@ -31,7 +31,7 @@ Html contents(const Scene& scene) {
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
   link(is_plane(scene.view.problem.space), "plane", "Plane");
-  link(scene.view.boxes > 0, "margins", "Margins");
+  link(is_claimed && scene.view.boxes > 0, "margins", "Margins");
   link(is_claimed, "theorem", "Claim");
   link(is_claimed && scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");

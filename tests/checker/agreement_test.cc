@@ -66,8 +66,8 @@ TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
         const CheckResult result = check(problem, path, proof);
         // Paths that lead astray from what they state, or from their query: the first never become certificates.
         const bool is_led_astray =
-            std::string(folder) == "rejected" &&
-            (result.outcome == Outcome::kUndecided || result.message.find("next to what the path") != std::string::npos);
+            std::string(folder) == "rejected" && (result.outcome == Outcome::kUndecided ||
+                                                  result.message.find("next to what the path") != std::string::npos);
         const bool of_the_path = result.message.find("query waypoint") == std::string::npos;
         EXPECT_TRUE(result.outcome == Outcome::kAccepted || !of_the_path || is_led_astray) << result.message;
       } catch (const InputError&) {

@@ -14,7 +14,8 @@ const [taut, writeSamples, cases, screenshots] = process.argv.slice(2);
 const directory = mkdtempSync(join(tmpdir(), "taut-browser-"));
 const WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"];
-const SECTIONS = ["theorem", "assumptions", "inputs", "robot", "path", "recheck"];
+const SECTIONS = ["assumptions", "inputs", "robot", "path", "recheck"];
+const SECTIONS_OF_THEOREMS = ["theorem", ...SECTIONS];
 let withWebgl;
 let withoutWebgl;
 
@@ -140,6 +141,7 @@ for (const [name, expected] of Object.entries(PAGES)) {
   test(`${name}: everything is drawn`, async () => {
     const page = await open(name);
     for (const id of SECTIONS) assert.ok(await has(page, `section#${id}`), id);
+    assert.equal(await has(page, "section#theorem"), name !== "undecided.html", "a claim, where one is proved");
     assert.ok(await shown(page, ".stage canvas"), "the robot");
     assert.equal(await has(page, ".still") && await shown(page, ".still"), false, "no still picture beside the moving one");
     assert.equal(await page.locator(".panel .drawing svg").count(), expected.panels);
@@ -157,6 +159,7 @@ for (const [name, expected] of Object.entries(PAGES)) {
 test("no path: words and the plane, nothing to play", async () => {
   const page = await open("no_path.html");
   for (const id of SECTIONS) assert.ok(await has(page, `section#${id}`), id);
+  assert.equal(await has(page, "section#theorem"), false);
   assert.equal(await has(page, ".controls"), false);
   assert.ok(await has(page, ".plane-figure svg"));
   await close(page);
@@ -273,7 +276,7 @@ test("without WebGL the still picture stands in", async () => {
 
 test("without a script there are words, tables and the still picture", async () => {
   const page = await open("robot1-slice-qs-qg", { javaScriptEnabled: false });
-  for (const id of [...SECTIONS, "move", "tensions", "lengths", "plane"]) assert.ok(await shown(page, `#${id} h2`), id);
+  for (const id of [...SECTIONS_OF_THEOREMS, "move", "tensions", "lengths", "plane"]) assert.ok(await shown(page, `#${id} h2`), id);
   assert.ok(await shown(page, ".still svg"));
   assert.ok(await shown(page, ".unscripted"));
   await close(page);
