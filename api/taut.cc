@@ -103,9 +103,9 @@ void test_rounding_once() {
 }
 
 /// Carries what a progress callback throws around taut, which is asked to stop meanwhile.
-class Relay {
+class ProgressBridge {
  public:
-  Relay(const ProgressCallback& callback, const std::stop_token& stop)
+  ProgressBridge(const ProgressCallback& callback, const std::stop_token& stop)
       : callback_(callback), on_stop_(stop, [this] { source_.request_stop(); }) {}
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
@@ -474,8 +474,8 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
       copy.is_singular = !sample.statics.regular;
       copy.length_m = sample.statics.length;
       for (std::size_t i = 0; i < copy.length_m.size() && !copy.is_singular; ++i) {
-        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.variation[i];
-        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.variation[i];
+        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.tension_radius[i];
+        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.tension_radius[i];
       }
     }
     return result;
@@ -485,7 +485,7 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
 // --- What taut does --------------------------------------------------------------------------------------------------
 
 Certificate plan(const Case& the_case, const PlanOptions& options) {
-  Relay relay(options.progress, options.stop);
+  ProgressBridge relay(options.progress, options.stop);
   Certificate result = prove_within(InputKind::kCase, [&] {
     taut::Case planned = the_case.content().the_case;
     try {
@@ -532,7 +532,7 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
 namespace {
 
 Certificate audit_input(const Case& the_case, const PathInput& path, const AuditOptions& options) {
-  Relay relay(options.progress, options.stop);
+  ProgressBridge relay(options.progress, options.stop);
   const auto work = [&] {
     const Case::Content& content = the_case.content();
     require_seconds(options.max_check_seconds, "max_check_seconds");

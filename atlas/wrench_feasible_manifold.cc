@@ -169,14 +169,14 @@ class WrenchFeasibleManifold final : public Manifold {
       z.noalias() = y * model_.ellipsoid_root;
     }
     const Matrix6<double> zz = z * z.transpose();
-    std::array<J, kCables> densities;   // λ_i
-    std::array<J, kCables> variations;  // |z_i| = v_ii / d_i
+    std::array<J, kCables> densities;  // λ_i
+    std::array<J, kCables> radii;      // |z_i| = v_ii / d_i
     for (int i = 0; i < kCables; ++i) {
       const auto c = static_cast<std::size_t>(i);
       densities[c].value = density[i];
-      variations[c].value = std::sqrt(zz(i, i));
-      const double margin_low = lengths[c].value * (density[i] - variations[c].value) - model_.tension_lower[c];
-      const double margin_high = model_.tension_upper[c] - lengths[c].value * (density[i] + variations[c].value);
+      radii[c].value = std::sqrt(zz(i, i));
+      const double margin_low = lengths[c].value * (density[i] - radii[c].value) - model_.tension_lower[c];
+      const double margin_high = model_.tension_upper[c] - lengths[c].value * (density[i] + radii[c].value);
       if (!(margin_low > 0 && margin_high > 0)) return false;
     }
     for (std::size_t k = 0; k < N; ++k) {
@@ -191,7 +191,7 @@ class WrenchFeasibleManifold final : public Manifold {
       for (int i = 0; i < kCables; ++i) {
         const auto c = static_cast<std::size_t>(i);
         densities[c].partial[k] = -density_slope[i];
-        variations[c].partial[k] = -m.row(i).dot(zz.col(i)) / variations[c].value;
+        radii[c].partial[k] = -m.row(i).dot(zz.col(i)) / radii[c].value;
       }
     }
     bool clear = true;
@@ -209,8 +209,8 @@ class WrenchFeasibleManifold final : public Manifold {
     }
     for (std::size_t i = 0; i < kCables && clear; ++i) {
       const double half = 0.5 * (model_.tension_upper[i] - model_.tension_lower[i]);
-      const J low = lengths[i] * (densities[i] - variations[i]) - model_.tension_lower[i];
-      const J high = -(lengths[i] * (densities[i] + variations[i])) + model_.tension_upper[i];
+      const J low = lengths[i] * (densities[i] - radii[i]) - model_.tension_lower[i];
+      const J high = -(lengths[i] * (densities[i] + radii[i])) + model_.tension_upper[i];
       put_margin(low * (1.0 / half));
       if (clear) put_margin(high * (1.0 / half));
     }

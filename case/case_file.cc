@@ -810,7 +810,7 @@ void require_utf8(const std::string& text, const Places& places) {
 }
 
 /// Listens to nothing.
-class Deaf : public YAML::EventHandler {
+class NullEventHandler : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
   void OnDocumentEnd() override {}
@@ -830,7 +830,7 @@ class Deaf : public YAML::EventHandler {
 YAML::Node only_document(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  Deaf deaf;
+  NullEventHandler deaf;
   if (!parser.HandleNextDocument(deaf)) throw InputError(name + ": got no YAML document, expected one", {name});
   if (parser.HandleNextDocument(deaf)) throw InputError(name + ": got several YAML documents, expected one", {name});
   return YAML::Load(text);

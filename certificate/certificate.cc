@@ -12,7 +12,7 @@
 #include <optional>
 #include <system_error>
 
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 #include "base/sha256.h"
 #include "checker/format/claims.h"
 #include "checker/format/writer.h"
@@ -228,7 +228,7 @@ json make_certificate(const Problem& problem, const Path& path, const PathProof&
 
 namespace {
 
-double binary64(const PlacedJson& field) {
+double binary64(const JsonCursor& field) {
   const std::string& literal = field.text();
   const std::size_t digits = literal.starts_with('-') ? 3 : 2;  // behind "0x"
   double magnitude = std::numeric_limits<double>::infinity();
@@ -243,21 +243,21 @@ double binary64(const PlacedJson& field) {
   return value;
 }
 
-std::vector<double> binary64s(const PlacedJson& list) {
+std::vector<double> binary64s(const JsonCursor& list) {
   std::vector<double> values;
   for (std::size_t i = 0; i < list.size(); ++i) values.push_back(binary64(list.at(i)));
   return values;
 }
 
-std::vector<double> binary64s(const PlacedJson& list, std::size_t size) {
+std::vector<double> binary64s(const JsonCursor& list, std::size_t size) {
   if (list.size() != size) list.fail(fmt::format("a list of {}", size));
   return binary64s(list);
 }
 
-Waypoint waypoint_from_json(Interpolation law, const PlacedJson& entry) {
+Waypoint waypoint_from_json(Interpolation law, const JsonCursor& entry) {
   Waypoint waypoint;
   if (has_poses(law)) {
-    const auto append = [&](const PlacedJson& list, std::size_t size) {
+    const auto append = [&](const JsonCursor& list, std::size_t size) {
       for (const double value : binary64s(list, size)) waypoint.x.push_back(value);
     };
     append(entry.at("position"), 3);
@@ -266,17 +266,17 @@ Waypoint waypoint_from_json(Interpolation law, const PlacedJson& entry) {
     return waypoint;
   }
   waypoint.x = binary64s(entry.at("x"));
-  for (const PlacedJson& turns : entry.at("half_turns").elements(waypoint.x.size())) {
+  for (const JsonCursor& turns : entry.at("half_turns").elements(waypoint.x.size())) {
     waypoint.half_turns.push_back(static_cast<int>(turns.integer(-kMostHalfTurns, kMostHalfTurns)));
   }
   if (entry.contains("normals")) waypoint.normals = binary64s(entry.at("normals"));
   return waypoint;
 }
 
-PoseTube tube_from_json(const PlacedJson& tube) { return {binary64(tube.at("position")), binary64(tube.at("turn"))}; }
+PoseTube tube_from_json(const JsonCursor& tube) { return {binary64(tube.at("position")), binary64(tube.at("turn"))}; }
 
 /// Of "k/m" with m a power of two, at most 2^52.
-double number_from_dyadic(const PlacedJson& field) {
+double number_from_dyadic(const JsonCursor& field) {
   constexpr std::uint64_t kMostParts = std::uint64_t{1} << 52U;
   const std::string& text = field.text();
   std::uint64_t k = 0;
@@ -292,7 +292,7 @@ double number_from_dyadic(const PlacedJson& field) {
   field.fail("\"k/m\" with m a power of two up to 2^52");
 }
 
-InnerPose inner_pose_from_json(const PlacedJson& entry) {
+InnerPose inner_pose_from_json(const JsonCursor& entry) {
   InnerPose inner;
   inner.s = number_from_dyadic(entry.at("s"));
   const std::vector<double> position = binary64s(entry.at("position"), 3);
@@ -302,10 +302,10 @@ InnerPose inner_pose_from_json(const PlacedJson& entry) {
   return inner;
 }
 
-std::vector<DecimalText> times_from_json(const PlacedJson& times, std::size_t waypoints) {
+std::vector<DecimalText> times_from_json(const JsonCursor& times, std::size_t waypoints) {
   std::vector<DecimalText> result;
   std::optional<Decimal> last;
-  for (const PlacedJson& field : times.elements(waypoints)) {
+  for (const JsonCursor& field : times.elements(waypoints)) {
     const Decimal time = decimal_from_json(field);
     if (last && !(time > *last)) field.fail("a time later than the one before");
     last = time;
@@ -314,7 +314,7 @@ std::vector<DecimalText> times_from_json(const PlacedJson& times, std::size_t wa
   return result;
 }
 
-Interpolation interpolation_from_json(const PlacedJson& law) {
+Interpolation interpolation_from_json(const JsonCursor& law) {
   std::vector<std::string> names;
   for (const Interpolation known : {Interpolation::kStraight, Interpolation::kCubicBSpline, Interpolation::kGeodesic,
                                     Interpolation::kCableLengths}) {
@@ -327,20 +327,20 @@ Interpolation interpolation_from_json(const PlacedJson& law) {
 }  // namespace
 
 Path path_from_json(const json& path) {
-  const PlacedJson whole(path, "path");
+  const JsonCursor whole(path, "path");
   Path result;
   result.interpolation = interpolation_from_json(whole.at("interpolation"));
-  for (const PlacedJson& entry : whole.at("waypoints").elements()) {
+  for (const JsonCursor& entry : whole.at("waypoints").elements()) {
     result.waypoints.push_back(waypoint_from_json(result.interpolation, entry));
   }
   result.tubes = binary64s(whole.at("tubes"));
-  for (const PlacedJson& tube : whole.at("pose_tubes").elements()) {
+  for (const JsonCursor& tube : whole.at("pose_tubes").elements()) {
     result.pose_tubes.push_back(tube_from_json(tube));
     std::vector<InnerPose>& inner = result.inner_poses.emplace_back();
     if (!tube.contains("inner")) continue;
-    for (const PlacedJson& pose : tube.at("inner").elements()) inner.push_back(inner_pose_from_json(pose));
+    for (const JsonCursor& pose : tube.at("inner").elements()) inner.push_back(inner_pose_from_json(pose));
   }
-  if (const PlacedJson times = whole.at("times"); !times.is_null()) {
+  if (const JsonCursor times = whole.at("times"); !times.is_null()) {
     result.times = times_from_json(times, result.waypoints.size());
   }
   return result;

@@ -6,7 +6,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 #include "checker/format/strict_json.h"
 #include "checker/kernel/errors.h"
 
@@ -19,7 +19,7 @@ void require_unaltered(const nlohmann::json& certificate, const std::string& sha
   static const nlohmann::json kNone;
   const nlohmann::json& stated = certificate.is_object() && certificate.contains(place) ? certificate.at(place) : kNone;
   if (stated == sha256) return;
-  PlacedJson(stated, "footer.sha256").fail("the digest of this file: it is no certificate, or was cut or altered");
+  JsonCursor(stated, "footer.sha256").fail("the digest of this file: it is no certificate, or was cut or altered");
 }
 
 }  // namespace

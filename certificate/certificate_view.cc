@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "base/input_error.h"
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 #include "certificate/certificate.h"
 #include "problem/decimal.h"
 
@@ -24,7 +24,7 @@ using nlohmann::json;
 namespace {
 
 /// Nearest double of a decimal.
-double approximation(const PlacedJson& field) {
+double approximation(const JsonCursor& field) {
   double value = 0;
   const std::string& text = field.text();
   const char* const end = text.data() + text.size();
@@ -34,13 +34,13 @@ double approximation(const PlacedJson& field) {
 }
 
 /// Its text.
-std::string decimal(const PlacedJson& field) {
+std::string decimal(const JsonCursor& field) {
   (void)decimal_from_json(field);
   return field.text();
 }
 
 /// "k/m", "0" or "1".
-Dyadic read_dyadic(const PlacedJson& field) {
+Dyadic read_dyadic(const JsonCursor& field) {
   const std::string& text = field.text();
   const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string numerator = text.substr(0, slash);
@@ -62,10 +62,10 @@ Dyadic read_dyadic(const PlacedJson& field) {
   field.fail("a dyadic from 0 to 1");
 }
 
-std::vector<DyadicBox> read_boxes(const PlacedJson& boxes) {
+std::vector<DyadicBox> read_boxes(const JsonCursor& boxes) {
   std::vector<DyadicBox> result;
-  for (const PlacedJson& ends : boxes.elements()) {
-    const std::vector<PlacedJson> both = ends.at("s").elements(2);
+  for (const JsonCursor& ends : boxes.elements()) {
+    const std::vector<JsonCursor> both = ends.at("s").elements(2);
     const Dyadic lower = read_dyadic(both[0]);
     const Dyadic upper = read_dyadic(both[1]);
     const int depth = std::max(lower.depth, upper.depth);
@@ -92,17 +92,17 @@ Path read_path(const json& path, const SpaceText& space) {
   return result;
 }
 
-MarginsView read_margins(const PlacedJson& margins) {
+MarginsView read_margins(const JsonCursor& margins) {
   return {decimal(margins.at("tension_N")), decimal(margins.at("length_m")), decimal(margins.at("wrench_scale"))};
 }
 
 /// Of one of so many things.
-int read_index(const PlacedJson& index, std::size_t count) {
+int read_index(const JsonCursor& index, std::size_t count) {
   if (count == 0) index.fail("none, as the path has no segment");
   return static_cast<int>(index.integer(0, static_cast<std::int64_t>(count) - 1));
 }
 
-PathPointView read_point(const PlacedJson& point, const Path& path) {
+PathPointView read_point(const JsonCursor& point, const Path& path) {
   PathPointView result;
   if (point.contains("waypoint")) {
     result.index = read_index(point.at("waypoint"), path.waypoints.size());
@@ -115,7 +115,7 @@ PathPointView read_point(const PlacedJson& point, const Path& path) {
   return result;
 }
 
-WitnessView read_witness(const PlacedJson& witness, const Path& path) {
+WitnessView read_witness(const JsonCursor& witness, const Path& path) {
   WitnessView result;
   result.kind = witness.at("kind").text();
   constexpr std::array<std::string_view, 5> kKinds = {"singular", "tension_min", "tension_max", "length_min",
@@ -129,22 +129,22 @@ WitnessView read_witness(const PlacedJson& witness, const Path& path) {
     return result;
   }
   result.cable = static_cast<int>(witness.at("cable").integer(1, kCables));
-  const std::vector<PlacedJson> value = witness.at("value").elements(2);
+  const std::vector<JsonCursor> value = witness.at("value").elements(2);
   result.value_lower = decimal(value[0]);
   result.value_upper = decimal(value[1]);
   result.limit = decimal(witness.at("limit"));
   result.deviates = witness.contains("deviation");
-  result.is_led = result.deviates && witness.at("deviation").contains("cable_lengths_m");
+  result.uses_continuation = result.deviates && witness.at("deviation").contains("cable_lengths_m");
   return result;
 }
 
-StretchView read_stretch(const PlacedJson& stretch, const Path& path) {
+StretchView read_stretch(const JsonCursor& stretch, const Path& path) {
   StretchView result;
-  const std::vector<PlacedJson> outer = stretch.at("outer").elements(2);
+  const std::vector<JsonCursor> outer = stretch.at("outer").elements(2);
   result.begin = read_point(outer[0], path);
   result.end = read_point(outer[1], path);
-  if (const PlacedJson inner = stretch.at("inner"); !inner.is_null()) {
-    const std::vector<PlacedJson> witnesses = inner.elements(2);
+  if (const JsonCursor inner = stretch.at("inner"); !inner.is_null()) {
+    const std::vector<JsonCursor> witnesses = inner.elements(2);
     result.first = read_witness(witnesses[0], path);
     result.last = read_witness(witnesses[1], path);
   } else {
@@ -153,14 +153,14 @@ StretchView read_stretch(const PlacedJson& stretch, const Path& path) {
   return result;
 }
 
-UndecidedView read_undecided(const PlacedJson& undecided, const Path& path) {
+UndecidedView read_undecided(const JsonCursor& undecided, const Path& path) {
   UndecidedView result;
   result.reason = undecided.at("reason").text();
-  if (const PlacedJson segment = undecided.at("segment"); !segment.is_null()) {
+  if (const JsonCursor segment = undecided.at("segment"); !segment.is_null()) {
     result.segment = read_index(segment, path.segments());
   }
-  if (const PlacedJson box = undecided.at("box"); !box.is_null()) {
-    const std::vector<PlacedJson> ends = box.elements(2);
+  if (const JsonCursor box = undecided.at("box"); !box.is_null()) {
+    const std::vector<JsonCursor> ends = box.elements(2);
     result.box_lower = ends[0].text();
     result.box_upper = ends[1].text();
     const Dyadic lower = read_dyadic(ends[0]);
@@ -173,7 +173,7 @@ UndecidedView read_undecided(const PlacedJson& undecided, const Path& path) {
 }
 
 /// Charts of the atlas, where they are polygons in a plane of two parameters; others are passed over.
-void read_illustration(const PlacedJson& illustration, CertificateView& view) {
+void read_illustration(const JsonCursor& illustration, CertificateView& view) {
   if (!illustration.value().is_object()) return;
   if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
     for (const auto& [key, value] : illustration.value()["stats"].items()) {
@@ -181,19 +181,19 @@ void read_illustration(const PlacedJson& illustration, CertificateView& view) {
     }
   }
   if (illustration.contains("tolerance_limits")) {
-    for (const PlacedJson& limit : illustration.at("tolerance_limits").elements()) {
+    for (const JsonCursor& limit : illustration.at("tolerance_limits").elements()) {
       view.tolerance_limits.push_back(
           {limit.at("tolerance").text(), decimal(limit.at("proved")), limit.at("unit").text()});
     }
   }
   if (!illustration.contains("charts") || view.problem.space.parameters.size() != 2) return;
-  for (const PlacedJson& entry : illustration.at("charts").elements()) {
+  for (const JsonCursor& entry : illustration.at("charts").elements()) {
     if (!entry.contains("c") || entry.at("c").size() != 2) continue;
     ChartView chart;
-    for (const PlacedJson& c : entry.at("c").elements()) chart.centre.push_back(approximation(c));
+    for (const JsonCursor& c : entry.at("c").elements()) chart.centre.push_back(approximation(c));
     if (entry.contains("p")) {
-      for (const PlacedJson& corner : entry.at("p").elements()) {
-        const std::vector<PlacedJson> at = corner.elements(2);
+      for (const JsonCursor& corner : entry.at("p").elements()) {
+        const std::vector<JsonCursor> at = corner.elements(2);
         chart.corners.push_back({approximation(at[0]), approximation(at[1])});
       }
     }
@@ -204,17 +204,17 @@ void read_illustration(const PlacedJson& illustration, CertificateView& view) {
 }  // namespace
 
 CertificateView read_certificate(const json& certificate) {
-  const PlacedJson whole(certificate, "certificate");
-  const auto member = [&](const char* key) -> PlacedJson { return {whole.at(key).value(), key}; };
+  const JsonCursor whole(certificate, "certificate");
+  const auto member = [&](const char* key) -> JsonCursor { return {whole.at(key).value(), key}; };
   const auto text = [&](const char* key) { return member(key).text(); };
   CertificateView view;
   if (member("format").value() != "taut-certificate") member("format").fail("\"taut-certificate\"");
-  if (const PlacedJson version = member("version"); version.value() != kCertificateVersion) {
+  if (const JsonCursor version = member("version"); version.value() != kCertificateVersion) {
     version.fail(
         fmt::format("{}: only the taut that made it can make its report, or one of that time", kCertificateVersion));
   }
   for (const char* key : {"name", "version"}) {
-    const PlacedJson generator = member("generator");
+    const JsonCursor generator = member("generator");
     if (!generator.contains(key)) continue;
     view.generator += (view.generator.empty() ? "" : " ") + generator.at(key).text();
   }
@@ -223,23 +223,23 @@ CertificateView read_certificate(const json& certificate) {
     member("verdict").fail("proved, refuted or undecided");
   }
   view.claim = text("claim");
-  const PlacedJson problem = member("problem");
+  const JsonCursor problem = member("problem");
   try {
     view.problem = problem_from_json(problem.value());
   } catch (const FieldError& error) {
     const bool is_whole = error.field() == "problem";
     throw FieldError(is_whole ? error.field() : "problem." + error.field(), error.seen(), error.expected());
   }
-  const PlacedJson path = member("path");
+  const JsonCursor path = member("path");
   view.interpolation = path.at("interpolation").text();
   view.path = read_path(path.value(), view.problem.space);
   view.problem_sha256 = text("problem_sha256");
   view.path_sha256 = text("path_sha256");
   view.footer_sha256 = member("footer").at("sha256").text();
   constexpr std::int64_t kMostIndex = std::numeric_limits<int>::max();
-  for (const PlacedJson& segment : member("segments").elements()) {
-    const PlacedJson boxes = segment.at("boxes");
-    const PlacedJson margins = segment.at("margins");
+  for (const JsonCursor& segment : member("segments").elements()) {
+    const JsonCursor boxes = segment.at("boxes");
+    const JsonCursor margins = segment.at("margins");
     view.segments.push_back({static_cast<int>(segment.at("from").integer(0, kMostIndex)),
                              static_cast<int>(segment.at("to").integer(0, kMostIndex)), boxes.size(),
                              margins.is_null() ? MarginsView() : read_margins(margins)});
@@ -251,8 +251,8 @@ CertificateView read_certificate(const json& certificate) {
   if (view.verdict == "proved") view.margins = read_margins(member("margins"));
   if (view.verdict == "refuted") view.witness = read_witness(member("witness"), view.path);
   if (view.verdict == "undecided") view.undecided = read_undecided(member("undecided"), view.path);
-  if (const PlacedJson stretches = member("stretches"); !stretches.is_null()) {
-    for (const PlacedJson& stretch : stretches.elements()) view.stretches.push_back(read_stretch(stretch, view.path));
+  if (const JsonCursor stretches = member("stretches"); !stretches.is_null()) {
+    for (const JsonCursor& stretch : stretches.elements()) view.stretches.push_back(read_stretch(stretch, view.path));
   }
   if (whole.contains("illustration")) read_illustration(member("illustration"), view);
   return view;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A certificate as the report reads it (docs/certificate-format.md): types instead of JSON, nothing checked but its
-// form. What it claims is no verdict: a Scene shows it only where the checker has made a theorem of it. Numbers that
+// form. What it claims is no verdict: a ReportContext shows it only where the checker has made a theorem of it. Numbers that
 // the report only prints stay the strings that they are.
 #pragma once
 
@@ -44,8 +44,8 @@ struct WitnessView {
   std::string value_lower;
   std::string value_upper;
   std::string limit;
-  bool deviates = false;  ///< the machine is not the stated one, but within the tolerances
-  bool is_led = false;    ///< its lengths hold it where its deviation leads
+  bool deviates = false;           ///< the machine is not the stated one, but within the tolerances
+  bool uses_continuation = false;  ///< its lengths hold it where its deviation leads
 };
 
 /// Where an audited path is not proved.
@@ -81,7 +81,7 @@ struct ChartView {
 
 struct CertificateView {
   std::string generator;  ///< name and version
-  std::string verdict;    ///< "proved", "refuted" or "undecided"; "unchecked" where nobody knows (Scene)
+  std::string verdict;    ///< "proved", "refuted" or "undecided"; "unchecked" where nobody knows (ReportContext)
   std::string claim;
   Problem problem;
   Path path;

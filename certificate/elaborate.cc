@@ -21,7 +21,7 @@ namespace taut {
 namespace {
 
 using checker::Ball;
-using checker::Form;
+using checker::MeanValueForm;
 
 constexpr std::array<int, 7> kBits = {64, 128, 256, 512, 1024, 2048, 4096};
 constexpr int kMostAttempts = 20'000;  ///< of one search
@@ -97,14 +97,14 @@ std::optional<std::vector<double>> newton(const checker::Equations& equations, s
   double last = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps; ++step) {
     checker::Vector6<Ball> at;
-    checker::Vector6<Form> curve;
+    checker::Vector6<MeanValueForm> curve;
     for (std::size_t i = 0; i < y.size(); ++i) {
       at[i] = Ball(y[i]);
-      curve[i] = Form(at[i]);
+      curve[i] = MeanValueForm(at[i]);
     }
     checker::Matrix6<Ball> G = equations.jacobian(at);
     for (std::size_t i = y.size(); i < 6; ++i) G[i][i] = Ball(1);
-    const checker::Vector6<Form> moved = multiply(approximate_inverse(G), equations.residual(curve));
+    const checker::Vector6<MeanValueForm> moved = multiply(approximate_inverse(G), equations.residual(curve));
     double size = 0;
     for (std::size_t i = 0; i < y.size(); ++i) {
       const double by = approx(moved[i].at);
@@ -147,14 +147,14 @@ std::optional<checker::NearZero> near_zero(const WithEquations& with, const chec
     }
   }
   with(box, [&](const checker::Equations& equations) {
-    checker::Vector6<Form> curve;
+    checker::Vector6<MeanValueForm> curve;
     checker::Vector6<Ball> range;
     for (std::size_t i = 0; i < near.at.size(); ++i) {
       curve[i] = {Ball(near.at[i]), Ball(near.slope[i])};
       range[i] = curve[i].range();
     }
     const checker::Contraction contraction(equations, range);
-    const checker::Vector6<Form> off = multiply(contraction.A, equations.residual(curve));
+    const checker::Vector6<MeanValueForm> off = multiply(contraction.A, equations.residual(curve));
     double farthest = 0;
     for (std::size_t i = 0; i < near.at.size(); ++i) farthest = std::max(farthest, largest(off[i].range()));
     constexpr double kRoom = 2.5;

@@ -8,7 +8,7 @@
 
 #include "base/input_error.h"
 #include "certify/arithmetic/neumann.h"
-#include "certify/motion/held_motion.h"
+#include "certify/motion/length_controlled_motion.h"
 #include "kinematics/statics.h"
 
 namespace taut {
@@ -95,8 +95,8 @@ template <class I>
 void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
   for (std::size_t i = 0; i < kCables; ++i) {
     const int cable = static_cast<int>(i);
-    box.low[i] = box.length[i] * (box.density[i] - box.variation[i]);
-    box.high[i] = box.length[i] * (box.density[i] + box.variation[i]);
+    box.low[i] = box.length[i] * (box.density[i] - box.tension_radius[i]);
+    box.high[i] = box.length[i] * (box.density[i] + box.tension_radius[i]);
     box.low[i].tighten(box.offset);
     box.high[i].tighten(box.offset);
     box.margins.add({MarginKind::kTensionMin, cable}, box.low[i] - model.tension_lower[i]);
@@ -106,7 +106,7 @@ void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
 
 /// How far a deviation may change a margin.
 template <class I>
-UpperOf<I> change_of(MarginId id, const Disturbance<I>& disturbance) {
+UpperOf<I> change_of(MarginId id, const DeviationBounds<I>& disturbance) {
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
     case MarginKind::kTensionMin: return disturbance.tension[i][0];
@@ -123,14 +123,14 @@ template <class I>
 MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
                                       const I& offset) {
   if (segment.law == Interpolation::kCableLengths) {
-    return hold_by_lengths(problem.model, segment, s.range, s.mid, offset);
+    return forward_kinematics(problem.model, segment, s.range, s.mid, offset);
   }
   return enclose_motion(problem.motion, segment, s.range, s.mid, offset);
 }
 
 template <class I>
 BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, int parts) {
-  using Point = typename Scalars<I>::Point;
+  using Point = typename ProofScalarTraits<I>::Point;
   using Upper = UpperOf<I>;
   const Model<I>& model = problem.model;
   const double radius = box.radius();
@@ -143,7 +143,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   const MotionEnclosure<I> motion = undisturbed_motion(problem, segment, s, offset);
   result.motion = motion.status;
   if (!motion.is_enclosed()) return result;
-  const CableGeometry<Centered<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
+  const CableGeometry<SlopeForm<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
   for (std::size_t i = 0; i < kCables; ++i) {
     result.length[i] = length(geometry.p_AB_W[i]);
     result.length[i].tighten(offset);
@@ -153,7 +153,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   // C ≈ D(m)^-1.
   Matrix6<Point> mid;
   for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) mid(i, j) = Scalars<I>::point(geometry.force_density(i, j).at_mid);
+    for (int j = 0; j < 6; ++j) mid(i, j) = ProofScalarTraits<I>::point(geometry.force_density(i, j).at_mid);
   }
   Matrix6<Point> c;
   Point unused_determinant;
@@ -166,7 +166,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   Square<I> d_slope;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
-      const Centered<I>& entry = geometry.force_density(static_cast<int>(i), static_cast<int>(j));
+      const SlopeForm<I>& entry = geometry.force_density(static_cast<int>(i), static_cast<int>(j));
       d_mid[i][j] = entry.at_mid;
       d_slope[i][j] = entry.slope;
     }
@@ -224,7 +224,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
       x[k][static_cast<std::size_t>(j) + 1] = entry;
     }
     for (std::size_t j = 0; j < kColumns; ++j) {
-      const Point near = Scalars<I>::point(x[k][j]);
+      const Point near = ProofScalarTraits<I>::point(x[k][j]);
       x_magnitude[k][j] = Upper(magnitude(x[k][j]));
       x_error[k][j] = Upper(magnitude(x[k][j] - I(near)));
       for (std::size_t i = 0; i < 6; ++i) drift[i][j] = drift[i][j] + near * a1[i][k];
@@ -234,14 +234,14 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   const auto slope_error = upper_product(w, x_magnitude);
   const auto drift_error = upper_product(a1_magnitude, x_error);
   Square<I> root;  // the rows of Z = P C L over T
-  std::array<Centered<I>, 6> squares;
-  squares.fill(Centered<I>(0.0));
+  std::array<SlopeForm<I>, 6> squares;
+  squares.fill(SlopeForm<I>(0.0));
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < kColumns; ++j) {
-      Centered<I> value;
-      value.at_mid = x[i][j] + Scalars<I>::symmetric(mid_error[i][j]);
-      value.slope = Scalars<I>::symmetric(slope_error[i][j] + drift_error[i][j]) - drift[i][j];
-      value.range = value.at_mid + Scalars<I>::symmetric(Upper(radius) * Upper(magnitude(value.slope)));
+      SlopeForm<I> value;
+      value.at_mid = x[i][j] + ProofScalarTraits<I>::symmetric(mid_error[i][j]);
+      value.slope = ProofScalarTraits<I>::symmetric(slope_error[i][j] + drift_error[i][j]) - drift[i][j];
+      value.range = value.at_mid + ProofScalarTraits<I>::symmetric(Upper(radius) * Upper(magnitude(value.slope)));
       if (j == 0) {
         result.density[i] = value;
       } else {
@@ -253,8 +253,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   for (std::size_t i = 0; i < 6; ++i) {
     squares[i].tighten(offset);
     if (!certainly_positive(squares[i].range)) return result;  // the box is too wide
-    result.variation[i] = sqrt(squares[i]);
-    result.variation[i].tighten(offset);
+    result.tension_radius[i] = sqrt(squares[i]);
+    result.tension_radius[i].tighten(offset);
   }
   result.regular = true;
   add_tension_margins(model, result);
@@ -262,11 +262,11 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
 
   const bool held = is_held_by_lengths(problem, segment);
   result.disturbance =
-      disturbance<I>({model, motion, geometry, result.length, result.density, result.variation, root, c, q, held},
+      disturbance<I>({model, motion, geometry, result.length, result.density, result.tension_radius, root, c, q, held},
                      *problem.tolerance, parts);
   if (!result.disturbance) return result;
   for (auto& margin : result.margins) {
-    margin.disturbed = margin.disturbed + Scalars<I>::symmetric(change_of(margin.id, *result.disturbance));
+    margin.disturbed = margin.disturbed + ProofScalarTraits<I>::symmetric(change_of(margin.id, *result.disturbance));
   }
   return result;
 }
@@ -315,7 +315,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, parts);
   BoxVerdict verdict;
   switch (enclosure.motion) {
-    case Status::kAcross: verdict.kind = Kind::kAcross; return verdict;
+    case Status::kSpansKnot: verdict.kind = Kind::kSpansKnot; return verdict;
     case Status::kUnproved: verdict.kind = Kind::kNoMotion; return verdict;
     case Status::kOutOfRange: verdict.kind = Kind::kOutOfRange; return verdict;
     case Status::kRangeWide:
@@ -355,9 +355,10 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
       if (bound > 0) {
         // (f0 − f_lo)/v = 1 + (f0 − v − f_lo)/v, and likewise above.
         const auto n = static_cast<std::size_t>(id.cable);
-        I variation = enclosure.length[n].range * enclosure.variation[n].range;
-        if (enclosure.disturbance) variation = variation + Scalars<I>::symmetric(enclosure.disturbance->variation(n));
-        const I scale = I(1.0) + I(bound) / I(upper_bound(variation));
+        I tension_radius = enclosure.length[n].range * enclosure.tension_radius[n].range;
+        if (enclosure.disturbance)
+          tension_radius = tension_radius + ProofScalarTraits<I>::symmetric(enclosure.disturbance->tension_radius(n));
+        const I scale = I(1.0) + I(bound) / I(upper_bound(tension_radius));
         verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
       }
     } else {
@@ -412,7 +413,7 @@ int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segme
   const auto point = enclose<MpInterval>(s);
   const MotionEnclosure<MpInterval> motion = undisturbed_motion(problem, segment, {point, point}, MpInterval(0.0));
   if (motion.status != MotionEnclosure<MpInterval>::Status::kKnown) return 0;
-  const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
+  const auto at_mid = [](const SlopeForm<MpInterval>& x) { return x.at_mid; };
   const Vector3<MpInterval> p_WP = motion.p_WP.unaryExpr(at_mid);
   const Matrix3<MpInterval> r_WP = motion.r_WP.unaryExpr(at_mid);
   Matrix6<MpInterval> inverse;

@@ -2,7 +2,7 @@
 // The heart: enclosures of lengths, tensions and margins over one box of one segment.
 //
 // Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any approximation of
-// D(m)^-1. With A0 = C D(m) and A1 ⊇ C S, S the slopes of D from m (centered.h), entry by entry
+// D(m)^-1. With A0 = C D(m) and A1 ⊇ C S, S the slopes of D from m (slope_form.h), entry by entry
 //   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                       (a)
 // If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
 //   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                                (b)
@@ -18,11 +18,11 @@
 #include <cstddef>
 #include <optional>
 
-#include "certify/arithmetic/centered.h"
 #include "certify/arithmetic/dyadic.h"
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
-#include "certify/motion/held_motion.h"
+#include "certify/arithmetic/slope_form.h"
+#include "certify/motion/length_controlled_motion.h"
 #include "certify/motion/motion.h"
 #include "certify/tolerance/tolerance.h"
 #include "kinematics/geometry.h"
@@ -55,13 +55,13 @@ struct MarginList {
   static constexpr std::size_t kCapacity = std::size_t{4} * kCables;
   struct Entry {
     MarginId id;
-    Centered<I> value;  ///< [N] or [m], of the undisturbed machine
-    I disturbed;        ///< over all of T, for every deviation that BoxEnclosure::disturbance knows of
+    SlopeForm<I> value;  ///< [N] or [m], of the undisturbed machine
+    I disturbed;         ///< over all of T, for every deviation that BoxEnclosure::disturbance knows of
   };
   std::array<Entry, kCapacity> entries;
   std::size_t size = 0;
 
-  void add(MarginId id, const Centered<I>& value) { entries.at(size++) = {id, value, value.range}; }
+  void add(MarginId id, const SlopeForm<I>& value) { entries.at(size++) = {id, value, value.range}; }
   [[nodiscard]] Entry* begin() { return entries.data(); }
   [[nodiscard]] Entry* end() { return entries.data() + size; }
   [[nodiscard]] const Entry* begin() const { return entries.data(); }
@@ -76,17 +76,17 @@ struct MarginList {
 /// What is known over one box, of the undisturbed machine but for `disturbance`.
 template <class I>
 struct BoxEnclosure {
-  typename MotionEnclosure<I>::Status motion;  ///< nothing below is set where the motion is unproved
-  bool regular = false;                        ///< ρ < 1: J is non-singular on all of T, given positive lengths
-  std::array<Centered<I>, kCables> length;     ///< d_i [m]
-  std::array<Centered<I>, kCables> density;    ///< λ_i [N/m]; this and what follows only where regular
-  std::array<Centered<I>, kCables> variation;  ///< v_ii / d_i [N/m]
-  std::array<Centered<I>, kCables> low, high;  ///< f0_i − v_ii, f0_i + v_ii [N]
-  I offset;                                    ///< contains t − m for all t in T
-  MarginList<I> margins;                       ///< those of lengths, and where regular those of tensions
+  typename MotionEnclosure<I>::Status motion;        ///< nothing below is set where the motion is unproved
+  bool regular = false;                              ///< ρ < 1: J is non-singular on all of T, given positive lengths
+  std::array<SlopeForm<I>, kCables> length;          ///< d_i [m]
+  std::array<SlopeForm<I>, kCables> density;         ///< λ_i [N/m]; this and what follows only where regular
+  std::array<SlopeForm<I>, kCables> tension_radius;  ///< v_ii / d_i [N/m]
+  std::array<SlopeForm<I>, kCables> low, high;       ///< f0_i − v_ii, f0_i + v_ii [N]
+  I offset;                                          ///< contains t − m for all t in T
+  MarginList<I> margins;                             ///< those of lengths, and where regular those of tensions
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of T, and for
   /// every deviation the commanded pose is proved to exist, and J to be non-singular.
-  std::optional<Disturbance<I>> disturbance;
+  std::optional<DeviationBounds<I>> disturbance;
 };
 
 /// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
@@ -106,7 +106,7 @@ struct BoxVerdict {
     kPrecision,     ///< at the midpoint itself this scalar can't tell
     kNearSingular,  ///< ρ < 1 could not be had: T is too wide, or D comes close to singular
     kNoMotion,      ///< the motion is only implied, and was not proved to exist on all of T
-    kAcross,        ///< T reaches across an inner pose of the reference, and nothing was tried
+    kSpansKnot,     ///< T reaches across an inner pose of the reference, and nothing was tried
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };

@@ -11,7 +11,7 @@ namespace {
 
 /// How far a centred form may exceed the function that it encloses, about.
 template <class I>
-double excess(const Centered<I>& x, double radius) {
+double excess(const SlopeForm<I>& x, double radius) {
   return radius * (upper_bound(x.slope) - lower_bound(x.slope));
 }
 
@@ -32,9 +32,9 @@ BoxRanges ranges_of(const Model<I>& model, const BoxEnclosure<I>& enclosure, con
     I length = enclosure.length[i].range;
     if (enclosure.disturbance) {
       const auto& [change_low, change_high] = enclosure.disturbance->tension[i];
-      low = low + Scalars<I>::symmetric(change_low);
-      high = high + Scalars<I>::symmetric(change_high);
-      length = length + Scalars<I>::symmetric(enclosure.disturbance->length[i]);
+      low = low + ProofScalarTraits<I>::symmetric(change_low);
+      high = high + ProofScalarTraits<I>::symmetric(change_high);
+      length = length + ProofScalarTraits<I>::symmetric(enclosure.disturbance->length[i]);
     }
     ranges.tension[i] = {lower_bound(low), upper_bound(high)};
     ranges.length[i] = {lower_bound(length), upper_bound(length)};

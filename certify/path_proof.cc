@@ -57,7 +57,7 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   const DyadicBox whole;
   const SegmentProof proof = prover.prove(still);
   if (proof.verdict == Verdict::kProved) return std::nullopt;
-  if (!prover.may_follow(still)) {
+  if (!prover.is_admissible(still)) {
     undecided = Reason::at_pose(Undecided::kWaypointRange);
     return std::nullopt;
   }
@@ -172,8 +172,8 @@ Margins margins_below(double tension_N, double length_m, double wrench_scale) {
   return {decimal_below(tension_N), decimal_below(length_m), decimal_below(wrench_scale)};
 }
 
-void sharpen(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
-             std::vector<SegmentProof>& segments) {
+void tighten_margins(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
+                     std::vector<SegmentProof>& segments) {
   Sharpener sharpener(prover, segment, segments);
   for (const LeastOf bound : {LeastOf::kTension, LeastOf::kScale, LeastOf::kLength}) sharpener.raise(bound);
 }
@@ -192,7 +192,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k));
   });
   if (std::ranges::all_of(result.segments, [](const auto& x) { return x.verdict == Verdict::kProved; })) {
-    sharpen(
+    tighten_margins(
         prover, [&](std::size_t k) { return path.segment(k); }, result.segments);
   }
   result.verdict = Verdict::kProved;

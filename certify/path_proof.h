@@ -55,8 +55,8 @@ using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 /// Raises the least margins of a proved path, as said above.
 /// @param segment   number k of the path, ready to be proved about
 /// @param segments  their proofs, all "proved"; boxes and margins are replaced
-void sharpen(const Prover& prover, const std::function<Segment(std::size_t k)>& segment,
-             std::vector<SegmentProof>& segments);
+void tighten_margins(const Prover& prover, const std::function<Segment(std::size_t k)>& segment,
+                     std::vector<SegmentProof>& segments);
 
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {});

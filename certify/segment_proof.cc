@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/input_error.h"
-#include "certify/held_reference.h"
+#include "certify/reference_path.h"
 
 namespace taut {
 
@@ -43,7 +43,7 @@ Segment Prover::segment(const Waypoint& a, const Waypoint& b) const { return pre
 
 Segment Prover::prepared(Segment segment) const {
   if (constraints_ && !has_poses(segment.law)) segment.tube = suitable_tube(segment);
-  if (segment.law == Interpolation::kCableLengths && may_follow(segment)) {
+  if (segment.law == Interpolation::kCableLengths && is_admissible(segment)) {
     std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
     propose_reference(fast_, sampler_->model(), segment);
   }
@@ -98,7 +98,7 @@ bool has_joined_pieces(const Segment& segment) {
 
 }  // namespace
 
-bool Prover::may_follow(const Segment& segment) const {
+bool Prover::is_admissible(const Segment& segment) const {
   const auto is_finite = [](double x) { return std::isfinite(x); };
   return std::ranges::all_of(segment.controls(),
                              [&](const Waypoint* waypoint) {
@@ -123,7 +123,7 @@ bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
 
 namespace {
 
-/// Why may_follow() said no.
+/// Why is_admissible() said no.
 Undecided not_followed(Interpolation law) { return has_poses(law) ? Undecided::kNoMotion : Undecided::kWaypointRange; }
 
 Undecided reason_of(BoxVerdict::Kind kind) {
@@ -215,8 +215,8 @@ Reason at(Undecided reason, MarginId margin, std::string_view detail = {}) {
 }
 
 /// Of an enclosure at the working precision. Void if a fault is raised.
-std::optional<Centered<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
-                                                const DyadicBox& box, MarginId id) {
+std::optional<SlopeForm<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
+                                                 const DyadicBox& box, MarginId id) {
   const BoxEnclosure<MpInterval> enclosure = enclose_box(model, segment, box);
   for (const auto& margin : enclosure.margins) {
     if (margin.id == id) return margin.value;
@@ -230,7 +230,7 @@ BigFloat middle(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.l
 
 /// What bisection would find out about a margin that is next to 0, sooner: where in the box is it least? A claim is made by
 /// judge_at() alone; the search for the point may go wrong, and then the box climbs one rung as it would anyway.
-Prover::Step Prover::settle(Walk& walk, const Task& task, MarginId margin) const {
+Prover::Step Prover::locate_minimum(Walk& walk, const Task& task, MarginId margin) const {
   constexpr int kMostSteps = 24;  // on one rung; secants gain digits like 1, 1, 2, 3, 5
   const Segment& segment = walk.segment;
   const Step climb{Step::Kind::kClimb};
@@ -334,7 +334,7 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
     case Kind::kTooClose: return give_up(Undecided::kClearance);
     case Kind::kSplit:
       if (box.depth < deepest(rung, bits_)) return split();
-      if (higher_rung) return settle(walk, task, verdict.worst);
+      if (higher_rung) return locate_minimum(walk, task, verdict.worst);
       return give_up(at(Undecided::kDepth, verdict.worst));
     case Kind::kTolerance:
       if (parts == 1) return refine();
@@ -352,10 +352,10 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
       if (parts < kMostParts) return refine();
       return give_up(at(Undecided::kTolerances, verdict.worst));
     case Kind::kPrecision:
-      if (higher_rung) return settle(walk, task, verdict.worst);
+      if (higher_rung) return locate_minimum(walk, task, verdict.worst);
       return give_up(at(Undecided::kPrecision, verdict.worst, ": it vanishes or nearly so"));
     case Kind::kOutOfRange: return give_up(Undecided::kParameterRange);
-    case Kind::kAcross:
+    case Kind::kSpansKnot:
       if (box.depth < DyadicBox::kMaxDepth) return split();
       return give_up(Undecided::kNoMotion);  // the inner pose is at no end of a box
     case Kind::kNoMotion:
@@ -382,7 +382,7 @@ Prover::Step Prover::examine(Walk& walk, const Task& task) const {
 SegmentProof Prover::prove(const Segment& segment, double clearance) const {
   SegmentProof proof;
   proof.tension_N = proof.length_m = proof.wrench_scale = std::numeric_limits<double>::infinity();
-  if (!may_follow(segment)) {
+  if (!is_admissible(segment)) {
     proof.reason = not_followed(segment.law);
     return proof;
   }
@@ -430,7 +430,7 @@ SegmentSurvey Prover::survey(const Segment& segment, const SurveyOptions& option
   using Kind = SurveyedBox::Kind;
   SegmentSurvey survey;
   survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
-  if (!may_follow(segment)) {
+  if (!is_admissible(segment)) {
     survey.boxes.push_back({{}, Kind::kOpen, {}, not_followed(segment.law)});
     return survey;
   }
@@ -509,7 +509,7 @@ std::optional<MpInterval> Prover::deviated_at_mid(const Segment& segment, const 
   const auto mid = enclose<MpInterval>(box.mid());
   const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
   if (commanded.status != MotionEnclosure<MpInterval>::Status::kKnown) return std::nullopt;
-  const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
+  const auto at_mid = [](const SlopeForm<MpInterval>& x) { return x.at_mid; };
   MpInterval quantity = deviated_quantity(model.model, *problem_.tolerances, commanded.p_WP.unaryExpr(at_mid),
                                           commanded.r_WP.unaryExpr(at_mid), deviation, margin);
   if (Faults<MpInterval>::raised()) return std::nullopt;

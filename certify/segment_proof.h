@@ -104,7 +104,7 @@ class Prover {
 
   /// Whether the machine is held by its cables' lengths along a path of this law.
   [[nodiscard]] bool is_held_by_lengths(Interpolation law) const;
-  /// `segment` with the tubes that it needs; under the law of cable lengths with inner poses, too (held_reference.h).
+  /// `segment` with the tubes that it needs; under the law of cable lengths with inner poses, too (reference_path.h).
   [[nodiscard]] Segment prepared(Segment segment) const;
 
   /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay
@@ -132,7 +132,7 @@ class Prover {
                                            const Deviation& deviation) const;
 
   /// Whether all control points are such as the law asks for, and certainly in their ranges where it runs through parameters.
-  [[nodiscard]] bool may_follow(const Segment& segment) const;
+  [[nodiscard]] bool is_admissible(const Segment& segment) const;
   /// Whether λ lies in the closed ranges of the parameters, certainly. Then so does every segment between two such waypoints.
   [[nodiscard]] bool certainly_in_ranges(const Waypoint& waypoint) const;
 
@@ -154,7 +154,7 @@ class Prover {
   [[nodiscard]] BoxVerdict judge_at(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
                                     int parts) const;
   [[nodiscard]] Step examine(Walk& walk, const Task& task) const;
-  [[nodiscard]] Step settle(Walk& walk, const Task& task, MarginId margin) const;
+  [[nodiscard]] Step locate_minimum(Walk& walk, const Task& task, MarginId margin) const;
   /// Whether a box would do that is much narrower, in the middle, with deviations in as many parts.
   [[nodiscard]] bool is_proved_inside(Walk& walk, const Task& task) const;
   [[nodiscard]] bool is_singular_between_ends(const Segment& segment, const DyadicBox& box) const;

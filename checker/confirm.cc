@@ -254,7 +254,7 @@ class Confirmation {
     for (const int bits : {128, 512, 1200, 4096}) {
       const WorkingPrecision precision(bits);
       try {
-        const Ball x = typed.evaluate<Form>({}).range();
+        const Ball x = typed.evaluate<MeanValueForm>({}).range();
         const auto rounded = [](const Ball& end) { return arf_get_d(arb_midref(end.get()), ARF_RND_NEAR); };
         if (const double nearest = rounded(lowest(x)); rounded(highest(x)) == nearest) return nearest;
       } catch (const Undefined&) {

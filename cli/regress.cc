@@ -17,7 +17,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/input_kind.h"
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 #include "base/sanitize.h"
 #include "case/case_file.h"
 #include "cli/console.h"
@@ -336,14 +336,14 @@ Baseline read_baseline(const fs::path& path) {
   if (file.value("version", json()) != kBaselineVersion) throw fail("got another version");
   return reading(InputKind::kRegress, path.string(), [&] {
     Baseline result;
-    const PlacedJson cases = PlacedJson(file, "baseline").at("cases");
+    const JsonCursor cases = JsonCursor(file, "baseline").at("cases");
     if (!cases.value().is_object()) cases.fail("an object");
     for (const auto& [name, member] : cases.value().items()) {
-      const PlacedJson entry(member, "cases." + name);
+      const JsonCursor entry(member, "cases." + name);
       Measurement measured{entry.at("verdict").text(), {}};
       for (const char* quantity : kBoundQuantities) {
         if (!entry.contains(quantity)) continue;
-        const PlacedJson number = entry.at(quantity);
+        const JsonCursor number = entry.at(quantity);
         if (!number.value().is_number()) number.fail("a number");
         measured.quantities[quantity] = number.value().get<double>();
       }

@@ -72,8 +72,8 @@ struct Jet {
     return sc.sin / sc.cos;
   }
   friend Jet exp(const Jet& a) {
-    const S value = exp(a.value);
-    return chain(a, value, value);
+    const S power = exp(a.value);
+    return chain(a, power, power);
   }
   friend Jet log(const Jet& a) { return chain(a, log(a.value), S(1.0) / a.value); }
   friend Jet asin(const Jet& a) { return chain(a, asin(a.value), slope_of_asin(a.value)); }

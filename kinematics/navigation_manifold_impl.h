@@ -83,14 +83,14 @@ bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTa
       for (std::size_t l = 1; l < 6; ++l) product = product + z[m][l] * z[n][l];
       put(Layout::kVariations + 6 * i + j, lengths[m] * product / norm);
     }
-    const J variation = lengths[n] * norm;
+    const J tension_radius = lengths[n] * norm;
 
     const S half_length = (model.length_upper[n] - model.length_lower[n]) * S(0.5);
     const S half_tension = (model.tension_upper[n] - model.tension_lower[n]) * S(0.5);
     const J room = (lengths[n] - model.length_lower[n]) * (-lengths[n] + model.length_upper[n]);
     put(Layout::kLengthSlack + i, J(half_length * half_length) / room);
-    put(Layout::kLowSlack + i, J(half_tension) / (tension - variation - model.tension_lower[n]));
-    put(Layout::kHighSlack + i, J(half_tension) / (-(tension + variation) + model.tension_upper[n]));
+    put(Layout::kLowSlack + i, J(half_tension) / (tension - tension_radius - model.tension_lower[n]));
+    put(Layout::kHighSlack + i, J(half_tension) / (-(tension + tension_radius) + model.tension_upper[n]));
   }
   return true;
 }
@@ -165,12 +165,12 @@ Eigen::Matrix<S, kNavigationEquations, 1> navigation_residual(const Model<S>& mo
     const S half_length = (model.length_upper[n] - model.length_lower[n]) * S(0.5);
     const S half_tension = (model.tension_upper[n] - model.tension_lower[n]) * S(0.5);
     const S& tension = x(Layout::kTensions + i);
-    const S& variation = x(Layout::kVariations + 7 * i);
+    const S& tension_radius = x(Layout::kVariations + 7 * i);
     f(row++) = x(Layout::kLengthSlack + i) * (cable_length(i) - model.length_lower[n]) *
                    (model.length_upper[n] - cable_length(i)) -
                half_length * half_length;
-    f(row++) = x(Layout::kLowSlack + i) * (tension - variation - model.tension_lower[n]) - half_tension;
-    f(row++) = x(Layout::kHighSlack + i) * (model.tension_upper[n] - tension - variation) - half_tension;
+    f(row++) = x(Layout::kLowSlack + i) * (tension - tension_radius - model.tension_lower[n]) - half_tension;
+    f(row++) = x(Layout::kHighSlack + i) * (model.tension_upper[n] - tension - tension_radius) - half_tension;
   }
   return f;
 }

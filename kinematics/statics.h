@@ -14,11 +14,11 @@ namespace taut {
 
 template <class S>
 struct Statics {
-  bool regular = false;              ///< D was inverted; else only lengths are set
-  std::array<S, kCables> length;     ///< d_i [m]
-  std::array<S, kCables> tension;    ///< f0_i [N]
-  std::array<S, kCables> variation;  ///< v_ii [N]
-  S determinant;                     ///< det J about P_m, equal to det J about O
+  bool regular = false;                   ///< D was inverted; else only lengths are set
+  std::array<S, kCables> length;          ///< d_i [m]
+  std::array<S, kCables> tension;         ///< f0_i [N]
+  std::array<S, kCables> tension_radius;  ///< v_ii [N]
+  S determinant;                          ///< det J about P_m, equal to det J about O
 };
 
 /// Gauss–Jordan elimination with partial pivoting by mignitude. @returns whether `matrix` is (certainly) regular.

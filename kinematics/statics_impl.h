@@ -72,7 +72,7 @@ Statics<S> statics(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<
     }
     const auto n = static_cast<std::size_t>(i);
     result.tension[n] = result.length[n] * density;
-    result.variation[n] = result.length[n] * sqrt(square);
+    result.tension_radius[n] = result.length[n] * sqrt(square);
     result.determinant = result.determinant / result.length[n];
   }
   return result;

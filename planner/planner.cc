@@ -18,7 +18,7 @@
 #include "certify/undecided.h"
 #include "kinematics/geometry.h"
 #include "kinematics/motion_length.h"
-#include "planner/clear_edge.h"
+#include "planner/sampled_motion_validator.h"
 #include "planner/shorten.h"
 #include "planner/smooth.h"
 #include "planner/time_budget.h"
@@ -160,7 +160,7 @@ struct Planner::Leg {
 /// Which edges search and shortening may use: those that look clear and, with a prover, are proved.
 class Planner::Edges {
  public:
-  Edges(const ClearEdge& looks_clear, const PoseSampler& sampler, const Prover* prover)
+  Edges(const SampledMotionValidator& looks_clear, const PoseSampler& sampler, const Prover* prover)
       : looks_clear_(looks_clear), sampler_(sampler), prover_(prover) {}
 
   [[nodiscard]] bool looks_clear(const Coordinates& a, const Coordinates& b) const { return looks_clear_(a, b); }
@@ -199,7 +199,7 @@ class Planner::Edges {
     return it->second.verdict == Verdict::kProved;
   }
 
-  const ClearEdge& looks_clear_;
+  const SampledMotionValidator& looks_clear_;
   const PoseSampler& sampler_;
   const Prover* prover_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, SegmentProof> proofs_;
@@ -427,7 +427,7 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   statistics.cost = statistics.cost_found = 0;
   statistics.factor = 1;
   statistics.budget_spent = false;
-  const ClearEdge looks_clear(sampler_, kEdgeClearanceShare * clearance_);
+  const SampledMotionValidator looks_clear(sampler_, kEdgeClearanceShare * clearance_);
   Edges edges(looks_clear, sampler_, edge_prover);
   result.proof = {};
   std::optional<FoundPath> found = find_path(edges, progress, stop, statistics, result.proof.reason);

@@ -2,7 +2,7 @@
 // One plan, end to end: atlas, search, path, proof.
 //
 // The search proposes and the prover decides. A path is sought on edges that look clear of limits at sampled poses
-// (planner/clear_edge.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
+// (planner/sampled_motion_validator.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
 // each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
 // its proof is gathered, never inferred from the search.
 //

@@ -148,7 +148,7 @@ double ScalarTraits<double>::from_decimal(const std::string& text) {
   return value;
 }
 
-Decimal decimal_from_json(const PlacedJson& value) {
+Decimal decimal_from_json(const JsonCursor& value) {
   try {
     if (value.value().is_string()) return Decimal::parse(value.text());
   } catch (const InputError&) {  // says no place

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 
 namespace taut {
 
@@ -48,6 +48,6 @@ class Decimal {
 };
 
 /// Of a text that is one. @throws FieldError that names the place
-[[nodiscard]] Decimal decimal_from_json(const PlacedJson& value);
+[[nodiscard]] Decimal decimal_from_json(const JsonCursor& value);
 
 }  // namespace taut

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "base/input_error.h"
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
 
@@ -23,23 +23,23 @@ using nlohmann::json;
 
 [[noreturn]] void fail(const std::string& where, const std::string& expected) { throw FieldError(where, "", expected); }
 
-void read(const PlacedJson& value, std::string& out) { out = value.text(); }
+void read(const JsonCursor& value, std::string& out) { out = value.text(); }
 
 template <class T, std::size_t N>
-void read(const PlacedJson& value, std::array<T, N>& out);
-void read(const PlacedJson& value, Limits& out) {
+void read(const JsonCursor& value, std::array<T, N>& out);
+void read(const JsonCursor& value, Limits& out) {
   std::array<DecimalText, 2> pair;
   read(value, pair);
   out = {pair[0], pair[1]};
 }
 
 template <class T, std::size_t N>
-void read(const PlacedJson& value, std::array<T, N>& out) {
-  const std::vector<PlacedJson> elements = value.elements(N);
+void read(const JsonCursor& value, std::array<T, N>& out) {
+  const std::vector<JsonCursor> elements = value.elements(N);
   for (std::size_t i = 0; i < N; ++i) read(elements[i], out[i]);
 }
 
-Parameter read_parameter(const PlacedJson& value) {
+Parameter read_parameter(const JsonCursor& value) {
   const bool has_range = value.contains("range");
   if (has_range) {
     value.expect_keys({"name", "kind", "range"});
@@ -48,7 +48,7 @@ Parameter read_parameter(const PlacedJson& value) {
   }
   Parameter parameter;
   read(value.at("name"), parameter.name);
-  const PlacedJson kind = value.at("kind");
+  const JsonCursor kind = value.at("kind");
   if (kind.value() == "real") {
     parameter.kind = ParameterKind::kReal;
   } else if (kind.value() == "periodic") {
@@ -69,7 +69,7 @@ Parameter read_parameter(const PlacedJson& value) {
   return parameter;
 }
 
-TolerancesText read_tolerances(const PlacedJson& value) {
+TolerancesText read_tolerances(const JsonCursor& value) {
   value.expect_keys({"base_anchor_m", "platform_anchor_m", "load_point_m", "wrench", "position_m", "orientation_rad",
                      "cable_length_m"});
   TolerancesText result;
@@ -79,24 +79,24 @@ TolerancesText read_tolerances(const PlacedJson& value) {
   read(value.at("wrench"), result.wrench);
   read(value.at("position_m"), result.position_m);
   read(value.at("orientation_rad"), result.orientation_rad);
-  if (const PlacedJson length = value.at("cable_length_m"); !length.is_null()) {
+  if (const JsonCursor length = value.at("cable_length_m"); !length.is_null()) {
     read(length, result.cable_length_m.emplace());
   }
   return result;
 }
 
-SpaceText read_space(const PlacedJson& value) {
+SpaceText read_space(const JsonCursor& value) {
   value.expect_keys({"parameters", "constants", "flip", "pose", "constraints"});
   SpaceText space;
-  for (const PlacedJson& parameter : value.at("parameters").elements()) {
+  for (const JsonCursor& parameter : value.at("parameters").elements()) {
     space.parameters.push_back(read_parameter(parameter));
   }
-  const PlacedJson constants = value.at("constants");
+  const JsonCursor constants = value.at("constants");
   if (!constants.value().is_object()) constants.fail("an object");
   for (const auto& [name, decimal] : constants.value().items()) {
     read({decimal, constants.where() + "." + name}, space.constants[name]);
   }
-  if (const PlacedJson flip = value.at("flip"); !flip.is_null()) {
+  if (const JsonCursor flip = value.at("flip"); !flip.is_null()) {
     const auto is_index = [&](const json& i) {
       return i.is_number_integer() && i >= 0 && i < static_cast<int>(space.parameters.size());
     };
@@ -106,10 +106,10 @@ SpaceText read_space(const PlacedJson& value) {
     }
     space.flip = {pair[0].get<int>(), pair[1].get<int>()};
   }
-  const PlacedJson pose = value.at("pose");
+  const JsonCursor pose = value.at("pose");
   pose.expect_keys({"px", "py", "pz", "phi", "theta", "sigma"});
   for (std::size_t i = 0; i < kPoseNames.size(); ++i) read(pose.at(kPoseNames[i]), space.pose[i]);
-  for (const PlacedJson& constraint : value.at("constraints").elements()) {
+  for (const JsonCursor& constraint : value.at("constraints").elements()) {
     read(constraint, space.constraints.emplace_back());
   }
   return space;
@@ -443,28 +443,28 @@ json to_json(const Problem& problem) {
 }
 
 Problem problem_from_json(const json& value) {
-  const auto member = [&](const char* key) -> PlacedJson { return {value[key], key}; };
-  PlacedJson(value, "problem").expect_keys({"name", "robot", "load", "tolerances", "space", "query"});
+  const auto member = [&](const char* key) -> JsonCursor { return {value[key], key}; };
+  JsonCursor(value, "problem").expect_keys({"name", "robot", "load", "tolerances", "space", "query"});
   Problem problem;
   read(member("name"), problem.name);
-  const PlacedJson robot = member("robot");
+  const JsonCursor robot = member("robot");
   robot.expect_keys({"base_anchors_m", "platform_anchors_m", "tension_N", "length_m"});
   read(robot.at("base_anchors_m"), problem.robot.base_anchors_m);
   read(robot.at("platform_anchors_m"), problem.robot.platform_anchors_m);
   read(robot.at("tension_N"), problem.robot.tension_N);
   read(robot.at("length_m"), problem.robot.length_m);
-  const PlacedJson load = member("load");
+  const JsonCursor load = member("load");
   load.expect_keys({"point_m", "wrench", "ellipsoid"});
   read(load.at("point_m"), problem.load.point_m);
   read(load.at("wrench"), problem.load.wrench);
   read(load.at("ellipsoid"), problem.load.ellipsoid);
-  if (const PlacedJson tolerances = member("tolerances"); !tolerances.is_null()) {
+  if (const JsonCursor tolerances = member("tolerances"); !tolerances.is_null()) {
     problem.tolerances = read_tolerances(tolerances);
   }
   problem.space = read_space(member("space"));
-  for (const PlacedJson& waypoint : member("query").expect_keys({"waypoints"}).at("waypoints").elements()) {
+  for (const JsonCursor& waypoint : member("query").expect_keys({"waypoints"}).at("waypoints").elements()) {
     std::vector<ExpressionText>& values = problem.query.emplace_back();
-    for (const PlacedJson& entry : waypoint.elements()) read(entry, values.emplace_back());
+    for (const JsonCursor& entry : waypoint.elements()) read(entry, values.emplace_back());
   }
   validate(problem);
   return problem;

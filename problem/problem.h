@@ -3,7 +3,7 @@
 //
 // A Problem is what a case file means, after units are resolved and before anything is rounded. It is written
 // into every certificate (docs/certificate-format.md, "problem") and every number of it is still the decimal that the
-// user typed, scaled exactly. Scalars of any kind (double, intervals, multiprecision) are made from it by
+// user typed, scaled exactly. ProofScalarTraits of any kind (double, intervals, multiprecision) are made from it by
 // model.h; nothing here computes with floating point.
 #pragma once
 

@@ -18,10 +18,10 @@ namespace taut {
 
 /// A nonnegative number; sums, products and quotients are rounded upward.
 template <class I>
-struct Scalars;
+struct ProofScalarTraits;
 
 template <>
-struct Scalars<Interval> {
+struct ProofScalarTraits<Interval> {
   using Point = double;  ///< entries of C: approximations, but exact numbers once chosen
   using Upper = double;  ///< under run_upward(), plain double arithmetic rounds upward
   static Point point(const Interval& x) { return midpoint_approx(x); }
@@ -52,7 +52,7 @@ class BigUpper {
 };
 
 template <>
-struct Scalars<MpInterval> {
+struct ProofScalarTraits<MpInterval> {
   using Point = BigFloat;
   using Upper = BigUpper;
   static Point point(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.lower(), x.upper()); }
@@ -69,7 +69,7 @@ template <class T, std::size_t N = 6>
 using Square = std::array<std::array<T, N>, N>;
 
 template <class I>
-using UpperOf = typename Scalars<I>::Upper;
+using UpperOf = typename ProofScalarTraits<I>::Upper;
 
 template <class Upper, std::size_t N, std::size_t M>
 std::array<std::array<Upper, M>, N> upper_product(const Square<Upper, N>& a,
@@ -101,7 +101,7 @@ template <class I, std::size_t N>
     if (!(row_sum[i] < Upper(1.0))) return false;  // also where a NaN slipped in
     rho = std::max(rho, row_sum[i]);
   }
-  const Upper gap = Scalars<I>::one_minus_lower(rho);
+  const Upper gap = ProofScalarTraits<I>::one_minus_lower(rho);
   if (!(Upper(0.0) < gap)) return false;
   for (std::size_t i = 0; i < N; ++i) {
     const Upper scaled = row_sum[i] / gap;

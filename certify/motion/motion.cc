@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "base/input_error.h"
-#include "certify/motion/implied_zero.h"
+#include "certify/motion/parametric_krawczyk.h"
 #include "kinematics/geometry.h"
 #include "kinematics/quaternion.h"
 
@@ -38,10 +38,10 @@ std::vector<std::array<double, 2>> inner_ranges(const Problem& problem) {
 constexpr std::size_t kFewParameters = 8;
 
 template <class I>
-using Parameters = boost::container::small_vector<Centered<I>, kFewParameters>;
+using Parameters = boost::container::small_vector<SlopeForm<I>, kFewParameters>;
 
 template <class I>
-Centered<I> over_box(const Polynomial<I>& x, const I& range, const I& mid) {
+SlopeForm<I> over_box(const Polynomial<I>& x, const I& range, const I& mid) {
   return {x.at(mid), x.slope(range), x.at(range)};
 }
 
@@ -73,14 +73,14 @@ class ConstraintSystem {
   }
 
   [[nodiscard]] Vector values(const Vector& y) const {
-    const auto lambda = at(y, &Centered<I>::at_mid);
+    const auto lambda = at(y, &SlopeForm<I>::at_mid);
     Vector result;
     constraints_.values.evaluate(std::span<const I>(lambda.data(), line_.size()), result);
     return result;
   }
 
   [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, Place place) const {
-    const auto where = place == Place::kAtMid ? &Centered<I>::at_mid : &Centered<I>::range;
+    const auto where = place == Place::kAtMid ? &SlopeForm<I>::at_mid : &SlopeForm<I>::range;
     const auto lambda = at(y, where);
     std::array<J, kMaxConstrainedParameters> jets;
     for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));
@@ -104,7 +104,7 @@ class ConstraintSystem {
   }
 
   /// λ = ℓ + N y.
-  [[nodiscard]] Parameters<I> parameters(const std::array<Centered<I>, K>& y, const I& offset) const {
+  [[nodiscard]] Parameters<I> parameters(const std::array<SlopeForm<I>, K>& y, const I& offset) const {
     Parameters<I> result = line_;
     for (std::size_t j = 0; j < result.size(); ++j) {
       for (std::size_t i = 0; i < K; ++i) result[j] = result[j] + normal_[j][i] * y[i];
@@ -117,7 +117,7 @@ class ConstraintSystem {
   using J = Jet<I, kMaxConstrainedParameters>;
 
   /// ℓ + N y, at m or over T.
-  [[nodiscard]] std::array<I, kMaxConstrainedParameters> at(const Vector& y, I Centered<I>::*where) const {
+  [[nodiscard]] std::array<I, kMaxConstrainedParameters> at(const Vector& y, I SlopeForm<I>::*where) const {
     std::array<I, kMaxConstrainedParameters> lambda;
     for (std::size_t j = 0; j < line_.size(); ++j) {
       lambda[j] = line_[j].*where;
@@ -128,7 +128,7 @@ class ConstraintSystem {
 
   const typename MotionModel<I>::Constraints& constraints_;
   const Parameters<I>& line_;
-  std::array<std::array<Centered<I>, K>, kMaxConstrainedParameters> normal_;
+  std::array<std::array<SlopeForm<I>, K>, kMaxConstrainedParameters> normal_;
 };
 
 /// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of anything
@@ -146,8 +146,8 @@ bool implied_parameters(const MotionModel<I>& model, const Segment& segment, con
   if (model.constraints->count == K) {
     const Parameters<I> line = parameters;
     const ConstraintSystem<K, I> system(*model.constraints, segment, line, range, mid);
-    std::array<Centered<I>, K> y;
-    if (!ImpliedZero<K, I, ConstraintSystem<K, I>>(system, offset, segment.tube).enclose(y)) return false;
+    std::array<SlopeForm<I>, K> y;
+    if (!ParametricKrawczyk<K, I, ConstraintSystem<K, I>>(system, offset, segment.tube).enclose(y)) return false;
     parameters = system.parameters(y, offset);
     return true;
   }
@@ -175,7 +175,7 @@ typename MotionEnclosure<I>::Status within_ranges(const MotionModel<I>& model, c
 
 template <class I>
 MotionModel<I> make_motion_model(const Problem& problem) {
-  MotionModel<I> model{Evaluator<Centered<I>>(pose_tape(problem)), std::nullopt, inner_ranges(problem)};
+  MotionModel<I> model{Evaluator<SlopeForm<I>>(pose_tape(problem)), std::nullopt, inner_ranges(problem)};
   if (const std::size_t count = problem.space.constraints.size(); count > 0) {
     const ExpressionTape tape = constraint_tape(problem);
     model.constraints.emplace(typename MotionModel<I>::Constraints{
@@ -237,16 +237,16 @@ bool follow_geodesic(const Segment& segment, const I& range, const I& mid, Motio
     for (std::size_t k = 0; k < 3; ++k) n[k] = intersect(n[k], v[k] * inverse);
   }
   const I angle = double_atan2(norm, turn.w);
-  const SinCos<Centered<I>> sc = sincos(Centered<I>(angle * mid, angle, angle * range));
-  const Centered<I> versine = -sc.cos + I(1.0);
+  const SinCos<SlopeForm<I>> sc = sincos(SlopeForm<I>(angle * mid, angle, angle * range));
+  const SlopeForm<I> versine = -sc.cos + I(1.0);
   const Matrix3<I> r_start = rotation(first);
-  Matrix3<Centered<I>> about;  // I + sin [n] + (1 − cos) [n]^2, and [n]^2 = n n^T − 1
+  Matrix3<SlopeForm<I>> about;  // I + sin [n] + (1 − cos) [n]^2, and [n]^2 = n n^T − 1
   for (int i = 0; i < 3; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const auto b = static_cast<std::size_t>((i + 1) % 3);
     const auto c = static_cast<std::size_t>((i + 2) % 3);
     about(i, i) = versine * (-(sqr(n[b]) + sqr(n[c]))) + I(1.0);
-    const Centered<I> product = versine * (n[a] * n[b]);
+    const SlopeForm<I> product = versine * (n[a] * n[b]);
     about(i, static_cast<int>(b)) = product - sc.sin * n[c];
     about(static_cast<int>(b), i) = product + sc.sin * n[c];
   }
@@ -289,8 +289,8 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
     }
     result.status = within_ranges(model, parameters);
   }
-  const Pose<Centered<I>> pose =
-      evaluate_pose(model.pose, std::span<const Centered<I>>(parameters.data(), parameters.size()));
+  const Pose<SlopeForm<I>> pose =
+      evaluate_pose(model.pose, std::span<const SlopeForm<I>>(parameters.data(), parameters.size()));
   result.p_WP = pose.p_WP;
   result.r_WP = rotation(pose.phi, pose.theta, pose.sigma);
   tighten(result, offset);

@@ -3,8 +3,8 @@
 //
 // Without constraints γ(t) = pose(ℓ(t)) (kinematics/segment.h), a function of the waypoints. With constraints C(λ) = 0 the
 // motion is only implied: γ(t) = pose(ℓ(t) + N(t) y(t)) with y(t) the only zero of g(y, t) = C(ℓ(t) + N(t) y) in the tube
-// Y = [−r, r]^k, by the Krawczyk operator of implied_zero.h. A geodesic has p and R directly; under
-// the law of cable lengths held_motion.h finds them. In every case p and R are centred forms over T.
+// Y = [−r, r]^k, by the Krawczyk operator of parametric_krawczyk.h. A geodesic has p and R directly; under
+// the law of cable lengths length_controlled_motion.h finds them. In every case p and R are centred forms over T.
 // Proofs: docs/theory.md, "A motion that is only implied", "Motions between poses".
 #pragma once
 
@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
-#include "certify/arithmetic/centered.h"
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
+#include "certify/arithmetic/slope_form.h"
 #include "kinematics/jet.h"
 #include "kinematics/model.h"
 #include "kinematics/segment.h"
@@ -24,7 +24,7 @@ namespace taut {
 /// The space of a problem, ready for scalar I: pose and constraints compiled.
 template <class I>
 struct MotionModel {
-  Evaluator<Centered<I>> pose;
+  Evaluator<SlopeForm<I>> pose;
   /// C; only in a space with constraints.
   struct Constraints {
     Evaluator<I> values;
@@ -48,12 +48,12 @@ struct MotionEnclosure {
     kOutOfRange,  ///< some parameter is not certainly in its range, at m itself
     kRangeWide,   ///< not certainly on all of T
     kUnproved,    ///< T is too wide, the tube is too narrow or too wide, or there is no such motion, or not one only
-    kAcross,      ///< T reaches across an inner pose of the reference: not asked
+    kSpansKnot,   ///< T reaches across an inner pose of the reference: not asked
   };
   Status status = Status::kUnproved;
-  [[nodiscard]] bool is_enclosed() const { return status != Status::kUnproved && status != Status::kAcross; }
-  Vector3<Centered<I>> p_WP;  ///< [m]
-  Matrix3<Centered<I>> r_WP;
+  [[nodiscard]] bool is_enclosed() const { return status != Status::kUnproved && status != Status::kSpansKnot; }
+  Vector3<SlopeForm<I>> p_WP;  ///< [m]
+  Matrix3<SlopeForm<I>> r_WP;
 };
 
 /// For t in `range` with midpoint `mid`; `offset` encloses t − mid. Void if a fault was raised.

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "certify/arithmetic/interval.h"
-#include "certify/motion/held_motion.h"
+#include "certify/motion/length_controlled_motion.h"
 #include "kinematics/quaternion.h"
 #include "kinematics/statics.h"
 

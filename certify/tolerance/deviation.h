@@ -37,7 +37,7 @@ struct ProposedDeviation {
                                                                MarginId margin, bool held_by_lengths, double part);
 
 /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the pose (p, R)
-/// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (held_motion.h): a fault where that
+/// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (length_controlled_motion.h): a fault where that
 /// is not proved. Void if a fault is raised. At working_precision().
 [[nodiscard]] MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                                            const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,

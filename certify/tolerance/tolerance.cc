@@ -14,12 +14,12 @@ UpperOf<I> above(const I& x) {
 template <class I>
 UpperOf<I> norm_above(const Vector3<I>& x) {
   const UpperOf<I> a = above(x(0)), b = above(x(1)), c = above(x(2));
-  return Scalars<I>::root(a * a + b * b + c * c);
+  return ProofScalarTraits<I>::root(a * a + b * b + c * c);
 }
 
 template <class I>
 UpperOf<I> norm_above(const std::array<UpperOf<I>, 3>& x) {
-  return Scalars<I>::root(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  return ProofScalarTraits<I>::root(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
 template <class I>
@@ -38,20 +38,20 @@ using Bounds3 = std::array<UpperOf<I>, 3>;
 /// a ± radius, by coordinates.
 template <class I>
 Vector3<I> widened(const Vector3<I>& a, const Bounds3<I>& radius) {
-  return {a(0) + Scalars<I>::symmetric(radius[0]), a(1) + Scalars<I>::symmetric(radius[1]),
-          a(2) + Scalars<I>::symmetric(radius[2])};
+  return {a(0) + ProofScalarTraits<I>::symmetric(radius[0]), a(1) + ProofScalarTraits<I>::symmetric(radius[1]),
+          a(2) + ProofScalarTraits<I>::symmetric(radius[2])};
 }
 
 template <class I>
-Vector3<I> ranges(const Vector3<Centered<I>>& a) {
+Vector3<I> ranges(const Vector3<SlopeForm<I>>& a) {
   return {a(0).range, a(1).range, a(2).range};
 }
 
 template <class I>
-Vector3<I> rotated_range(const Matrix3<Centered<I>>& r, const Vector3<I>& x) {
+Vector3<I> rotated_range(const Matrix3<SlopeForm<I>>& r, const Vector3<I>& x) {
   Vector3<I> result;
   for (int i = 0; i < 3; ++i) {
-    Centered<I> sum = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
+    SlopeForm<I> sum = r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2);
     result(i) = sum.range;
   }
   return result;
@@ -116,7 +116,7 @@ struct Products {
 
 /// m × a for the exact m.
 template <class I>
-std::array<I, 3> cross_exact(const std::array<typename Scalars<I>::Point, 3>& m, const Vector3<I>& a) {
+std::array<I, 3> cross_exact(const std::array<typename ProofScalarTraits<I>::Point, 3>& m, const Vector3<I>& a) {
   return {m[1] * a(2) - m[2] * a(1), m[2] * a(0) - m[0] * a(2), m[0] * a(1) - m[1] * a(0)};
 }
 
@@ -182,7 +182,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
     origin.pull[i] = commanded * (tolerance.cable_length[i] + tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
   }
   for (std::size_t r = 0; r < kCables; ++r) {
-    std::array<typename Scalars<I>::Point, 6> y;
+    std::array<typename ProofScalarTraits<I>::Point, 6> y;
     for (std::size_t j = 0; j < 6; ++j) {
       y[j] = box.c(static_cast<int>(r), static_cast<int>(j));
       origin.c[r][j] = I(y[j]);
@@ -344,7 +344,9 @@ class States {
     for (std::size_t r = 0; r < kCables; ++r) spread[r] = above(origin_.spread[r]);
     std::array<Upper, kCables> root_moved;  // >= |Z_r(τ) − Z_r(0)|, as Z(τ) = S Z(0)
     for (std::size_t r = 0; r < kCables; ++r) {
-      const auto entry = [&](std::size_t j) { return I(origin_.c[r][j] + Scalars<I>::symmetric(errors_.y[r][j])); };
+      const auto entry = [&](std::size_t j) {
+        return I(origin_.c[r][j] + ProofScalarTraits<I>::symmetric(errors_.y[r][j]));
+      };
       const auto near = [](const std::array<I, 3>& of_c, const std::array<Upper, 3>& error) {
         return widened<I>(Vector3<I>(of_c[0], of_c[1], of_c[2]), error);
       };
@@ -368,15 +370,15 @@ class States {
         density_moved += guess_.s[r][k] * above(origin_.density[k]);
         root_moved[r] += guess_.s[r][k] * spread[k];
       }
-      x.density[r] = origin_.density[r] + Scalars<I>::symmetric(density_moved);
-      x.spread[r] = origin_.spread[r] + Scalars<I>::symmetric(root_moved[r]);
+      x.density[r] = origin_.density[r] + ProofScalarTraits<I>::symmetric(density_moved);
+      x.spread[r] = origin_.spread[r] + ProofScalarTraits<I>::symmetric(root_moved[r]);
       if (!certainly_positive(x.spread[r])) return std::nullopt;
-      x.length[r] = origin_.length[r] + Scalars<I>::symmetric(until * length_change[r]);
+      x.length[r] = origin_.length[r] + ProofScalarTraits<I>::symmetric(until * length_change[r]);
     }
     for (std::size_t r = 0; r < kCables; ++r) {
       for (std::size_t i = 0; i < r; ++i) {
         const Upper moved = root_moved[r] * spread[i] + spread[r] * root_moved[i] + root_moved[r] * root_moved[i];
-        x.gram[r][i] = x.gram[i][r] = origin_.gram[r][i] + Scalars<I>::symmetric(moved);
+        x.gram[r][i] = x.gram[i][r] = origin_.gram[r][i] + ProofScalarTraits<I>::symmetric(moved);
       }
     }
     return x;
@@ -423,8 +425,8 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   for (std::size_t i = 0; i < kCables; ++i) {
     if (origin.held_by_lengths) {
       // c_ri; T turns Ω_c, and R_c p_m to R p_m.
-      const I turned = Scalars<I>::symmetric(tolerance.orientation * norm_above(x.moment[i]) *
-                                             (by_turn_size + origin.load_point_size * by_position_size));
+      const I turned = ProofScalarTraits<I>::symmetric(tolerance.orientation * norm_above(x.moment[i]) *
+                                                       (by_turn_size + origin.load_point_size * by_position_size));
       const I c = dot(by_position, x.force[i]) + dot(by_turn, x.moment[i]) + turned;
       const Vector3<I> along = scaled(c, x.d[i]);
       const Upper size = above(c) * above(x.length[i]);
@@ -477,16 +479,18 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
 }
 
 template <class I>
-std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance, int parts) {
+std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance,
+                                              int parts) {
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
-  Disturbance<I> result;
+  DeviationBounds<I> result;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Upper reach = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
     const Upper held =
         box.held_by_lengths ? tolerance.cable_length[i] : tolerance.base_anchor[i] + tolerance.platform_anchor[i];
     result.length[i] = tolerance.position + tolerance.orientation * reach + held;
-    if (!certainly_positive(I(box.length[i].range + Scalars<I>::symmetric(result.length[i])))) return std::nullopt;
+    if (!certainly_positive(I(box.length[i].range + ProofScalarTraits<I>::symmetric(result.length[i]))))
+      return std::nullopt;
   }
   const Origin<I> origin = make_origin(box, tolerance);
   States<I> states(origin, tolerance);
@@ -505,9 +509,9 @@ std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box, const To
 
 template std::optional<ToleranceModel<Interval>> make_tolerance_model(const Problem&);
 template std::optional<ToleranceModel<MpInterval>> make_tolerance_model(const Problem&);
-template std::optional<Disturbance<Interval>> disturbance(const UndisturbedBox<Interval>&,
-                                                          const ToleranceModel<Interval>&, int);
-template std::optional<Disturbance<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
-                                                            const ToleranceModel<MpInterval>&, int);
+template std::optional<DeviationBounds<Interval>> disturbance(const UndisturbedBox<Interval>&,
+                                                              const ToleranceModel<Interval>&, int);
+template std::optional<DeviationBounds<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
+                                                                const ToleranceModel<MpInterval>&, int);
 
 }  // namespace taut

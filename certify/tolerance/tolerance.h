@@ -16,8 +16,8 @@
 #include <array>
 #include <optional>
 
-#include "certify/arithmetic/centered.h"
 #include "certify/arithmetic/neumann.h"
+#include "certify/arithmetic/slope_form.h"
 #include "certify/motion/motion.h"
 #include "kinematics/geometry.h"
 #include "kinematics/model.h"
@@ -41,12 +41,12 @@ template <class I>
 
 /// Bounds on X of how the quantities of a box change from undisturbed ones.
 template <class I>
-struct Disturbance {
+struct DeviationBounds {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> length{};                  ///< of d_i [m]
   std::array<std::array<Upper, 2>, kCables> tension{};  ///< of f0_i − v_ii and f0_i + v_ii [N]
   /// Of v_ii, half the difference of those two [N].
-  [[nodiscard]] Upper variation(std::size_t i) const { return Upper(0.5) * (tension[i][0] + tension[i][1]); }
+  [[nodiscard]] Upper tension_radius(std::size_t i) const { return Upper(0.5) * (tension[i][0] + tension[i][1]); }
 };
 
 /// What (t) needs to know of a box, undisturbed.
@@ -54,11 +54,11 @@ template <class I>
 struct UndisturbedBox {
   const Model<I>& model;
   const MotionEnclosure<I>& motion;
-  const CableGeometry<Centered<I>>& geometry;
-  const std::array<Centered<I>, kCables>&length, &density, &spread;  ///< d_i, λ_i, |Z_i|
-  const Square<I>& root;                                             ///< rows Z_i of D^-1 L, over T
-  const Matrix6<typename Scalars<I>::Point>& c;                      ///< C
-  const Square<UpperOf<I>>& q;                                       ///< D^-1 = P C on T, |P − I| <= Q
+  const CableGeometry<SlopeForm<I>>& geometry;
+  const std::array<SlopeForm<I>, kCables>&length, &density, &spread;  ///< d_i, λ_i, |Z_i|
+  const Square<I>& root;                                              ///< rows Z_i of D^-1 L, over T
+  const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
+  const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
   bool held_by_lengths;
 };
 
@@ -68,14 +68,14 @@ inline constexpr int kMostParts = 16;
 /// Nothing unless all commanded poses are proved to exist, and D to be non-singular, on X. For Interval: only under run_upward().
 /// @param parts  of the way from τ = 0 to 1, a power of two: more are tighter, and hold for larger tolerances
 template <class I>
-[[nodiscard]] std::optional<Disturbance<I>> disturbance(const UndisturbedBox<I>& box,
-                                                        const ToleranceModel<I>& tolerance, int parts);
+[[nodiscard]] std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box,
+                                                            const ToleranceModel<I>& tolerance, int parts);
 
 extern template std::optional<ToleranceModel<Interval>> make_tolerance_model(const Problem&);
 extern template std::optional<ToleranceModel<MpInterval>> make_tolerance_model(const Problem&);
-extern template std::optional<Disturbance<Interval>> disturbance(const UndisturbedBox<Interval>&,
-                                                                 const ToleranceModel<Interval>&, int);
-extern template std::optional<Disturbance<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
-                                                                   const ToleranceModel<MpInterval>&, int);
+extern template std::optional<DeviationBounds<Interval>> disturbance(const UndisturbedBox<Interval>&,
+                                                                     const ToleranceModel<Interval>&, int);
+extern template std::optional<DeviationBounds<MpInterval>> disturbance(const UndisturbedBox<MpInterval>&,
+                                                                       const ToleranceModel<MpInterval>&, int);
 
 }  // namespace taut

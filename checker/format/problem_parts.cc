@@ -2,7 +2,7 @@
 #include "checker/format/expression_parser.h"
 #include "checker/format/parts.h"
 #include "checker/kernel/errors.h"
-#include "checker/kernel/form.h"
+#include "checker/kernel/mean_value_form.h"
 
 namespace taut::checker {
 namespace {
@@ -46,7 +46,7 @@ Expression tolerance_of_angle(const Cursor& json) {
   Expression result = constant(json);
   try {
     const WorkingPrecision precision(128);
-    const Ball value = result.evaluate<Form>({}).range();
+    const Ball value = result.evaluate<MeanValueForm>({}).range();
     if (certainly_negative(value) || !certainly_positive(Ball(1) - value)) json.fail(kExpected);
   } catch (const Undefined& why) {
     json.fail(std::string(kExpected) + ", not " + why.what());

@@ -16,19 +16,19 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
   }
   std::optional<Bounds> result;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Form& length = geometry.length[i];
-    const Ball largest_variation =
-        magnitude((length * tensions.variation[i]).range()) + Ball(0.5) * (loss.tension[i][0] + loss.tension[i][1]);
+    const MeanValueForm& length = geometry.length[i];
+    const Ball largest_radius = magnitude((length * tensions.tension_radius[i]).range()) +
+                                Ball(0.5) * (loss.tension[i][0] + loss.tension[i][1]);
     for (const std::size_t side : {0, 1}) {
-      const auto inside = [&](const Form& quantity, const std::array<Ball, 2>& limits) {
-        return side == 0 ? quantity - Form(limits[0]) : Form(limits[1]) - quantity;
+      const auto inside = [&](const MeanValueForm& quantity, const std::array<Ball, 2>& limits) {
+        return side == 0 ? quantity - MeanValueForm(limits[0]) : MeanValueForm(limits[1]) - quantity;
       };
-      const Form extreme = length * (side == 0 ? tensions.density[i] - tensions.variation[i]
-                                               : tensions.density[i] + tensions.variation[i]);
+      const MeanValueForm extreme = length * (side == 0 ? tensions.density[i] - tensions.tension_radius[i]
+                                                        : tensions.density[i] + tensions.tension_radius[i]);
       const Ball of_tension = lowest(inside(extreme, machine.tension_limits[i]).range() - loss.tension[i][side]);
       const Ball of_length = lowest(inside(length, machine.length_limits[i]).range() - loss.length[i]);
       // (f0 - f_lo) / v = 1 + (f0 - v - f_lo) / v; a negative margin may be divided by any v, as it is refused anyway.
-      const Ball of_scale = lowest(Ball(1) + of_tension / largest_variation);
+      const Ball of_scale = lowest(Ball(1) + of_tension / largest_radius);
       if (!result) result = Bounds{of_tension, of_length, of_scale};
       result->tension = -larger(-result->tension, -of_tension);
       result->length = -larger(-result->length, -of_length);

@@ -68,7 +68,7 @@ class Family {
       }
       Vector6<Ball> column;
       for (std::size_t r = 0; r < 6; ++r) column[r] = inverse.approximate()[r][i];
-      const Vector6<Form> Y = inverse.times(column);
+      const Vector6<MeanValueForm> Y = inverse.times(column);
       for (std::size_t r = 0; r < 6; ++r) Y_start_[r][i] = Y[r].range();
     }
     Rp_m_start_ = multiply(R, machine.load_point);

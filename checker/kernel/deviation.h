@@ -21,7 +21,7 @@
 // the first to leave. So each deviation has its pose, the one to which it leads from the stated machine's. Any guess will do.
 //
 // What tensions do.  From D x = w and D Z = L (machine.h) follow x' = Y w' - Y D' x and Z' = -Y D' Z. For the rows z_r of Z
-// and V_r = |z_r|, the tension with variation F_r = |d_r| (x_r + c V_r), c = -1 or 1, has therefore the rate
+// and V_r = |z_r|, the tension with tension_radius F_r = |d_r| (x_r + c V_r), c = -1 or 1, has therefore the rate
 //     F_r' = phi u_r . d_r' + |d_r| (y_r . w' - sum_i kappa_i y_r . D_i'),
 //     kappa_i = x_i + c (z_r . z_i) / V_r,   phi = kappa_r,   u_r = d_r / |d_r|,
 // linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r, where Q_r is the one of

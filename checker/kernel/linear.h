@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "checker/kernel/form.h"
+#include "checker/kernel/mean_value_form.h"
 
 namespace taut::checker {
 
@@ -54,7 +54,7 @@ Matrix3<T> multiply(const Matrix3<T>& A, const Matrix3<T>& B) {
   return result;
 }
 /// R b for a matrix of forms and a vector of balls.
-inline Vector3<Form> rotate(const Matrix3<Form>& R, const Vector3<Ball>& b) {
+inline Vector3<MeanValueForm> rotate(const Matrix3<MeanValueForm>& R, const Vector3<Ball>& b) {
   return {dot(b, R[0]), dot(b, R[1]), dot(b, R[2])};
 }
 
@@ -62,8 +62,8 @@ inline Vector3<Form> rotate(const Matrix3<Form>& R, const Vector3<Ball>& b) {
 inline Ball length_bound(const Vector3<Ball>& a) {
   return highest(sqrt(sqr(magnitude(a[0])) + sqr(magnitude(a[1])) + sqr(magnitude(a[2]))));
 }
-inline Vector3<Ball> range(const Vector3<Form>& a) { return {a[0].range(), a[1].range(), a[2].range()}; }
-inline Matrix3<Ball> range(const Matrix3<Form>& a) { return {range(a[0]), range(a[1]), range(a[2])}; }
+inline Vector3<Ball> range(const Vector3<MeanValueForm>& a) { return {a[0].range(), a[1].range(), a[2].range()}; }
+inline Matrix3<Ball> range(const Matrix3<MeanValueForm>& a) { return {range(a[0]), range(a[1]), range(a[2])}; }
 
 template <class T>
 Vector6<T> multiply(const Matrix6<Ball>& A, const Vector6<T>& x) {

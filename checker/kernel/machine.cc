@@ -44,13 +44,13 @@ DeviationBounds deviation_bounds(const ToleranceBounds& tolerances) {
   result.wrench = balls(tolerances.wrench);
   result.load_point = Ball(tolerances.load_point);
   result.position = Ball(tolerances.position);
-  result.angle = magnitude(tolerances.orientation.evaluate<Form>({}).range());
+  result.angle = magnitude(tolerances.orientation.evaluate<MeanValueForm>({}).range());
   return result;
 }
 
 }  // namespace
 
-Inverse::Inverse(const Matrix6<Form>& D) {
+Inverse::Inverse(const Matrix6<MeanValueForm>& D) {
   Matrix6<Ball> at;
   Matrix6<Ball> slope;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -72,7 +72,7 @@ Inverse::Inverse(const Matrix6<Form>& D) {
   if (!certainly_positive(gap_)) throw Undefined("the matrix of force densities may be singular");
 }
 
-Vector6<Form> Inverse::times(const Vector6<Ball>& y) const {
+Vector6<MeanValueForm> Inverse::times(const Vector6<Ball>& y) const {
   Ball largest;
   for (const Ball& x : y) largest = larger(largest, magnitude(x));
   const Ball bound = highest(largest / gap_);
@@ -82,7 +82,7 @@ Vector6<Form> Inverse::times(const Vector6<Ball>& y) const {
     for (std::size_t j = 0; j < 6; ++j) q[i].add_product(N_[i][j], bound);
   }
   const Vector6<Ball> rest = multiply(N_, multiply(N_, q));
-  Vector6<Form> result;
+  Vector6<MeanValueForm> result;
   for (std::size_t i = 0; i < 6; ++i) {
     Ball at = y[i];
     Ball slope;
@@ -116,15 +116,15 @@ Geometry Machine::geometry(const Frame& pose) const {
   Geometry result;
   result.pose = pose;
   for (std::size_t i = 0; i < 6; ++i) {
-    Vector3<Form> d = rotate(pose.R, platform[i]);
-    for (std::size_t c = 0; c < 3; ++c) d[c] += pose.p[c] - Form(base[i][c]);
-    const Form squared = squared_norm(d);
+    Vector3<MeanValueForm> d = rotate(pose.R, platform[i]);
+    for (std::size_t c = 0; c < 3; ++c) d[c] += pose.p[c] - MeanValueForm(base[i][c]);
+    const MeanValueForm squared = squared_norm(d);
     if (!certainly_positive(squared.range())) throw Undefined("a cable may have no length");
     result.length[i] = apply(Function::kSqrt, squared);
     if (!certainly_positive(result.length[i].range())) throw Undefined("a cable may have no length");
     result.d[i] = d;
     result.arm[i] = rotate(pose.R, arms[i]);
-    const Vector3<Form> moment = cross(result.arm[i], d);
+    const Vector3<MeanValueForm> moment = cross(result.arm[i], d);
     for (std::size_t c = 0; c < 3; ++c) {
       result.D[c][i] = d[c];
       result.D[3 + c][i] = moment[c];
@@ -137,14 +137,14 @@ Tensions Machine::tensions(const Inverse& inverse) const {
   Tensions result;
   result.density = inverse.times(multiply(inverse.approximate(), wrench));
   const Matrix6<Ball> CL = multiply(inverse.approximate(), ellipsoid);
-  Vector6<Form> squared;
+  Vector6<MeanValueForm> squared;
   for (std::size_t k = 0; k < 6; ++k) {
     Vector6<Ball> column;
     for (std::size_t i = 0; i < 6; ++i) column[i] = CL[i][k];
-    const Vector6<Form> z = inverse.times(column);
+    const Vector6<MeanValueForm> z = inverse.times(column);
     for (std::size_t i = 0; i < 6; ++i) squared[i] += sqr(z[i]);
   }
-  for (std::size_t i = 0; i < 6; ++i) result.variation[i] = apply(Function::kSqrt, squared[i]);
+  for (std::size_t i = 0; i < 6; ++i) result.tension_radius[i] = apply(Function::kSqrt, squared[i]);
   return result;
 }
 

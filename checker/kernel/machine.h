@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clauses "machine", "loads" and "limits": tensions and lengths at every pose of a box, and how far inside their limits.
 //
-// Every quantity is a Form in u in [-1, 1], which stands for the place in the box (motion.h).
+// Every quantity is a MeanValueForm in u in [-1, 1], which stands for the place in the box (motion.h).
 //
 //   geometry   d_i = p + R b_i - a_i,   lengths |d_i|,   arms r_i = R (b_i - p_m) from the load point P_m
 //   statics    cable i pulls along d_i / |d_i| with force f_i. With the force density x_i = f_i / |d_i|, J f = w reads
@@ -24,38 +24,38 @@ namespace taut::checker {
 
 /// A pose: position of the platform's origin in W [m], and its rotation.
 struct Frame {
-  Vector3<Form> p;
-  Matrix3<Form> R;
+  Vector3<MeanValueForm> p;
+  Matrix3<MeanValueForm> R;
 };
 
 /// Of all six cables.
 struct Geometry {
   Frame pose;
-  std::array<Vector3<Form>, 6> d;    ///< d_i [m]
-  std::array<Vector3<Form>, 6> arm;  ///< r_i [m]
-  Vector6<Form> length;              ///< |d_i| [m]; certainly positive
-  Matrix6<Form> D;
+  std::array<Vector3<MeanValueForm>, 6> d;    ///< d_i [m]
+  std::array<Vector3<MeanValueForm>, 6> arm;  ///< r_i [m]
+  Vector6<MeanValueForm> length;              ///< |d_i| [m]; certainly positive
+  Matrix6<MeanValueForm> D;
 };
 
 /// (1): that there is one proves D non-singular for every u.
 class Inverse {
  public:
   /// @throws Undefined unless rho < 1.
-  explicit Inverse(const Matrix6<Form>& D);
+  explicit Inverse(const Matrix6<MeanValueForm>& D);
   [[nodiscard]] const Matrix6<Ball>& approximate() const { return C_; }
   /// P y, which is D^-1 B for y = C B.
-  [[nodiscard]] Vector6<Form> times(const Vector6<Ball>& y) const;
+  [[nodiscard]] Vector6<MeanValueForm> times(const Vector6<Ball>& y) const;
 
  private:
   Matrix6<Ball> C_;
-  Matrix6<Form> A_;
+  Matrix6<MeanValueForm> A_;
   Matrix6<Ball> N_;
   Ball gap_;  ///< 1 - rho
 };
 
 struct Tensions {
-  Vector6<Form> density;    ///< x_i [N/m]
-  Vector6<Form> variation;  ///< V_i [N/m]
+  Vector6<MeanValueForm> density;         ///< x_i [N/m]
+  Vector6<MeanValueForm> tension_radius;  ///< V_i [N/m]
 };
 
 /// Bounds of the deviations that are within the tolerances.

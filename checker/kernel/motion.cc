@@ -41,7 +41,7 @@ Polynomial over(std::span<const Waypoint> controls, const Box& box, const Number
 }
 
 /// Of a polynomial in u with coefficients a + b pi. They are summed before u enters: the two parts may nearly cancel.
-Form form(const Polynomial& a, const Polynomial& b = {}) {
+MeanValueForm form(const Polynomial& a, const Polynomial& b = {}) {
   std::array<Ball, 4> c;
   for (std::size_t i = 0; i < 4; ++i) {
     c[i] = Ball(a[i]);
@@ -51,8 +51,8 @@ Form form(const Polynomial& a, const Polynomial& b = {}) {
 }
 
 struct Curve {
-  std::vector<Form> line;                  ///< l, one a parameter
-  std::vector<std::vector<Form>> normals;  ///< N, one row a parameter
+  std::vector<MeanValueForm> line;                  ///< l, one a parameter
+  std::vector<std::vector<MeanValueForm>> normals;  ///< N, one row a parameter
 };
 
 Curve curve(std::span<const Waypoint> controls, const Box& box, std::size_t constraints) {
@@ -63,7 +63,7 @@ Curve curve(std::span<const Waypoint> controls, const Box& box, std::size_t cons
     const bool turns = has_half_turns && std::ranges::any_of(controls, [&](const auto& w) { return w.half_turns[j]; });
     result.line.push_back(turns ? form(x, over(controls, box, [&](const Waypoint& w) { return w.half_turns[j]; }))
                                 : form(x));
-    std::vector<Form>& row = result.normals.emplace_back();
+    std::vector<MeanValueForm>& row = result.normals.emplace_back();
     for (std::size_t i = 0; i < constraints; ++i) {
       row.push_back(form(over(controls, box, [&](const Waypoint& w) { return w.normals[j * constraints + i]; })));
     }
@@ -81,10 +81,10 @@ class OnConstraints : public Equations {
 
   [[nodiscard]] std::size_t unknowns() const override { return constraints_.size(); }
 
-  [[nodiscard]] Vector6<Form> residual(const Vector6<Form>& y) const override {
-    const std::vector<Form> at = parameters(y);
-    Vector6<Form> result;
-    for (std::size_t e = 0; e < constraints_.size(); ++e) result[e] = constraints_[e].evaluate<Form>(at);
+  [[nodiscard]] Vector6<MeanValueForm> residual(const Vector6<MeanValueForm>& y) const override {
+    const std::vector<MeanValueForm> at = parameters(y);
+    Vector6<MeanValueForm> result;
+    for (std::size_t e = 0; e < constraints_.size(); ++e) result[e] = constraints_[e].evaluate<MeanValueForm>(at);
     return result;
   }
 
@@ -103,8 +103,8 @@ class OnConstraints : public Equations {
   }
 
   /// l + N y.
-  [[nodiscard]] std::vector<Form> parameters(const Vector6<Form>& y) const {
-    std::vector<Form> result = curve_.line;
+  [[nodiscard]] std::vector<MeanValueForm> parameters(const Vector6<MeanValueForm>& y) const {
+    std::vector<MeanValueForm> result = curve_.line;
     for (std::size_t j = 0; j < result.size(); ++j) {
       for (std::size_t i = 0; i < constraints_.size(); ++i) result[j] += curve_.normals[j][i] * y[i];
     }
@@ -124,20 +124,20 @@ Quaternion quaternion(std::span<const double> pose) {
   return {mpq_class(pose[3]), mpq_class(pose[4]), mpq_class(pose[5]), mpq_class(pose[6])};
 }
 
-Frame frame(const Vector6<Form>& pose) {
-  const Form &phi = pose[3], &theta = pose[4], psi = pose[5] - phi;
-  const auto cos = [](const Form& x) { return apply(Function::kCos, x); };
-  const auto sin = [](const Form& x) { return apply(Function::kSin, x); };
-  const Form ca = cos(phi), sa = sin(phi), cb = cos(theta), sb = sin(theta), cg = cos(psi), sg = sin(psi);
-  const Form ca_cb = ca * cb, sa_cb = sa * cb;
+Frame frame(const Vector6<MeanValueForm>& pose) {
+  const MeanValueForm &phi = pose[3], &theta = pose[4], psi = pose[5] - phi;
+  const auto cos = [](const MeanValueForm& x) { return apply(Function::kCos, x); };
+  const auto sin = [](const MeanValueForm& x) { return apply(Function::kSin, x); };
+  const MeanValueForm ca = cos(phi), sa = sin(phi), cb = cos(theta), sb = sin(theta), cg = cos(psi), sg = sin(psi);
+  const MeanValueForm ca_cb = ca * cb, sa_cb = sa * cb;
   return {{pose[0], pose[1], pose[2]},
           {{{ca_cb * cg - sa * sg, -(ca_cb * sg) - sa * cg, ca * sb},
             {sa_cb * cg + ca * sg, ca * cg - sa_cb * sg, sa * sb},
             {-(sb * cg), sb * sg, cb}}}};
 }
 
-/// The rotation from q0 at constant rate to q1; s a Form of the place in between.
-Matrix3<Form> geodesic(const Quaternion& q0, const Quaternion& q1, const Form& s) {
+/// The rotation from q0 at constant rate to q1; s a MeanValueForm of the place in between.
+Matrix3<MeanValueForm> geodesic(const Quaternion& q0, const Quaternion& q1, const MeanValueForm& s) {
   const mpq_class c = q0[0] * q1[0] + q0[1] * q1[1] + q0[2] * q1[2] + q0[3] * q1[3];
   if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
   const Vector3<mpq_class> u = {-q0[0], -q0[1], -q0[2]};
@@ -145,28 +145,30 @@ Matrix3<Form> geodesic(const Quaternion& q0, const Quaternion& q1, const Form& s
   const Vector3<mpq_class> u_u1 = cross(u, u1);
   Vector3<mpq_class> v;  // of conj(q0) q1, turned so that c is positive
   for (std::size_t i = 0; i < 3; ++i) v[i] = (q0[3] * u1[i] + q1[3] * u[i] + u_u1[i]) * (c < 0 ? -1 : 1);
-  const Matrix3<Form> R0 = rotation({Form(Ball(q0[0])), Form(Ball(q0[1])), Form(Ball(q0[2])), Form(Ball(q0[3]))});
+  const Matrix3<MeanValueForm> R0 = rotation(
+      {MeanValueForm(Ball(q0[0])), MeanValueForm(Ball(q0[1])), MeanValueForm(Ball(q0[2])), MeanValueForm(Ball(q0[3]))});
   const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   if (squared == 0) return R0;
 
   const Ball size = sqrt(Ball(squared));
-  const Form angle = Ball(2) * value(Function::kAtan, size / Ball(mpq_class(abs(c)))) * s;
+  const MeanValueForm angle = Ball(2) * value(Function::kAtan, size / Ball(mpq_class(abs(c)))) * s;
   Vector3<Ball> n;
   for (std::size_t i = 0; i < 3; ++i) n[i] = Ball(v[i]) / size;
   const Matrix3<Ball> N = {{{Ball(), -n[2], n[1]}, {n[2], Ball(), -n[0]}, {-n[1], n[0], Ball()}}};
   const Matrix3<Ball> NN = multiply(N, N);
-  const Form sine = apply(Function::kSin, angle);
-  const Form rest = Form(Ball(1)) - apply(Function::kCos, angle);
-  Matrix3<Form> turn;
+  const MeanValueForm sine = apply(Function::kSin, angle);
+  const MeanValueForm rest = MeanValueForm(Ball(1)) - apply(Function::kCos, angle);
+  Matrix3<MeanValueForm> turn;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) turn[i][j] = Form(Ball(i == j ? 1 : 0)) + N[i][j] * sine + NN[i][j] * rest;
+    for (std::size_t j = 0; j < 3; ++j)
+      turn[i][j] = MeanValueForm(Ball(i == j ? 1 : 0)) + N[i][j] * sine + NN[i][j] * rest;
   }
   return multiply(R0, turn);
 }
 
 Frame geodesic(const Path& path, std::size_t k, const Box& box) {
   const std::span<const Waypoint> controls = path.controls(k);
-  const std::vector<Form> line = curve(controls, box, 0).line;
+  const std::vector<MeanValueForm> line = curve(controls, box, 0).line;
   return {{line[0], line[1], line[2]},
           geodesic(quaternion(controls.front().x), quaternion(controls.back().x), form(over({0, 1}, box)))};
 }
@@ -191,24 +193,24 @@ class ForwardKinematics : public Equations {
  public:
   explicit ForwardKinematics(const LengthControlled& machine)
       : machine_(machine), position_(machine.tube.position), turn_(machine.tube.turn) {
-    for (const Form& L : machine.lengths) {
+    for (const MeanValueForm& L : machine.lengths) {
       if (!certainly_positive(L.range())) throw Undefined("a cable may have no length");
     }
   }
 
   [[nodiscard]] std::size_t unknowns() const override { return 6; }
 
-  [[nodiscard]] Frame pose(const Vector6<Form>& z) const {
-    const Vector3<Form> v = turn_ * Vector3<Form>{z[3], z[4], z[5]};
-    return {machine_.reference.p + position_ * Vector3<Form>{z[0], z[1], z[2]},
+  [[nodiscard]] Frame pose(const Vector6<MeanValueForm>& z) const {
+    const Vector3<MeanValueForm> v = turn_ * Vector3<MeanValueForm>{z[3], z[4], z[5]};
+    return {machine_.reference.p + position_ * Vector3<MeanValueForm>{z[0], z[1], z[2]},
             multiply(turn_by(v), machine_.reference.R)};
   }
 
-  [[nodiscard]] Vector6<Form> residual(const Vector6<Form>& z) const override {
+  [[nodiscard]] Vector6<MeanValueForm> residual(const Vector6<MeanValueForm>& z) const override {
     const Frame at = pose(z);
-    Vector6<Form> result;
+    Vector6<MeanValueForm> result;
     for (std::size_t i = 0; i < 6; ++i) {
-      const Vector3<Form> d = at.p + multiply(at.R, machine_.platform[i]) - machine_.base[i];
+      const Vector3<MeanValueForm> d = at.p + multiply(at.R, machine_.platform[i]) - machine_.base[i];
       result[i] = Ball(0.5) * (squared_norm(d) - sqr(machine_.lengths[i]));
     }
     return result;
@@ -245,8 +247,8 @@ LengthControlled length_controlled(const Machine& machine, const Path& path, std
   for (std::size_t i = 0; i < 6; ++i) {
     result.lengths[i] = form(over(controls, box, [&](const Waypoint& w) { return w.x[7 + i]; }));
     for (std::size_t c = 0; c < 3; ++c) {
-      result.base[i][c] = Form(machine.base[i][c]);
-      result.platform[i][c] = Form(machine.platform[i][c]);
+      result.base[i][c] = MeanValueForm(machine.base[i][c]);
+      result.platform[i][c] = MeanValueForm(machine.platform[i][c]);
     }
   }
   const std::vector<InnerPose>& inner = path.inner_poses[k];
@@ -278,15 +280,15 @@ void require_near(const Machine& machine, const Problem& problem, const Path& pa
   const std::size_t others = controls.size() == 1 ? 0 : 1;
   const auto stated = controls.subspan(end < 0 ? 0 : others, controls.size() - others);
   const auto near = path.law == Law::kCubicBSpline ? stated : end < 0 ? stated.first(1) : stated.last(1);
-  std::vector<Form> there = parameters(problem, path, k, box);
-  for (Form& x : there) x = Form(x.at + Ball(end) * x.slope);
-  const Vector6<Form> reached = coordinates(problem, there);
-  std::vector<Vector6<Form>> asked;
+  std::vector<MeanValueForm> there = parameters(problem, path, k, box);
+  for (MeanValueForm& x : there) x = MeanValueForm(x.at + Ball(end) * x.slope);
+  const Vector6<MeanValueForm> reached = coordinates(problem, there);
+  std::vector<Vector6<MeanValueForm>> asked;
   for (const Waypoint& waypoint : near) asked.push_back(coordinates(problem, stated_parameters(waypoint)));
   for (std::size_t i = 0; i < 6; ++i) {
     const Ball slack = Ball(mpq_class(1, 50)) * (i < 3 ? machine.platform_size() : Ball(1));
     for (const int side : {-1, 1}) {
-      const auto is_as_far = [&](const Vector6<Form>& other) {  // on that side
+      const auto is_as_far = [&](const Vector6<MeanValueForm>& other) {  // on that side
         return certainly_nonnegative(slack + Ball(side) * (other[i].range() - reached[i].range()));
       };
       if (std::ranges::none_of(asked, is_as_far)) {
@@ -298,47 +300,47 @@ void require_near(const Machine& machine, const Problem& problem, const Path& pa
 
 }  // namespace
 
-Matrix3<Form> rotation(const std::array<Form, 4>& q) {
+Matrix3<MeanValueForm> rotation(const std::array<MeanValueForm, 4>& q) {
   const auto& [x, y, z, w] = q;
-  const Form xx = sqr(x), yy = sqr(y), zz = sqr(z), ww = sqr(w);
-  const Form xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+  const MeanValueForm xx = sqr(x), yy = sqr(y), zz = sqr(z), ww = sqr(w);
+  const MeanValueForm xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
   const Ball two(2);
-  Matrix3<Form> R = {{{ww + xx - yy - zz, two * (xy - wz), two * (xz + wy)},
-                      {two * (xy + wz), ww - xx + yy - zz, two * (yz - wx)},
-                      {two * (xz - wy), two * (yz + wx), ww - xx - yy + zz}}};
-  const Form inverse = apply(Function::kInverse, xx + yy + zz + ww);
-  for (Vector3<Form>& row : R) {
-    for (Form& entry : row) entry = entry * inverse;
+  Matrix3<MeanValueForm> R = {{{ww + xx - yy - zz, two * (xy - wz), two * (xz + wy)},
+                               {two * (xy + wz), ww - xx + yy - zz, two * (yz - wx)},
+                               {two * (xz - wy), two * (yz + wx), ww - xx - yy + zz}}};
+  const MeanValueForm inverse = apply(Function::kInverse, xx + yy + zz + ww);
+  for (Vector3<MeanValueForm>& row : R) {
+    for (MeanValueForm& entry : row) entry = entry * inverse;
   }
   return R;
 }
 
-std::vector<Form> stated_parameters(const Waypoint& waypoint) {
-  std::vector<Form> result;
+std::vector<MeanValueForm> stated_parameters(const Waypoint& waypoint) {
+  std::vector<MeanValueForm> result;
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
     result.emplace_back(Ball(waypoint.x[j]) + Ball(waypoint.half_turns[j]) * Ball::pi());
   }
   return result;
 }
 
-void require_in_range(const Problem& problem, const std::vector<Form>& parameters) {
+void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& parameters) {
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const Parameter& parameter = problem.parameters[j];
     if (parameter.kind != ParameterKind::kRange) continue;
-    for (const Form& excess :
-         {parameters[j] - parameter.lower.evaluate<Form>({}), parameter.upper.evaluate<Form>({}) - parameters[j]}) {
+    for (const MeanValueForm& excess : {parameters[j] - parameter.lower.evaluate<MeanValueForm>({}),
+                                        parameter.upper.evaluate<MeanValueForm>({}) - parameters[j]}) {
       if (!certainly_nonnegative(excess.range())) throw Undefined(parameter.name + " may be outside its range");
     }
   }
 }
 
-Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters) {
-  Vector6<Form> result;
-  for (std::size_t c = 0; c < 6; ++c) result[c] = problem.pose[c].evaluate<Form>(parameters);
+Vector6<MeanValueForm> coordinates(const Problem& problem, const std::vector<MeanValueForm>& parameters) {
+  Vector6<MeanValueForm> result;
+  for (std::size_t c = 0; c < 6; ++c) result[c] = problem.pose[c].evaluate<MeanValueForm>(parameters);
   return result;
 }
 
-std::vector<Form> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+std::vector<MeanValueForm> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
   const Curve over_box = curve(path.controls(k), box, problem.constraints.size());
   if (problem.constraints.empty()) return over_box.line;
   const OnConstraints equations(problem.constraints, over_box);
@@ -369,7 +371,7 @@ Geometry commanded_geometry(const Machine& machine, const Problem& problem, cons
     result.length = controlled.lengths;
     return result;
   }
-  const std::vector<Form> at = parameters(problem, path, k, box);
+  const std::vector<MeanValueForm> at = parameters(problem, path, k, box);
   // Between waypoints inside their ranges parameters stay inside, by convexity; those of an implied motion need not.
   if (!problem.constraints.empty() && ranges == Ranges::kRequired) require_in_range(problem, at);
   return machine.geometry(frame(coordinates(problem, at)));

@@ -27,25 +27,26 @@ namespace taut::checker {
 
 /// The parameters on a box of segment k. @throws Undefined where the motion is implied and was not shown to be the only
 /// one in its tube for every s of the box.
-[[nodiscard]] std::vector<Form> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box);
+[[nodiscard]] std::vector<MeanValueForm> parameters(const Problem& problem, const Path& path, std::size_t k,
+                                                    const Box& box);
 
 /// Those of a control point as it is stated, x + pi half_turns.
-[[nodiscard]] std::vector<Form> stated_parameters(const Waypoint& waypoint);
+[[nodiscard]] std::vector<MeanValueForm> stated_parameters(const Waypoint& waypoint);
 
 /// Whether each parameter of kind range is in its closed range. @throws Undefined where that is not certain.
-void require_in_range(const Problem& problem, const std::vector<Form>& parameters);
+void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& parameters);
 
 /// px py pz [m], phi theta sigma [rad], by the problem's expressions.
-[[nodiscard]] Vector6<Form> coordinates(const Problem& problem, const std::vector<Form>& parameters);
+[[nodiscard]] Vector6<MeanValueForm> coordinates(const Problem& problem, const std::vector<MeanValueForm>& parameters);
 
 /// Of the quaternion (x, y, z, w), of any length but 0.
-[[nodiscard]] Matrix3<Form> rotation(const std::array<Form, 4>& q);
+[[nodiscard]] Matrix3<MeanValueForm> rotation(const std::array<MeanValueForm, 4>& q);
 
 /// A machine whose cables have given lengths, its anchors and lengths functions of u, near a reference pose.
 struct LengthControlled {
-  std::array<Vector3<Form>, 6> base;      ///< a_i
-  std::array<Vector3<Form>, 6> platform;  ///< b_i
-  Vector6<Form> lengths;                  ///< L_i [m]
+  std::array<Vector3<MeanValueForm>, 6> base;      ///< a_i
+  std::array<Vector3<MeanValueForm>, 6> platform;  ///< b_i
+  Vector6<MeanValueForm> lengths;                  ///< L_i [m]
   Frame reference;
   PoseTube tube;
 };

@@ -33,7 +33,7 @@ Problem deviating(Problem problem, const WitnessDeviation& by) {
   require_within(by.position, within.position, "the position");
   for (std::size_t c = 0; c < 3; ++c) problem.load_point[c] += by.load_point[c];
   const Ball u = sqrt(Ball(mpq_class(by.turn[0] * by.turn[0] + by.turn[1] * by.turn[1] + by.turn[2] * by.turn[2])));
-  const Ball angle = within.orientation.evaluate<Form>({}).range() - Ball(2) * value(Function::kAtan, u);
+  const Ball angle = within.orientation.evaluate<MeanValueForm>({}).range() - Ball(2) * value(Function::kAtan, u);
   if (certainly_negative(angle)) throw Rejected("false: the witness's deviation is within the tolerance of the angle");
   if (!certainly_nonnegative(angle)) throw Undefined("whether the deviation's angle is within its tolerance");
   problem.tolerances.reset();
@@ -41,7 +41,7 @@ Problem deviating(Problem problem, const WitnessDeviation& by) {
 }
 
 Frame at_end(const Frame& pose) {  // at u = 1
-  const auto end = [](const Form& f) { return Form(f.at + f.slope); };
+  const auto end = [](const MeanValueForm& f) { return MeanValueForm(f.at + f.slope); };
   Frame result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.p[i] = end(pose.p[i]);
@@ -53,11 +53,11 @@ Frame at_end(const Frame& pose) {  // at u = 1
 /// Whether a pose is in the tube around a reference pose. @throws Undefined otherwise.
 void require_in_tube(const Frame& pose, const Frame& reference, const PoseTube& tube) {
   // With R = R(v, 1) R_ref, Q = R R_ref' has Q - Q' = 4 [v] / (1 + |v|^2) and 1 + tr Q = 4 / (1 + |v|^2).
-  Matrix3<Form> transposed;
+  Matrix3<MeanValueForm> transposed;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) transposed[i][j] = reference.R[j][i];
   }
-  const Matrix3<Form> Q = multiply(pose.R, transposed);
+  const Matrix3<MeanValueForm> Q = multiply(pose.R, transposed);
   const Ball trace = (Q[0][0] + Q[1][1] + Q[2][2]).range() + Ball(1);
   for (std::size_t i = 0; i < 3; ++i) {
     const Ball off = (pose.p[i] - reference.p[i]).range();
@@ -104,25 +104,26 @@ bool moves_platform(const WitnessDeviation& by) {
 /// The geometry of the machine that the witness is about.
 Geometry deviating_geometry(const Machine& machine, const Machine& deviant, const Geometry& stated,
                             const WitnessDeviation& by) {
-  const bool is_led = by.cable_lengths && moves_platform(by);
-  Frame pose = is_led ? deviated_pose(machine, stated, by) : stated.pose;
-  Vector3<Form> u;
+  const bool uses_continuation = by.cable_lengths && moves_platform(by);
+  Frame pose = uses_continuation ? deviated_pose(machine, stated, by) : stated.pose;
+  Vector3<MeanValueForm> u;
   for (std::size_t c = 0; c < 3; ++c) {
-    pose.p[c] += Form(Ball(by.position[c]));
-    u[c] = Form(Ball(by.turn[c]));
+    pose.p[c] += MeanValueForm(Ball(by.position[c]));
+    u[c] = MeanValueForm(Ball(by.turn[c]));
   }
-  pose.R = multiply(rotation({u[0], u[1], u[2], Form(Ball(1))}), pose.R);
+  pose.R = multiply(rotation({u[0], u[1], u[2], MeanValueForm(Ball(1))}), pose.R);
   return deviant.geometry(pose);
 }
 
 /// f0 - v, f0 + v, or d of the witness's cable.
 Ball quantity(const Machine& machine, const Geometry& geometry, const Witness& witness) {
-  const Form& length = geometry.length[witness.cable];
+  const MeanValueForm& length = geometry.length[witness.cable];
   if (witness.kind == WitnessKind::kLengthMin || witness.kind == WitnessKind::kLengthMax) return length.range();
   const Tensions tensions = machine.tensions(Inverse(geometry.D));
-  const Form& variation = tensions.variation[witness.cable];
-  const Form& density = tensions.density[witness.cable];
-  return (length * (witness.kind == WitnessKind::kTensionMin ? density - variation : density + variation)).range();
+  const MeanValueForm& tension_radius = tensions.tension_radius[witness.cable];
+  const MeanValueForm& density = tensions.density[witness.cable];
+  return (length * (witness.kind == WitnessKind::kTensionMin ? density - tension_radius : density + tension_radius))
+      .range();
 }
 
 Box at_place(const PathPoint& place, Box how) {
@@ -137,7 +138,7 @@ LengthControlled growing_deviation(const Machine& machine, const Geometry& state
   const auto growing = [&](const Ball& from, const mpq_class& by_tau) {
     const mpq_class mid = (box.begin + box.end) / 2 * by_tau;
     const mpq_class slope = (box.end - box.begin) / 2 * by_tau;
-    return Form(from + Ball(mid), Ball(slope));
+    return MeanValueForm(from + Ball(mid), Ball(slope));
   };
   LengthControlled result;
   for (std::size_t i = 0; i < kCables; ++i) {

@@ -13,10 +13,10 @@ Contraction::Contraction(const Equations& equations, const Vector6<Ball>& Y) {
   if (!certainly_positive(Ball(1) - norm(M))) throw Undefined("the pose may not be the only one in its tube");
 }
 
-Vector6<Form> only_zero(const Equations& equations, const Ball& tube, const NearZero& near) {
+Vector6<MeanValueForm> only_zero(const Equations& equations, const Ball& tube, const NearZero& near) {
   const std::size_t k = equations.unknowns();
   Vector6<Ball> whole;
-  Vector6<Form> c;
+  Vector6<MeanValueForm> c;
   Vector6<Ball> w;
   for (std::size_t i = 0; i < k; ++i) {
     whole[i] = plus_minus(tube);
@@ -25,7 +25,7 @@ Vector6<Form> only_zero(const Equations& equations, const Ball& tube, const Near
   }
   const Contraction at_most_one(equations, whole);  // (1)
 
-  Vector6<Form> K;
+  Vector6<MeanValueForm> K;
   for (int step = 0; step <= near.narrowings; ++step) {
     Vector6<Ball> Z;
     for (std::size_t i = 0; i < k; ++i) {
@@ -33,7 +33,7 @@ Vector6<Form> only_zero(const Equations& equations, const Ball& tube, const Near
       if (step == 0 && !is_within(Z[i], whole[i])) throw Undefined("the pose may leave its tube");
     }
     const Contraction contraction(equations, Z);
-    const Vector6<Form> moved = multiply(contraction.A, equations.residual(c));
+    const Vector6<MeanValueForm> moved = multiply(contraction.A, equations.residual(c));
     const Vector6<Ball> left = multiply(contraction.M, w);
     for (std::size_t i = 0; i < k; ++i) {
       if (step == 0 && !certainly_nonnegative(w[i] - (magnitude(moved[i].range()) + left[i]))) {

@@ -30,7 +30,7 @@ class Equations {
   virtual ~Equations() = default;
   [[nodiscard]] virtual std::size_t unknowns() const = 0;
   /// g(y(u), u), of a curve y.
-  [[nodiscard]] virtual Vector6<Form> residual(const Vector6<Form>& y) const = 0;
+  [[nodiscard]] virtual Vector6<MeanValueForm> residual(const Vector6<MeanValueForm>& y) const = 0;
   /// G on all of Y, for all u: that it exists proves g continuously differentiable there.
   [[nodiscard]] virtual Matrix6<Ball> jacobian(const Vector6<Ball>& Y) const = 0;
 };
@@ -43,6 +43,6 @@ struct Contraction {
 };
 
 /// The only zero with |y_i| <= tube, for every u. @throws Undefined unless there is exactly one.
-[[nodiscard]] Vector6<Form> only_zero(const Equations& equations, const Ball& tube, const NearZero& near);
+[[nodiscard]] Vector6<MeanValueForm> only_zero(const Equations& equations, const Ball& tube, const NearZero& near);
 
 }  // namespace taut::checker

@@ -51,7 +51,7 @@ Html bar(const Use& use) {
       is_out ? html(" out") : Html(), from, std::max(to - from, kThinnest), at(use.lower_limit), at(use.upper_limit));
 }
 
-Html cables(const Scene& scene, const CableUse& use) {
+Html cables(const ReportContext& scene, const CableUse& use) {
   if (use.source == CableUse::Source::kNone) return {};
   const RobotText& robot = scene.view.problem.robot;
   Html rows;
@@ -115,7 +115,7 @@ Html signatures() {
 
 }  // namespace
 
-Html first_page(const Scene& scene, const Summary& summary) {
+Html first_page(const ReportContext& scene, const Summary& summary) {
   return html(
       "<header class=\"first\">\n{}<h1><bdi>{}</bdi> <small>(name given in the case, not "
       "checked)</small></h1>\n{}{}{}{}</header>\n",

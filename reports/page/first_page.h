@@ -7,6 +7,6 @@
 
 namespace taut {
 
-[[nodiscard]] Html first_page(const Scene& scene, const Summary& summary);
+[[nodiscard]] Html first_page(const ReportContext& scene, const Summary& summary);
 
 }  // namespace taut

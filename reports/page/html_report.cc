@@ -18,7 +18,7 @@ namespace taut {
 
 namespace {
 
-Html contents(const Scene& scene) {
+Html contents(const ReportContext& scene) {
   Html links;
   const auto link = [&](bool present, const char* id, const char* title) {
     if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
@@ -73,7 +73,7 @@ std::string footer_style(const std::string& document) {
 
 }  // namespace
 
-std::string html_report(const Scene& scene, const ReportOptions& options) {
+std::string html_report(const ReportContext& scene, const ReportOptions& options) {
   require_plain(options);
   const Summary summary(scene, options);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
@@ -93,19 +93,19 @@ std::string html_report(const Scene& scene, const ReportOptions& options) {
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {
-  return html_report(Scene(checked), options);
+  return html_report(ReportContext(checked), options);
 }
 std::string text_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  return to_text(Summary(Scene(checked), options));
+  return to_text(Summary(ReportContext(checked), options));
 }
 std::string markdown_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  return to_markdown(Summary(Scene(checked), options));
+  return to_markdown(Summary(ReportContext(checked), options));
 }
 nlohmann::json json_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  return to_json(Summary(Scene(checked), options));
+  return to_json(Summary(ReportContext(checked), options));
 }
 
 }  // namespace taut

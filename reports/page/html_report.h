@@ -21,7 +21,7 @@ namespace taut {
 /// @pre the checker rejected nothing: accepted, undecided or unchecked.
 [[nodiscard]] std::string html_report(const checker::CheckResult& checked, const ReportOptions& options = {});
 /// The same of a scene.
-[[nodiscard]] std::string html_report(const Scene& scene, const ReportOptions& options = {});
+[[nodiscard]] std::string html_report(const ReportContext& scene, const ReportOptions& options = {});
 
 /// Its first page in other forms (summary.h). @throws and @pre as html_report.
 [[nodiscard]] std::string text_summary(const checker::CheckResult& checked, const ReportOptions& options = {});

@@ -51,7 +51,7 @@ std::vector<Image> images(const SpaceText& space) {
 }
 
 /// What the picture shows of parameter j: the path, and all of a turn, a range, or half a turn of θ.
-Span window(const Scene& scene, std::size_t j) {
+Span window(const ReportContext& scene, std::size_t j) {
   const SpaceText& space = scene.view.problem.space;
   const Parameter& parameter = space.parameters[j];
   Span path = nothing();
@@ -128,7 +128,7 @@ void Span::include(double x) {
 
 bool is_plane(const SpaceText& space) { return space.parameters.size() == 2 && space.constraints.empty(); }
 
-std::optional<Plane> sample_plane(const Scene& scene) {
+std::optional<Plane> sample_plane(const ReportContext& scene) {
   if (!is_plane(scene.view.problem.space)) return std::nullopt;
   const SpaceText& space = scene.view.problem.space;
   Plane plane;

@@ -37,6 +37,6 @@ struct Plane {
 };
 
 /// Nothing unless is_plane, or where there is no window of finite size.
-[[nodiscard]] std::optional<Plane> sample_plane(const Scene& scene);
+[[nodiscard]] std::optional<Plane> sample_plane(const ReportContext& scene);
 
 }  // namespace taut

@@ -38,12 +38,12 @@ Html marks_text(const CertificateView& view) {
   return result;
 }
 
-bool has_bands(const Scene& scene) {
+bool has_bands(const ReportContext& scene) {
   return std::ranges::any_of(scene.ranges.segments, [](const auto& segment) { return !segment.empty(); });
 }
 
 /// What the bands are, where there are some.
-Html bands_text(const Scene& scene) {
+Html bands_text(const ReportContext& scene) {
   if (!has_bands(scene)) return html("No theorem stands behind this path, so that there are samples only.");
   return html(
       "Light bands are enclosures, computed by this program anew with interval arithmetic, box by box as the "
@@ -57,7 +57,7 @@ Html bands_text(const Scene& scene) {
           : " Where there is none, nothing is proved.");
 }
 
-Html tensions(const Scene& scene) {
+Html tensions(const ReportContext& scene) {
   return section(
       "tensions", "Tensions along the path",
       html(
@@ -66,13 +66,13 @@ Html tensions(const Scene& scene) {
           unscripted() + place("tensions"));
 }
 
-Html lengths(const Scene& scene) {
+Html lengths(const ReportContext& scene) {
   return section("lengths", "Cable lengths along the path",
                  html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.view)) +
                      unscripted() + place("lengths"));
 }
 
-Html margins_along(const Scene& scene) {
+Html margins_along(const ReportContext& scene) {
   if (scene.view.segments.empty()) return {};
   return section("margins-along", "Margins along the path",
                  html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
@@ -92,7 +92,7 @@ Html poses() {
           unscripted() + place("pose"));
 }
 
-Html plane(const Scene& scene) {
+Html plane(const ReportContext& scene) {
   if (!is_plane(scene.view.problem.space)) return {};
   Html stats;
   for (const auto& [key, value] : scene.view.stats)
@@ -110,7 +110,7 @@ Html plane(const Scene& scene) {
                                 stats)));
 }
 
-Html biting_tolerances(const Scene& scene) {
+Html biting_tolerances(const ReportContext& scene) {
   if (scene.view.tolerance_limits.empty()) return {};
   return section(
       "tolerances-used", "Which tolerance bites",
@@ -122,7 +122,7 @@ Html biting_tolerances(const Scene& scene) {
 
 }  // namespace
 
-Html move_section(const Scene& scene) {
+Html move_section(const ReportContext& scene) {
   if (scene.samples.empty()) return {};
   return section(
       "move", "The move",
@@ -132,12 +132,12 @@ Html move_section(const Scene& scene) {
                still_picture(scene)));
 }
 
-Html plot_sections(const Scene& scene) {
+Html plot_sections(const ReportContext& scene) {
   if (scene.samples.empty()) return plane(scene);
   return tensions(scene) + lengths(scene) + margins_along(scene) + poses() + plane(scene) + biting_tolerances(scene);
 }
 
-std::string page_scripts(const Scene& scene) {
+std::string page_scripts(const ReportContext& scene) {
   return fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n",
                      script_safe(report_data(scene)), page_script());
 }

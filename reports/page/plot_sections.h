@@ -13,12 +13,12 @@
 namespace taut {
 
 /// The robot on its way; nothing where there is no path.
-[[nodiscard]] Html move_section(const Scene& scene);
+[[nodiscard]] Html move_section(const ReportContext& scene);
 /// Tensions, lengths, margins and pose along the path, the plane of two parameters, tolerances; each where there is one.
-[[nodiscard]] Html plot_sections(const Scene& scene);
+[[nodiscard]] Html plot_sections(const ReportContext& scene);
 
 /// The page's data and script, to stand at its end.
-[[nodiscard]] std::string page_scripts(const Scene& scene);
+[[nodiscard]] std::string page_scripts(const ReportContext& scene);
 /// The page's Content-Security-Policy: nothing is loaded from anywhere, and no script is run but that of page_scripts().
 [[nodiscard]] std::string content_security_policy();
 

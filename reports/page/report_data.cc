@@ -69,12 +69,12 @@ json robot(const Model<double>& model) {
 }
 
 /// Columns, one entry a sample.
-json samples(const Scene& scene) {
+json samples(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   std::vector<double> position, distance, turned, scale, sign;
   std::array<std::vector<double>, 3> p, angles;
   std::array<std::vector<double>, 4> q;
-  std::array<std::vector<double>, kCables> tension, variation, length;
+  std::array<std::vector<double>, kCables> tension, tension_radius, length;
   std::vector<std::vector<double>> parameters;
   json time = json::array();
   std::optional<TiltAndTorsion> tilt;
@@ -104,7 +104,7 @@ json samples(const Scene& scene) {
     for (std::size_t i = 0; i < kCables; ++i) {
       length[i].push_back(s.length[i]);
       tension[i].push_back(s.regular ? s.tension[i] : kUnknown);
-      variation[i].push_back(s.regular ? s.variation[i] : kUnknown);
+      tension_radius[i].push_back(s.regular ? s.tension_radius[i] : kUnknown);
     }
     if (is_plane(scene.view.problem.space)) {
       parameters.resize(2);
@@ -125,7 +125,7 @@ json samples(const Scene& scene) {
           {"angles", columns(angles)},
           {"length", columns(length)},
           {"tension", columns(tension)},
-          {"variation", columns(variation)},
+          {"tension_radius", columns(tension_radius)},
           {"wrench_scale", numbers(scale)},
           {"sign", numbers(sign)},
           {"parameters", columns(parameters)}};
@@ -292,7 +292,7 @@ json tolerances(const CertificateView& view) {
   return result;
 }
 
-json plane(const Scene& scene) {
+json plane(const ReportContext& scene) {
   const std::optional<Plane> plane = sample_plane(scene);
   if (!plane) return nullptr;
   const SpaceText& space = scene.view.problem.space;
@@ -336,7 +336,7 @@ json plane(const Scene& scene) {
 
 }  // namespace
 
-json report_data(const Scene& scene) {
+json report_data(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   return {{"verdict", view.verdict},
           {"segments", view.path.segments()},

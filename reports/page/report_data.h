@@ -15,7 +15,7 @@
 namespace taut {
 
 /// The object; its keys are told where it is read, in reports/web/data.js.
-[[nodiscard]] nlohmann::json report_data(const Scene& scene);
+[[nodiscard]] nlohmann::json report_data(const ReportContext& scene);
 
 /// `value` as it may stand in a page, in a script element of type application/json: no '<' in it.
 [[nodiscard]] std::string script_safe(const nlohmann::json& value);

@@ -165,7 +165,7 @@ Html space_tables(const Problem& problem) {
 
 /// Exact parameters and rounded pose of every `step`th waypoint and of the last: side by side, or one below the other where that is
 /// too wide.
-Html waypoint_table(const Scene& scene, std::size_t step) {
+Html waypoint_table(const ReportContext& scene, std::size_t step) {
   constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
   const Path& path = scene.view.path;
   const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
@@ -221,7 +221,7 @@ Html waypoint_table(const Scene& scene, std::size_t step) {
 }
 
 /// How the path is on the constraints, and how far that takes it from the waypoints.
-Html on_constraints(const Scene& scene) {
+Html on_constraints(const ReportContext& scene) {
   const std::vector<double>& tubes = scene.view.path.tubes;
   const double widest = tubes.empty() ? 0 : *std::max_element(tubes.begin(), tubes.end());
   return html(
@@ -444,13 +444,13 @@ Html inputs(const CertificateView& view) {
                "certificate without its footer. taut-check compares them with what the certificate contains.</p>\n"));
 }
 
-Html robot(const Scene& scene) {
+Html robot(const ReportContext& scene) {
   return section("robot", "Robot, load and space of poses",
                  robot_tables(scene.view.problem) + html("<h3>Load</h3>\n") + load_table(scene.view.problem.load) +
                      html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
 }
 
-Html path_section(const Scene& scene) {
+Html path_section(const ReportContext& scene) {
   const std::size_t count = scene.view.path.waypoints.size();
   if (count == 0) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
   const Html segments =
@@ -474,7 +474,7 @@ Html path_section(const Scene& scene) {
           folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene, step)));
 }
 
-Html margins(const Scene& scene) {
+Html margins(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   const std::size_t count = view.segments.size();
   if (view.boxes == 0) return {};
@@ -512,7 +512,7 @@ Html margins(const Scene& scene) {
           tables);
 }
 
-Html stretches(const Scene& scene) {
+Html stretches(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   if (view.stretches.empty()) return {};
   const auto place = [&](const PathPointView& point) {

@@ -15,13 +15,13 @@ namespace taut {
 /// What the certificate is made from, with digests.
 [[nodiscard]] Html inputs(const CertificateView& view);
 /// Robot, load and space of poses.
-[[nodiscard]] Html robot(const Scene& scene);
+[[nodiscard]] Html robot(const ReportContext& scene);
 /// The path's waypoints.
-[[nodiscard]] Html path_section(const Scene& scene);
+[[nodiscard]] Html path_section(const ReportContext& scene);
 /// Where an audited path is not proved.
-[[nodiscard]] Html stretches(const Scene& scene);
+[[nodiscard]] Html stretches(const ReportContext& scene);
 /// Proved margins of each segment; of a long path, of blocks of segments and of the segments with the least.
-[[nodiscard]] Html margins(const Scene& scene);
+[[nodiscard]] Html margins(const ReportContext& scene);
 /// How to check the certificate again.
 [[nodiscard]] Html recheck(const CertificateView& view);
 

@@ -75,7 +75,7 @@ struct Drawing {
   Point2 load;
 };
 
-Drawing draw(const Scene& scene, const Camera& camera, const Pose<double>& pose) {
+Drawing draw(const ReportContext& scene, const Camera& camera, const Pose<double>& pose) {
   const Model<double>& model = scene.sampler.model();
   const Matrix3<double> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
   Drawing result;
@@ -98,7 +98,7 @@ std::string polygon(const std::vector<Point2>& points, const std::function<Point
 
 }  // namespace
 
-Html still_picture(const Scene& scene) {
+Html still_picture(const ReportContext& scene) {
   const Path& path = scene.view.path;
   if (path.waypoints.empty()) return {};
   std::vector<std::pair<Html, double>> views = {{html("Waypoint 0 (start)"), 0.0}};

@@ -9,6 +9,6 @@ namespace taut {
 
 /// The robot at the first and the last waypoint, and at the witness if there is one, seen from the side; nothing where there is no
 /// path.
-[[nodiscard]] Html still_picture(const Scene& scene);
+[[nodiscard]] Html still_picture(const ReportContext& scene);
 
 }  // namespace taut

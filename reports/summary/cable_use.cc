@@ -30,7 +30,7 @@ void widen(Use& use, const Range& range, double position) {
   }
 }
 
-bool add_proved(const Scene& scene, CableUse& use) {
+bool add_proved(const ReportContext& scene, CableUse& use) {
   bool is_any = false;
   for (std::size_t k = 0; k < scene.ranges.segments.size(); ++k) {
     for (const BoxRanges& box : scene.ranges.segments[k]) {
@@ -45,15 +45,15 @@ bool add_proved(const Scene& scene, CableUse& use) {
   return is_any;
 }
 
-bool add_samples(const Scene& scene, CableUse& use) {
+bool add_samples(const ReportContext& scene, CableUse& use) {
   bool is_any = false;
   for (const PathSample& sample : scene.samples) {
     if (!sample.statics.regular) continue;
     for (std::size_t i = 0; i < kCables; ++i) {
       const double tension = sample.statics.tension[i];
-      const double variation = sample.statics.variation[i];
+      const double tension_radius = sample.statics.tension_radius[i];
       const double length = sample.statics.length[i];
-      widen(use.tension[i], {tension - variation, tension + variation}, sample.position);
+      widen(use.tension[i], {tension - tension_radius, tension + tension_radius}, sample.position);
       widen(use.length[i], {length, length}, sample.position);
     }
     is_any = true;
@@ -63,7 +63,7 @@ bool add_samples(const Scene& scene, CableUse& use) {
 
 }  // namespace
 
-CableUse cable_use(const Scene& scene) {
+CableUse cable_use(const ReportContext& scene) {
   const RobotText& robot = scene.view.problem.robot;
   CableUse use{CableUse::Source::kNone, empty_uses(robot.tension_N), empty_uses(robot.length_m)};
   if (add_proved(scene, use)) {

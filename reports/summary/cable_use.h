@@ -40,7 +40,7 @@ struct CableUse {
   std::array<Use, kCables> length;
 };
 
-[[nodiscard]] CableUse cable_use(const Scene& scene);
+[[nodiscard]] CableUse cable_use(const ReportContext& scene);
 
 /// The cable that comes closest to one of its limits, measured by the width between them.
 struct ClosestUse {

@@ -70,9 +70,10 @@ CertificateView without_claims(CertificateView view, Recheck::Result result) {
 
 }  // namespace
 
-Scene::Scene(const checker::CheckResult& checked) : Scene(view_of(checked), recheck_of(checked)) {}
+ReportContext::ReportContext(const checker::CheckResult& checked)
+    : ReportContext(view_of(checked), recheck_of(checked)) {}
 
-Scene::Scene(CertificateView certificate, Recheck checked)
+ReportContext::ReportContext(CertificateView certificate, Recheck checked)
     : recheck(std::move(checked)),
       view(recheck.result == Recheck::Result::kConfirmed ? std::move(certificate)
                                                          : without_claims(std::move(certificate), recheck.result)),

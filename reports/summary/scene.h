@@ -14,12 +14,12 @@
 
 namespace taut {
 
-struct Scene {
+struct ReportContext {
   /// Of a certificate as the checker left it: with a verdict where it made a theorem.
   /// @throws InputError where a report can't show what is in it. @pre the outcome is neither rejected nor malformed.
-  explicit Scene(const checker::CheckResult& checked);
+  explicit ReportContext(const checker::CheckResult& checked);
   /// Unless confirmed, all claims are taken out of the view.
-  Scene(CertificateView certificate, Recheck checked);
+  ReportContext(CertificateView certificate, Recheck checked);
 
   Recheck recheck;
   CertificateView view;

@@ -102,7 +102,7 @@ std::string stretches_text(const CertificateView& view) {
 
 /// How bad it gets elsewhere: a violation is proved where it begins, and there it is slight. Not where poses are only implied:
 /// samples of them may be of no pose of the motion.
-std::vector<std::string> sampled_details(const Scene& scene) {
+std::vector<std::string> sampled_details(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   if (view.path.segments() == 0 || found_no_path(view) || view.path.interpolation == Interpolation::kCableLengths) {
     return {};
@@ -138,7 +138,7 @@ std::vector<std::string> sampled_details(const Scene& scene) {
                   worst->is_length ? "" : " under a load that is covered", worst->is_upper ? "upper" : "lower", limit)};
 }
 
-std::vector<std::string> refuted_details(const Scene& scene) {
+std::vector<std::string> refuted_details(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   const WitnessView& witness = *view.witness;
   const auto pose_at = [&](double position) { return pose_text(scene.sampler.at(view.path, position).pose); };
@@ -165,8 +165,9 @@ std::vector<std::string> refuted_details(const Scene& scene) {
       machine = fmt::format(
           " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate "
           "says{}.",
-          witness.is_led ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
-                         : "");
+          witness.uses_continuation
+              ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
+              : "");
     }
     result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
                                  place_text(scene, witness.at.position), point_text(view, witness.at),
@@ -183,7 +184,7 @@ std::vector<std::string> refuted_details(const Scene& scene) {
   return result;
 }
 
-std::vector<std::string> undecided_details(const Scene& scene) {
+std::vector<std::string> undecided_details(const ReportContext& scene) {
   const UndecidedView& open = *scene.view.undecided;
   std::vector<std::string> result = {
       "It was neither proved nor refuted: that does not mean that it is unsafe, and it is no evidence that it is safe.",
@@ -215,7 +216,7 @@ std::string law_text(const CertificateView& view) {
   return "straight in the six cable lengths";
 }
 
-std::string motion_text(const Scene& scene) {
+std::string motion_text(const ReportContext& scene) {
   const Path& path = scene.view.path;
   if (path.waypoints.empty()) return "The certificate contains no path.";
   if (found_no_path(scene.view)) {
@@ -377,7 +378,7 @@ std::string recheck_text(const Recheck& recheck) {
 
 }  // namespace
 
-std::string headline(const Scene& scene) {
+std::string headline(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   if (view.verdict == "unchecked") {
     return "UNCHECKED: whether this certificate is right is not known, and nothing that it claims is repeated here.";
@@ -424,7 +425,7 @@ std::string violation_text(const PathWitness& witness) {
   return violation_text(view);
 }
 
-std::vector<std::string> verdict_details(const Scene& scene) {
+std::vector<std::string> verdict_details(const ReportContext& scene) {
   if (scene.view.verdict == "unchecked") {
     return {fmt::format("{}: {}.", scene.recheck.checker, scene.recheck.message),
             "Neither does it mean that the move is unsafe, nor is it evidence that it is safe. To know run: taut-check "
@@ -434,7 +435,7 @@ std::vector<std::string> verdict_details(const Scene& scene) {
   return scene.view.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
 }
 
-std::vector<std::string> closest_text(const Scene& scene, const CableUse& use) {
+std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use) {
   if (scene.view.verdict != "proved" || use.source != CableUse::Source::kProved) return {};
   const RobotText& robot = scene.view.problem.robot;
   const auto sentence = [&](const std::array<Use, kCables>& uses, bool length) {
@@ -474,7 +475,7 @@ std::string proof_text(const CertificateView& view) {
 
 }  // namespace
 
-std::vector<Statement> statements(const Scene& scene) {
+std::vector<Statement> statements(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   const Problem& problem = view.problem;
   return {{"motion", "Motion", motion_text(scene)},

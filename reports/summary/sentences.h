@@ -13,7 +13,7 @@
 namespace taut {
 
 /// The verdict in one sentence.
-[[nodiscard]] std::string headline(const Scene& scene);
+[[nodiscard]] std::string headline(const ReportContext& scene);
 
 /// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N"
 [[nodiscard]] std::string violation_text(const WitnessView& witness);
@@ -21,11 +21,11 @@ namespace taut {
 
 /// What follows from it: of a refuted one by how much, where and at which pose; of an undecided one the reason and where; of a
 /// proved one its reserves.
-[[nodiscard]] std::vector<std::string> verdict_details(const Scene& scene);
+[[nodiscard]] std::vector<std::string> verdict_details(const ReportContext& scene);
 
 /// How close the move comes to limits of tension and of length: "Cable 3 comes closest to a limit of tension …". Nothing unless all of the move is
 /// proved.
-[[nodiscard]] std::vector<std::string> closest_text(const Scene& scene, const CableUse& use);
+[[nodiscard]] std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use);
 
 /// What a statement is about, and the statement.
 struct Statement {
@@ -35,7 +35,7 @@ struct Statement {
 };
 
 /// What the verdict is about: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and who checked it again.
-[[nodiscard]] std::vector<Statement> statements(const Scene& scene);
+[[nodiscard]] std::vector<Statement> statements(const ReportContext& scene);
 
 /// The centre load and by how much each component may differ from it: the semi-axes of K. Floating point.
 [[nodiscard]] std::string load_text(const LoadText& load);

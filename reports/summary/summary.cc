@@ -73,7 +73,7 @@ const char* name(CableUse::Source source) {
 
 }  // namespace
 
-Summary::Summary(const Scene& scene, const ReportOptions& options)
+Summary::Summary(const ReportContext& scene, const ReportOptions& options)
     : document(options.document.empty() ? document_number(scene.view.footer_sha256) : options.document),
       revision(options.revision),
       date(options.date),

@@ -11,7 +11,7 @@
 namespace taut {
 
 struct Summary {
-  Summary(const Scene& scene, const ReportOptions& options);
+  Summary(const ReportContext& scene, const ReportOptions& options);
 
   std::string document;  ///< its number
   std::string revision;  ///< may be empty, as the date

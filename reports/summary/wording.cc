@@ -129,7 +129,7 @@ std::string distance_text(double metres) {
   return metres < kShort ? fmt::format("{:.3g} mm", std::round(metres * 1e6) / 1000) : fmt::format("{:.4g} m", metres);
 }
 
-std::string place_text(const Scene& scene, double position) {
+std::string place_text(const ReportContext& scene, double position) {
   constexpr double kStill = 1e-9;  // [m], [rad]: less is rounding
   const auto segments = static_cast<double>(scene.view.path.segments());
   if (segments == 0) return "at the only pose of the path";

@@ -45,6 +45,6 @@ namespace taut {
 [[nodiscard]] std::string distance_text(double metres);
 /// "4.2 m into the move (segment 17)": where the path's origin does not move, by the angle turned; with the time, if the path has any.
 /// `position` counts segments: k + s is the point s of segment k.
-[[nodiscard]] std::string place_text(const Scene& scene, double position);
+[[nodiscard]] std::string place_text(const ReportContext& scene, double position);
 
 }  // namespace taut

@@ -5,7 +5,7 @@
 //   verdict ("unchecked" where nobody knows: then nothing that the certificate claims is in here), segments, is_spline
 //   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of limits
 //   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3), distance, turned,
-//               time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0), variation (6: v),
+//               time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0), tension_radius (6: v),
 //               wrench_scale, sign (of det J), parameters (2, where there is a plane)
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
 //   margins     proved, of so many segments together: from, to, tension_N, length_m, wrench_scale

@@ -74,7 +74,7 @@ class Readout {
       `p = (${p.join(", ")}) ${lengthUnit.name}; φ, θ, σ = ${angles.map((a) => `${a}°`).join(", ")}`;
     this.rows.forEach((row, i) => {
       const f = between(samples.tension[i], where);
-      const v = between(samples.variation[i], where);
+      const v = between(samples.tension_radius[i], where);
       const d = between(samples.length[i], where) * lengthUnit.factor;
       const [lower, upper] = robot.tension[i];
       const decimals = decimalsFor(upper - lower);

@@ -206,7 +206,7 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
 export function tensionPanels(data) {
   return data.robot.tension.map((limits, i) => {
     const f0 = data.samples.tension[i].map((x) => x ?? NaN);
-    const v = data.samples.variation[i];
+    const v = data.samples.tension_radius[i];
     return cablePanel(data, i, {
       name: "tension", unit: "N", factor: 1, limits,
       low: f0.map((f, k) => f - v[k]), middle: f0, high: f0.map((f, k) => f + v[k]),
@@ -241,8 +241,8 @@ function leastReserve(data, low, high, limits) {
 export function marginPanels(data) {
   const { samples, robot, margins, lengthUnit } = data;
   const number = (x) => x ?? NaN;
-  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.variation[i][k]),
-    (i, k) => number(samples.tension[i][k]) + number(samples.variation[i][k]), robot.tension);
+  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.tension_radius[i][k]),
+    (i, k) => number(samples.tension[i][k]) + number(samples.tension_radius[i][k]), robot.tension);
   const length = leastReserve(data, (i, k) => number(samples.length[i][k]), (i, k) => number(samples.length[i][k]),
     robot.length).map((x) => x * lengthUnit.factor);
   const scaledLength = margins.length_m.map((x) => (x === null ? null : x * lengthUnit.factor));

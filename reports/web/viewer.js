@@ -268,7 +268,7 @@ class Viewer {
     this.ends = robot.platform.map((b) => vector(b).applyQuaternion(q).add(p));
     this.cables.forEach((mesh, i) => {
       const f = between(samples.tension[i], where);
-      const v = between(samples.variation[i], where);
+      const v = between(samples.tension_radius[i], where);
       const [lower, upper] = robot.tension[i];
       const a = vector(robot.base[i]);
       const b = this.ends[i];

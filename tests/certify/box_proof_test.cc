@@ -29,7 +29,7 @@ DyadicBox random_box(Operands& operands) {
 /// What the oracle says at one point of a box.
 struct Sample {
   double s;
-  oracle::Big6 length, density, variation;                                        // as in BoxEnclosure
+  oracle::Big6 length, density, tension_radius;                                   // as in BoxEnclosure
   oracle::Big6 tension_low, tension_high, length_low, length_high, wrench_scale;  // margins
 };
 
@@ -43,13 +43,13 @@ Sample sample(const Space& space, const Waypoint& a, const Waypoint& b, double s
     const auto& [f_low, f_high] = space.problem.robot.tension_N[i];
     const auto& [d_low, d_high] = space.problem.robot.length_m[i];
     r.density[i] = exact.tension[i] / exact.length[i];
-    r.variation[i] = exact.variation[i] / exact.length[i];
-    r.tension_low[i] = exact.tension[i] - exact.variation[i] - oracle::big(f_low);
-    r.tension_high[i] = oracle::big(f_high) - exact.tension[i] - exact.variation[i];
+    r.tension_radius[i] = exact.tension_radius[i] / exact.length[i];
+    r.tension_low[i] = exact.tension[i] - exact.tension_radius[i] - oracle::big(f_low);
+    r.tension_high[i] = oracle::big(f_high) - exact.tension[i] - exact.tension_radius[i];
     r.length_low[i] = exact.length[i] - oracle::big(d_low);
     r.length_high[i] = oracle::big(d_high) - exact.length[i];
-    r.wrench_scale[i] =
-        std::min(exact.tension[i] - oracle::big(f_low), oracle::big(f_high) - exact.tension[i]) / exact.variation[i];
+    r.wrench_scale[i] = std::min(exact.tension[i] - oracle::big(f_low), oracle::big(f_high) - exact.tension[i]) /
+                        exact.tension_radius[i];
   }
   return r;
 }
@@ -70,7 +70,7 @@ struct Tally {
 
 /// A centred form against samples; the first is at the midpoint.
 template <class I>
-void expect_form(const Centered<I>& form, const std::vector<Sample>& samples,
+void expect_form(const SlopeForm<I>& form, const std::vector<Sample>& samples,
                  const std::function<const BigFloat&(const Sample&)>& value, const std::string& where) {
   const PrecisionScope precision(oracle::kBits);
   const BigFloat& at_mid = value(samples[0]);
@@ -128,7 +128,8 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
     expect_form<I>(enclosure.length[i], samples, component(&Sample::length), cable + ", length");
     if (!enclosure.regular) continue;
     expect_form<I>(enclosure.density[i], samples, component(&Sample::density), cable + ", density");
-    expect_form<I>(enclosure.variation[i], samples, component(&Sample::variation), cable + ", variation");
+    expect_form<I>(enclosure.tension_radius[i], samples, component(&Sample::tension_radius),
+                   cable + ", tension_radius");
   }
   for (const auto& entry : enclosure.margins) {
     const auto value = [&entry](const Sample& x) -> const BigFloat& {

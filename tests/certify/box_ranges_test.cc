@@ -70,8 +70,8 @@ TEST(EncloseRanges, HoldsTheOracleAtPointsOfEachBox) {
           const double s = box.lower().approx() + u * width(box);
           const auto exact = oracle::statics(space.problem, space.pose(parameters_at(random.a, random.b, BigFloat(s))));
           for (std::size_t i = 0; i < kCables; ++i) {
-            EXPECT_LE(BigFloat(ranges->tension[i].lower), exact.tension[i] - exact.variation[i]);
-            EXPECT_GE(BigFloat(ranges->tension[i].upper), exact.tension[i] + exact.variation[i]);
+            EXPECT_LE(BigFloat(ranges->tension[i].lower), exact.tension[i] - exact.tension_radius[i]);
+            EXPECT_GE(BigFloat(ranges->tension[i].upper), exact.tension[i] + exact.tension_radius[i]);
             EXPECT_LE(BigFloat(ranges->length[i].lower), exact.length[i]);
             EXPECT_GE(BigFloat(ranges->length[i].upper), exact.length[i]);
           }
@@ -154,8 +154,8 @@ TEST(PathRanges, CoverDeviatingMachines) {
             statics(model, Vector3<double>(pose.p + direction(0.0002)), Matrix3<double>(pose.q.toRotationMatrix()));
         constexpr double kRounding = 1e-9;  // of the sampled machine
         for (std::size_t i = 0; i < kCables; ++i) {
-          EXPECT_GE(x.tension[i] - x.variation[i], piece.tension[i].lower - kRounding);
-          EXPECT_LE(x.tension[i] + x.variation[i], piece.tension[i].upper + kRounding);
+          EXPECT_GE(x.tension[i] - x.tension_radius[i], piece.tension[i].lower - kRounding);
+          EXPECT_LE(x.tension[i] + x.tension_radius[i], piece.tension[i].upper + kRounding);
           EXPECT_GE(x.length[i], piece.length[i].lower - kRounding);
           EXPECT_LE(x.length[i], piece.length[i].upper + kRounding);
           const Range& alone = stated.segments[k].front().length[i];

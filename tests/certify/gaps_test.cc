@@ -81,8 +81,8 @@ BigFloat margin_at(const Space& space, const oracle::OracleStatics& at, MarginId
   const auto& [f_low, f_high] = space.problem.robot.tension_N[i];
   const auto& [d_low, d_high] = space.problem.robot.length_m[i];
   switch (id.kind) {
-    case MarginKind::kTensionMin: return at.tension[i] - at.variation[i] - oracle::big(f_low);
-    case MarginKind::kTensionMax: return oracle::big(f_high) - at.tension[i] - at.variation[i];
+    case MarginKind::kTensionMin: return at.tension[i] - at.tension_radius[i] - oracle::big(f_low);
+    case MarginKind::kTensionMax: return oracle::big(f_high) - at.tension[i] - at.tension_radius[i];
     case MarginKind::kLengthMin: return at.length[i] - oracle::big(d_low);
     case MarginKind::kLengthMax: break;
   }

@@ -21,8 +21,8 @@ BigFloat quantity(const Space& space, const RandomSegment& segment, MarginId id,
   const auto at = oracle::statics(space.problem, space.pose(parameters_at(segment.a, segment.b, s)));
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
-    case MarginKind::kTensionMin: return at.tension[i] - at.variation[i];
-    case MarginKind::kTensionMax: return -(at.tension[i] + at.variation[i]);
+    case MarginKind::kTensionMin: return at.tension[i] - at.tension_radius[i];
+    case MarginKind::kTensionMax: return -(at.tension[i] + at.tension_radius[i]);
     case MarginKind::kLengthMin: return at.length[i];
     case MarginKind::kLengthMax: break;
   }

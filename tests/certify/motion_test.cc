@@ -152,8 +152,8 @@ std::unique_ptr<Trial> random_trial(const Surface& surface, const Prover& prover
 
 template <class Scalar>
 class Motion : public ::testing::Test {};
-using Scalars = ::testing::Types<Fast, Mp128>;
-TYPED_TEST_SUITE(Motion, Scalars);
+using ProofScalarTraits = ::testing::Types<Fast, Mp128>;
+TYPED_TEST_SUITE(Motion, ProofScalarTraits);
 
 TYPED_TEST(Motion, HoldsEverySampleOfABoxAndItsSlopes) {
   using I = typename TypeParam::I;
@@ -187,7 +187,7 @@ TYPED_TEST(Motion, HoldsEverySampleOfABoxAndItsSlopes) {
         const Exact exact = exact_motion(surface, segment, s);
         for (const BigFloat& y : exact.y) ASSERT_LE(abs(y).to_double(), segment.tube);
         for (std::size_t j = 0; j < 3; ++j) {
-          const Centered<I>& p = motion.p_WP(static_cast<int>(j));
+          const SlopeForm<I>& p = motion.p_WP(static_cast<int>(j));
           EXPECT_TRUE(holds(p.range, exact.parameters[j], error)) << j << " at " << s << " " << print(p.range);
           EXPECT_TRUE(s != mid || holds(p.at_mid, exact.parameters[j], error)) << j << " " << print(p.at_mid);
           if (s != mid) {

@@ -20,7 +20,7 @@ using oracle::Big66;
 struct PrintedPose {
   std::string robot;
   std::vector<double> pose;
-  std::array<std::string, 6> length, tension, variation;
+  std::array<std::string, 6> length, tension, tension_radius;
   std::string determinant;
   bool feasible;
 };
@@ -79,9 +79,9 @@ TEST_F(PrintedOracle, StaticsEncloseEveryPose) {
     for (std::size_t i = 0; i < 6; ++i) {
       ASSERT_TRUE(holds_printed(s.length[i], p.length[i]));
       ASSERT_TRUE(holds_printed(s.tension[i], p.tension[i]));
-      ASSERT_TRUE(holds_printed(s.variation[i], p.variation[i]));
-      widest =
-          std::max({widest, relative_width(s.length[i]), relative_width(s.tension[i]), relative_width(s.variation[i])});
+      ASSERT_TRUE(holds_printed(s.tension_radius[i], p.tension_radius[i]));
+      widest = std::max(
+          {widest, relative_width(s.length[i]), relative_width(s.tension[i]), relative_width(s.tension_radius[i])});
     }
   }
   RecordProperty("widest_relative", std::to_string(std::log10(widest)));
@@ -99,9 +99,9 @@ TEST_F(PrintedOracle, FloatingPointAgreesToItsConditioning) {
     ASSERT_NEAR(s.determinant, determinant, 1e-14);
     for (std::size_t i = 0; i < 6; ++i) {
       ASSERT_NEAR(s.length[i], std::stod(p.length[i]), 1e-15);
-      const double scale = 1 + std::abs(std::stod(p.tension[i])) + std::stod(p.variation[i]);
+      const double scale = 1 + std::abs(std::stod(p.tension[i])) + std::stod(p.tension_radius[i]);
       ASSERT_NEAR(s.tension[i], std::stod(p.tension[i]), scale * tolerance * 100);
-      ASSERT_NEAR(s.variation[i], std::stod(p.variation[i]), scale * tolerance * 100);
+      ASSERT_NEAR(s.tension_radius[i], std::stod(p.tension_radius[i]), scale * tolerance * 100);
     }
   }
 }
@@ -114,13 +114,13 @@ void expect_boxes_enclose(const Model& model1, const Model& model2, double typic
   for (const PrintedPose& p : printed_poses()) {
     const Waypoint at{p.pose, std::vector<int>(6, 0)};
     BoxEnclosure<I> box;
-    std::array<I, 6> tension, variation;
+    std::array<I, 6> tension, tension_radius;
     const bool sound = A::run([&] {
       box = enclose_box(p.robot == "robot1" ? model1 : model2, Segment::straight(at, at), {0, 0});
       if (!box.regular) return;
       for (std::size_t i = 0; i < 6; ++i) {
         tension[i] = box.length[i].range * box.density[i].range;
-        variation[i] = box.length[i].range * box.variation[i].range;
+        tension_radius[i] = box.length[i].range * box.tension_radius[i].range;
       }
     });
     ASSERT_TRUE(sound && box.regular);
@@ -128,8 +128,8 @@ void expect_boxes_enclose(const Model& model1, const Model& model2, double typic
     for (std::size_t i = 0; i < 6; ++i) {
       ASSERT_TRUE(holds_printed(box.length[i].range, p.length[i]));
       ASSERT_TRUE(holds_printed(tension[i], p.tension[i]));
-      ASSERT_TRUE(holds_printed(variation[i], p.variation[i]));
-      w = std::max({w, relative_width(box.length[i].range), relative_width(variation[i])});
+      ASSERT_TRUE(holds_printed(tension_radius[i], p.tension_radius[i]));
+      w = std::max({w, relative_width(box.length[i].range), relative_width(tension_radius[i])});
       w = std::max(w, spread(tension[i]) / (spread(tension[i]) + 1 + std::abs(lower_bound(tension[i]))));
     }
     widths.push_back(w);
@@ -189,7 +189,7 @@ TEST_F(PrintedOracle, AgreesWithTheOracleAtTheOrigin) {
     for (std::size_t i = 0; i < 6; ++i) {
       expect_near(s.length[i], p.length[i]);
       expect_near(s.tension[i], p.tension[i]);
-      expect_near(s.variation[i], p.variation[i]);
+      expect_near(s.tension_radius[i], p.tension_radius[i]);
     }
   }
 }
@@ -259,12 +259,12 @@ TEST(OracleAtTheOrigin, IsEnclosedForRandomRobotsWithFullEllipsoids) {
       for (std::size_t i = 0; i < 6; ++i) {
         ASSERT_TRUE(holds(s.length[i], exact.length[i]));
         ASSERT_TRUE(holds(s.tension[i], exact.tension[i]));
-        ASSERT_TRUE(holds(s.variation[i], exact.variation[i]));
-        ASSERT_LT(relative_width(s.variation[i]), 1e-22);
+        ASSERT_TRUE(holds(s.tension_radius[i], exact.tension_radius[i]));
+        ASSERT_LT(relative_width(s.tension_radius[i]), 1e-22);
         if (!sound || !box.regular) continue;
         ASSERT_TRUE(holds(box.length[i].range, exact.length[i]));
         ASSERT_TRUE(holds(box.density[i].range, exact.tension[i] / exact.length[i]));
-        ASSERT_TRUE(holds(box.variation[i].range, exact.variation[i] / exact.length[i]));
+        ASSERT_TRUE(holds(box.tension_radius[i].range, exact.tension_radius[i] / exact.length[i]));
       }
     }
   }
@@ -304,8 +304,8 @@ TEST(OracleAtTheOrigin, WrenchesOfKAreBalancedWithinTheEnclosuresWhichAreAttaine
     const Statics<MpInterval> s = statics(model, exact_pose<MpInterval>(q));
     std::array<MpInterval, 6> low, high;
     for (std::size_t i = 0; i < 6; ++i) {
-      low[i] = s.tension[i] - s.variation[i];
-      high[i] = s.tension[i] + s.variation[i];
+      low[i] = s.tension[i] - s.tension_radius[i];
+      high[i] = s.tension[i] + s.tension_radius[i];
     }
     const PrecisionScope precision(oracle::kBits);
     const oracle::OracleStatics at = oracle::statics(problem, big_pose(q));
@@ -352,7 +352,7 @@ TEST(OracleAtTheOrigin, WrenchesOfKAreBalancedWithinTheEnclosuresWhichAreAttaine
       for (auto& x : opposite) x = -x;
       const BigFloat highest = balance(onto_surface(m, z))[i];
       const BigFloat lowest = balance(onto_surface(m, opposite))[i];
-      const BigFloat tolerance(1e-9 * upper_bound(s.variation[i]));
+      const BigFloat tolerance(1e-9 * upper_bound(s.tension_radius[i]));
       ASSERT_TRUE(highest <= upper_end(high[i]) + BigFloat(1e-45) && highest >= lower_end(high[i]) - tolerance);
       ASSERT_TRUE(lowest >= lower_end(low[i]) - BigFloat(1e-45) && lowest <= upper_end(low[i]) + tolerance);
     }

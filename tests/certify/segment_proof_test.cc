@@ -78,10 +78,10 @@ TEST(Prover, TheWitnessOfARefutationStandsUpToTheOracle) {
   const auto i = static_cast<std::size_t>(proof.witness->margin.cable);
   switch (proof.witness->margin.kind) {
     case MarginKind::kTensionMin:
-      EXPECT_LE(statics.tension[i] - statics.variation[i], oracle::big(problem.robot.tension_N[i].lower));
+      EXPECT_LE(statics.tension[i] - statics.tension_radius[i], oracle::big(problem.robot.tension_N[i].lower));
       break;
     case MarginKind::kTensionMax:
-      EXPECT_GE(statics.tension[i] + statics.variation[i], oracle::big(problem.robot.tension_N[i].upper));
+      EXPECT_GE(statics.tension[i] + statics.tension_radius[i], oracle::big(problem.robot.tension_N[i].upper));
       break;
     case MarginKind::kLengthMin: EXPECT_LE(statics.length[i], oracle::big(problem.robot.length_m[i].lower)); break;
     case MarginKind::kLengthMax: EXPECT_GE(statics.length[i], oracle::big(problem.robot.length_m[i].upper)); break;

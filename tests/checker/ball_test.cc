@@ -17,7 +17,7 @@ namespace taut::testing {
 namespace {
 
 using checker::Ball;
-using checker::Form;
+using checker::MeanValueForm;
 using checker::Undefined;
 using checker::WorkingPrecision;
 

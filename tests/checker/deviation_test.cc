@@ -165,7 +165,7 @@ void expect_bounds(const taut::Problem& problem, bool length_controlled, std::mt
       for (const double side : {-1.0, 1.0}) {
         deviations.push_back(steepest([&](const Deviation& x) {
           const auto there = deviating(machine_d, tolerances_d, pose(0.0), x);
-          return there ? sign * (there->tension[i] + side * there->variation[i]) : 0;
+          return there ? sign * (there->tension[i] + side * there->tension_radius[i]) : 0;
         }));
       }
     }
@@ -186,9 +186,11 @@ void expect_bounds(const taut::Problem& problem, bool length_controlled, std::mt
             << ", guesses " << guesses << ", lengths controlled " << length_controlled << ", step " << step;
         if (limit > 1e-9) seen.largest = std::max(seen.largest, size / limit);
       };
-      expect(loss.tension[i][0], (after->tension[i] - after->variation[i]) - (before.tension[i] - before.variation[i]),
+      expect(loss.tension[i][0],
+             (after->tension[i] - after->tension_radius[i]) - (before.tension[i] - before.tension_radius[i]),
              "least tension");
-      expect(loss.tension[i][1], (after->tension[i] + after->variation[i]) - (before.tension[i] + before.variation[i]),
+      expect(loss.tension[i][1],
+             (after->tension[i] + after->tension_radius[i]) - (before.tension[i] + before.tension_radius[i]),
              "largest tension");
       expect(loss.length[i], after->length[i] - before.length[i], "length");
     }

@@ -35,7 +35,7 @@ inline bool holds(const Ball& ball, const BigFloat& value, double error = 1e-40)
   return arb_overlaps(ball.get(), plus_minus(exactly(value), Ball(error)).get()) != 0;
 }
 /// Whether the form may have the value at u.
-inline bool holds(const Form& form, double u, const BigFloat& value, double error = 1e-40) {
+inline bool holds(const MeanValueForm& form, double u, const BigFloat& value, double error = 1e-40) {
   const WorkingPrecision precision(4096);
   return holds(form.at + form.slope * Ball(u), value, error);
 }

@@ -262,8 +262,8 @@ TEST(Motion, ParametersOutsideOfTheirRangesAreNotAccepted) {
   problem.parameters[2].lower = parse_expression("1/4", {}, "test");
   problem.parameters[2].upper = parse_expression("3/8", {}, "test");
   const auto at = [](double x) {
-    std::vector<Form> result(6);
-    result[2] = Form(Ball(x), Ball(0x1p-10));
+    std::vector<MeanValueForm> result(6);
+    result[2] = MeanValueForm(Ball(x), Ball(0x1p-10));
     return result;
   };
   EXPECT_NO_THROW(require_in_range(problem, at(0.3)));

@@ -15,13 +15,13 @@ constexpr double kTubeTurn = 0.008;
 using campaign::RigidPose;
 
 /// A robot with tolerances that stays at one pose, and a deviation of it.
-struct Scene {
+struct ReportContext {
   taut::Problem stated = testing::free_flying(testing::robot1_slice());
   Problem problem;
   Path path;
   Witness witness;
 
-  explicit Scene(bool length_controlled) {
+  explicit ReportContext(bool length_controlled) {
     TolerancesText within;
     within.base_anchor_m.fill("0.001");
     within.platform_anchor_m.fill("0.001");
@@ -160,14 +160,14 @@ TEST(Refutation, TheQuantityIsThatOfTheMachineThatDeviates) {
   const PrecisionScope oracle(kOracleBits);
   for (const bool length_controlled : {false, true}) {
     for (const int boxes : {1, 2, 5}) {
-      Scene scene(length_controlled);
+      ReportContext scene(length_controlled);
       if (length_controlled) scene.lead(scene.start(), boxes);
       const auto truth = scene.truth();
       for (std::size_t cable = 0; cable < 6; ++cable) {
         scene.witness.cable = cable;
         const std::pair<WitnessKind, BigFloat> kinds[] = {
-            {WitnessKind::kTensionMin, truth.tension[cable] - truth.variation[cable]},
-            {WitnessKind::kTensionMax, truth.tension[cable] + truth.variation[cable]},
+            {WitnessKind::kTensionMin, truth.tension[cable] - truth.tension_radius[cable]},
+            {WitnessKind::kTensionMax, truth.tension[cable] + truth.tension_radius[cable]},
             {WitnessKind::kLengthMin, truth.length[cable]},
             {WitnessKind::kLengthMax, truth.length[cable]}};
         for (const auto& [kind, value] : kinds) {
@@ -223,7 +223,7 @@ TEST(Refutation, ADeviationBeyondATolerancesIsRejected) {
        }}};
   for (const bool length_controlled : {false, true}) {
     for (const auto& [what, alter] : beyond) {
-      Scene scene(length_controlled);
+      ReportContext scene(length_controlled);
       if (length_controlled) scene.lead(scene.start(), 1);
       alter(*scene.witness.deviation);
       scene.state(BigFloat(0.0), 1e6);
@@ -235,7 +235,7 @@ TEST(Refutation, ADeviationBeyondATolerancesIsRejected) {
       }
     }
   }
-  Scene scene(true);
+  ReportContext scene(true);
   scene.lead(scene.start(), 1);
   scene.state(BigFloat(0.0), 1e6);
   EXPECT_NO_THROW(scene.confirm());
@@ -244,7 +244,7 @@ TEST(Refutation, ADeviationBeyondATolerancesIsRejected) {
 }
 
 TEST(Refutation, ADeviationJustWithinTheTolerancesIsNotRejected) {
-  Scene scene(false);
+  ReportContext scene(false);
   scene.state(BigFloat(0.0), 1e6);
   scene.witness.deviation->base_anchors[3] = {mpq_class(1, 1000), 0, 0};
   scene.witness.deviation->platform_anchors[3] = {mpq_class(6, 10000), mpq_class(-8, 10000), 0};
@@ -263,7 +263,7 @@ std::array<double, 7> mirrored(std::array<double, 7> x) {
 
 TEST(Refutation, AWayThroughAnotherAssemblyIsNotConfirmed) {
   const PrecisionScope oracle(kOracleBits);
-  Scene scene(true);
+  ReportContext scene(true);
   // The anchors stay in their planes, so that the mirrored pose has the lengths of the deviating machine, too.
   for (std::size_t i = 0; i < 6; ++i) {
     scene.witness.deviation->base_anchors[i][2] = 0;
@@ -274,7 +274,7 @@ TEST(Refutation, AWayThroughAnotherAssemblyIsNotConfirmed) {
   EXPECT_NO_THROW(scene.confirm());
 
   // A way all in the other assembly: each of its boxes is proved, but the stated machine is not there.
-  Scene other = scene;
+  ReportContext other = scene;
   other.lead(mirrored(other.start()), 2);
   {
     const WorkingPrecision precision(128);
@@ -289,7 +289,7 @@ TEST(Refutation, AWayThroughAnotherAssemblyIsNotConfirmed) {
   EXPECT_THROW(other.confirm(), Undefined);
 
   // One that begins in the right assembly and ends in the other.
-  Scene crossing = scene;
+  ReportContext crossing = scene;
   WitnessDeviation& by = *crossing.witness.deviation;
   by.poses.back().x = mirrored(by.poses.back().x);
   EXPECT_THROW(crossing.confirm(), Undefined);
@@ -301,7 +301,7 @@ TEST(Refutation, AWayThroughAnotherAssemblyIsNotConfirmed) {
 }
 
 TEST(Refutation, AWayThatStopsBeforeItsEndIsRejected) {
-  Scene scene(true);
+  ReportContext scene(true);
   scene.state(BigFloat(0.0), 1e6);
   scene.lead(scene.start(), 2);
   EXPECT_NO_THROW(scene.confirm());
@@ -312,7 +312,7 @@ TEST(Refutation, AWayThatStopsBeforeItsEndIsRejected) {
 }
 
 TEST(Refutation, ATubeThatDoesNotHoldTheCommandedPoseIsNotConfirmed) {
-  Scene scene(true);
+  ReportContext scene(true);
   scene.state(BigFloat(0.0), 1e6);
   scene.lead(scene.start(), 1);
   EXPECT_NO_THROW(scene.confirm());

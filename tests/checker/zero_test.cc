@@ -13,8 +13,8 @@
 namespace taut::checker {
 namespace {
 
-const Form kU(Ball(), Ball(1));
-Form constant(double x) { return Form(Ball(x)); }
+const MeanValueForm kU(Ball(), Ball(1));
+MeanValueForm constant(double x) { return MeanValueForm(Ball(x)); }
 
 using Row = std::vector<Ball>;
 using Rows = std::vector<Row>;
@@ -22,14 +22,14 @@ using Rows = std::vector<Row>;
 /// Some equations in the first unknowns.
 class Given : public Equations {
  public:
-  using OnForms = std::function<std::vector<Form>(const Vector6<Form>& y)>;
+  using OnForms = std::function<std::vector<MeanValueForm>(const Vector6<MeanValueForm>& y)>;
   using OnBalls = std::function<Rows(const Vector6<Ball>& Y)>;
   Given(std::size_t unknowns, OnForms residual, OnBalls jacobian)
       : unknowns_(unknowns), residual_(std::move(residual)), jacobian_(std::move(jacobian)) {}
   [[nodiscard]] std::size_t unknowns() const override { return unknowns_; }
-  [[nodiscard]] Vector6<Form> residual(const Vector6<Form>& y) const override {
-    Vector6<Form> result;
-    const std::vector<Form> g = residual_(y);
+  [[nodiscard]] Vector6<MeanValueForm> residual(const Vector6<MeanValueForm>& y) const override {
+    Vector6<MeanValueForm> result;
+    const std::vector<MeanValueForm> g = residual_(y);
     for (std::size_t i = 0; i < unknowns_; ++i) result[i] = g[i];
     return result;
   }
@@ -64,7 +64,7 @@ Given line(const Ball& slope, const Ball& rate) {
 Given circles(double a, double r, double q, double rate, double from_y) {
   return {2,
           [=](const auto& y) {
-            const Form second = constant(q) + Ball(rate) * kU, up = y[1] + constant(from_y);
+            const MeanValueForm second = constant(q) + Ball(rate) * kU, up = y[1] + constant(from_y);
             return std::vector{sqr(y[0] - constant(a)) + sqr(up) - constant(r * r),
                                sqr(y[0] + constant(a)) + sqr(up) - sqr(second)};
           },
@@ -74,7 +74,7 @@ Given circles(double a, double r, double q, double rate, double from_y) {
           }};
 }
 
-bool may_be(const Form& form, double u, const BigFloat& value) {
+bool may_be(const MeanValueForm& form, double u, const BigFloat& value) {
   const WorkingPrecision precision(1024);
   return arb_overlaps((form.at + form.slope * Ball(u)).get(), plus_minus(exactly(value), Ball(1e-50)).get()) != 0;
 }
@@ -87,7 +87,7 @@ TEST(Zero, IsTheOneOfARootForEveryU) {
     const Given equations{
         1, [](const auto& y) { return std::vector{sqr(y[0] + constant(0.5)) - constant(0.25) - Ball(1.0 / 16) * kU}; },
         [](const auto& Y) { return Rows{Row{Ball(2) * Y[0] + Ball(1)}}; }};
-    const Vector6<Form> y = only_zero(equations, Ball(0.25), {{0.0}, {1.0 / 16}, 0.008, narrowings});
+    const Vector6<MeanValueForm> y = only_zero(equations, Ball(0.25), {{0.0}, {1.0 / 16}, 0.008, narrowings});
     for (int k = -50; k <= 50; ++k) {
       const double u = k / 50.0;
       const BigFloat exact = sqrt(BigFloat(0.25) + BigFloat(u) / BigFloat(16.0)) - BigFloat(0.5);
@@ -123,7 +123,7 @@ TEST(Zero, IsWhereCirclesAndSpheresMeet) {
     near.radius = 0.001;
     near.narrowings = trial % 5;
     try {
-      const Vector6<Form> y = only_zero(equations, Ball(0.125), near);
+      const Vector6<MeanValueForm> y = only_zero(equations, Ball(0.125), near);
       ++shown;
       for (int k = -8; k <= 8; ++k) {
         const auto& [x, above] = exact(k / 8.0);

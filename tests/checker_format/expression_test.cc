@@ -5,7 +5,7 @@
 
 #include "checker/format/expression_parser.h"
 #include "checker/kernel/errors.h"
-#include "checker/kernel/form.h"
+#include "checker/kernel/mean_value_form.h"
 
 namespace taut::checker {
 namespace {
@@ -15,7 +15,8 @@ const Names kNames = {{"phi", "theta"}, {{"rs", mpq_class(13, 100)}}};
 Expression parse(const std::string& text) { return parse_expression(text, kNames, "test"); }
 
 Ball value(const Expression& expression, const Ball& phi, const Ball& theta) {
-  return expression.evaluate<Form>(std::vector<Form>{Form(phi), Form(theta)}).range();
+  return expression.evaluate<MeanValueForm>(std::vector<MeanValueForm>{MeanValueForm(phi), MeanValueForm(theta)})
+      .range();
 }
 
 Ball value(const std::string& text) {

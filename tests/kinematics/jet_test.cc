@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certify/arithmetic/centered.h"
+#include "certify/arithmetic/slope_form.h"
 #include "tests/support/enclosing.h"
 
 namespace taut::testing {
@@ -88,7 +88,7 @@ TEST(Jet, MeetsTheCentredForm) {
     Interval jet_slope, centred_slope;
     ASSERT_TRUE(run_upward([&] {
       jet_slope = f(Jet<Interval, 1>(Interval(t), 0)).partial[0];
-      centred_slope = f(Centered<Interval>(Interval(t), Interval(1.0), Interval(t))).slope;
+      centred_slope = f(SlopeForm<Interval>(Interval(t), Interval(1.0), Interval(t))).slope;
     }));
     ASSERT_LE(jet_slope.lower(), centred_slope.upper());
     ASSERT_LE(centred_slope.lower(), jet_slope.upper());

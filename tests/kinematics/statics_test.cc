@@ -91,11 +91,11 @@ TEST(Statics, OfCablesAlongTheAxesAreAsByHand) {
   const Statics<double> s = statics(model, Pose<double>{Vector3<double>::Zero(), 0, 0, 0});
   ASSERT_TRUE(s.regular);
   const double tension[6] = {20, 50, 50, 30, 10, 20};
-  const double variation[6] = {std::hypot(3, 0.5), std::hypot(4, 4), 13, 0.5, 4, 12};
+  const double tension_radius[6] = {std::hypot(3, 0.5), std::hypot(4, 4), 13, 0.5, 4, 12};
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(s.length[i], 2.0, 1e-15);
     EXPECT_NEAR(s.tension[i], tension[i], 1e-13);
-    EXPECT_NEAR(s.variation[i], variation[i], 1e-13);
+    EXPECT_NEAR(s.tension_radius[i], tension_radius[i], 1e-13);
   }
   EXPECT_NEAR(std::abs(s.determinant), 1.0, 1e-15);
   EXPECT_NEAR(wrench_scale_approx(model, s), 19.0 / 12, 1e-13) << "cable 6 down to its lower limit";
@@ -127,7 +127,7 @@ TEST(Statics, BalanceTheWrenchAndVaryByTheDiagonalOfTheInverseOfB) {
       ASSERT_NEAR(s.determinant, j.determinant(), 1e-14);
       const Matrix6<double> inverse_of_b = (j.transpose() * model.ellipsoid * j).inverse();
       for (int i = 0; i < 6; ++i) {
-        const double v = s.variation[static_cast<std::size_t>(i)];
+        const double v = s.tension_radius[static_cast<std::size_t>(i)];
         ASSERT_NEAR(v, std::sqrt(inverse_of_b(i, i)), 1e-6 * v);
       }
     }

@@ -70,7 +70,7 @@ inline BigFloat solve(Big66 a, std::vector<Big6>& right_hand_sides) {
 }
 
 struct OracleStatics {
-  Big6 length, tension, variation;
+  Big6 length, tension, tension_radius;
   BigFloat determinant;  ///< det J about O
   Big66 jacobian;        ///< J about O
   Big66 transform;       ///< X: wrenches about P_m to wrenches about O
@@ -139,7 +139,7 @@ inline OracleStatics statics(const Problem& problem, const Big6& pose) {
   for (std::size_t i = 0; i < 6; ++i) {
     BigFloat square;
     for (std::size_t k = 0; k < 6; ++k) square += rows[i][k] * solved[i][k];
-    result.variation[i] = root(square);
+    result.tension_radius[i] = root(square);
   }
   return result;
 }

@@ -38,7 +38,7 @@ json long_path(std::size_t copies) {
 }
 
 TEST(ReportData, HasPosesAndProvedRangesAlongThePath) {
-  const Scene scene = sample::scene(sample::proved());
+  const ReportContext scene = sample::scene(sample::proved());
   const json data = report_data(scene);
   EXPECT_EQ(data["segments"], 2);
   EXPECT_EQ(data["samples"]["position"].size(), scene.samples.size());
@@ -53,7 +53,7 @@ TEST(ReportData, HasPosesAndProvedRangesAlongThePath) {
 }
 
 TEST(ReportData, RoundsProvedRangesOutward) {
-  const Scene scene = sample::scene(sample::proved());
+  const ReportContext scene = sample::scene(sample::proved());
   const json bands = report_data(scene)["bands"];
   std::size_t k = 0;
   for (const auto& segment : scene.ranges.segments) {
@@ -75,7 +75,7 @@ TEST(ReportData, RoundsProvedRangesOutward) {
 }
 
 TEST(ReportData, PutsLongPathsTogetherWithoutLosingTheLeastAndTheGreatest) {
-  const Scene scene = sample::scene(long_path(4000));
+  const ReportContext scene = sample::scene(long_path(4000));
   const json data = report_data(scene);
   EXPECT_LE(data["samples"]["position"].size(), 2000u);
   ASSERT_LE(data["margins"]["from"].size(), 1500u);
@@ -156,7 +156,7 @@ TEST(ReportData, CannotEndItsScriptElement) {
 }
 
 TEST(Plane, ColoursThePathsPosesAsTheyAre) {
-  const Scene scene = sample::scene(sample::proved());
+  const ReportContext scene = sample::scene(sample::proved());
   const Plane plane = sample_plane(scene).value();
   ASSERT_EQ(plane.cells.size(), static_cast<std::size_t>(plane.rows) * static_cast<std::size_t>(plane.columns));
   for (const PathSample& sample : scene.samples) {

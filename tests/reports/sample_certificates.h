@@ -114,7 +114,7 @@ inline nlohmann::json no_path() {
 }
 
 /// What a report would show if the checker had confirmed it; what claims nothing stays so.
-inline Scene scene(const nlohmann::json& certificate) {
+inline ReportContext scene(const nlohmann::json& certificate) {
   CertificateView view = read_certificate(certificate);
   const bool is_claim = view.verdict != "undecided";
   return {std::move(view),
@@ -122,7 +122,7 @@ inline Scene scene(const nlohmann::json& certificate) {
 }
 
 /// The same if the checker had not come to an end.
-inline Scene unchecked(const nlohmann::json& certificate) {
+inline ReportContext unchecked(const nlohmann::json& certificate) {
   return {read_certificate(certificate), {Recheck::Result::kUnchecked, "taut-check 9.9", "so <it> is"}};
 }
 

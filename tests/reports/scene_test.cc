@@ -11,8 +11,8 @@
 namespace taut {
 namespace {
 
-TEST(Scene, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
-  const Scene scene = sample::scene(sample::proved());
+TEST(ReportContext, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
+  const ReportContext scene = sample::scene(sample::proved());
   ASSERT_EQ(scene.ranges.segments.size(), 2u);
   std::size_t seen = 0;
   for (const PathSample& sample : scene.samples) {
@@ -22,8 +22,8 @@ TEST(Scene, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
       if (s < box.box.lower().approx() || s > box.box.upper().approx()) continue;
       ++seen;
       for (std::size_t i = 0; i < kCables; ++i) {
-        EXPECT_LE(box.tension[i].lower, sample.statics.tension[i] - sample.statics.variation[i] + 1e-12);
-        EXPECT_GE(box.tension[i].upper, sample.statics.tension[i] + sample.statics.variation[i] - 1e-12);
+        EXPECT_LE(box.tension[i].lower, sample.statics.tension[i] - sample.statics.tension_radius[i] + 1e-12);
+        EXPECT_GE(box.tension[i].upper, sample.statics.tension[i] + sample.statics.tension_radius[i] - 1e-12);
         EXPECT_LE(box.length[i].lower, sample.statics.length[i] + 1e-12);
         EXPECT_GE(box.length[i].upper, sample.statics.length[i] - 1e-12);
       }
@@ -32,14 +32,14 @@ TEST(Scene, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
   EXPECT_GE(seen, scene.samples.size());
 }
 
-TEST(Scene, ReadsBoxesAsTheyAre) {
-  const Scene scene = sample::scene(sample::proved());
+TEST(ReportContext, ReadsBoxesAsTheyAre) {
+  const ReportContext scene = sample::scene(sample::proved());
   ASSERT_EQ(scene.view.segment_boxes.size(), 2u);
   EXPECT_EQ(scene.view.segment_boxes[0], (std::vector<DyadicBox>{{0, 1}, {1, 1}}));
   EXPECT_EQ(scene.view.segment_boxes[1], (std::vector<DyadicBox>{{0, 0}}));
 }
 
-TEST(Scene, LeavesOutBoxesThatAreNotHalvesOfHalves) {
+TEST(ReportContext, LeavesOutBoxesThatAreNotHalvesOfHalves) {
   nlohmann::json certificate = sample::proved();
   certificate["segments"][0]["boxes"] = nlohmann::json::parse(R"([{"bits": 64, "s": ["0", "1/4"]},
           {"bits": 64, "s": ["1/4", "3/4"]},
@@ -47,7 +47,7 @@ TEST(Scene, LeavesOutBoxesThatAreNotHalvesOfHalves) {
   EXPECT_EQ(sample::scene(certificate).view.segment_boxes[0], (std::vector<DyadicBox>{{0, 2}, {3, 2}}));
 }
 
-TEST(Scene, RefusesBoxesThatAreNoNumbers) {
+TEST(ReportContext, RefusesBoxesThatAreNoNumbers) {
   for (const char* end : {"1/3", "2", "-1", "1/0", "0x1", "", "1/", "/2", "01/2", "1/2 "}) {
     nlohmann::json certificate = sample::proved();
     certificate["segments"][1]["boxes"][0]["s"] = {"0", end};

@@ -33,7 +33,7 @@ nlohmann::json around_a_corner() {
 }
 
 TEST(Travel, AddsUpTheWayTheTurnAndTheTime) {
-  const Scene scene = sample::scene(around_a_corner());
+  const ReportContext scene = sample::scene(around_a_corner());
   EXPECT_NEAR(scene.travel.distance_m(0.5), 0.15, 1e-9);
   EXPECT_NEAR(scene.travel.distance_m(1.5), 0.5, 1e-9);
   EXPECT_NEAR(scene.travel.distance_m(2), 0.7, 1e-9);
@@ -44,7 +44,7 @@ TEST(Travel, AddsUpTheWayTheTurnAndTheTime) {
 }
 
 TEST(Travel, StaysWithinTheMove) {
-  const Scene scene = sample::scene(around_a_corner());
+  const ReportContext scene = sample::scene(around_a_corner());
   EXPECT_NEAR(scene.travel.distance_m(99), 0.7, 1e-9);
   EXPECT_EQ(scene.travel.distance_m(-1), 0);
 }

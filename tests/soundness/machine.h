@@ -341,7 +341,7 @@ std::optional<RigidPose<S>> hold(const Machine<S>& machine, RigidPose<S> pose, c
 
 template <class S>
 struct StaticsAt {
-  Six<S> length, tension, variation;
+  Six<S> length, tension, tension_radius;
   S determinant;  ///< of J; not finite or 0 where it is singular
 };
 
@@ -380,7 +380,7 @@ StaticsAt<S> statics(const Machine<S>& machine, const RigidPose<S>& pose) {
       square = square + y[j] * sum;
     }
     result.tension[i] = tension;
-    result.variation[i] = root(square);
+    result.tension_radius[i] = root(square);
   }
   return result;
 }

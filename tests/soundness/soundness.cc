@@ -59,8 +59,8 @@ template <class S>
 S quantity(const StaticsAt<S>& at, MarginId id) {
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
-    case MarginKind::kTensionMin: return at.tension[i] - at.variation[i];
-    case MarginKind::kTensionMax: return at.tension[i] + at.variation[i];
+    case MarginKind::kTensionMin: return at.tension[i] - at.tension_radius[i];
+    case MarginKind::kTensionMax: return at.tension[i] + at.tension_radius[i];
     case MarginKind::kLengthMin:
     case MarginKind::kLengthMax: break;
   }
@@ -441,8 +441,8 @@ class Judge {
 
   void include(const StaticsAt<double>& at) {
     for (std::size_t i = 0; i < kCables; ++i) {
-      tension_[0] = std::min(tension_[0], at.tension[i] - at.variation[i]);
-      tension_[1] = std::max(tension_[1], at.tension[i] + at.variation[i]);
+      tension_[0] = std::min(tension_[0], at.tension[i] - at.tension_radius[i]);
+      tension_[1] = std::max(tension_[1], at.tension[i] + at.tension_radius[i]);
       length_[0] = std::min(length_[0], at.length[i]);
       length_[1] = std::max(length_[1], at.length[i]);
     }

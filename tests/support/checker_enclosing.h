@@ -6,7 +6,7 @@
 #include <string>
 
 #include "checker/format/exact.h"
-#include "checker/kernel/form.h"
+#include "checker/kernel/mean_value_form.h"
 #include "tests/support/enclosing.h"
 
 namespace taut {
@@ -20,7 +20,7 @@ inline Ball log(const Ball& x) { return value(Function::kLog, x); }
 inline Ball asin(const Ball& x) { return value(Function::kAsin, x); }
 inline Ball acos(const Ball& x) { return value(Function::kAcos, x); }
 inline Ball atan(const Ball& x) { return value(Function::kAtan, x); }
-inline Ball atan2(const Ball& y, const Ball& x) { return atan2(Form(y), Form(x)).range(); }
+inline Ball atan2(const Ball& y, const Ball& x) { return atan2(MeanValueForm(y), MeanValueForm(x)).range(); }
 inline Ball pow_int(const Ball& x, int n) { return power(x, n); }
 inline Ball reciprocal(const Ball& x) { return value(Function::kInverse, x); }
 

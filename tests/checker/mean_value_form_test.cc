@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "checker/kernel/form.h"
+#include "checker/kernel/mean_value_form.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ struct Variable {
     slope_width = random() % 3 == 0 ? size * uniform(random, 0, 0.3) : 0;
     if (random() % 8 == 0) slope = slope_width = 0;
   }
-  [[nodiscard]] Form form() const {
+  [[nodiscard]] MeanValueForm form() const {
     return {plus_minus(Ball(at), Ball(width)), slope == 0 ? Ball() : plus_minus(Ball(slope), Ball(slope_width))};
   }
   [[nodiscard]] BigFloat value(double u, std::mt19937_64& random) const {
@@ -78,14 +78,14 @@ struct Variable {
   }
 };
 
-/// What a Form states, at random u. @returns whether there is a form.
+/// What a MeanValueForm states, at random u. @returns whether there is a form.
 bool expect_enclosed(const std::string& text, std::mt19937_64& random) {
   const Expression expression = parse(text);
   const Exact exact(text);
   const Variable x(random), y(random);
-  std::optional<Form> form;
+  std::optional<MeanValueForm> form;
   try {
-    form = expression.evaluate<Form>(std::vector<Form>{x.form(), y.form()});
+    form = expression.evaluate<MeanValueForm>(std::vector<MeanValueForm>{x.form(), y.form()});
   } catch (const Undefined&) {
   }
   for (const double u : samples(random, 50)) {
@@ -101,7 +101,7 @@ bool expect_enclosed(const std::string& text, std::mt19937_64& random) {
   return form.has_value();
 }
 
-TEST(Form, HoldsEveryFunctionOfTheGrammar) {
+TEST(MeanValueForm, HoldsEveryFunctionOfTheGrammar) {
   const PrecisionScope oracle(kOracleBits);
   std::mt19937_64 random(4);
   for (const std::string text : {"x",
@@ -156,7 +156,7 @@ TEST(Form, HoldsEveryFunctionOfTheGrammar) {
   }
 }
 
-TEST(Form, HoldsRandomExpressions) {
+TEST(MeanValueForm, HoldsRandomExpressions) {
   const PrecisionScope oracle(kOracleBits);
   std::mt19937_64 random(5);
   const int trials = 6000;
@@ -168,37 +168,37 @@ TEST(Form, HoldsRandomExpressions) {
   EXPECT_GT(defined, trials / 3);
 }
 
-TEST(Form, KnowsAFunctionToSecondOrder) {
+TEST(MeanValueForm, KnowsAFunctionToSecondOrder) {
   // x - x^2 on [0.49, 0.51]: of width 1e-4, directly 0.04.
-  const Form x(Ball(0.5), Ball(0.01));
+  const MeanValueForm x(Ball(0.5), Ball(0.01));
   EXPECT_LT(width((x - x * x).range()), 5e-4);
   // As the box is halved, what is beyond first order is quartered.
   for (const std::string text : {"x*x", "x^3", "1/x", "sqrt(x)", "sin(x)", "exp(x)", "log(x)", "atan(x)", "asin(x)"}) {
     const auto rest = [&](double r) {
-      const std::vector<Form> at = {Form(Ball(0.5), Ball(r)), Form()};
-      return width(parse(text).evaluate<Form>(at).at);
+      const std::vector<MeanValueForm> at = {MeanValueForm(Ball(0.5), Ball(r)), MeanValueForm()};
+      return width(parse(text).evaluate<MeanValueForm>(at).at);
     };
     EXPECT_LT(rest(0x1p-10), 0.3 * rest(0x1p-9)) << text;
     EXPECT_LT(rest(0x1p-10), 10 * 0x1p-20) << text;
   }
 }
 
-TEST(Form, AConstantNeedsNoDerivative) {
-  const Form root = apply(Function::kSqrt, Form(Ball(0)));  // where sqrt has no derivative
+TEST(MeanValueForm, AConstantNeedsNoDerivative) {
+  const MeanValueForm root = apply(Function::kSqrt, MeanValueForm(Ball(0)));  // where sqrt has no derivative
   EXPECT_TRUE(root.is_constant());
   EXPECT_TRUE(root.range().is_zero());
-  EXPECT_TRUE(arb_contains_si(power(Form(Ball(0)), 0).range().get(), 1));
-  EXPECT_NO_THROW((void)apply(Function::kAsin, Form(Ball(1))));
-  EXPECT_THROW((void)apply(Function::kSqrt, Form(Ball(1), Ball(1))), Undefined);
+  EXPECT_TRUE(arb_contains_si(power(MeanValueForm(Ball(0)), 0).range().get(), 1));
+  EXPECT_NO_THROW((void)apply(Function::kAsin, MeanValueForm(Ball(1))));
+  EXPECT_THROW((void)apply(Function::kSqrt, MeanValueForm(Ball(1), Ball(1))), Undefined);
 }
 
-TEST(Form, ExistsOnlyWhereTheFunctionIsDefinedAndContinuous) {
-  const Form u(Ball(), Ball(1));
-  const Form from_zero = u + Form(Ball(1));
-  EXPECT_THROW((void)(Form(Ball(1)) / u), Undefined);
-  EXPECT_THROW((void)(Form(Ball(1)) / from_zero), Undefined);
-  EXPECT_THROW((void)(Form() / u), Undefined);
-  EXPECT_THROW((void)atan2(u, Form(Ball(-1))), Undefined);
+TEST(MeanValueForm, ExistsOnlyWhereTheFunctionIsDefinedAndContinuous) {
+  const MeanValueForm u(Ball(), Ball(1));
+  const MeanValueForm from_zero = u + MeanValueForm(Ball(1));
+  EXPECT_THROW((void)(MeanValueForm(Ball(1)) / u), Undefined);
+  EXPECT_THROW((void)(MeanValueForm(Ball(1)) / from_zero), Undefined);
+  EXPECT_THROW((void)(MeanValueForm() / u), Undefined);
+  EXPECT_THROW((void)atan2(u, MeanValueForm(Ball(-1))), Undefined);
   EXPECT_THROW((void)atan2(from_zero, -from_zero), Undefined);
   EXPECT_THROW((void)atan2(u, u), Undefined);
   EXPECT_THROW((void)power(u, -1), Undefined);
@@ -207,11 +207,13 @@ TEST(Form, ExistsOnlyWhereTheFunctionIsDefinedAndContinuous) {
   EXPECT_THROW((void)apply(Function::kAcos, from_zero), Undefined);
   EXPECT_THROW((void)apply(Function::kLog, from_zero), Undefined);
   EXPECT_THROW((void)apply(Function::kSqrt, u), Undefined);
-  EXPECT_THROW((void)parse("tan(x)").evaluate<Form>(std::vector<Form>{u + Form(Ball(1)), Form()}), Undefined);
+  EXPECT_THROW((void)parse("tan(x)").evaluate<MeanValueForm>(
+                   std::vector<MeanValueForm>{u + MeanValueForm(Ball(1)), MeanValueForm()}),
+               Undefined);
   EXPECT_NO_THROW((void)power(u, 3));
-  EXPECT_NO_THROW((void)atan2(Ball(0.5) * u, Form(Ball(1))));
+  EXPECT_NO_THROW((void)atan2(Ball(0.5) * u, MeanValueForm(Ball(1))));
   // Where the variable is in a ball, the form is about each number in it.
-  EXPECT_THROW((void)(Form(Ball(1)) / Form(plus_minus(Ball(1), Ball(1)))), Undefined);
+  EXPECT_THROW((void)(MeanValueForm(Ball(1)) / MeanValueForm(plus_minus(Ball(1), Ball(1)))), Undefined);
 }
 
 // ---- Jets -----------------------------------------------------------------------------------------------------------

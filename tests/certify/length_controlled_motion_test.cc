@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "certify/motion/held_motion.h"
+#include "certify/motion/length_controlled_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -126,7 +126,7 @@ TEST(HeldMotion, BoxesEncloseThePosesThatTheLengthsImply) {
       for (const double h : {-1.0, -0.7, 0.0, 0.4, 1.0}) {
         const RigidPose pose = step.pose(mid + h * radius);
         const Matrix3<double> r = pose.q.toRotationMatrix();
-        const auto expect_within = [&](const Centered<Interval>& x, double value) {
+        const auto expect_within = [&](const SlopeForm<Interval>& x, double value) {
           EXPECT_GE(value, x.range.lower() - kRounding);
           EXPECT_LE(value, x.range.upper() + kRounding);
           const double a = h * radius * x.slope.lower();
@@ -150,7 +150,7 @@ TEST(HeldMotion, ABoxAcrossAnInnerPoseIsSplit) {
   ASSERT_TRUE(run_upward([&] {
     motion = undisturbed_motion(step.prover.model(), step.segment, enclose<Interval>(DyadicBox{}), Interval(-0.5, 0.5));
   }));
-  EXPECT_EQ(motion.status, MotionEnclosure<Interval>::Status::kAcross);
+  EXPECT_EQ(motion.status, MotionEnclosure<Interval>::Status::kSpansKnot);
   for (const DyadicBox& box : step.prover.prove(step.segment).boxes) {
     for (const InnerPose& inner : step.segment.inner_poses) {
       EXPECT_FALSE(box.lower().approx() < inner.s && inner.s < box.upper().approx());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 
 #include <fmt/format.h>
 
@@ -13,19 +13,19 @@ namespace taut {
 
 using nlohmann::json;
 
-bool PlacedJson::is_null() const { return value_->is_null(); }
+bool JsonCursor::is_null() const { return value_->is_null(); }
 
-bool PlacedJson::contains(const char* key) const {
+bool JsonCursor::contains(const char* key) const {
   if (!value_->is_object()) fail("an object");
   return value_->contains(key);
 }
 
-PlacedJson PlacedJson::at(const char* key) const {
+JsonCursor JsonCursor::at(const char* key) const {
   if (!contains(key)) throw FieldError(where_, "", fmt::format("expected the key '{}'", key));
   return {(*value_)[key], fmt::format("{}.{}", where_, key)};
 }
 
-const PlacedJson& PlacedJson::expect_keys(std::initializer_list<const char*> keys) const {
+const JsonCursor& JsonCursor::expect_keys(std::initializer_list<const char*> keys) const {
   for (const char* key : keys) {
     if (!contains(key)) throw FieldError(where_, "", fmt::format("expected the key '{}'", key));
   }
@@ -37,34 +37,34 @@ const PlacedJson& PlacedJson::expect_keys(std::initializer_list<const char*> key
   return *this;
 }
 
-std::size_t PlacedJson::size() const {
+std::size_t JsonCursor::size() const {
   if (!value_->is_array()) fail("a list");
   return value_->size();
 }
 
-PlacedJson PlacedJson::at(std::size_t index) const {
+JsonCursor JsonCursor::at(std::size_t index) const {
   if (index >= size()) fail(fmt::format("a list of at least {}", index + 1));
   return {(*value_)[index], fmt::format("{}[{}]", where_, index)};
 }
 
-std::vector<PlacedJson> PlacedJson::elements() const {
-  std::vector<PlacedJson> result;
+std::vector<JsonCursor> JsonCursor::elements() const {
+  std::vector<JsonCursor> result;
   result.reserve(size());
   for (std::size_t i = 0; i < value_->size(); ++i) result.push_back(at(i));
   return result;
 }
 
-std::vector<PlacedJson> PlacedJson::elements(std::size_t size) const {
+std::vector<JsonCursor> JsonCursor::elements(std::size_t size) const {
   if (!value_->is_array() || value_->size() != size) fail(fmt::format("a list of {}", size));
   return elements();
 }
 
-const std::string& PlacedJson::text() const {
+const std::string& JsonCursor::text() const {
   if (!value_->is_string()) fail("a string");
   return value_->get_ref<const std::string&>();
 }
 
-std::int64_t PlacedJson::integer(std::int64_t least, std::int64_t most) const {
+std::int64_t JsonCursor::integer(std::int64_t least, std::int64_t most) const {
   const bool fits = value_->is_number_integer() &&
                     (!value_->is_number_unsigned() || std::in_range<std::int64_t>(value_->get<std::uint64_t>()));
   if (!fits || value_->get<std::int64_t>() < least || value_->get<std::int64_t>() > most) {
@@ -73,7 +73,7 @@ std::int64_t PlacedJson::integer(std::int64_t least, std::int64_t most) const {
   return value_->get<std::int64_t>();
 }
 
-void PlacedJson::fail(const std::string& expected) const {
+void JsonCursor::fail(const std::string& expected) const {
   constexpr std::size_t kShown = 60;
   std::string seen = value_->dump(-1, ' ', true, json::error_handler_t::replace);
   if (seen.size() > kShown) seen = seen.substr(0, kShown) + "…";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Centred forms: a function of one variable t over an interval T, enclosed at its midpoint and by its slope.
 //
-// Claim.  Centered<I>{at_mid, slope, range} stands for a function x, differentiable on T, with
+// Claim.  SlopeForm<I>{at_mid, slope, range} stands for a function x, differentiable on T, with
 //   x(m) in at_mid,   x(t) in range   and   x(t) − x(m) = σ (t − m) for some σ in slope,   for every t in T,
 // m the midpoint of T, and every operation keeps that. So x(t) is in at_mid + slope (t − m): second-order tight, while
 // `range` alone is first-order. tighten() intersects the two.
@@ -21,41 +21,41 @@
 namespace taut {
 
 template <class I>
-struct Centered {
+struct SlopeForm {
   I at_mid;
   I slope;
   I range;
 
-  Centered() = default;
-  Centered(I mid, I slope_over, I range_over)
+  SlopeForm() = default;
+  SlopeForm(I mid, I slope_over, I range_over)
       : at_mid(std::move(mid)), slope(std::move(slope_over)), range(std::move(range_over)) {}
   /// A constant.
-  explicit(false) Centered(const I& constant) : at_mid(constant), slope(0.0), range(constant) {}
-  explicit(false) Centered(double constant) : Centered(I(constant)) {}
+  explicit(false) SlopeForm(const I& constant) : at_mid(constant), slope(0.0), range(constant) {}
+  explicit(false) SlopeForm(double constant) : SlopeForm(I(constant)) {}
 
-  friend Centered operator+(const Centered& a, const Centered& b) {
+  friend SlopeForm operator+(const SlopeForm& a, const SlopeForm& b) {
     return {a.at_mid + b.at_mid, a.slope + b.slope, a.range + b.range};
   }
-  friend Centered operator-(const Centered& a, const Centered& b) {
+  friend SlopeForm operator-(const SlopeForm& a, const SlopeForm& b) {
     return {a.at_mid - b.at_mid, a.slope - b.slope, a.range - b.range};
   }
-  friend Centered operator-(const Centered& a) { return {-a.at_mid, -a.slope, -a.range}; }
-  friend Centered operator*(const Centered& a, const Centered& b) {
+  friend SlopeForm operator-(const SlopeForm& a) { return {-a.at_mid, -a.slope, -a.range}; }
+  friend SlopeForm operator*(const SlopeForm& a, const SlopeForm& b) {
     return {a.at_mid * b.at_mid, a.slope * b.range + a.at_mid * b.slope, a.range * b.range};
   }
-  friend Centered operator/(const Centered& a, const Centered& b) { return a * reciprocal(b); }
+  friend SlopeForm operator/(const SlopeForm& a, const SlopeForm& b) { return a * reciprocal(b); }
 
-  friend Centered operator+(const Centered& a, const I& k) { return {a.at_mid + k, a.slope, a.range + k}; }
-  friend Centered operator-(const Centered& a, const I& k) { return {a.at_mid - k, a.slope, a.range - k}; }
-  friend Centered operator*(const Centered& a, const I& k) { return {a.at_mid * k, a.slope * k, a.range * k}; }
+  friend SlopeForm operator+(const SlopeForm& a, const I& k) { return {a.at_mid + k, a.slope, a.range + k}; }
+  friend SlopeForm operator-(const SlopeForm& a, const I& k) { return {a.at_mid - k, a.slope, a.range - k}; }
+  friend SlopeForm operator*(const SlopeForm& a, const I& k) { return {a.at_mid * k, a.slope * k, a.range * k}; }
 
-  friend Centered reciprocal(const Centered& a) {
+  friend SlopeForm reciprocal(const SlopeForm& a) {
     const I mid = reciprocal(a.at_mid);
     const I range = reciprocal(a.range);
     return {mid, -(a.slope * (mid * range)), range};
   }
-  friend Centered sqr(const Centered& a) { return {sqr(a.at_mid), a.slope * (a.at_mid + a.range), sqr(a.range)}; }
-  friend Centered sqrt(const Centered& a) {
+  friend SlopeForm sqr(const SlopeForm& a) { return {sqr(a.at_mid), a.slope * (a.at_mid + a.range), sqr(a.range)}; }
+  friend SlopeForm sqrt(const SlopeForm& a) {
     if (!certainly_positive(a.range)) Faults<I>::raise();  // not differentiable at 0
     const I mid = sqrt(a.at_mid);
     const I range = sqrt(a.range);
@@ -64,7 +64,7 @@ struct Centered {
   /// With x = a(m), h = a(t) − x:  sin(x + h) − sin x = h (cos x sinc h − sin x verc h),
   ///   cos(x + h) − cos x = −h (sin x sinc h + cos x verc h),  where
   ///   sinc h = sin h / h in [1 − h²/6, 1],   verc h = (1 − cos h) / h in h [0, 1/2].
-  friend SinCos<Centered> sincos(const Centered& a) {
+  friend SinCos<SlopeForm> sincos(const SlopeForm& a) {
     constexpr double kNear = 0.5;               // where series are tighter than sines of the ends
     constexpr double kAboveASixth = 11.0 / 64;  // exact
     const SinCos<I> mid = sincos(a.at_mid);
@@ -85,28 +85,32 @@ struct Centered {
     }
     return {{mid.sin, sin_slope * a.slope, range.sin}, {mid.cos, cos_slope * a.slope, range.cos}};
   }
-  friend Centered tan(const Centered& a) {
-    const SinCos<Centered> sc = sincos(a);
+  friend SlopeForm tan(const SlopeForm& a) {
+    const SinCos<SlopeForm> sc = sincos(a);
     return sc.sin / sc.cos;
   }
-  friend Centered sin(const Centered& a) { return sincos(a).sin; }
-  friend Centered cos(const Centered& a) { return sincos(a).cos; }
-  friend Centered exp(const Centered& a) {
+  friend SlopeForm sin(const SlopeForm& a) { return sincos(a).sin; }
+  friend SlopeForm cos(const SlopeForm& a) { return sincos(a).cos; }
+  friend SlopeForm exp(const SlopeForm& a) {
     const I range = exp(a.range);
     return {exp(a.at_mid), range * a.slope, range};
   }
-  friend Centered log(const Centered& a) { return {log(a.at_mid), a.slope / a.range, log(a.range)}; }
-  friend Centered asin(const Centered& a) { return {asin(a.at_mid), a.slope / cosine_of_asin(a.range), asin(a.range)}; }
-  friend Centered acos(const Centered& a) {
+  friend SlopeForm log(const SlopeForm& a) { return {log(a.at_mid), a.slope / a.range, log(a.range)}; }
+  friend SlopeForm asin(const SlopeForm& a) {
+    return {asin(a.at_mid), a.slope / cosine_of_asin(a.range), asin(a.range)};
+  }
+  friend SlopeForm acos(const SlopeForm& a) {
     return {acos(a.at_mid), -(a.slope / cosine_of_asin(a.range)), acos(a.range)};
   }
-  friend Centered atan(const Centered& a) { return {atan(a.at_mid), a.slope / (I(1.0) + sqr(a.range)), atan(a.range)}; }
-  friend Centered atan2(const Centered& y, const Centered& x) {
+  friend SlopeForm atan(const SlopeForm& a) {
+    return {atan(a.at_mid), a.slope / (I(1.0) + sqr(a.range)), atan(a.range)};
+  }
+  friend SlopeForm atan2(const SlopeForm& y, const SlopeForm& x) {
     return {atan2(y.at_mid, x.at_mid), (x.range * y.slope - y.range * x.slope) / (sqr(x.range) + sqr(y.range)),
             atan2(y.range, x.range)};
   }
-  friend Centered pow_int(const Centered& a, int n) {
-    if (n == 0) return Centered(1.0);
+  friend SlopeForm pow_int(const SlopeForm& a, int n) {
+    if (n == 0) return SlopeForm(1.0);
     const I derivative = I(static_cast<double>(n)) * pow_int(a.range, n - 1);
     return {pow_int(a.at_mid, n), derivative * a.slope, pow_int(a.range, n)};
   }
@@ -119,9 +123,9 @@ struct Centered {
 };
 
 template <class I>
-struct ScalarTraits<Centered<I>> {
-  static Centered<I> from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
-  static Centered<I> pi() { return ScalarTraits<I>::pi(); }
+struct ScalarTraits<SlopeForm<I>> {
+  static SlopeForm<I> from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
+  static SlopeForm<I> pi() { return ScalarTraits<I>::pi(); }
 };
 
 }  // namespace taut

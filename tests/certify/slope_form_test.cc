@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Centred forms against 300-bit samples: value at the midpoint, slope and range of composite functions.
-#include "certify/arithmetic/centered.h"
+#include "certify/arithmetic/slope_form.h"
 
 #include <gtest/gtest.h>
 
@@ -25,10 +25,10 @@ class CenteredForm : public ::testing::Test {
       double radius = grid(std::exp(operands.uniform(-25, 0.5)));
       if (operands.pick(10) == 0) radius = 0;
       if (mid - radius < lower || mid + radius > upper) radius = 0;
-      Centered<I> value;
-      Centered<I> tightened;
+      SlopeForm<I> value;
+      SlopeForm<I> tightened;
       const bool sound = A::run([&] {
-        value = F::of(Centered<I>(I(mid), I(1.0), I(mid - radius, mid + radius)));
+        value = F::of(SlopeForm<I>(I(mid), I(1.0), I(mid - radius, mid + radius)));
         tightened = value;
         tightened.tighten(I(-radius, radius));
       });
@@ -135,8 +135,8 @@ TYPED_TEST(CenteredForm, EnclosesSlopesOfWideBoxes) {
   using I = typename TypeParam::I;
   for (const double radius : {0.49, 0.51, 1.0, 3.0, 3.5, 6.0, 40.0}) {
     for (const double mid : {0.0, 0.1, 1.5, -3.0, 10.0}) {
-      SinCos<Centered<I>> value;
-      ASSERT_TRUE(TypeParam::run([&] { value = sincos(Centered<I>(I(mid), I(1.0), I(mid - radius, mid + radius))); }));
+      SinCos<SlopeForm<I>> value;
+      ASSERT_TRUE(TypeParam::run([&] { value = sincos(SlopeForm<I>(I(mid), I(1.0), I(mid - radius, mid + radius))); }));
       const PrecisionScope precision(kExactBits);
       const BigFloat m(mid);
       for (int k = -50; k <= 50; ++k) {
@@ -154,30 +154,30 @@ TYPED_TEST(CenteredForm, EnclosesSlopesOfWideBoxes) {
 /// Slopes from the midpoint are half as wide as derivatives: of t² over 1 ± r they are in 2 ± r, not 2 ± 2r.
 TYPED_TEST(CenteredForm, SlopesAreTighterThanDerivatives) {
   using I = typename TypeParam::I;
-  Centered<I> square;
-  Centered<I> product;
+  SlopeForm<I> square;
+  SlopeForm<I> product;
   ASSERT_TRUE(TypeParam::run([&] {
-    const Centered<I> t(I(1.0), I(1.0), I(0.75, 1.25));
+    const SlopeForm<I> t(I(1.0), I(1.0), I(0.75, 1.25));
     square = sqr(t);
     product = t * t;
   }));
-  for (const Centered<I>& x : {square, product}) EXPECT_LE(spread(x.slope), 0.5 * (1 + 1e-15));
+  for (const SlopeForm<I>& x : {square, product}) EXPECT_LE(spread(x.slope), 0.5 * (1 + 1e-15));
 }
 
 TYPED_TEST(CenteredForm, LeavingADomainIsAFault) {
   using I = typename TypeParam::I;
   const auto faults = [](auto f) { return !TypeParam::run(f); };
-  const Centered<I> across_zero(I(0.5), I(1.0), I(-0.5, 1.5));
-  const Centered<I> constant_across_zero(I(-0.5, 1.5));
-  for (const Centered<I>& x : {across_zero, constant_across_zero}) {
-    Centered<I> y;
+  const SlopeForm<I> across_zero(I(0.5), I(1.0), I(-0.5, 1.5));
+  const SlopeForm<I> constant_across_zero(I(-0.5, 1.5));
+  for (const SlopeForm<I>& x : {across_zero, constant_across_zero}) {
+    SlopeForm<I> y;
     EXPECT_TRUE(faults([&] { y = sqrt(x); }));
     EXPECT_TRUE(faults([&] { y = log(x); }));
     EXPECT_TRUE(faults([&] { y = asin(x); }));
     EXPECT_TRUE(faults([&] { y = acos(-x); }));
-    EXPECT_TRUE(faults([&] { y = asin(x - Centered<I>(0.5)); })) << "no slope at 1";
+    EXPECT_TRUE(faults([&] { y = asin(x - SlopeForm<I>(0.5)); })) << "no slope at 1";
     EXPECT_TRUE(faults([&] { y = reciprocal(x); }));
-    EXPECT_TRUE(faults([&] { y = Centered<I>(0.0) / x; }));
+    EXPECT_TRUE(faults([&] { y = SlopeForm<I>(0.0) / x; }));
     EXPECT_TRUE(faults([&] { y = pow_int(x, -1); }));
     EXPECT_TRUE(faults([&] { y = atan2(x, -sqr(x)); }));
   }
@@ -186,17 +186,17 @@ TYPED_TEST(CenteredForm, LeavingADomainIsAFault) {
 // The slope at 0 of a root is unbounded, so a range that reaches 0 is a fault too unless it is a constant.
 TYPED_TEST(CenteredForm, RootThatReachesZeroIsAFault) {
   using I = typename TypeParam::I;
-  Centered<I> y;
-  EXPECT_FALSE(TypeParam::run([&] { y = sqrt(Centered<I>(I(0.5), I(1.0), I(0.0, 1.0))); }));
+  SlopeForm<I> y;
+  EXPECT_FALSE(TypeParam::run([&] { y = sqrt(SlopeForm<I>(I(0.5), I(1.0), I(0.0, 1.0))); }));
 }
 
 TYPED_TEST(CenteredForm, TighteningCancelsWhatTheRangeAloneCannot) {
   using I = typename TypeParam::I;
-  Centered<I> zero;
-  Centered<I> parabola;
+  SlopeForm<I> zero;
+  SlopeForm<I> parabola;
   double plain = 0;
   ASSERT_TRUE(TypeParam::run([&] {
-    const Centered<I> t(I(0.5), I(1.0), I(0.5 - 0x1p-10, 0.5 + 0x1p-10));
+    const SlopeForm<I> t(I(0.5), I(1.0), I(0.5 - 0x1p-10, 0.5 + 0x1p-10));
     zero = t - t;
     zero.tighten(I(-0x1p-10, 0x1p-10));
     parabola = t - sqr(t);  // slope 0 at the midpoint

@@ -8,11 +8,11 @@
 
 namespace taut {
 
-class ClearEdge {
+class SampledMotionValidator {
  public:
   /// `clearance`: least distance to a limit, over half its range, that every sampled pose must keep.
   /// `sampler` has to outlive this.
-  ClearEdge(const PoseSampler& sampler, double clearance) : sampler_(sampler), clearance_(clearance) {}
+  SampledMotionValidator(const PoseSampler& sampler, double clearance) : sampler_(sampler), clearance_(clearance) {}
 
   /// Whether all sampled poses of the motion from a to b (edge_motion.h) keep the clearance, with one sign of
   /// det J. Ends first, then ever finer: an unsafe edge is often found out by its middle.

@@ -16,8 +16,8 @@
 #include <cmath>
 #include <limits>
 
-#include "certify/arithmetic/centered.h"
 #include "certify/arithmetic/neumann.h"
+#include "certify/arithmetic/slope_form.h"
 
 namespace taut {
 
@@ -35,13 +35,13 @@ struct EquationDerivatives {
 /// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m), and
 /// EquationDerivatives<K, I> derivatives(const std::array<I, K>& y, Place)  for y in a box, at m or over T.
 template <std::size_t K, class I, class System>
-class ImpliedZero {
+class ParametricKrawczyk {
  public:
-  ImpliedZero(const System& system, const I& offset, double radius)
+  ParametricKrawczyk(const System& system, const I& offset, double radius)
       : system_(system), offset_(offset), radius_(radius) {}
 
   /// y over T; false if (a) or (b) fails.
-  [[nodiscard]] bool enclose(std::array<Centered<I>, K>& y) {
+  [[nodiscard]] bool enclose(std::array<SlopeForm<I>, K>& y) {
     if (!(radius_ > 0) || !std::isfinite(radius_) || !start_newton()) return false;
     Vector whole;
     whole.fill(I(-radius_, radius_));
@@ -54,7 +54,7 @@ class ImpliedZero {
       Upper error(0.0);
       for (std::size_t k = 0; k < K; ++k) error += q[i][k] * Upper(magnitude(second.drift[k]));
       y[i].range = intersect(second.image[i], inside[i]);
-      y[i].slope = Scalars<I>::symmetric(error) - second.drift[i];
+      y[i].slope = ProofScalarTraits<I>::symmetric(error) - second.drift[i];
       y[i].at_mid = y[i].range;
     }
     enclose_at_mid(y);
@@ -62,7 +62,7 @@ class ImpliedZero {
   }
 
  private:
-  using Point = typename Scalars<I>::Point;
+  using Point = typename ProofScalarTraits<I>::Point;
   using Upper = UpperOf<I>;
   using Vector = std::array<I, K>;
 
@@ -129,11 +129,11 @@ class ImpliedZero {
       const Vector correction = times_a(system_.values(centre_));
       double size = 0;
       for (std::size_t i = 0; i < K; ++i) {
-        const Point y = Scalars<I>::point(centre_[i] - correction[i]);
+        const Point y = ProofScalarTraits<I>::point(centre_[i] - correction[i]);
         centre_[i] = I(y);
-        const double moved = Scalars<I>::to_double(Upper(magnitude(correction[i])));
+        const double moved = ProofScalarTraits<I>::to_double(Upper(magnitude(correction[i])));
         size = std::max(size, moved);
-        if (!(Scalars<I>::to_double(Upper(magnitude(centre_[i]))) < radius_)) return false;
+        if (!(ProofScalarTraits<I>::to_double(Upper(magnitude(centre_[i]))) < radius_)) return false;
       }
       if (!(size < 0.5 * last)) break;  // what is left is the width of the enclosures
       last = size;
@@ -153,9 +153,9 @@ class ImpliedZero {
       rho = std::max(rho, row_sum);
       largest = std::max(largest, Upper(magnitude(residual_[i])) + Upper(magnitude(over_tube.drift[i] * offset_)));
     }
-    const Upper gap = Scalars<I>::one_minus_lower(rho);
+    const Upper gap = ProofScalarTraits<I>::one_minus_lower(rho);
     if (!(Upper(0.0) < gap)) return false;
-    const I w = Scalars<I>::symmetric(largest / gap);
+    const I w = ProofScalarTraits<I>::symmetric(largest / gap);
     for (std::size_t i = 0; i < K; ++i) {
       box[i] = centre_[i] + w;
       if (!(lower_bound(box[i]) > -radius_ && upper_bound(box[i]) < radius_)) return false;
@@ -180,10 +180,10 @@ class ImpliedZero {
   }
 
   /// Narrows y(m) by a Krawczyk test at m alone in a box ŷ ± δ within the tube: the zero in it is the one in the tube.
-  void enclose_at_mid(std::array<Centered<I>, K>& y) const {
+  void enclose_at_mid(std::array<SlopeForm<I>, K>& y) const {
     constexpr double kRoom = 4.0;
     double largest = 0;
-    for (const I& r : residual_) largest = std::max(largest, Scalars<I>::to_double(Upper(magnitude(r))));
+    for (const I& r : residual_) largest = std::max(largest, ProofScalarTraits<I>::to_double(Upper(magnitude(r))));
     const double delta = kRoom * largest + std::numeric_limits<double>::min();
     Vector box;
     for (std::size_t i = 0; i < K; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "planner/clear_edge.h"
+#include "planner/sampled_motion_validator.h"
 
 #include <gtest/gtest.h>
 
@@ -27,21 +27,21 @@ const Coordinates kStart = coordinates({-2.3, 1.6});
 const Coordinates kGoal = coordinates({1.7, 1.7});
 
 TEST_F(ClearEdgeTest, AcceptsASmallMoveAmongFeasiblePoses) {
-  EXPECT_TRUE(ClearEdge(sampler_, 0)(coordinates({-2.0, 0.1}), coordinates({-2.0, 0.4})));
+  EXPECT_TRUE(SampledMotionValidator(sampler_, 0)(coordinates({-2.0, 0.1}), coordinates({-2.0, 0.4})));
 }
 
 TEST_F(ClearEdgeTest, RefusesAWayThatLeavesTheLimitsBetweenItsEnds) {
   ASSERT_GT(clearance(kStart), 0);
   ASSERT_GT(clearance(kGoal), 0);
-  EXPECT_FALSE(ClearEdge(sampler_, 0)(kStart, kGoal));
+  EXPECT_FALSE(SampledMotionValidator(sampler_, 0)(kStart, kGoal));
 }
 
 TEST_F(ClearEdgeTest, RefusesEitherEndWithinTheClearance) {
   const Coordinates near = coordinates({-2.0, 0.1});
   const double room = std::min(clearance(near), clearance(kStart));
-  EXPECT_TRUE(ClearEdge(sampler_, 0.99 * room)(kStart, kStart));
-  EXPECT_FALSE(ClearEdge(sampler_, 1.01 * clearance(kStart))(kStart, near));
-  EXPECT_FALSE(ClearEdge(sampler_, 1.01 * clearance(kStart))(near, kStart));
+  EXPECT_TRUE(SampledMotionValidator(sampler_, 0.99 * room)(kStart, kStart));
+  EXPECT_FALSE(SampledMotionValidator(sampler_, 1.01 * clearance(kStart))(kStart, near));
+  EXPECT_FALSE(SampledMotionValidator(sampler_, 1.01 * clearance(kStart))(near, kStart));
 }
 
 TEST_F(ClearEdgeTest, FindsAWindowOfTwoStepsThatIsOutOfLimits) {
@@ -49,7 +49,7 @@ TEST_F(ClearEdgeTest, FindsAWindowOfTwoStepsThatIsOutOfLimits) {
   Coordinates out = kStart;
   while (clearance(out) > 0) out += 0.01 * (kGoal - kStart).normalized();
   const Coordinates beyond = out + 0.1 * (kGoal - kStart).normalized();
-  EXPECT_FALSE(ClearEdge(sampler_, 0)(kStart, beyond));
+  EXPECT_FALSE(SampledMotionValidator(sampler_, 0)(kStart, beyond));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "planner/clear_edge.h"
+#include "planner/sampled_motion_validator.h"
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ constexpr int kMostLevels = 12;  // of bisection
 
 }  // namespace
 
-bool ClearEdge::operator()(const Coordinates& a, const Coordinates& b) const {
+bool SampledMotionValidator::operator()(const Coordinates& a, const Coordinates& b) const {
   double sign = 0;  // of det J
   const auto clear = [&](const Pose<double>& pose) {
     const Statics<double> statics = sampler_.statics(pose);

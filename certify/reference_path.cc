@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "certify/held_reference.h"
+#include "certify/reference_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/placed_json.h"
+#include "base/json_cursor.h"
 
 #include <gtest/gtest.h>
 
@@ -18,40 +18,40 @@ using nlohmann::json;
 template <class Use>
 std::string complaint(const json& value, Use use) {
   try {
-    use(PlacedJson(value, "a"));
+    use(JsonCursor(value, "a"));
   } catch (const FieldError& error) {
     return error.what();
   }
   return "";
 }
 
-TEST(PlacedJson, PlacesAreThoseOfTheMembers) {
+TEST(JsonCursor, PlacesAreThoseOfTheMembers) {
   const json value = json::parse(R"({"b": [{"c": "x"}, {}]})");
-  const PlacedJson a(value, "a");
+  const JsonCursor a(value, "a");
   EXPECT_EQ(a.at("b").at(1).where(), "a.b[1]");
   EXPECT_EQ(a.at("b").elements()[0].at("c").where(), "a.b[0].c");
   EXPECT_EQ(a.at("b").elements(2)[0].at("c").text(), "x");
   EXPECT_FALSE(a.contains("c"));
 }
 
-TEST(PlacedJson, WhatIsNotAsAskedIsShownWithItsPlace) {
-  EXPECT_EQ(complaint(json::parse(R"({"b": 1})"), [](const PlacedJson& a) { (void)a.at("c"); }),
+TEST(JsonCursor, WhatIsNotAsAskedIsShownWithItsPlace) {
+  EXPECT_EQ(complaint(json::parse(R"({"b": 1})"), [](const JsonCursor& a) { (void)a.at("c"); }),
             "a: expected the key 'c'");
-  EXPECT_EQ(complaint(3, [](const PlacedJson& a) { (void)a.at("c"); }), "a: got 3, expected an object");
-  EXPECT_EQ(complaint(json::parse(R"({"b": {}})"), [](const PlacedJson& a) { (void)a.at("b").size(); }),
+  EXPECT_EQ(complaint(3, [](const JsonCursor& a) { (void)a.at("c"); }), "a: got 3, expected an object");
+  EXPECT_EQ(complaint(json::parse(R"({"b": {}})"), [](const JsonCursor& a) { (void)a.at("b").size(); }),
             "a.b: got {}, expected a list");
-  EXPECT_EQ(complaint(json::parse("[1]"), [](const PlacedJson& a) { (void)a.at(1); }),
+  EXPECT_EQ(complaint(json::parse("[1]"), [](const JsonCursor& a) { (void)a.at(1); }),
             "a: got [1], expected a list of at least 2");
-  EXPECT_EQ(complaint(json::parse("[1]"), [](const PlacedJson& a) { (void)a.elements(2); }),
+  EXPECT_EQ(complaint(json::parse("[1]"), [](const JsonCursor& a) { (void)a.elements(2); }),
             "a: got [1], expected a list of 2");
-  EXPECT_EQ(complaint(nullptr, [](const PlacedJson& a) { (void)a.text(); }), "a: got null, expected a string");
-  EXPECT_EQ(complaint(json::parse(R"({"b": 1, "c": 2})"), [](const PlacedJson& a) { a.expect_keys({"b"}); }),
+  EXPECT_EQ(complaint(nullptr, [](const JsonCursor& a) { (void)a.text(); }), "a: got null, expected a string");
+  EXPECT_EQ(complaint(json::parse(R"({"b": 1, "c": 2})"), [](const JsonCursor& a) { a.expect_keys({"b"}); }),
             "a: got 'c', expected only known keys");
 }
 
-TEST(PlacedJson, IntegersAreWholeAndWithinBounds) {
+TEST(JsonCursor, IntegersAreWholeAndWithinBounds) {
   const auto said = [](const json& value) {
-    return complaint(value, [](const PlacedJson& a) { (void)a.integer(-5, 5); });
+    return complaint(value, [](const JsonCursor& a) { (void)a.integer(-5, 5); });
   };
   for (const json& good : {json(-5), json(5), json(0), json(std::uint64_t{5})}) EXPECT_EQ(said(good), "") << good;
   for (const json& bad :
@@ -61,8 +61,8 @@ TEST(PlacedJson, IntegersAreWholeAndWithinBounds) {
   }
 }
 
-TEST(PlacedJson, LongValuesAreCut) {
-  EXPECT_EQ(complaint(std::string(1000, 'x'), [](const PlacedJson& a) { (void)a.size(); }),
+TEST(JsonCursor, LongValuesAreCut) {
+  EXPECT_EQ(complaint(std::string(1000, 'x'), [](const JsonCursor& a) { (void)a.size(); }),
             "a: got \"" + std::string(59, 'x') + "…, expected a list");
 }
 

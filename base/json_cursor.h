@@ -16,11 +16,11 @@ namespace taut {
 
 /// A value and its place, "path.waypoints[3].x". What is asked of it and isn't so is a FieldError that names the place,
 /// the value seen and what was expected. Refers to the value, which must outlive it.
-class PlacedJson {
+class JsonCursor {
  public:
-  PlacedJson(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
+  JsonCursor(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
 
-  PlacedJson(nlohmann::json&& value, std::string where) = delete;
+  JsonCursor(nlohmann::json&& value, std::string where) = delete;
 
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
   [[nodiscard]] const std::string& where() const { return where_; }
@@ -29,18 +29,18 @@ class PlacedJson {
   /// An object has the member. @throws FieldError if it is no object
   [[nodiscard]] bool contains(const char* key) const;
   /// Member of an object.
-  [[nodiscard]] PlacedJson at(const char* key) const;
+  [[nodiscard]] JsonCursor at(const char* key) const;
   /// Checks that it is an object with these keys and no other.
-  const PlacedJson& expect_keys(std::initializer_list<const char*> keys) const;
+  const JsonCursor& expect_keys(std::initializer_list<const char*> keys) const;
 
   /// Length of a list.
   [[nodiscard]] std::size_t size() const;
   /// Element of a list.
-  [[nodiscard]] PlacedJson at(std::size_t index) const;
+  [[nodiscard]] JsonCursor at(std::size_t index) const;
   /// All elements of a list.
-  [[nodiscard]] std::vector<PlacedJson> elements() const;
+  [[nodiscard]] std::vector<JsonCursor> elements() const;
   /// All elements of a list of that length.
-  [[nodiscard]] std::vector<PlacedJson> elements(std::size_t size) const;
+  [[nodiscard]] std::vector<JsonCursor> elements(std::size_t size) const;
 
   [[nodiscard]] const std::string& text() const;
   /// An integer between these, inclusive.

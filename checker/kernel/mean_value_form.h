@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A real function of one variable u in [-1, 1], enclosed to first order; and numbers with their partial derivatives.
 //
-// A Form says of a function f, continuous on [-1, 1]:
+// A MeanValueForm says of a function f, continuous on [-1, 1]:
 //     for every u there are x in `at` and y in `slope` with f(u) = x + y u.
 // So what is known of f beyond first order, of the size of the square of what f varies by, widens `at`. Each operation
 // keeps the statement:
@@ -10,7 +10,7 @@
 //     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + y u, by Taylor's
 //             theorem, for F twice differentiable on the range of f.
 // An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the existence
-// of a Form also proves that its function is continuous. Where `slope` is 0, at u = 0 alone for instance, F need not be
+// of a MeanValueForm also proves that its function is continuous. Where `slope` is 0, at u = 0 alone for instance, F need not be
 // differentiable.
 //
 // A Jet holds, for every point of a box of variables, the value of a function and its partial derivatives.
@@ -22,13 +22,13 @@
 
 namespace taut::checker {
 
-struct Form {
+struct MeanValueForm {
   Ball at;
   Ball slope;
 
-  Form() = default;  ///< the constant 0
-  explicit Form(Ball constant) : at(std::move(constant)) {}
-  Form(Ball at_zero, Ball by_u) : at(std::move(at_zero)), slope(std::move(by_u)) {}
+  MeanValueForm() = default;  ///< the constant 0
+  explicit MeanValueForm(Ball constant) : at(std::move(constant)) {}
+  MeanValueForm(Ball at_zero, Ball by_u) : at(std::move(at_zero)), slope(std::move(by_u)) {}
 
   [[nodiscard]] bool is_constant() const { return slope.is_zero(); }
   /// f(u) for every u.
@@ -41,16 +41,22 @@ inline Ball from_zero_to(const Ball& b) {
   return plus_minus(half, magnitude(half));
 }
 
-inline Form operator+(const Form& a, const Form& b) { return {a.at + b.at, a.slope + b.slope}; }
-inline Form operator-(const Form& a, const Form& b) { return {a.at - b.at, a.slope - b.slope}; }
-inline Form operator-(const Form& a) { return {-a.at, -a.slope}; }
-inline Form& operator+=(Form& a, const Form& b) {
+inline MeanValueForm operator+(const MeanValueForm& a, const MeanValueForm& b) {
+  return {a.at + b.at, a.slope + b.slope};
+}
+inline MeanValueForm operator-(const MeanValueForm& a, const MeanValueForm& b) {
+  return {a.at - b.at, a.slope - b.slope};
+}
+inline MeanValueForm operator-(const MeanValueForm& a) { return {-a.at, -a.slope}; }
+inline MeanValueForm& operator+=(MeanValueForm& a, const MeanValueForm& b) {
   a.at += b.at;
   a.slope += b.slope;
   return a;
 }
-inline Form operator*(const Ball& a, const Form& b) { return {a * b.at, b.is_constant() ? Ball() : a * b.slope}; }
-inline Form operator*(const Form& a, const Form& b) {
+inline MeanValueForm operator*(const Ball& a, const MeanValueForm& b) {
+  return {a * b.at, b.is_constant() ? Ball() : a * b.slope};
+}
+inline MeanValueForm operator*(const MeanValueForm& a, const MeanValueForm& b) {
   if (a.is_constant()) return a.at * b;
   if (b.is_constant()) return b.at * a;
   Ball slope = a.at * b.slope;
@@ -59,24 +65,25 @@ inline Form operator*(const Form& a, const Form& b) {
 }
 
 /// F(f) from F and F' at the middle of `at` and F'' on the range.
-inline Form taylor(const Form& f, const Ball& value, const Ball& first, const Ball& second) {
+inline MeanValueForm taylor(const MeanValueForm& f, const Ball& value, const Ball& first, const Ball& second) {
   const Ball off = f.at - middle(f.at);
   const Ball largest = magnitude(plus_minus(off, magnitude(f.slope)));
   const Ball half_square = Ball::make([&](arb_ptr r) { arb_mul_2exp_si(r, sqr(largest).get(), -1); });
   return {value + first * off + second * from_zero_to(half_square), first * f.slope};
 }
-inline Form apply(Function F, const Form& f) {
-  if (f.is_constant()) return Form(value(F, f.at));
+inline MeanValueForm apply(Function F, const MeanValueForm& f) {
+  if (f.is_constant()) return MeanValueForm(value(F, f.at));
   const Ball centre = middle(f.at);
   return taylor(f, value(F, centre), first_derivative(F, centre), second_derivative(F, f.range()));
 }
-inline Form sqr(const Form& f) {
-  return f.is_constant() ? Form(sqr(f.at)) : Form{sqr(f.at) + from_zero_to(sqr(f.slope)), Ball(2) * f.at * f.slope};
+inline MeanValueForm sqr(const MeanValueForm& f) {
+  return f.is_constant() ? MeanValueForm(sqr(f.at))
+                         : MeanValueForm{sqr(f.at) + from_zero_to(sqr(f.slope)), Ball(2) * f.at * f.slope};
 }
-inline Form power(const Form& f, int n) {
-  if (n == 0) return Form(Ball(1));
+inline MeanValueForm power(const MeanValueForm& f, int n) {
+  if (n == 0) return MeanValueForm(Ball(1));
   if (n == 1) return f;
-  if (f.is_constant()) return Form(power(f.at, n));
+  if (f.is_constant()) return MeanValueForm(power(f.at, n));
   const Ball centre = middle(f.at);
   return taylor(f, power(centre, n), Ball(n) * power(centre, n - 1), Ball(n) * Ball(n - 1) * power(f.range(), n - 2));
 }
@@ -124,11 +131,11 @@ inline Jet power(const Jet& a, int n) {
   return jet(power(a.value, n), a, Ball(n) * power(a.value, n - 1), Jet(), Ball());
 }
 
-inline Ball range(const Form& f) { return f.range(); }
+inline Ball range(const MeanValueForm& f) { return f.range(); }
 inline Ball range(const Jet& f) { return f.value; }
 
 template <class T>
-T operator/(const T& a, const T& b) requires(std::same_as<T, Form> || std::same_as<T, Jet>) {
+T operator/(const T& a, const T& b) requires(std::same_as<T, MeanValueForm> || std::same_as<T, Jet>) {
   return a * apply(Function::kInverse, b);
 }
 /// The angle of (x, y) in (-pi, pi]. @throws Undefined where (x, y) may be the origin or cross the cut y = 0, x < 0.

@@ -4,7 +4,7 @@
 // The pose is sought around the reference (p_ref, R_ref)(t) of the piece in which the box is (kinematics/segment.h), in that piece's
 // tube (r_p, r_u):
 //   p = p_ref + r_p z_p,  R = R(u, 1) R_ref,  u = r_u z_u,  z in [−1, 1]^6,                                            (h)
-// as the zero of g_i(z, t) = (|d_i|^2 − L_i(t)^2) / 2, d_i = p + R b_i − a_i, by the Krawczyk operator (implied_zero.h) with
+// as the zero of g_i(z, t) = (|d_i|^2 − L_i(t)^2) / 2, d_i = p + R b_i − a_i, by the Krawczyk operator (parametric_krawczyk.h) with
 //   ∂g_i/∂z_p = r_p d_i,   ∂g_i/∂z_u = r_u (2 / (1 + |u|^2)) (x_i + x_i × u),  x_i = R b_i × d_i.
 // Proof: docs/theory.md, "Held by lengths". This is the machine as typed; where deviations lead all at once is tolerance.h's, where
 // a single one leads is deviated_pose()'s, by the same operator.
@@ -23,8 +23,8 @@ namespace taut {
 /// @param segment  of the law of cable lengths
 /// @returns status kUnproved where a test failed. For Interval: only under run_upward(). Void if a fault was raised.
 template <class I>
-[[nodiscard]] MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const Segment& segment, const I& range,
-                                                 const I& mid, const I& offset);
+[[nodiscard]] MotionEnclosure<I> forward_kinematics(const Model<I>& model, const Segment& segment, const I& range,
+                                                    const I& mid, const I& offset);
 
 /// A pose [m], enclosed.
 struct PoseEnclosure {
@@ -40,9 +40,9 @@ struct PoseEnclosure {
                                                          const Model<MpInterval>& deviated,
                                                          const std::array<MpInterval, kCables>& length_error);
 
-extern template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const Segment&, const Interval&,
-                                                          const Interval&, const Interval&);
-extern template MotionEnclosure<MpInterval> hold_by_lengths(const Model<MpInterval>&, const Segment&, const MpInterval&,
-                                                            const MpInterval&, const MpInterval&);
+extern template MotionEnclosure<Interval> forward_kinematics(const Model<Interval>&, const Segment&, const Interval&,
+                                                             const Interval&, const Interval&);
+extern template MotionEnclosure<MpInterval> forward_kinematics(const Model<MpInterval>&, const Segment&,
+                                                               const MpInterval&, const MpInterval&, const MpInterval&);
 
 }  // namespace taut

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "certify/motion/held_motion.h"
+#include "certify/motion/length_controlled_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "certify/motion/implied_zero.h"
+#include "certify/motion/parametric_krawczyk.h"
 #include "kinematics/geometry.h"
 #include "kinematics/quaternion.h"
 
@@ -16,7 +16,7 @@ constexpr std::size_t kUnknowns = 6;
 constexpr std::size_t kPoseNumbers = 7;
 
 template <class I>
-using Lengths = std::array<Centered<I>, kCables>;
+using Lengths = std::array<SlopeForm<I>, kCables>;
 
 template <class I>
 Vector3<I> apply(const Matrix3<I>& r, const Vector3<I>& x) {
@@ -70,7 +70,7 @@ I inner(const Quaternion<I>& a, const Quaternion<I>& b) {
 /// p_ref and R_ref over a box with midpoint m; of second order, R_ref(t) = r_mid + (t − m)(r_slope + (t − m) r_bend).
 template <class I>
 struct Reference {
-  Vector3<Centered<I>> p;
+  Vector3<SlopeForm<I>> p;
   Matrix3<I> r_mid, r_slope, r_bend, r_range;
   PoseTube tube;
 };
@@ -80,7 +80,7 @@ template <class I>
 std::optional<Reference<I>> enclose_reference(const Segment& segment, const I& range, const I& mid, const I& offset) {
   const ReferencePiece piece = reference_piece(segment, lower_bound(range));
   if (!(lower_bound(range) >= piece.from && upper_bound(range) <= piece.to)) return std::nullopt;
-  std::array<Centered<I>, kPoseNumbers> x;
+  std::array<SlopeForm<I>, kPoseNumbers> x;
   const I from(piece.from);
   const I length = I(piece.to) - from;
   for (std::size_t j = 0; j < kPoseNumbers; ++j) {
@@ -128,7 +128,7 @@ class LengthSystem {
       : model_(model), reference_(reference), lengths_(lengths), offset_(offset) {}
 
   [[nodiscard]] Vector values(const Vector& z) const {
-    const Vector3<I> p = position(z, &Centered<I>::at_mid);
+    const Vector3<I> p = position(z, &SlopeForm<I>::at_mid);
     const Matrix3<I> r = times(local_turn(z), reference_.r_mid);
     Vector result;
     for (std::size_t i = 0; i < kCables; ++i) {
@@ -142,7 +142,7 @@ class LengthSystem {
 
   [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, Place place) const {
     const bool over_box = place == Place::kOverBox;
-    const Vector3<I> p = position(z, over_box ? &Centered<I>::range : &Centered<I>::at_mid);
+    const Vector3<I> p = position(z, over_box ? &SlopeForm<I>::range : &SlopeForm<I>::at_mid);
     const Matrix3<I> local = local_turn(z);
     const Matrix3<I> r = times(local, over_box ? reference_.r_range : reference_.r_mid);
     const Vector3<I> u = turn(z);
@@ -164,8 +164,8 @@ class LengthSystem {
     return result;
   }
 
-  [[nodiscard]] MotionEnclosure<I> pose(const std::array<Centered<I>, kUnknowns>& z) const {
-    using C = Centered<I>;
+  [[nodiscard]] MotionEnclosure<I> pose(const std::array<SlopeForm<I>, kUnknowns>& z) const {
+    using C = SlopeForm<I>;
     MotionEnclosure<I> result;
     result.status = MotionEnclosure<I>::Status::kKnown;
     const I turn(reference_.tube.turn);
@@ -191,7 +191,7 @@ class LengthSystem {
  private:
   /// With d(t) = d(m) + h (σ + h τ), h = t − m: (|d(t)|^2 − |d(m)|^2)/2 = h (d(m)·σ + h (d(m)·τ + |σ + h τ|^2/2)).
   void add_slopes(const Vector& z, const Matrix3<I>& local, EquationDerivatives<kUnknowns, I>& result) const {
-    const Vector3<I> p = position(z, &Centered<I>::at_mid);
+    const Vector3<I> p = position(z, &SlopeForm<I>::at_mid);
     const Matrix3<I> r = times(local, reference_.r_mid);
     const Matrix3<I> r_slope = times(local, reference_.r_slope);
     const Matrix3<I> r_bend = times(local, reference_.r_bend);
@@ -218,7 +218,7 @@ class LengthSystem {
     const I size(reference_.tube.turn);
     return {size * z[3], size * z[4], size * z[5]};
   }
-  [[nodiscard]] Vector3<I> position(const Vector& z, I Centered<I>::*where) const {
+  [[nodiscard]] Vector3<I> position(const Vector& z, I SlopeForm<I>::*where) const {
     const I size(reference_.tube.position);
     Vector3<I> p;
     for (int k = 0; k < 3; ++k) p(k) = reference_.p(k).*where + size * z[static_cast<std::size_t>(k)];
@@ -239,10 +239,10 @@ class LengthSystem {
 }  // namespace
 
 template <class I>
-MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const Segment& segment, const I& range, const I& mid,
-                                   const I& offset) {
+MotionEnclosure<I> forward_kinematics(const Model<I>& model, const Segment& segment, const I& range, const I& mid,
+                                      const I& offset) {
   const auto reference = enclose_reference(segment, range, mid, offset);
-  if (!reference) return {MotionEnclosure<I>::Status::kAcross, {}, {}};
+  if (!reference) return {MotionEnclosure<I>::Status::kSpansKnot, {}, {}};
   const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
   if (!is_size(reference->tube.position) || !is_size(reference->tube.turn)) return {};
   Lengths<I> lengths;
@@ -253,8 +253,8 @@ MotionEnclosure<I> hold_by_lengths(const Model<I>& model, const Segment& segment
   }
   using System = LengthSystem<I>;
   const System system(model, *reference, lengths, offset);
-  std::array<Centered<I>, kUnknowns> z;
-  if (!ImpliedZero<kUnknowns, I, System>(system, offset, 1.0).enclose(z)) return {};
+  std::array<SlopeForm<I>, kUnknowns> z;
+  if (!ParametricKrawczyk<kUnknowns, I, System>(system, offset, 1.0).enclose(z)) return {};
   return system.pose(z);
 }
 
@@ -286,10 +286,10 @@ std::optional<PoseEnclosure> only_pose(const Model<MpInterval>& model, const Ref
     if (!certainly_positive(lengths[i])) return std::nullopt;
   }
   const System system(model, reference, constant, zero);
-  std::array<Centered<MpInterval>, kUnknowns> z;
-  if (!ImpliedZero<kUnknowns, MpInterval, System>(system, zero, 1.0).enclose(z)) return std::nullopt;
+  std::array<SlopeForm<MpInterval>, kUnknowns> z;
+  if (!ParametricKrawczyk<kUnknowns, MpInterval, System>(system, zero, 1.0).enclose(z)) return std::nullopt;
   const MotionEnclosure<MpInterval> found = system.pose(z);
-  const auto at_mid = [](const Centered<MpInterval>& x) { return x.at_mid; };
+  const auto at_mid = [](const SlopeForm<MpInterval>& x) { return x.at_mid; };
   return PoseEnclosure{found.p_WP.unaryExpr(at_mid), found.r_WP.unaryExpr(at_mid)};
 }
 
@@ -366,9 +366,9 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
   return here;
 }
 
-template MotionEnclosure<Interval> hold_by_lengths(const Model<Interval>&, const Segment&, const Interval&,
-                                                   const Interval&, const Interval&);
-template MotionEnclosure<MpInterval> hold_by_lengths(const Model<MpInterval>&, const Segment&, const MpInterval&,
-                                                     const MpInterval&, const MpInterval&);
+template MotionEnclosure<Interval> forward_kinematics(const Model<Interval>&, const Segment&, const Interval&,
+                                                      const Interval&, const Interval&);
+template MotionEnclosure<MpInterval> forward_kinematics(const Model<MpInterval>&, const Segment&, const MpInterval&,
+                                                        const MpInterval&, const MpInterval&);
 
 }  // namespace taut
