@@ -14,7 +14,7 @@
 #include "checker/format/cursor.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
-#include "checker/kernel/motion.h"
+#include "checker/near_waypoints.h"
 #include "kinematics/pose_conversion.h"
 
 namespace taut {
@@ -118,18 +118,15 @@ std::optional<std::vector<double>> newton(const checker::Equations& equations, s
   return last < 1e-9 ? std::optional(y) : std::nullopt;
 }
 
-using WithEquations = std::function<void(const checker::Box&, const std::function<void(const checker::Equations&)>&)>;
+using EquationsOver = std::function<std::unique_ptr<checker::Equations>(const checker::Box&)>;
 
 /// Where the zero is over a box: close to a straight line in u, within a radius that should do.
-std::optional<checker::NearZero> near_zero(const WithEquations& with, const checker::Box& box) {
+std::optional<checker::NearZero> near_zero(const EquationsOver& equations_over, const checker::Box& box) {
   const auto zero_at = [&](const mpq_class& s, const std::optional<std::vector<double>>& start) {
     checker::Box place = box;
     place.begin = place.end = s;
-    std::optional<std::vector<double>> result;
-    with(place, [&](const checker::Equations& equations) {
-      result = newton(equations, start ? *start : std::vector<double>(equations.unknowns(), 0.0));
-    });
-    return result;
+    const auto equations = equations_over(place);
+    return newton(*equations, start ? *start : std::vector<double>(equations->unknowns(), 0.0));
   };
   const auto middle = zero_at((box.begin + box.end) / 2, std::nullopt);
   if (!middle) return std::nullopt;
@@ -146,20 +143,19 @@ std::optional<checker::NearZero> near_zero(const WithEquations& with, const chec
       near.at[i] = ((*middle)[i] + ((*first)[i] + (*last)[i]) / 2) / 2;
     }
   }
-  with(box, [&](const checker::Equations& equations) {
-    checker::Vector6<MeanValueForm> curve;
-    checker::Vector6<Ball> range;
-    for (std::size_t i = 0; i < near.at.size(); ++i) {
-      curve[i] = {Ball(near.at[i]), Ball(near.slope[i])};
-      range[i] = curve[i].range();
-    }
-    const checker::Contraction contraction(equations, range);
-    const checker::Vector6<MeanValueForm> off = multiply(contraction.A, equations.residual(curve));
-    double farthest = 0;
-    for (std::size_t i = 0; i < near.at.size(); ++i) farthest = std::max(farthest, largest(off[i].range()));
-    constexpr double kRoom = 2.5;
-    near.radius = short_above(std::max(kRoom * farthest, 0x1p-1000));
-  });
+  const auto equations = equations_over(box);
+  checker::Vector6<MeanValueForm> curve;
+  checker::Vector6<Ball> range;
+  for (std::size_t i = 0; i < near.at.size(); ++i) {
+    curve[i] = {Ball(near.at[i]), Ball(near.slope[i])};
+    range[i] = curve[i].range();
+  }
+  const checker::Contraction contraction(*equations, range);
+  const checker::Vector6<MeanValueForm> off = multiply(contraction.A, equations->residual(curve));
+  double farthest = 0;
+  for (std::size_t i = 0; i < near.at.size(); ++i) farthest = std::max(farthest, largest(off[i].range()));
+  constexpr double kRoom = 2.5;
+  near.radius = short_above(std::max(kRoom * farthest, 0x1p-1000));
   return near;
 }
 
@@ -167,13 +163,10 @@ std::optional<checker::NearZero> near_zero(const WithEquations& with, const chec
 
 std::optional<checker::NearZero> find_motion(const checker::Machine& machine, const checker::Problem& problem,
                                              const checker::Path& path, std::size_t k, const checker::Box& box) {
-  const WithEquations with = [&](const checker::Box& over, const std::function<void(const checker::Equations&)>& use) {
-    with_equations(machine, problem, path, k, over,
-                   [&](const checker::Equations& equations, const Ball&) { use(equations); });
-  };
+  const auto equations = [&](const checker::Box& over) { return motion_equations(machine, problem, path, k, over); };
   try {
     const checker::WorkingPrecision precision(box.bits);
-    return near_zero(with, box);
+    return near_zero(equations, box);
   } catch (const checker::Undefined&) {
     return std::nullopt;
   }
@@ -522,13 +515,11 @@ class Way {
     box.begin = begin;
     box.end = end;
     box.bits = bits_;
-    const WithEquations with = [&](const checker::Box& over,
-                                   const std::function<void(const checker::Equations&)>& use) {
-      with_equations(growing_deviation(machine_, stated_, by_, over),
-                     [&](const checker::Equations& equations, const Ball&) { use(equations); });
+    const auto equations = [&](const checker::Box& over) {
+      return motion_equations(growing_deviation(machine_, stated_, by_, over));
     };
     try {
-      box.near = near_zero(with, box);
+      box.near = near_zero(equations, box);
       if (!box.near) return false;
       (void)forward_kinematics(growing_deviation(machine_, stated_, by_, box), *box.near);
     } catch (const checker::Undefined&) {
@@ -553,15 +544,6 @@ bool find_way(const checker::Machine& machine, const checker::Geometry& stated, 
 }
 
 namespace {
-
-bool moves_platform(const checker::WitnessDeviation& by) {
-  const auto is_zero = [](const mpq_class& x) { return x == 0; };
-  const auto are_zero = [&](const auto& rows) {
-    return std::ranges::all_of(rows, [&](const auto& row) { return std::ranges::all_of(row, is_zero); });
-  };
-  return !are_zero(by.base_anchors) || !are_zero(by.platform_anchors) ||
-         !std::ranges::all_of(*by.cable_lengths, is_zero);
-}
 
 checker::WitnessKind to_kernel(const PathWitness& found) {
   if (found.singular) return checker::WitnessKind::kSingular;
@@ -613,7 +595,7 @@ std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const P
       witness.cable = static_cast<std::size_t>(found.margin.cable);
       if (found.deviation) {
         witness.deviation = to_kernel(*found.deviation);
-        if (witness.deviation->cable_lengths && moves_platform(*witness.deviation)) {
+        if (witness.deviation->leads_away()) {
           const checker::Geometry stated = commanded_geometry(machine, problem_, search.path(), 0, witness.at_box);
           if (!find_way(machine, stated, approx_, *witness.deviation, bits)) continue;
         }

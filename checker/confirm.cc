@@ -13,6 +13,7 @@
 
 #include "checker/kernel/box_proof.h"
 #include "checker/kernel/refutation.h"
+#include "checker/near_waypoints.h"
 
 namespace taut::checker {
 namespace {

@@ -15,9 +15,12 @@ constexpr int kMaxDepth = 200;             ///< nested parentheses and signs; bo
 constexpr long kMaxExponent = 1000;        ///< of "^"
 constexpr long kMaxTurns = 1000;           ///< returned by turns(), and of the integers that it multiplies by
 
-const std::map<std::string, Op> kFunctions = {
-    {"sqrt", Op::kSqrt}, {"sin", Op::kSin},   {"cos", Op::kCos},   {"tan", Op::kTan},   {"exp", Op::kExp},
-    {"log", Op::kLog},   {"asin", Op::kAsin}, {"acos", Op::kAcos}, {"atan", Op::kAtan}, {"atan2", Op::kAtan2}};
+/// Of one operand. There are tan and atan2 besides.
+const std::map<std::string, Function> kFunctions = {
+    {"sqrt", Function::kSqrt}, {"sin", Function::kSin},   {"cos", Function::kCos},   {"exp", Function::kExp},
+    {"log", Function::kLog},   {"asin", Function::kAsin}, {"acos", Function::kAcos}, {"atan", Function::kAtan}};
+
+bool is_function(const std::string& name) { return kFunctions.contains(name) || name == "tan" || name == "atan2"; }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -75,14 +78,7 @@ class Parser {
     if (!is_letter(c)) fail("a number, a name or '('");
     const std::string name = take_while(is_name_character);
     if (name == "pi") return add({Op::kPi});
-    if (const auto function = kFunctions.find(name); function != kFunctions.end()) {
-      if (!take('(')) fail("'('");
-      const int first = sum(depth);
-      if (function->second != Op::kAtan2) return closed(add({function->second, 0, first}));
-      if (!take(',')) fail("','");
-      const int second = sum(depth);
-      return closed(add({Op::kAtan2, 0, first, second}));
-    }
+    if (is_function(name)) return closed(function(name, depth));
     const auto parameter = std::ranges::find(names_.parameters, name);
     if (parameter != names_.parameters.end()) {
       return add({Op::kParameter, static_cast<int>(parameter - names_.parameters.begin())});
@@ -90,6 +86,21 @@ class Parser {
     const auto constant = names_.constants.find(name);
     if (constant == names_.constants.end()) fail("a known name, not '" + name + "'");
     return add_number(constant->second);
+  }
+
+  /// Up to its closing parenthesis.
+  int function(const std::string& name, int depth) {
+    if (!take('(')) fail("'('");
+    const int first = sum(depth);
+    const auto apply = [&](Function f) { return add({Op::kApply, 0, first, -1, f}); };
+    if (name == "tan") {
+      const int sine = apply(Function::kSin);
+      return add({Op::kDivide, 0, sine, apply(Function::kCos)});
+    }
+    if (name != "atan2") return apply(kFunctions.at(name));
+    if (!take(',')) fail("','");
+    const int second = sum(depth);
+    return add({Op::kAtan2, 0, first, second});
   }
 
   int number() {
@@ -224,10 +235,8 @@ std::optional<long> turns(const Expression& expression, std::size_t parameter) {
         if (node.n == 0) result = {0, 1};
         if (node.n == 1) result = a;
         break;
-      case Op::kSin:
-      case Op::kCos:
-      case Op::kTan:
-        if (a.turns) result.turns = 0;
+      case Op::kApply:
+        if (a.turns && (node.function == Function::kSin || node.function == Function::kCos)) result.turns = 0;
         break;
       default: break;
     }
@@ -238,7 +247,7 @@ std::optional<long> turns(const Expression& expression, std::size_t parameter) {
 
 bool is_free_name(const std::string& name) {
   return !name.empty() && is_letter(name[0]) && std::ranges::all_of(name, is_name_character) && name != "pi" &&
-         !kFunctions.contains(name);
+         !is_function(name);
 }
 
 }  // namespace taut::checker

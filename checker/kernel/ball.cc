@@ -2,27 +2,17 @@
 #include "checker/kernel/ball.h"
 
 namespace taut::checker {
-namespace {
-
-/// Arb's functions agree in their arguments.
-template <auto kArb>
-Ball arb(const Ball& x) {
-  return Ball::make([&](arb_ptr r) { kArb(r, x.get(), Ball::bits()); });
-}
-
-}  // namespace
-
 Ball value(Function f, const Ball& x) {
   switch (f) {
     case Function::kInverse: return Ball(1) / x;
     case Function::kSqrt: return sqrt(x);
-    case Function::kSin: return arb<arb_sin>(x);
-    case Function::kCos: return arb<arb_cos>(x);
-    case Function::kExp: return arb<arb_exp>(x);
-    case Function::kLog: return arb<arb_log>(x);
-    case Function::kAsin: return arb<arb_asin>(x);
-    case Function::kAcos: return arb<arb_acos>(x);
-    case Function::kAtan: return arb<arb_atan>(x);
+    case Function::kSin: return Ball::by<arb_sin>(x);
+    case Function::kCos: return Ball::by<arb_cos>(x);
+    case Function::kExp: return Ball::by<arb_exp>(x);
+    case Function::kLog: return Ball::by<arb_log>(x);
+    case Function::kAsin: return Ball::by<arb_asin>(x);
+    case Function::kAcos: return Ball::by<arb_acos>(x);
+    case Function::kAtan: return Ball::by<arb_atan>(x);
   }
   throw std::logic_error("a function without a value");
 }
@@ -31,9 +21,9 @@ Ball first_derivative(Function f, const Ball& x) {
   switch (f) {
     case Function::kInverse: return -(Ball(1) / sqr(x));
     case Function::kSqrt: return Ball(1) / (Ball(2) * sqrt(x));
-    case Function::kSin: return arb<arb_cos>(x);
-    case Function::kCos: return -arb<arb_sin>(x);
-    case Function::kExp: return arb<arb_exp>(x);
+    case Function::kSin: return Ball::by<arb_cos>(x);
+    case Function::kCos: return -Ball::by<arb_sin>(x);
+    case Function::kExp: return Ball::by<arb_exp>(x);
     case Function::kLog: return Ball(1) / x;
     case Function::kAsin: return Ball(1) / sqrt(Ball(1) - sqr(x));
     case Function::kAcos: return -(Ball(1) / sqrt(Ball(1) - sqr(x)));
@@ -46,9 +36,9 @@ Ball second_derivative(Function f, const Ball& x) {
   switch (f) {
     case Function::kInverse: return Ball(2) / power(x, 3);
     case Function::kSqrt: return -(Ball(1) / (Ball(4) * x * sqrt(x)));
-    case Function::kSin: return -arb<arb_sin>(x);
-    case Function::kCos: return -arb<arb_cos>(x);
-    case Function::kExp: return arb<arb_exp>(x);
+    case Function::kSin: return -Ball::by<arb_sin>(x);
+    case Function::kCos: return -Ball::by<arb_cos>(x);
+    case Function::kExp: return Ball::by<arb_exp>(x);
     case Function::kLog: return -(Ball(1) / sqr(x));
     case Function::kAsin:
     case Function::kAcos: {

@@ -6,7 +6,8 @@
 // efficient arbitrary-precision midpoint-radius interval arithmetic", IEEE Trans. Computers 2017). Arb computes with
 // integers; it depends neither on the processor's rounding mode nor on MPFR, which the prover uses.
 //
-// Invariant: m and r are finite. Where an operation cannot keep it, it throws Undefined.
+// Invariant: m and r are finite. Where an operation cannot keep it, it throws Undefined. (Sums and products of finite
+// balls are finite, as Arb's exponents are unbounded.)
 #pragma once
 
 #include <arb.h>
@@ -22,7 +23,7 @@ namespace taut::checker {
 /// Sets the precision [bits] of all results computed during its life, in this thread.
 class WorkingPrecision {
  public:
-  explicit WorkingPrecision(int bits) : previous_(bits_) { bits_ = bits; }
+  explicit WorkingPrecision(int bits) : previous_(std::exchange(bits_, bits)) {}
   ~WorkingPrecision() { bits_ = previous_; }
   WorkingPrecision(const WorkingPrecision&) = delete;
   WorkingPrecision& operator=(const WorkingPrecision&) = delete;
@@ -37,10 +38,8 @@ class Ball {
  public:
   Ball() { arb_init(x_); }
   explicit Ball(int x) : Ball() { arb_set_si(x_, x); }
-  explicit Ball(double x) : Ball() {
-    arb_set_d(x_, x);
-    require_finite();
-  }  ///< exact
+  /// exact
+  explicit Ball(double x) : Ball(make([x](arb_ptr r) { arb_set_d(r, x); })) {}
   explicit Ball(const mpq_class& x) : Ball() {
     fmpq_t q;
     fmpq_init(q);
@@ -50,45 +49,35 @@ class Ball {
   }
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
-  Ball& operator=(const Ball& other) {
-    arb_set(x_, other.x_);
-    return *this;
-  }
-  Ball& operator=(Ball&& other) noexcept {
+  Ball& operator=(Ball other) noexcept {
     arb_swap(x_, other.x_);
     return *this;
   }
   ~Ball() { arb_clear(x_); }
 
-  [[nodiscard]] static Ball pi() {
-    return make([](arb_ptr r) { arb_const_pi(r, bits()); });
-  }
-
   [[nodiscard]] arb_srcptr get() const { return x_; }
   [[nodiscard]] bool is_zero() const { return arb_is_zero(x_) != 0; }
+  [[nodiscard]] static int bits() { return WorkingPrecision::bits(); }
 
   /// The result of `operation(arb_ptr)`, which writes an enclosure. @throws Undefined unless it is finite.
   template <class Operation>
   [[nodiscard]] static Ball make(Operation operation) {
     Ball result;
     operation(result.x_);
-    result.require_finite();
+    if (!arb_is_finite(result.x_)) throw Undefined("a value that may be undefined or infinite");
     return result;
   }
-  [[nodiscard]] static int bits() { return WorkingPrecision::bits(); }
+  /// The result of one of Arb's functions, rounded to the working precision.
+  template <auto kArb, class... Operands>
+  [[nodiscard]] static Ball by(const Operands&... operands) {
+    return make([&](arb_ptr r) { kArb(r, operands.get()..., bits()); });
+  }
+  [[nodiscard]] static Ball pi() { return by<arb_const_pi>(); }
 
-  friend Ball operator+(const Ball& a, const Ball& b) {
-    return make([&](arb_ptr r) { arb_add(r, a.x_, b.x_, bits()); });
-  }
-  friend Ball operator-(const Ball& a, const Ball& b) {
-    return make([&](arb_ptr r) { arb_sub(r, a.x_, b.x_, bits()); });
-  }
-  friend Ball operator*(const Ball& a, const Ball& b) {
-    return make([&](arb_ptr r) { arb_mul(r, a.x_, b.x_, bits()); });
-  }
-  friend Ball operator/(const Ball& a, const Ball& b) {
-    return make([&](arb_ptr r) { arb_div(r, a.x_, b.x_, bits()); });
-  }
+  friend Ball operator+(const Ball& a, const Ball& b) { return by<arb_add>(a, b); }
+  friend Ball operator-(const Ball& a, const Ball& b) { return by<arb_sub>(a, b); }
+  friend Ball operator*(const Ball& a, const Ball& b) { return by<arb_mul>(a, b); }
+  friend Ball operator/(const Ball& a, const Ball& b) { return by<arb_div>(a, b); }
   friend Ball operator-(const Ball& a) {
     return make([&](arb_ptr r) { arb_neg(r, a.x_); });
   }
@@ -107,14 +96,13 @@ class Ball {
   }
 
  private:
-  void require_finite() const {
-    if (!arb_is_finite(x_)) throw Undefined("a value that may be undefined or infinite");
-  }
   arb_t x_;
 };
 
-inline Ball sqrt(const Ball& a) {
-  return Ball::make([&](arb_ptr r) { arb_sqrt(r, a.get(), Ball::bits()); });
+inline Ball sqrt(const Ball& a) { return Ball::by<arb_sqrt>(a); }
+/// a / 2, exactly.
+inline Ball half(const Ball& a) {
+  return Ball::make([&](arb_ptr r) { arb_mul_2exp_si(r, a.get(), -1); });
 }
 
 // Comparisons have three values. Each of these is true only where it holds for every number in the ball.
@@ -124,36 +112,28 @@ inline bool certainly_nonnegative(const Ball& a) { return arb_is_nonnegative(a.g
 /// Every number in a is in b.
 inline bool is_within(const Ball& a, const Ball& b) { return arb_contains(b.get(), a.get()) != 0; }
 
-/// One number, not below |x| for any x in a.
-inline Ball magnitude(const Ball& a) {
-  return Ball::make([&](arb_ptr r) { arb_get_abs_ubound_arf(arb_midref(r), a.get(), Ball::bits()); });
+/// What one of Arb's functions says of the numbers in a, as one number (a ball of radius 0).
+template <auto kArb>
+Ball bound(const Ball& a) {
+  return Ball::make([&](arb_ptr r) { kArb(arb_midref(r), a.get(), Ball::bits()); });
 }
-/// One number, not below (not above) any x in a.
-inline Ball highest(const Ball& a) {
-  return Ball::make([&](arb_ptr r) { arb_get_ubound_arf(arb_midref(r), a.get(), Ball::bits()); });
-}
-inline Ball lowest(const Ball& a) {
-  return Ball::make([&](arb_ptr r) { arb_get_lbound_arf(arb_midref(r), a.get(), Ball::bits()); });
-}
-/// One number, not above |x| for any x in a.
-inline Ball least_magnitude(const Ball& a) {
-  return Ball::make([&](arb_ptr r) { arb_get_abs_lbound_arf(arb_midref(r), a.get(), Ball::bits()); });
-}
+/// One number, not below |x| for any x in a; not above |x|; not below x; not above x.
+inline Ball magnitude(const Ball& a) { return bound<arb_get_abs_ubound_arf>(a); }
+inline Ball least_magnitude(const Ball& a) { return bound<arb_get_abs_lbound_arf>(a); }
+inline Ball highest(const Ball& a) { return bound<arb_get_ubound_arf>(a); }
+inline Ball lowest(const Ball& a) { return bound<arb_get_lbound_arf>(a); }
 /// The number in the middle of a, exactly.
 inline Ball middle(const Ball& a) {
   return Ball::make([&](arb_ptr r) { arf_set(arb_midref(r), arb_midref(a.get())); });
 }
-/// Every number from any in a to any in b.
-inline Ball hull(const Ball& a, const Ball& b) {
-  return Ball::make([&](arb_ptr r) { arb_union(r, a.get(), b.get(), Ball::bits()); });
+/// Of two single numbers.
+inline const Ball& larger(const Ball& a, const Ball& b) {
+  return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0 ? b : a;
 }
-/// A square is not negative: where the ball of the product would hold negative numbers, [0, |a|^2] does instead.
-inline Ball sqr(const Ball& a) {
-  const auto square = [](const Ball& x) { return Ball::make([&](arb_ptr r) { arb_sqr(r, x.get(), Ball::bits()); }); };
-  Ball result = square(a);
-  return certainly_nonnegative(result) ? result : hull(Ball(), square(magnitude(a)));
-}
+inline const Ball& smaller(const Ball& a, const Ball& b) { return &larger(a, b) == &a ? b : a; }
 
+/// Every number from any in a to any in b.
+inline Ball hull(const Ball& a, const Ball& b) { return Ball::by<arb_union>(a, b); }
 /// a, widened by every number of magnitude up to that of b.
 inline Ball plus_minus(const Ball& a, const Ball& b) {
   return Ball::make([&](arb_ptr r) {
@@ -163,9 +143,12 @@ inline Ball plus_minus(const Ball& a, const Ball& b) {
 }
 /// Every number of magnitude up to that of b.
 inline Ball plus_minus(const Ball& b) { return plus_minus(Ball(), b); }
-/// The larger of two nonnegative single numbers.
-inline const Ball& larger(const Ball& a, const Ball& b) {
-  return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0 ? b : a;
+/// Every number in [0, b] or [b, 0], for each b in the ball.
+inline Ball from_zero_to(const Ball& b) { return plus_minus(half(b), magnitude(half(b))); }
+/// A square is not negative: where the ball of the product would hold negative numbers, [0, |a|^2] does instead.
+inline Ball sqr(const Ball& a) {
+  const Ball result = Ball::by<arb_sqr>(a);
+  return certainly_nonnegative(result) ? result : hull(Ball(), Ball::by<arb_sqr>(magnitude(a)));
 }
 
 /// Analytic functions of one variable.

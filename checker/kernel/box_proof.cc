@@ -17,8 +17,8 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
   std::optional<Bounds> result;
   for (std::size_t i = 0; i < kCables; ++i) {
     const MeanValueForm& length = geometry.length[i];
-    const Ball largest_radius = magnitude((length * tensions.tension_radius[i]).range()) +
-                                Ball(0.5) * (loss.tension[i][0] + loss.tension[i][1]);
+    const Ball largest_radius =
+        magnitude((length * tensions.tension_radius[i]).range()) + half(loss.tension[i][0] + loss.tension[i][1]);
     for (const std::size_t side : {0, 1}) {
       const auto inside = [&](const MeanValueForm& quantity, const std::array<Ball, 2>& limits) {
         return side == 0 ? quantity - MeanValueForm(limits[0]) : MeanValueForm(limits[1]) - quantity;
@@ -30,9 +30,8 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
       // (f0 - f_lo) / v = 1 + (f0 - v - f_lo) / v; a negative margin may be divided by any v, as it is refused anyway.
       const Ball of_scale = lowest(Ball(1) + of_tension / largest_radius);
       if (!result) result = Bounds{of_tension, of_length, of_scale};
-      result->tension = -larger(-result->tension, -of_tension);
-      result->length = -larger(-result->length, -of_length);
-      result->wrench_scale = -larger(-result->wrench_scale, -of_scale);
+      result = Bounds{smaller(result->tension, of_tension), smaller(result->length, of_length),
+                      smaller(result->wrench_scale, of_scale)};
     }
   }
   return *result;

@@ -7,6 +7,13 @@
 
 namespace taut::checker {
 
+/// Proved lower bounds over a box; each is one number.
+struct Bounds {
+  Ball tension;       ///< of f0_i - v_i - f_lo,i and f_hi,i - f0_i - v_i [N]
+  Ball length;        ///< of d_i - d_lo,i and d_hi,i - d_i [m]
+  Ball wrench_scale;  ///< K may be so many times as large before a tension reaches its limit
+};
+
 /// Claim. For every s of the box, every machine, load and pose within the tolerances: the pose exists, its parameters are
 /// in their ranges, J is non-singular, and tensions and lengths keep the returned distances from their limits.
 /// @pre the box reaches across no inner pose, and its precision is the working precision of `machine`

@@ -4,10 +4,9 @@
 namespace taut::checker {
 namespace {
 
-Vector3<Ball> widened(const Vector3<Ball>& x, const Vector3<Ball>& by) {
-  return {plus_minus(x[0], by[0]), plus_minus(x[1], by[1]), plus_minus(x[2], by[2])};
+Vector3<Ball> widened(const Vector3<Ball>& x, const Ball& by) {
+  return {plus_minus(x[0], by), plus_minus(x[1], by), plus_minus(x[2], by)};
 }
-Vector3<Ball> widened(const Vector3<Ball>& x, const Ball& by) { return widened(x, {by, by, by}); }
 
 /// The Euclidean length of every vector in z.
 Ball length_range(const Vector6<Ball>& z) {
@@ -27,26 +26,28 @@ struct Row {
   explicit Row(const Vector6<Ball>& y) : f{y[0], y[1], y[2]}, m{y[3], y[4], y[5]} {}
 };
 
-/// Bounds of how far things are from where they are at t = 0, or of their rates: by coordinates.
-struct Moves {
-  std::array<Vector3<Ball>, 6> d, r, Rb;
+using Vectors = std::array<Vector3<Ball>, 6>;
+
+/// What is followed: where it is, how far it has moved from where it was at t = 0, or at what rate; by coordinates.
+struct Followed {
+  Vectors d, r, Rb;
   Vector3<Ball> Rp_m;
   Matrix6<Ball> Y;
-
-  /// Calls visit(ours, a's, b's) for each number.
-  template <class Visit>
-  void with(const Moves& a, const Moves& b, const Visit& visit) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        visit(d[i][c], a.d[i][c], b.d[i][c]);
-        visit(r[i][c], a.r[i][c], b.r[i][c]);
-        visit(Rb[i][c], a.Rb[i][c], b.Rb[i][c]);
-      }
-      for (std::size_t k = 0; k < 6; ++k) visit(Y[i][k], a.Y[i][k], b.Y[i][k]);
-    }
-    for (std::size_t c = 0; c < 3; ++c) visit(Rp_m[c], a.Rp_m[c], b.Rp_m[c]);
-  }
 };
+
+/// Calls visit with each number of all of these.
+template <class Visit, class... All>
+void for_each(const Visit& visit, All&... all) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      visit(all.d[i][c]...);
+      visit(all.r[i][c]...);
+      visit(all.Rb[i][c]...);
+    }
+    for (std::size_t k = 0; k < 6; ++k) visit(all.Y[i][k]...);
+  }
+  for (std::size_t c = 0; c < 3; ++c) visit(all.Rp_m[c]...);
+}
 
 /// Everything that the rates are made of, for every u and every deviation, during one part of the way.
 class Family {
@@ -55,23 +56,21 @@ class Family {
   Family(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled)
       : machine_(machine), length_controlled_(length_controlled), whole_(*machine.deviations) {
     const Matrix3<Ball> R = range(geometry.pose.R);
+    Matrix6<Ball> identity;
     for (std::size_t i = 0; i < 6; ++i) {
-      d_start_[i] = range(geometry.d[i]);
-      r_start_[i] = range(geometry.arm[i]);
-      Rb_start_[i] = multiply(R, machine.platform[i]);
+      identity[i][i] = Ball(1);
+      start_.d[i] = range(geometry.d[i]);
+      start_.r[i] = range(geometry.arm[i]);
+      start_.Rb[i] = multiply(R, machine.platform[i]);
       length_start_[i] = geometry.length[i].range();
       b_size_[i] = length_bound(machine.platform[i]) + whole_.platform[i];
       r_size_[i] = length_bound(machine.arms[i]) + whole_.platform[i] + whole_.load_point;
-      if (length_controlled) {
-        rho_[i] =
-            magnitude((length_start_[i] + whole_.length[i]) * (whole_.length[i] + whole_.base[i] + whole_.platform[i]));
-      }
-      Vector6<Ball> column;
-      for (std::size_t r = 0; r < 6; ++r) column[r] = inverse.approximate()[r][i];
-      const Vector6<MeanValueForm> Y = inverse.times(column);
-      for (std::size_t r = 0; r < 6; ++r) Y_start_[r][i] = Y[r].range();
+      if (!length_controlled) continue;
+      rho_[i] =
+          magnitude((length_start_[i] + whole_.length[i]) * (whole_.length[i] + whole_.base[i] + whole_.platform[i]));
     }
-    Rp_m_start_ = multiply(R, machine.load_point);
+    start_.Rp_m = multiply(R, machine.load_point);
+    start_.Y = map(inverse.times(identity), [](const MeanValueForm& y) { return y.range(); });
     Rp_m_size_ = length_bound(machine.load_point) + whole_.load_point;
   }
 
@@ -83,20 +82,23 @@ class Family {
       arb_set_ui(r, 1);
       arb_mul_2exp_si(r, r, -4 * Ball::bits());
     });
-    const Moves before = moves_;
-    Moves guess = before;
+    const Followed before = moves_;
+    Followed guess = before;
     set(before, until);
     for (int k = 0; k < guesses; ++k) {
-      guess.with(before, rates(), [&](Ball& x, const Ball& from, const Ball& rate) {
-        x = highest(from + growth * share * rate + least);
-      });
+      const Followed rate = rates();
+      const auto further = [&](Ball& x, const Ball& from, const Ball& by) {
+        x = highest(from + growth * share * by + least);
+      };
+      for_each(further, guess, before, rate);
       set(guess, until);
     }
-    moves_.with(before, rates(),
-                [&](Ball& x, const Ball& from, const Ball& rate) { x = highest(from + share * rate); });
-    moves_.with(moves_, guess, [&](const Ball&, const Ball& reached, const Ball& allowed) {
-      if (!certainly_nonnegative(allowed - reached)) throw Undefined("a deviation may lead to a singular pose");
-    });
+    const Followed rate = rates();
+    const auto move = [&](Ball& x, const Ball& by, const Ball& allowed) {
+      x = highest(x + share * by);
+      if (!certainly_nonnegative(allowed - x)) throw Undefined("a deviation may lead to a singular pose");
+    };
+    for_each(move, moves_, rate, guess);
     set_loads(until);
   }
 
@@ -105,7 +107,7 @@ class Family {
     Vectors turned;         // r_i x (h_ri + q_ri)
     Vector6<Ball> overlap;  // z_r . z_i / V_r
     for (std::size_t i = 0; i < 6; ++i) {
-      turned[i] = cross(r_[i], h_[r][i] + q_[r][i]);
+      turned[i] = cross(now_.r[i], h_[r][i] + q_[r][i]);
       for (std::size_t j = 0; j < 6 && i != r; ++j) overlap[i] += z_[r][j] * z_[i][j];
     }
     const Ball V = length_range(z_[r]);
@@ -115,46 +117,38 @@ class Family {
 
   /// A bound of the rate of |d_i|, of a machine that is not length-controlled.
   [[nodiscard]] Ball length_rate(std::size_t i) const {
-    const Ball by_turning = length_bound(cross(Rb_[i], u_[i]));
-    const Ball lever = arf_cmp(arb_midref(by_turning.get()), arb_midref(highest(b_size_[i]).get())) < 0
-                           ? by_turning
-                           : highest(b_size_[i]);
+    const Ball by_turning = length_bound(cross(now_.Rb[i], u_[i]));
+    const Ball lever = smaller(by_turning, highest(b_size_[i]));
     return whole_.position + whole_.angle * lever + whole_.base[i] + whole_.platform[i];
   }
 
  private:
-  using Vectors = std::array<Vector3<Ball>, 6>;
-
   /// What is there up to the part `until` of the way, if all stays within `moves`.
-  void set(const Moves& moves, const Ball& until) {
+  void set(const Followed& moves, const Ball& until) {
+    for_each([](Ball& x, const Ball& start, const Ball& move) { x = plus_minus(start, move); }, now_, start_, moves);
     for (std::size_t i = 0; i < 6; ++i) {
-      d_[i] = widened(d_start_[i], moves.d[i]);
-      r_[i] = widened(r_start_[i], moves.r[i]);
-      Rb_[i] = widened(Rb_start_[i], moves.Rb[i]);
-      for (std::size_t j = 0; j < 6; ++j) Y_[i][j] = plus_minus(Y_start_[i][j], moves.Y[i][j]);
       const Ball change = length_controlled_ ? whole_.length[i] : whole_.base[i] + whole_.platform[i];
       const Ball tracked = whole_.position + whole_.angle * b_size_[i];
       length_[i] = plus_minus(length_start_[i], until * (change + tracked));
       if (!certainly_positive(length_[i])) throw Undefined("a cable may have no length");
-      for (std::size_t c = 0; c < 3; ++c) u_[i][c] = d_[i][c] / length_[i];
+      for (std::size_t c = 0; c < 3; ++c) u_[i][c] = now_.d[i][c] / length_[i];
     }
-    Rp_m_ = widened(Rp_m_start_, moves.Rp_m);
     for (std::size_t i = 0; i < 6; ++i) {
-      const Row y(Y_[i]);
+      const Row y(now_.Y[i]);
       for (std::size_t j = 0; j < 6; ++j) {
-        w_[i][j] = cross(y.m, r_[j]);
+        w_[i][j] = cross(y.m, now_.r[j]);
         h_[i][j] = y.f + w_[i][j];
-        q_[i][j] = cross(d_[j], y.m);
+        q_[i][j] = cross(now_.d[j], y.m);
       }
     }
   }
 
-  /// Rates of all quantities in Moves, over what was set.
-  [[nodiscard]] Moves rates() const {
+  /// Rates of all quantities in Followed, over what was set.
+  [[nodiscard]] Followed rates() const {
     Ball spin;  // of the commanded pose
-    for (std::size_t j = 0; j < 6; ++j) spin += rho_[j] * length_bound(Row(Y_[j]).m);
+    for (std::size_t j = 0; j < 6; ++j) spin += rho_[j] * length_bound(Row(now_.Y[j]).m);
     const Ball turn = whole_.angle * (Ball(1) + spin);
-    Moves rate;
+    Followed rate;
     Matrix6<Ball> YD;  // |y_r . D_i'|
     for (std::size_t i = 0; i < 6; ++i) {
       const Ball Rb_alone = turn * b_size_[i] + whole_.platform[i];
@@ -167,7 +161,7 @@ class Family {
         YD[r][i] = length_bound(h_[r][i]) * d_alone + length_bound(q_[r][i]) * r_alone;
       }
       for (std::size_t j = 0; j < 6 && length_controlled_; ++j) {
-        const Vector3<Ball> sweep = cross(Row(Y_[j]).m, Rb_[i]);
+        const Vector3<Ball> sweep = cross(Row(now_.Y[j]).m, now_.Rb[i]);
         for (std::size_t c = 0; c < 3; ++c) {
           rate.d[i][c] += rho_[j] * magnitude(h_[j][i][c]);
           rate.r[i][c] += rho_[j] * magnitude(w_[j][i][c]);
@@ -179,15 +173,15 @@ class Family {
       }
     }
     rate.Rp_m.fill((turn + spin) * Rp_m_size_ + whole_.load_point);
-    rate.Y = multiply(YD, magnitude(Y_));
+    rate.Y = multiply(YD, map(now_.Y, magnitude));
     return rate;
   }
 
   void set_loads(const Ball& until) {
     Vector6<Ball> wrench;
     for (std::size_t i = 0; i < 6; ++i) wrench[i] = plus_minus(machine_.wrench[i], until * whole_.wrench[i]);
-    x_ = multiply(Y_, wrench);
-    z_ = multiply(Y_, machine_.ellipsoid);
+    x_ = multiply(now_.Y, wrench);
+    z_ = multiply(now_.Y, machine_.ellipsoid);
   }
 
   [[nodiscard]] Ball tension_rate(std::size_t r, const Ball& c, const Vector6<Ball>& overlap,
@@ -197,7 +191,7 @@ class Family {
     const Vector3<Ball> own = (x_[r] + c * overlap[r]) * u_[r];  // phi u_r
 
     Vector3<Ball> P = own;
-    Vector3<Ball> Q = cross(r_[r], own);
+    Vector3<Ball> Q = cross(now_.r[r], own);
     Vector3<Ball> of_load_point;
     for (std::size_t i = 0; i < 6; ++i) {
       P = P - pull[i] * h_[r][i];
@@ -205,9 +199,9 @@ class Family {
       of_load_point = of_load_point + pull[i] * q_[r][i];
     }
     const Ball P_size = length_bound(P);
-    const Ball turn_size = length_bound(Q + cross(Rp_m_, P));
+    const Ball turn_size = length_bound(Q + cross(now_.Rp_m, P));
     Ball of_wrench;
-    for (std::size_t k = 0; k < 6; ++k) of_wrench += Y_[r][k] * whole_.wrench[k];
+    for (std::size_t k = 0; k < 6; ++k) of_wrench += now_.Y[r][k] * whole_.wrench[k];
     Ball rate = whole_.position * P_size + whole_.angle * turn_size + whole_.load_point * length_bound(of_load_point) +
                 magnitude(length_[r] * of_wrench);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -218,12 +212,12 @@ class Family {
         of_platform = of_platform + own;
       }
       if (length_controlled_) {
-        const Row y(Y_[i]);
+        const Row y(now_.Y[i]);
         // The angle turns W, by which Q + R p_m x P is multiplied, and p_m of the commanded pose.
         const Ball turning = whole_.angle * length_bound(y.m) * (turn_size + Rp_m_size_ * P_size);
         const Ball of_rho = plus_minus(dot(P, y.f) + dot(Q, y.m), turning);
-        of_base = of_base + of_rho * d_[i];
-        of_platform = of_platform - of_rho * widened(d_[i], whole_.angle * magnitude(length_[i]));
+        of_base = of_base + of_rho * now_.d[i];
+        of_platform = of_platform - of_rho * widened(now_.d[i], whole_.angle * magnitude(length_[i]));
         rate += whole_.length[i] * magnitude(length_[i]) * magnitude(of_rho);
       }
       rate += whole_.base[i] * length_bound(of_base) + whole_.platform[i] * length_bound(of_platform);
@@ -234,19 +228,16 @@ class Family {
   const Machine& machine_;
   bool length_controlled_;
   const DeviationBounds& whole_;
-  Vectors d_start_, r_start_, Rb_start_;  ///< at t = 0
-  Vector3<Ball> Rp_m_start_;
   Vector6<Ball> length_start_;
-  Matrix6<Ball> Y_start_;
   Vector6<Ball> rho_;              ///< |rho_i| <=
   Vector6<Ball> b_size_, r_size_;  ///< |b_i'|, |b_i' - p_m'| <=
   Ball Rp_m_size_;
-  Moves moves_;  ///< at the end of the part
+  Followed start_;  ///< at t = 0
+  Followed moves_;  ///< at the end of the part
+  Followed now_;
 
-  Vectors d_, r_, u_, Rb_;
-  Vector3<Ball> Rp_m_;
+  Vectors u_;
   Vector6<Ball> length_;
-  Matrix6<Ball> Y_;
   std::array<Vectors, 6> h_, q_, w_;
   Vector6<Ball> x_;
   Matrix6<Ball> z_;  ///< rows z_r

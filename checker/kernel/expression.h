@@ -5,34 +5,14 @@
 #include <gmpxx.h>
 
 #include <span>
-#include <stdexcept>
 #include <vector>
 
-#include "checker/kernel/ball.h"
+#include "checker/kernel/mean_value_form.h"
 
 namespace taut::checker {
 
-enum class Op {
-  kNumber,
-  kPi,
-  kParameter,
-  kAdd,
-  kSubtract,
-  kMultiply,
-  kDivide,
-  kNegate,
-  kPower,
-  kSqrt,
-  kSin,
-  kCos,
-  kTan,
-  kExp,
-  kLog,
-  kAsin,
-  kAcos,
-  kAtan,
-  kAtan2,
-};
+/// kApply applies a Function of one operand.
+enum class Op { kNumber, kPi, kParameter, kAdd, kSubtract, kMultiply, kDivide, kNegate, kPower, kApply, kAtan2 };
 
 /// Operands stand before the operations that use them; the last node is the value of the whole.
 struct Expression {
@@ -41,6 +21,7 @@ struct Expression {
     int n = 0;   ///< index of a number or parameter, or the exponent of kPower
     int a = -1;  ///< index of the first operand
     int b = -1;  ///< index of the second operand
+    Function function = Function::kSqrt;
   };
   std::vector<Node> nodes;
   std::vector<mpq_class> numbers;
@@ -58,31 +39,19 @@ T Expression::evaluate(std::span<const T> parameters) const {
   for (const Node& node : nodes) {
     const auto a = [&]() -> const T& { return values[static_cast<std::size_t>(node.a)]; };
     const auto b = [&]() -> const T& { return values[static_cast<std::size_t>(node.b)]; };
-    const auto value = [&]() -> T {
-      switch (node.op) {
-        case Op::kNumber: return T(Ball(numbers[static_cast<std::size_t>(node.n)]));
-        case Op::kPi: return T(Ball::pi());
-        case Op::kParameter: return parameters[static_cast<std::size_t>(node.n)];
-        case Op::kAdd: return a() + b();
-        case Op::kSubtract: return a() - b();
-        case Op::kMultiply: return a() * b();
-        case Op::kDivide: return a() / b();
-        case Op::kNegate: return -a();
-        case Op::kPower: return power(a(), node.n);
-        case Op::kSqrt: return apply(Function::kSqrt, a());
-        case Op::kSin: return apply(Function::kSin, a());
-        case Op::kCos: return apply(Function::kCos, a());
-        case Op::kTan: return apply(Function::kSin, a()) / apply(Function::kCos, a());
-        case Op::kExp: return apply(Function::kExp, a());
-        case Op::kLog: return apply(Function::kLog, a());
-        case Op::kAsin: return apply(Function::kAsin, a());
-        case Op::kAcos: return apply(Function::kAcos, a());
-        case Op::kAtan: return apply(Function::kAtan, a());
-        case Op::kAtan2: return atan2(a(), b());
-      }
-      throw std::logic_error("an operation without a meaning");
-    };
-    values.push_back(value());
+    switch (node.op) {
+      case Op::kNumber: values.emplace_back(Ball(numbers[static_cast<std::size_t>(node.n)])); break;
+      case Op::kPi: values.emplace_back(Ball::pi()); break;
+      case Op::kParameter: values.push_back(parameters[static_cast<std::size_t>(node.n)]); break;
+      case Op::kAdd: values.push_back(a() + b()); break;
+      case Op::kSubtract: values.push_back(a() - b()); break;
+      case Op::kMultiply: values.push_back(a() * b()); break;
+      case Op::kDivide: values.push_back(a() / b()); break;
+      case Op::kNegate: values.push_back(-a()); break;
+      case Op::kPower: values.push_back(power(a(), node.n)); break;
+      case Op::kApply: values.push_back(apply(node.function, a())); break;
+      case Op::kAtan2: values.push_back(atan2(a(), b())); break;
+    }
   }
   return values.back();
 }

@@ -33,31 +33,12 @@ class ArbMatrix {
   arb_mat_t m_;
 };
 
-template <class Map>
-Matrix6<Ball> map(const Matrix6<Ball>& A, const Map& f) {
-  Matrix6<Ball> result;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) result[i][j] = f(A[i][j]);
-  }
-  return result;
-}
-
 }  // namespace
 
 Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B) {
-  ArbMatrix left(A);
-  ArbMatrix right(B);
-  ArbMatrix result;
+  ArbMatrix left(A), right(B), result;
   arb_mat_mul_classical(result.get(), left.get(), right.get(), Ball::bits());
   return result.balls();
-}
-
-Matrix6<Ball> middle(const Matrix6<Ball>& A) {
-  return map(A, [](const Ball& x) { return middle(x); });
-}
-
-Matrix6<Ball> magnitude(const Matrix6<Ball>& A) {
-  return map(A, [](const Ball& x) { return magnitude(x); });
 }
 
 Ball norm(const Matrix6<Ball>& A) {
@@ -71,10 +52,9 @@ Ball norm(const Matrix6<Ball>& A) {
 }
 
 Matrix6<Ball> approximate_inverse(const Matrix6<Ball>& A) {
-  ArbMatrix matrix(middle(A));
-  ArbMatrix result;
+  ArbMatrix matrix(map(A, middle)), result;
   if (arb_mat_approx_inv(result.get(), matrix.get(), Ball::bits()) == 0) throw Undefined("a matrix that is singular");
-  return middle(result.balls());
+  return map(result.balls(), middle);
 }
 
 Ball determinant(const Matrix6<Ball>& A) {

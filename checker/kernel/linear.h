@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Linear algebra in three and six dimensions, over balls and forms.
+// Linear algebra in three and six dimensions, over balls and mean value forms.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 template <class S, class T>
-T dot(const Vector3<S>& a, const Vector3<T>& b) {
+auto dot(const Vector3<S>& a, const Vector3<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class T>
@@ -41,21 +41,18 @@ template <class S, class T>
 Vector3<T> operator*(const S& a, const Vector3<T>& b) {
   return {a * b[0], a * b[1], a * b[2]};
 }
-template <class T>
-Vector3<T> multiply(const Matrix3<T>& A, const Vector3<T>& x) {
+template <class S, class T>
+Vector3<S> multiply(const Matrix3<S>& A, const Vector3<T>& x) {
   return {dot(A[0], x), dot(A[1], x), dot(A[2], x)};
 }
 template <class T>
-Matrix3<T> multiply(const Matrix3<T>& A, const Matrix3<T>& B) {
-  Matrix3<T> result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) result[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j] + A[i][2] * B[2][j];
-  }
-  return result;
+Matrix3<T> transposed(const Matrix3<T>& A) {
+  return {{{A[0][0], A[1][0], A[2][0]}, {A[0][1], A[1][1], A[2][1]}, {A[0][2], A[1][2], A[2][2]}}};
 }
-/// R b for a matrix of forms and a vector of balls.
-inline Vector3<MeanValueForm> rotate(const Matrix3<MeanValueForm>& R, const Vector3<Ball>& b) {
-  return {dot(b, R[0]), dot(b, R[1]), dot(b, R[2])};
+template <class T>
+Matrix3<T> multiply(const Matrix3<T>& A, const Matrix3<T>& B) {
+  const Matrix3<T> columns = transposed(B);
+  return transposed<T>({multiply(A, columns[0]), multiply(A, columns[1]), multiply(A, columns[2])});
 }
 
 /// A number that is at least the Euclidean length of every vector in a.
@@ -65,6 +62,15 @@ inline Ball length_bound(const Vector3<Ball>& a) {
 inline Vector3<Ball> range(const Vector3<MeanValueForm>& a) { return {a[0].range(), a[1].range(), a[2].range()}; }
 inline Matrix3<Ball> range(const Matrix3<MeanValueForm>& a) { return {range(a[0]), range(a[1]), range(a[2])}; }
 
+/// f of each entry.
+template <class T, class Map>
+Matrix6<Ball> map(const Matrix6<T>& A, const Map& f) {
+  Matrix6<Ball> result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) result[i][j] = f(A[i][j]);
+  }
+  return result;
+}
 template <class T>
 Vector6<T> multiply(const Matrix6<Ball>& A, const Vector6<T>& x) {
   Vector6<T> result;
@@ -76,9 +82,6 @@ Vector6<T> multiply(const Matrix6<Ball>& A, const Vector6<T>& x) {
   return result;
 }
 [[nodiscard]] Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B);
-
-[[nodiscard]] Matrix6<Ball> middle(const Matrix6<Ball>& A);
-[[nodiscard]] Matrix6<Ball> magnitude(const Matrix6<Ball>& A);
 
 /// A bound of the largest row sum of magnitudes.
 [[nodiscard]] Ball norm(const Matrix6<Ball>& A);

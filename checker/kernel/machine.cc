@@ -12,10 +12,10 @@ std::array<Ball, N> balls(const std::array<mpq_class, N>& x) {
 }
 
 /// L = M^-T with E = M M', M lower triangular with a positive diagonal. Such an M exists exactly if E is positive
-/// definite.
+/// definite. M^-1 follows by forward substitution.
 Matrix6<Ball> ellipsoid_factor(const std::array<std::array<mpq_class, 6>, 6>& E) {
   Matrix6<Ball> M;
-  Matrix6<Ball> inverse;  // of M: lower triangular, by forward substitution
+  Matrix6<Ball> L;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       Ball rest(E[i][j]);
@@ -25,54 +25,40 @@ Matrix6<Ball> ellipsoid_factor(const std::array<std::array<mpq_class, 6>, 6>& E)
     }
     for (std::size_t j = 0; j <= i; ++j) {
       Ball rest(i == j ? 1 : 0);
-      for (std::size_t k = j; k < i; ++k) rest -= M[i][k] * inverse[k][j];
-      inverse[i][j] = rest / M[i][i];
+      for (std::size_t k = j; k < i; ++k) rest -= M[i][k] * L[j][k];
+      L[j][i] = rest / M[i][i];
     }
-  }
-  Matrix6<Ball> L;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) L[j][i] = inverse[i][j];
   }
   return L;
 }
 
-DeviationBounds deviation_bounds(const ToleranceBounds& tolerances) {
-  DeviationBounds result;
-  result.base = balls(tolerances.base_anchors);
-  result.platform = balls(tolerances.platform_anchors);
-  if (tolerances.cable_length) result.length = balls(*tolerances.cable_length);
-  result.wrench = balls(tolerances.wrench);
-  result.load_point = Ball(tolerances.load_point);
-  result.position = Ball(tolerances.position);
-  result.angle = magnitude(tolerances.orientation.evaluate<MeanValueForm>({}).range());
-  return result;
+DeviationBounds deviation_bounds(const ToleranceBounds& within) {
+  return {.base = balls(within.base_anchors),
+          .platform = balls(within.platform_anchors),
+          .length = within.cable_length ? balls(*within.cable_length) : Vector6<Ball>(),
+          .load_point = Ball(within.load_point),
+          .wrench = balls(within.wrench),
+          .position = Ball(within.position),
+          .angle = magnitude(within.orientation.evaluate<MeanValueForm>({}).range())};
 }
 
 }  // namespace
 
 Inverse::Inverse(const Matrix6<MeanValueForm>& D) {
-  Matrix6<Ball> at;
-  Matrix6<Ball> slope;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      at[i][j] = D[i][j].at;
-      slope[i][j] = D[i][j].slope;
-    }
-  }
+  const Matrix6<Ball> at = map(D, [](const MeanValueForm& f) { return f.at; });
+  const Matrix6<Ball> slope = map(D, [](const MeanValueForm& f) { return f.slope; });
   C_ = approximate_inverse(at);
   const Matrix6<Ball> CD = multiply(C_, at);
   const Matrix6<Ball> CD_slope = multiply(C_, slope);
   for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      A_[i][j] = {i == j ? CD[i][j] - Ball(1) : CD[i][j], CD_slope[i][j]};
-      N_[i][j] = magnitude(A_[i][j].range());
-    }
+    for (std::size_t j = 0; j < 6; ++j) A_[i][j] = {i == j ? CD[i][j] - Ball(1) : CD[i][j], CD_slope[i][j]};
   }
+  N_ = map(A_, [](const MeanValueForm& f) { return magnitude(f.range()); });
   gap_ = lowest(Ball(1) - norm(N_));
   if (!certainly_positive(gap_)) throw Undefined("the matrix of force densities may be singular");
 }
 
-Vector6<MeanValueForm> Inverse::times(const Vector6<Ball>& y) const {
+Vector6<MeanValueForm> Inverse::times_P(const Vector6<Ball>& y) const {
   Ball largest;
   for (const Ball& x : y) largest = larger(largest, magnitude(x));
   const Ball bound = highest(largest / gap_);
@@ -87,11 +73,20 @@ Vector6<MeanValueForm> Inverse::times(const Vector6<Ball>& y) const {
     Ball at = y[i];
     Ball slope;
     for (std::size_t j = 0; j < 6; ++j) {
-      if (y[j].is_zero()) continue;
       at -= A_[i][j].at * y[j];
       slope -= A_[i][j].slope * y[j];
     }
     result[i] = {plus_minus(at, rest[i]), std::move(slope)};
+  }
+  return result;
+}
+
+Matrix6<MeanValueForm> Inverse::times(const Matrix6<Ball>& B) const {
+  const Matrix6<Ball> CB = multiply(C_, B);
+  Matrix6<MeanValueForm> result;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Vector6<MeanValueForm> column = times_P({CB[0][k], CB[1][k], CB[2][k], CB[3][k], CB[4][k], CB[5][k]});
+    for (std::size_t i = 0; i < 6; ++i) result[i][k] = column[i];
   }
   return result;
 }
@@ -116,14 +111,14 @@ Geometry Machine::geometry(const Frame& pose) const {
   Geometry result;
   result.pose = pose;
   for (std::size_t i = 0; i < 6; ++i) {
-    Vector3<MeanValueForm> d = rotate(pose.R, platform[i]);
+    Vector3<MeanValueForm> d = multiply(pose.R, platform[i]);
     for (std::size_t c = 0; c < 3; ++c) d[c] += pose.p[c] - MeanValueForm(base[i][c]);
     const MeanValueForm squared = squared_norm(d);
     if (!certainly_positive(squared.range())) throw Undefined("a cable may have no length");
     result.length[i] = apply(Function::kSqrt, squared);
     if (!certainly_positive(result.length[i].range())) throw Undefined("a cable may have no length");
     result.d[i] = d;
-    result.arm[i] = rotate(pose.R, arms[i]);
+    result.arm[i] = multiply(pose.R, arms[i]);
     const Vector3<MeanValueForm> moment = cross(result.arm[i], d);
     for (std::size_t c = 0; c < 3; ++c) {
       result.D[c][i] = d[c];
@@ -135,23 +130,14 @@ Geometry Machine::geometry(const Frame& pose) const {
 
 Tensions Machine::tensions(const Inverse& inverse) const {
   Tensions result;
-  result.density = inverse.times(multiply(inverse.approximate(), wrench));
-  const Matrix6<Ball> CL = multiply(inverse.approximate(), ellipsoid);
-  Vector6<MeanValueForm> squared;
-  for (std::size_t k = 0; k < 6; ++k) {
-    Vector6<Ball> column;
-    for (std::size_t i = 0; i < 6; ++i) column[i] = CL[i][k];
-    const Vector6<MeanValueForm> z = inverse.times(column);
-    for (std::size_t i = 0; i < 6; ++i) squared[i] += sqr(z[i]);
+  result.density = inverse.times(wrench);
+  const Matrix6<MeanValueForm> Z = inverse.times(ellipsoid);
+  for (std::size_t i = 0; i < 6; ++i) {
+    MeanValueForm squared;
+    for (const MeanValueForm& z : Z[i]) squared += sqr(z);
+    result.tension_radius[i] = apply(Function::kSqrt, squared);
   }
-  for (std::size_t i = 0; i < 6; ++i) result.tension_radius[i] = apply(Function::kSqrt, squared[i]);
   return result;
-}
-
-Ball Machine::platform_size() const {
-  Ball sum;
-  for (const Vector3<Ball>& b : platform) sum += sqrt(squared_norm(b));
-  return sum / Ball(6);
 }
 
 }  // namespace taut::checker

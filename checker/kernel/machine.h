@@ -42,11 +42,14 @@ class Inverse {
  public:
   /// @throws Undefined unless rho < 1.
   explicit Inverse(const Matrix6<MeanValueForm>& D);
-  [[nodiscard]] const Matrix6<Ball>& approximate() const { return C_; }
-  /// P y, which is D^-1 B for y = C B.
-  [[nodiscard]] Vector6<MeanValueForm> times(const Vector6<Ball>& y) const;
+  /// D^-1 b, and D^-1 B.
+  [[nodiscard]] Vector6<MeanValueForm> times(const Vector6<Ball>& b) const { return times_P(multiply(C_, b)); }
+  [[nodiscard]] Matrix6<MeanValueForm> times(const Matrix6<Ball>& B) const;
 
  private:
+  /// P y
+  [[nodiscard]] Vector6<MeanValueForm> times_P(const Vector6<Ball>& y) const;
+
   Matrix6<Ball> C_;
   Matrix6<MeanValueForm> A_;
   Matrix6<Ball> N_;
@@ -70,8 +73,7 @@ struct DeviationBounds {
 };
 
 /// One problem's numbers at one precision. All functions compute at that working precision, which the caller sets.
-class Machine {
- public:
+struct Machine {
   /// @throws Undefined where E can't be shown to be positive definite at this precision.
   explicit Machine(const Problem& problem);
 
@@ -88,15 +90,6 @@ class Machine {
   /// @throws Undefined where a cable may have no length.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;
   [[nodiscard]] Tensions tensions(const Inverse& inverse) const;
-  /// The mean of |b_i| [m].
-  [[nodiscard]] Ball platform_size() const;
-};
-
-/// Proved lower bounds over a box; each is one number.
-struct Bounds {
-  Ball tension;       ///< of f0_i - v_i - f_lo,i and f_hi,i - f0_i - v_i [N]
-  Ball length;        ///< of d_i - d_lo,i and d_hi,i - d_i [m]
-  Ball wrench_scale;  ///< K may be so many times as large before a tension reaches its limit
 };
 
 }  // namespace taut::checker

@@ -10,12 +10,13 @@
 //     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + y u, by Taylor's
 //             theorem, for F twice differentiable on the range of f.
 // An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the existence
-// of a MeanValueForm also proves that its function is continuous. Where `slope` is 0, at u = 0 alone for instance, F need not be
-// differentiable.
+// of a MeanValueForm also proves that its function is continuous. Where `slope` is exactly 0, f is known as a constant
+// (in `at`); its F(f) is one too, and F need not be differentiable.
 //
 // A Jet holds, for every point of a box of variables, the value of a function and its partial derivatives.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "checker/kernel/ball.h"
@@ -35,12 +36,6 @@ struct MeanValueForm {
   [[nodiscard]] Ball range() const { return is_constant() ? at : plus_minus(at, magnitude(slope)); }
 };
 
-/// Every number in [0, b] or [b, 0], for each b in the ball.
-inline Ball from_zero_to(const Ball& b) {
-  const Ball half = Ball::make([&](arb_ptr r) { arb_mul_2exp_si(r, b.get(), -1); });
-  return plus_minus(half, magnitude(half));
-}
-
 inline MeanValueForm operator+(const MeanValueForm& a, const MeanValueForm& b) {
   return {a.at + b.at, a.slope + b.slope};
 }
@@ -56,6 +51,7 @@ inline MeanValueForm& operator+=(MeanValueForm& a, const MeanValueForm& b) {
 inline MeanValueForm operator*(const Ball& a, const MeanValueForm& b) {
   return {a * b.at, b.is_constant() ? Ball() : a * b.slope};
 }
+inline MeanValueForm operator*(const MeanValueForm& a, const Ball& b) { return b * a; }
 inline MeanValueForm operator*(const MeanValueForm& a, const MeanValueForm& b) {
   if (a.is_constant()) return a.at * b;
   if (b.is_constant()) return b.at * a;
@@ -68,8 +64,7 @@ inline MeanValueForm operator*(const MeanValueForm& a, const MeanValueForm& b) {
 inline MeanValueForm taylor(const MeanValueForm& f, const Ball& value, const Ball& first, const Ball& second) {
   const Ball off = f.at - middle(f.at);
   const Ball largest = magnitude(plus_minus(off, magnitude(f.slope)));
-  const Ball half_square = Ball::make([&](arb_ptr r) { arb_mul_2exp_si(r, sqr(largest).get(), -1); });
-  return {value + first * off + second * from_zero_to(half_square), first * f.slope};
+  return {value + first * off + second * from_zero_to(half(sqr(largest))), first * f.slope};
 }
 inline MeanValueForm apply(Function F, const MeanValueForm& f) {
   if (f.is_constant()) return MeanValueForm(value(F, f.at));
@@ -95,40 +90,27 @@ struct Jet {
 
   Jet() = default;
   explicit Jet(Ball constant) : value(std::move(constant)) {}
+  /// F(a, b), where F is x by a and y by b.
+  Jet(Ball F, const Jet& a, const Ball& x, const Jet& b, const Ball& y) : value(std::move(F)) {
+    for (std::size_t i = 0; i < kVariables; ++i) {
+      if (!a.by[i].is_zero()) by[i].add_product(a.by[i], x);
+      if (!b.by[i].is_zero()) by[i].add_product(b.by[i], y);
+    }
+  }
+  [[nodiscard]] bool is_constant() const { return std::ranges::all_of(by, &Ball::is_zero); }
 };
 
-/// a.by times x plus b.by times y.
-inline std::array<Ball, Jet::kVariables> mixed(const Jet& a, const Ball& x, const Jet& b, const Ball& y) {
-  std::array<Ball, Jet::kVariables> result;
-  for (std::size_t i = 0; i < Jet::kVariables; ++i) {
-    if (!a.by[i].is_zero()) result[i].add_product(a.by[i], x);
-    if (!b.by[i].is_zero()) result[i].add_product(b.by[i], y);
-  }
-  return result;
-}
-inline Jet jet(Ball value, const Jet& a, const Ball& x, const Jet& b, const Ball& y) {
-  Jet result(std::move(value));
-  result.by = mixed(a, x, b, y);
-  return result;
-}
-inline bool is_constant(const Jet& a) {
-  for (const Ball& x : a.by) {
-    if (!x.is_zero()) return false;
-  }
-  return true;
-}
-inline Jet operator+(const Jet& a, const Jet& b) { return jet(a.value + b.value, a, Ball(1), b, Ball(1)); }
-inline Jet operator-(const Jet& a, const Jet& b) { return jet(a.value - b.value, a, Ball(1), b, Ball(-1)); }
+inline Jet operator+(const Jet& a, const Jet& b) { return {a.value + b.value, a, Ball(1), b, Ball(1)}; }
+inline Jet operator-(const Jet& a, const Jet& b) { return {a.value - b.value, a, Ball(1), b, Ball(-1)}; }
 inline Jet operator-(const Jet& a) { return Jet() - a; }
-inline Jet operator*(const Jet& a, const Jet& b) { return jet(a.value * b.value, a, b.value, b, a.value); }
+inline Jet operator*(const Jet& a, const Jet& b) { return {a.value * b.value, a, b.value, b, a.value}; }
 inline Jet apply(Function F, const Jet& a) {
-  if (is_constant(a)) return Jet(value(F, a.value));
-  return jet(value(F, a.value), a, first_derivative(F, a.value), Jet(), Ball());
+  if (a.is_constant()) return Jet(value(F, a.value));
+  return {value(F, a.value), a, first_derivative(F, a.value), Jet(), Ball()};
 }
 inline Jet power(const Jet& a, int n) {
-  if (n == 0) return Jet(Ball(1));
-  if (is_constant(a)) return Jet(power(a.value, n));
-  return jet(power(a.value, n), a, Ball(n) * power(a.value, n - 1), Jet(), Ball());
+  if (n == 0 || a.is_constant()) return Jet(power(a.value, n));
+  return {power(a.value, n), a, Ball(n) * power(a.value, n - 1), Jet(), Ball()};
 }
 
 inline Ball range(const MeanValueForm& f) { return f.range(); }

@@ -34,7 +34,7 @@ Polynomial over(const Polynomial& p, const Box& box) {
 
 /// One number of each control point, mixed, over the box.
 template <class Number>
-Polynomial over(std::span<const Waypoint> controls, const Box& box, const Number& number) {
+Polynomial mixed(std::span<const Waypoint> controls, const Box& box, const Number& number) {
   std::vector<mpq_class> values;
   for (const Waypoint& waypoint : controls) values.emplace_back(number(waypoint));
   return over(mix(values), box);
@@ -50,80 +50,62 @@ MeanValueForm form(const Polynomial& a, const Polynomial& b = {}) {
   return {c[0] + from_zero_to(c[2]), c[1] + from_zero_to(c[3])};  // u^2 is in [0, 1], u^3 = u u^2
 }
 
-struct Curve {
-  std::vector<MeanValueForm> line;                  ///< l, one a parameter
-  std::vector<std::vector<MeanValueForm>> normals;  ///< N, one row a parameter
-};
-
-Curve curve(std::span<const Waypoint> controls, const Box& box, std::size_t constraints) {
-  Curve result;
-  const bool has_half_turns = !controls[0].half_turns.empty();
-  for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
-    const Polynomial x = over(controls, box, [&](const Waypoint& w) { return w.x[j]; });
-    const bool turns = has_half_turns && std::ranges::any_of(controls, [&](const auto& w) { return w.half_turns[j]; });
-    result.line.push_back(turns ? form(x, over(controls, box, [&](const Waypoint& w) { return w.half_turns[j]; }))
-                                : form(x));
-    std::vector<MeanValueForm>& row = result.normals.emplace_back();
-    for (std::size_t i = 0; i < constraints; ++i) {
-      row.push_back(form(over(controls, box, [&](const Waypoint& w) { return w.normals[j * constraints + i]; })));
-    }
-  }
-  return result;
-}
-
-// ---- The motion on constraints ---------------------------------------------------------------------------------------
-
-/// g(y, u) = C(l(u) + N(u) y).
+/// The parameters l(u) + N(u) y, and g(y, u) = C(l(u) + N(u) y).
 class OnConstraints : public Equations {
  public:
-  OnConstraints(const std::vector<Expression>& constraints, const Curve& curve)
-      : constraints_(constraints), curve_(curve) {}
+  OnConstraints(const Problem& problem, const Path& path, std::size_t k, const Box& box)
+      : constraints_(problem.constraints) {
+    const std::span<const Waypoint> controls = path.controls(k);
+    for (std::size_t j = 0; j < controls[0].x.size(); ++j) {
+      line_.push_back(form(mixed(controls, box, [&](const Waypoint& w) { return w.x[j]; }),
+                           mixed(controls, box, [&](const Waypoint& w) { return w.half_turns[j]; })));
+      std::vector<MeanValueForm>& row = normals_.emplace_back();
+      for (std::size_t i = j * unknowns(); i < (j + 1) * unknowns(); ++i) {
+        row.push_back(form(mixed(controls, box, [&](const Waypoint& w) { return w.normals[i]; })));
+      }
+    }
+  }
 
   [[nodiscard]] std::size_t unknowns() const override { return constraints_.size(); }
 
   [[nodiscard]] Vector6<MeanValueForm> residual(const Vector6<MeanValueForm>& y) const override {
     const std::vector<MeanValueForm> at = parameters(y);
     Vector6<MeanValueForm> result;
-    for (std::size_t e = 0; e < constraints_.size(); ++e) result[e] = constraints_[e].evaluate<MeanValueForm>(at);
+    for (std::size_t e = 0; e < unknowns(); ++e) result[e] = constraints_[e].evaluate<MeanValueForm>(at);
     return result;
   }
 
   [[nodiscard]] Matrix6<Ball> jacobian(const Vector6<Ball>& Y) const override {
     std::vector<Jet> at;
-    for (std::size_t j = 0; j < curve_.line.size(); ++j) {
-      Jet& x = at.emplace_back(curve_.line[j].range());
-      for (std::size_t i = 0; i < constraints_.size(); ++i) {
-        x.by[i] = curve_.normals[j][i].range();
+    for (std::size_t j = 0; j < line_.size(); ++j) {
+      Jet& x = at.emplace_back(line_[j].range());
+      for (std::size_t i = 0; i < unknowns(); ++i) {
+        x.by[i] = normals_[j][i].range();
         x.value.add_product(x.by[i], Y[i]);
       }
     }
     Matrix6<Ball> result;
-    for (std::size_t e = 0; e < constraints_.size(); ++e) result[e] = constraints_[e].evaluate<Jet>(at).by;
+    for (std::size_t e = 0; e < unknowns(); ++e) result[e] = constraints_[e].evaluate<Jet>(at).by;
     return result;
   }
 
-  /// l + N y.
   [[nodiscard]] std::vector<MeanValueForm> parameters(const Vector6<MeanValueForm>& y) const {
-    std::vector<MeanValueForm> result = curve_.line;
+    std::vector<MeanValueForm> result = line_;
     for (std::size_t j = 0; j < result.size(); ++j) {
-      for (std::size_t i = 0; i < constraints_.size(); ++i) result[j] += curve_.normals[j][i] * y[i];
+      for (std::size_t i = 0; i < unknowns(); ++i) result[j] += normals_[j][i] * y[i];
     }
     return result;
   }
 
  private:
   const std::vector<Expression>& constraints_;
-  const Curve& curve_;
+  std::vector<MeanValueForm> line_;                  ///< l, one a parameter
+  std::vector<std::vector<MeanValueForm>> normals_;  ///< N, one row a parameter
 };
 
 // ---- Poses -----------------------------------------------------------------------------------------------------------
 
-using Quaternion = std::array<mpq_class, 4>;  ///< x, y, z, w
-
-Quaternion quaternion(std::span<const double> pose) {
-  return {mpq_class(pose[3]), mpq_class(pose[4]), mpq_class(pose[5]), mpq_class(pose[6])};
-}
-
+/// R = Rz(phi) Ry(theta) Rz(sigma - phi).
 Frame frame(const Vector6<MeanValueForm>& pose) {
   const MeanValueForm &phi = pose[3], &theta = pose[4], psi = pose[5] - phi;
   const auto cos = [](const MeanValueForm& x) { return apply(Function::kCos, x); };
@@ -136,41 +118,44 @@ Frame frame(const Vector6<MeanValueForm>& pose) {
             {-(sb * cg), sb * sg, cb}}}};
 }
 
-/// The rotation from q0 at constant rate to q1; s a MeanValueForm of the place in between.
-Matrix3<MeanValueForm> geodesic(const Quaternion& q0, const Quaternion& q1, const MeanValueForm& s) {
-  const mpq_class c = q0[0] * q1[0] + q0[1] * q1[1] + q0[2] * q1[2] + q0[3] * q1[3];
-  if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
-  const Vector3<mpq_class> u = {-q0[0], -q0[1], -q0[2]};
-  const Vector3<mpq_class> u1 = {q1[0], q1[1], q1[2]};
-  const Vector3<mpq_class> u_u1 = cross(u, u1);
-  Vector3<mpq_class> v;  // of conj(q0) q1, turned so that c is positive
-  for (std::size_t i = 0; i < 3; ++i) v[i] = (q0[3] * u1[i] + q1[3] * u[i] + u_u1[i]) * (c < 0 ? -1 : 1);
-  const Matrix3<MeanValueForm> R0 = rotation(
-      {MeanValueForm(Ball(q0[0])), MeanValueForm(Ball(q0[1])), MeanValueForm(Ball(q0[2])), MeanValueForm(Ball(q0[3]))});
-  const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  if (squared == 0) return R0;
+/// From one pose to another: the position on a straight line, the rotation about one axis and at a constant rate.
+Frame geodesic(std::span<const Waypoint> controls, const Box& box) {
+  const auto rational = [](const Waypoint& w, std::size_t i) { return mpq_class(w.x[i]); };
+  const auto vector = [&](const Waypoint& w) {
+    return Vector3<mpq_class>{rational(w, 3), rational(w, 4), rational(w, 5)};
+  };
+  const auto position = [&](std::size_t i) {
+    return form(mixed(controls, box, [i](const Waypoint& w) { return w.x[i]; }));
+  };
+  const auto constant = [](const mpq_class& x) { return MeanValueForm(Ball(x)); };
+  const Vector3<mpq_class> u0 = vector(controls.front()), u1 = vector(controls.back()), u0_u1 = cross(u0, u1);
+  const mpq_class w0 = rational(controls.front(), 6), w1 = rational(controls.back(), 6);
+  Frame result{{position(0), position(1), position(2)},
+               rotation({constant(u0[0]), constant(u0[1]), constant(u0[2]), constant(w0)})};
 
+  // The quaternion (v, c) = conj(q0) q1, turned so that c is positive.
+  const mpq_class c = u0[0] * u1[0] + u0[1] * u1[1] + u0[2] * u1[2] + w0 * w1;
+  if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
+  Vector3<mpq_class> v;
+  for (std::size_t i = 0; i < 3; ++i) v[i] = (w0 * u1[i] - w1 * u0[i] - u0_u1[i]) * (c < 0 ? -1 : 1);
+  const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (squared == 0) return result;
+
+  // I + sin(angle) [n] + (1 - cos(angle)) [n]^2 with the unit vector n along v.
   const Ball size = sqrt(Ball(squared));
-  const MeanValueForm angle = Ball(2) * value(Function::kAtan, size / Ball(mpq_class(abs(c)))) * s;
-  Vector3<Ball> n;
-  for (std::size_t i = 0; i < 3; ++i) n[i] = Ball(v[i]) / size;
+  const Vector3<Ball> n = {Ball(v[0]) / size, Ball(v[1]) / size, Ball(v[2]) / size};
   const Matrix3<Ball> N = {{{Ball(), -n[2], n[1]}, {n[2], Ball(), -n[0]}, {-n[1], n[0], Ball()}}};
   const Matrix3<Ball> NN = multiply(N, N);
+  const MeanValueForm s = form(over({0, 1}, box));
+  const MeanValueForm angle = Ball(2) * value(Function::kAtan, size / Ball(mpq_class(abs(c)))) * s;
   const MeanValueForm sine = apply(Function::kSin, angle);
   const MeanValueForm rest = MeanValueForm(Ball(1)) - apply(Function::kCos, angle);
   Matrix3<MeanValueForm> turn;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j)
-      turn[i][j] = MeanValueForm(Ball(i == j ? 1 : 0)) + N[i][j] * sine + NN[i][j] * rest;
+    for (std::size_t j = 0; j < 3; ++j) turn[i][j] = constant(i == j ? 1 : 0) + N[i][j] * sine + NN[i][j] * rest;
   }
-  return multiply(R0, turn);
-}
-
-Frame geodesic(const Path& path, std::size_t k, const Box& box) {
-  const std::span<const Waypoint> controls = path.controls(k);
-  const std::vector<MeanValueForm> line = curve(controls, box, 0).line;
-  return {{line[0], line[1], line[2]},
-          geodesic(quaternion(controls.front().x), quaternion(controls.back().x), form(over({0, 1}, box)))};
+  result.R = multiply(result.R, turn);
+  return result;
 }
 
 /// R(v, 1) = I + 2 / (1 + |v|^2) ([v] + [v]^2), [v]^2 = v v' - |v|^2 I.
@@ -200,6 +185,7 @@ class ForwardKinematics : public Equations {
 
   [[nodiscard]] std::size_t unknowns() const override { return 6; }
 
+  /// The pose at z.
   [[nodiscard]] Frame pose(const Vector6<MeanValueForm>& z) const {
     const Vector3<MeanValueForm> v = turn_ * Vector3<MeanValueForm>{z[3], z[4], z[5]};
     return {machine_.reference.p + position_ * Vector3<MeanValueForm>{z[0], z[1], z[2]},
@@ -236,66 +222,41 @@ class ForwardKinematics : public Equations {
   }
 
  private:
-  const LengthControlled& machine_;
-  Ball position_;
-  Ball turn_;
+  const LengthControlled machine_;
+  Ball position_;  ///< r_p
+  Ball turn_;      ///< r_u
 };
 
+/// As a path of lengths says, over a box of segment k.
 LengthControlled length_controlled(const Machine& machine, const Path& path, std::size_t k, const Box& box) {
   const std::span<const Waypoint> controls = path.controls(k);
   LengthControlled result;
   for (std::size_t i = 0; i < 6; ++i) {
-    result.lengths[i] = form(over(controls, box, [&](const Waypoint& w) { return w.x[7 + i]; }));
+    result.lengths[i] = form(mixed(controls, box, [&](const Waypoint& w) { return w.x[7 + i]; }));
     for (std::size_t c = 0; c < 3; ++c) {
       result.base[i][c] = MeanValueForm(machine.base[i][c]);
       result.platform[i][c] = MeanValueForm(machine.platform[i][c]);
     }
   }
+  // The reference is a polyline from waypoint to waypoint through the inner poses.
   const std::vector<InnerPose>& inner = path.inner_poses[k];
+  const auto end_pose = [](int s, const Waypoint& waypoint, const PoseTube& tube) {
+    InnerPose pose{s, {}, tube};
+    std::copy_n(waypoint.x.begin(), pose.x.size(), pose.x.begin());
+    return pose;
+  };
   const auto next = std::ranges::upper_bound(inner, box.begin, {}, &InnerPose::s);
-  const bool is_first = next == inner.begin();
-  const bool is_last = next == inner.end();
-  const mpq_class begin = is_first ? mpq_class(0) : std::prev(next)->s;
-  const mpq_class end = is_last ? mpq_class(1) : next->s;
-  if (box.end > end) throw std::logic_error("a box that reaches across an inner pose");
-  const std::span<const double> first = is_first ? std::span<const double>(controls.front().x) : std::prev(next)->x;
-  const std::span<const double> last = is_last ? std::span<const double>(controls.back().x) : next->x;
-  result.reference = reference_line(first, begin, last, end, box);
-  result.tube = is_first ? path.pose_tubes[k] : std::prev(next)->tube;
+  const InnerPose first = next == inner.begin() ? end_pose(0, controls.front(), path.pose_tubes[k]) : *std::prev(next);
+  const InnerPose last = next == inner.end() ? end_pose(1, controls.back(), {}) : *next;
+  if (box.end > last.s) throw std::logic_error("a box that reaches across an inner pose");
+  result.reference = reference_line(first, last, box);
+  result.tube = first.tube;
   return result;
 }
-
-Ball tube_of_constraints(const Path& path, std::size_t k) { return Ball(path.tubes[k]); }
 
 const NearZero& near(const Box& box) {
   if (!box.near) throw std::logic_error("a box without the place of its implied motion");
   return *box.near;
-}
-
-/// At the end of the box where u = `end`.
-void require_near(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
-                  int end) {
-  const std::span<const Waypoint> controls = path.controls(k);
-  // At either end of a straight segment one matters, of a spline's three; the one of a path that stays matters itself.
-  const std::size_t others = controls.size() == 1 ? 0 : 1;
-  const auto stated = controls.subspan(end < 0 ? 0 : others, controls.size() - others);
-  const auto near = path.law == Law::kCubicBSpline ? stated : end < 0 ? stated.first(1) : stated.last(1);
-  std::vector<MeanValueForm> there = parameters(problem, path, k, box);
-  for (MeanValueForm& x : there) x = MeanValueForm(x.at + Ball(end) * x.slope);
-  const Vector6<MeanValueForm> reached = coordinates(problem, there);
-  std::vector<Vector6<MeanValueForm>> asked;
-  for (const Waypoint& waypoint : near) asked.push_back(coordinates(problem, stated_parameters(waypoint)));
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Ball slack = Ball(mpq_class(1, 50)) * (i < 3 ? machine.platform_size() : Ball(1));
-    for (const int side : {-1, 1}) {
-      const auto is_as_far = [&](const Vector6<MeanValueForm>& other) {  // on that side
-        return certainly_nonnegative(slack + Ball(side) * (other[i].range() - reached[i].range()));
-      };
-      if (std::ranges::none_of(asked, is_as_far)) {
-        throw Undefined("the pose on the constraints may not be next to what the path states at a waypoint");
-      }
-    }
-  }
 }
 
 }  // namespace
@@ -313,14 +274,6 @@ Matrix3<MeanValueForm> rotation(const std::array<MeanValueForm, 4>& q) {
     for (MeanValueForm& entry : row) entry = entry * inverse;
   }
   return R;
-}
-
-std::vector<MeanValueForm> stated_parameters(const Waypoint& waypoint) {
-  std::vector<MeanValueForm> result;
-  for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
-    result.emplace_back(Ball(waypoint.x[j]) + Ball(waypoint.half_turns[j]) * Ball::pi());
-  }
-  return result;
 }
 
 void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& parameters) {
@@ -341,30 +294,28 @@ Vector6<MeanValueForm> coordinates(const Problem& problem, const std::vector<Mea
 }
 
 std::vector<MeanValueForm> parameters(const Problem& problem, const Path& path, std::size_t k, const Box& box) {
-  const Curve over_box = curve(path.controls(k), box, problem.constraints.size());
-  if (problem.constraints.empty()) return over_box.line;
-  const OnConstraints equations(problem.constraints, over_box);
-  return equations.parameters(only_zero(equations, tube_of_constraints(path, k), near(box)));
+  const OnConstraints motion(problem, path, k, box);
+  if (motion.unknowns() == 0) return motion.parameters({});
+  return motion.parameters(only_zero(motion, Ball(path.tubes[k]), near(box)));
 }
 
 Frame forward_kinematics(const LengthControlled& machine, const NearZero& near) {
-  const ForwardKinematics equations(machine);
-  return equations.pose(only_zero(equations, Ball(1), near));
+  const ForwardKinematics motion(machine);
+  return motion.pose(only_zero(motion, Ball(1), near));
 }
 
-Frame reference_line(std::span<const double> begin, const mpq_class& s_begin, std::span<const double> end,
-                     const mpq_class& s_end, const Box& box) {
+Frame reference_line(const InnerPose& begin, const InnerPose& end, const Box& box) {
   const auto number = [&](std::size_t j) {
-    const mpq_class first(begin[j]);
-    const mpq_class slope = (mpq_class(end[j]) - first) / (s_end - s_begin);
-    return form(over(Polynomial{first - slope * s_begin, slope}, box));
+    const mpq_class first(begin.x[j]);
+    const mpq_class slope = (mpq_class(end.x[j]) - first) / (end.s - begin.s);
+    return form(over({first - slope * begin.s, slope}, box));
   };
   return {{number(0), number(1), number(2)}, rotation({number(3), number(4), number(5), number(6)})};
 }
 
 Geometry commanded_geometry(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
                             const Box& box, Ranges ranges) {
-  if (path.law == Law::kGeodesic) return machine.geometry(geodesic(path, k, box));
+  if (path.law == Law::kGeodesic) return machine.geometry(geodesic(path.controls(k), box));
   if (path.law == Law::kCableLengths) {
     const LengthControlled controlled = length_controlled(machine, path, k, box);
     Geometry result = machine.geometry(forward_kinematics(controlled, near(box)));
@@ -377,27 +328,14 @@ Geometry commanded_geometry(const Machine& machine, const Problem& problem, cons
   return machine.geometry(frame(coordinates(problem, at)));
 }
 
-void require_near_waypoints(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box) {
-  if (problem.constraints.empty() || has_poses(path.law)) return;
-  if (box.begin == 0) require_near(machine, problem, path, k, box, -1);
-  if (box.end == 1) require_near(machine, problem, path, k, box, 1);
+std::unique_ptr<Equations> motion_equations(const Machine& machine, const Problem& problem, const Path& path,
+                                            std::size_t k, const Box& box) {
+  if (path.law == Law::kCableLengths) return motion_equations(length_controlled(machine, path, k, box));
+  return std::make_unique<OnConstraints>(problem, path, k, box);
 }
 
-void with_equations(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
-                    const std::function<void(const Equations& equations, const Ball& tube)>& use) {
-  if (path.law == Law::kCableLengths) {
-    const LengthControlled controlled = length_controlled(machine, path, k, box);
-    with_equations(controlled, use);
-  } else {
-    const Curve over_box = curve(path.controls(k), box, problem.constraints.size());
-    use(OnConstraints(problem.constraints, over_box), tube_of_constraints(path, k));
-  }
-}
-
-void with_equations(const LengthControlled& machine,
-                    const std::function<void(const Equations& equations, const Ball& tube)>& use) {
-  use(ForwardKinematics(machine), Ball(1));
+std::unique_ptr<Equations> motion_equations(const LengthControlled& machine) {
+  return std::make_unique<ForwardKinematics>(machine);
 }
 
 }  // namespace taut::checker

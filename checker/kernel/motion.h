@@ -10,7 +10,7 @@
 //   poses        by the problem's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi); or of a
 //                geodesic between two poses; or, where lengths L are straight, from forward kinematics:
 //
-// Given a reference pose (p_ref, R_ref), a straight line between two poses, and lengths L > 0, the pose is sought in its tube
+// Given a reference, a straight line between two poses, and lengths L > 0, the pose is sought in the reference's tube
 //     p = p_ref + r_p z_p,   R = R(v, 1) R_ref,   v = r_u z_v,   z = (z_p, z_v) in [-1, 1]^6
 // (R(v, 1) the rotation of the quaternion with vector part v and scalar part 1) as the zero of
 //     g_i(z, u) = (|d_i|^2 - L_i^2) / 2,   d_i = p + R b_i - a_i.
@@ -18,7 +18,7 @@
 //     dg_i/dz_p = r_p d_i,    dg_i/dz_v = r_u 2 / (1 + |v|^2) (x_i + x_i x v)  with x_i = R b_i x d_i = R b_i x (p - a_i).
 #pragma once
 
-#include <functional>
+#include <memory>
 
 #include "checker/kernel/machine.h"
 #include "checker/kernel/zero.h"
@@ -30,9 +30,6 @@ namespace taut::checker {
 [[nodiscard]] std::vector<MeanValueForm> parameters(const Problem& problem, const Path& path, std::size_t k,
                                                     const Box& box);
 
-/// Those of a control point as it is stated, x + pi half_turns.
-[[nodiscard]] std::vector<MeanValueForm> stated_parameters(const Waypoint& waypoint);
-
 /// Whether each parameter of kind range is in its closed range. @throws Undefined where that is not certain.
 void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& parameters);
 
@@ -41,6 +38,9 @@ void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& 
 
 /// Of the quaternion (x, y, z, w), of any length but 0.
 [[nodiscard]] Matrix3<MeanValueForm> rotation(const std::array<MeanValueForm, 4>& q);
+
+/// The straight line between two poses of a polyline, over a box between their abscissae.
+[[nodiscard]] Frame reference_line(const InnerPose& begin, const InnerPose& end, const Box& box);
 
 /// A machine whose cables have given lengths, its anchors and lengths functions of u, near a reference pose.
 struct LengthControlled {
@@ -53,11 +53,6 @@ struct LengthControlled {
 /// The only pose in the tube. @throws Undefined unless there is exactly one for every u, and lengths are positive.
 [[nodiscard]] Frame forward_kinematics(const LengthControlled& machine, const NearZero& near);
 
-/// Reference poses from `begin` to `end` (px, py, pz, qx, qy, qz, qw) as the abscissa goes from s_begin to s_end, over a
-/// box in between.
-[[nodiscard]] Frame reference_line(std::span<const double> begin, const mpq_class& s_begin, std::span<const double> end,
-                                   const mpq_class& s_end, const Box& box);
-
 /// Whether parameters of an implied motion have to be in their ranges. They need not on the way to a witness.
 enum class Ranges { kRequired, kIgnored };
 
@@ -66,18 +61,9 @@ enum class Ranges { kRequired, kIgnored };
 [[nodiscard]] Geometry commanded_geometry(const Machine& machine, const Problem& problem, const Path& path,
                                           std::size_t k, const Box& box, Ranges ranges = Ranges::kRequired);
 
-/// Where the space has constraints and the box begins or ends at a joint of the path: that the pose there, which is on the
-/// constraints, is next to what the path states. Normals and tube are the certificate's own choice, and could lead anywhere.
-/// Each coordinate is between those of the control points that matter there, or hardly beyond ("The query" in
-/// docs/certificate-format.md). @throws Undefined otherwise.
-void require_near_waypoints(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                            const Box& box);
-
 /// The equations of segment k's motion over a box, where it is implied: for whoever looks for a NearZero.
-void with_equations(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
-                    const std::function<void(const Equations& equations, const Ball& tube)>& use);
-
-void with_equations(const LengthControlled& machine,
-                    const std::function<void(const Equations& equations, const Ball& tube)>& use);
+[[nodiscard]] std::unique_ptr<Equations> motion_equations(const Machine& machine, const Problem& problem,
+                                                          const Path& path, std::size_t k, const Box& box);
+[[nodiscard]] std::unique_ptr<Equations> motion_equations(const LengthControlled& machine);
 
 }  // namespace taut::checker

@@ -40,32 +40,17 @@ Problem deviating(Problem problem, const WitnessDeviation& by) {
   return problem;
 }
 
-Frame at_end(const Frame& pose) {  // at u = 1
-  const auto end = [](const MeanValueForm& f) { return MeanValueForm(f.at + f.slope); };
-  Frame result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.p[i] = end(pose.p[i]);
-    for (std::size_t j = 0; j < 3; ++j) result.R[i][j] = end(pose.R[i][j]);
-  }
-  return result;
-}
-
 /// Whether a pose is in the tube around a reference pose. @throws Undefined otherwise.
 void require_in_tube(const Frame& pose, const Frame& reference, const PoseTube& tube) {
   // With R = R(v, 1) R_ref, Q = R R_ref' has Q - Q' = 4 [v] / (1 + |v|^2) and 1 + tr Q = 4 / (1 + |v|^2).
-  Matrix3<MeanValueForm> transposed;
+  const Matrix3<Ball> Q = range(multiply(pose.R, transposed(reference.R)));
+  const Ball trace = Q[0][0] + Q[1][1] + Q[2][2] + Ball(1);
+  if (!certainly_positive(trace))
+    throw Undefined("the commanded pose may be half a turn from where the deviation begins");
+  const Vector3<Ball> v = {Q[2][1] - Q[1][2], Q[0][2] - Q[2][0], Q[1][0] - Q[0][1]};
+  const Vector3<Ball> off = range(pose.p - reference.p);
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) transposed[i][j] = reference.R[j][i];
-  }
-  const Matrix3<MeanValueForm> Q = multiply(pose.R, transposed);
-  const Ball trace = (Q[0][0] + Q[1][1] + Q[2][2]).range() + Ball(1);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Ball off = (pose.p[i] - reference.p[i]).range();
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    const Ball v = (Q[k][j] - Q[j][k]).range() / trace;
-    if (!certainly_positive(trace) || !is_within(off, plus_minus(Ball(tube.position))) ||
-        !is_within(v, plus_minus(Ball(tube.turn)))) {
+    if (!is_within(off[i], plus_minus(Ball(tube.position))) || !is_within(v[i] / trace, plus_minus(Ball(tube.turn)))) {
       throw Undefined("the commanded pose may be outside the tube in which the deviation begins");
     }
   }
@@ -82,30 +67,23 @@ std::pair<const InnerPose&, const InnerPose&> reference_ends(const WitnessDeviat
 Frame deviated_pose(const Machine& machine, const Geometry& stated, const WitnessDeviation& by) {
   if (by.boxes.empty() || by.boxes.back().end != 1) throw Rejected("the deviation's way is not stated to its end");
   const auto& [first, second] = reference_ends(by, by.boxes.front());
-  Box begin;
-  require_in_tube(stated.pose, reference_line(first.x, first.s, second.x, second.s, begin), first.tube);
+  require_in_tube(stated.pose, reference_line(first, second, Box{}), first.tube);  // tau = 0
   Frame pose;
   for (const Box& box : by.boxes) {
     pose = forward_kinematics(growing_deviation(machine, stated, by, box), box.near.value());
   }
-  return at_end(pose);
-}
-
-/// Whether anchors or lengths deviate; else a length-controlled machine stays where it is.
-bool moves_platform(const WitnessDeviation& by) {
-  const auto is_zero = [](const mpq_class& x) { return x == 0; };
-  const auto are_zero = [&](const auto& rows) {
-    return std::ranges::all_of(rows, [&](const auto& row) { return std::ranges::all_of(row, is_zero); });
-  };
-  return !are_zero(by.base_anchors) || !are_zero(by.platform_anchors) ||
-         !std::ranges::all_of(*by.cable_lengths, is_zero);
+  const auto end = [](const MeanValueForm& f) { return MeanValueForm(f.at + f.slope); };  // tau = 1
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose.p[i] = end(pose.p[i]);
+    for (MeanValueForm& x : pose.R[i]) x = end(x);
+  }
+  return pose;
 }
 
 /// The geometry of the machine that the witness is about.
 Geometry deviating_geometry(const Machine& machine, const Machine& deviant, const Geometry& stated,
                             const WitnessDeviation& by) {
-  const bool uses_continuation = by.cable_lengths && moves_platform(by);
-  Frame pose = uses_continuation ? deviated_pose(machine, stated, by) : stated.pose;
+  Frame pose = by.leads_away() ? deviated_pose(machine, stated, by) : stated.pose;
   Vector3<MeanValueForm> u;
   for (std::size_t c = 0; c < 3; ++c) {
     pose.p[c] += MeanValueForm(Ball(by.position[c]));
@@ -149,7 +127,7 @@ LengthControlled growing_deviation(const Machine& machine, const Geometry& state
     }
   }
   const auto& [first, second] = reference_ends(by, box);
-  result.reference = reference_line(first.x, first.s, second.x, second.s, box);
+  result.reference = reference_line(first, second, box);
   result.tube = first.tube;
   return result;
 }
@@ -157,11 +135,7 @@ LengthControlled growing_deviation(const Machine& machine, const Geometry& state
 Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path, const PathPoint& place,
                     const Box& how) {
   const Geometry geometry = commanded_geometry(machine, problem, path, place.segment, at_place(place, how));
-  Matrix6<Ball> D;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) D[i][j] = geometry.D[i][j].at;
-  }
-  return determinant(D);
+  return determinant(map(geometry.D, [](const MeanValueForm& f) { return f.range(); }));
 }
 
 Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {

@@ -167,6 +167,13 @@ struct WitnessDeviation {
   /// a pose.
   std::vector<InnerPose> poses;
   std::vector<Box> boxes;
+
+  /// Whether the commanded pose is left: where lengths are controlled, and anchors or lengths deviate.
+  [[nodiscard]] bool leads_away() const {
+    const WitnessDeviation none;
+    return cable_lengths && (base_anchors != none.base_anchors || platform_anchors != none.platform_anchors ||
+                             *cable_lengths != std::array<mpq_class, kCables>());
+  }
 };
 
 enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };

@@ -9,7 +9,7 @@ Contraction::Contraction(const Equations& equations, const Vector6<Ball>& Y) {
   A = approximate_inverse(G);
   M = multiply(A, G);
   for (std::size_t i = 0; i < 6; ++i) M[i][i] -= Ball(1);
-  M = magnitude(M);
+  M = map(M, magnitude);
   if (!certainly_positive(Ball(1) - norm(M))) throw Undefined("the pose may not be the only one in its tube");
 }
 

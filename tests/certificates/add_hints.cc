@@ -15,7 +15,7 @@
 #include "certificate/elaborate.h"
 #include "checker/format/reader.h"
 #include "checker/format/writer.h"
-#include "checker/kernel/motion.h"
+#include "checker/near_waypoints.h"
 
 namespace taut {
 namespace {
