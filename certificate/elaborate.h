@@ -17,7 +17,7 @@
 
 #include "certify/path_proof.h"
 #include "checker/kernel/box_proof.h"
-#include "checker/kernel/refutation.h"
+#include "checker/witness.h"
 
 namespace taut {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/kernel/statement.h"
+#include "checker/format/witness.h"
 
 namespace taut::checker {
 

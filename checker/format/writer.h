@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checker/kernel/statement.h"
+#include "checker/format/witness.h"
 
 namespace taut::checker {
 

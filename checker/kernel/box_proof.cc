@@ -17,6 +17,8 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
   std::optional<Bounds> result;
   for (std::size_t i = 0; i < kCables; ++i) {
     const MeanValueForm& length = geometry.length[i];
+    // 2 v_i is the difference of the two extremes; so deviations change v_i by no more than half of what they change
+    // these.
     const Ball largest_radius =
         magnitude((length * tensions.tension_radius[i]).range()) + half(loss.tension[i][0] + loss.tension[i][1]);
     for (const std::size_t side : {0, 1}) {

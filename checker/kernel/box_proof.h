@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The theorem of a proved box, from the clauses: motion.h (where the machine is), machine.h (machine, loads, limits) and
-// deviation.h (what tolerances take away).
+// The theorem of a proved box, from the clauses: motion.h (where the machine is), machine.h (machine, loads, limits)
+// and deviation.h (what tolerances take away).
 #pragma once
 
 #include "checker/kernel/machine.h"
@@ -14,8 +14,8 @@ struct Bounds {
   Ball wrench_scale;  ///< K may be so many times as large before a tension reaches its limit
 };
 
-/// Claim. For every s of the box, every machine, load and pose within the tolerances: the pose exists, its parameters are
-/// in their ranges, J is non-singular, and tensions and lengths keep the returned distances from their limits.
+/// Claim. For every s of the box, every machine, load and pose within the tolerances: the pose exists, its parameters
+/// are in their ranges, J is non-singular, and tensions and lengths keep the returned distances from their limits.
 /// @pre the box reaches across no inner pose, and its precision is the working precision of `machine`
 /// @throws Undefined where that is not proved at one go. The bounds may be negative: the caller asks for more.
 [[nodiscard]] Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,

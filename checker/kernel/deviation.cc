@@ -19,7 +19,7 @@ Ball length_range(const Vector6<Ball>& z) {
   return hull(sqrt(lowest(least)), sqrt(most));
 }
 
-/// The first and the last three entries of a row of D^-1.
+/// (f, m): the first and the last three entries of a row of D^-1.
 struct Row {
   Vector3<Ball> f;
   Vector3<Ball> m;
@@ -77,6 +77,7 @@ class Family {
   /// The next part, `share` of the way, at the end of which the part `until` of the way is covered.
   /// @throws Undefined where the guess does not hold.
   void advance(const Ball& share, const Ball& until, int guesses) {
+    // A guess is somewhat more than where the rates over the last guess lead, and more than 0 where these are 0.
     const Ball growth(1.125);
     const Ball least = Ball::make([](arb_ptr r) {
       arb_set_ui(r, 1);
@@ -227,18 +228,19 @@ class Family {
 
   const Machine& machine_;
   bool length_controlled_;
-  const DeviationBounds& whole_;
+  const DeviationBounds& whole_;  ///< at t = 1
   Vector6<Ball> length_start_;
   Vector6<Ball> rho_;              ///< |rho_i| <=
   Vector6<Ball> b_size_, r_size_;  ///< |b_i'|, |b_i' - p_m'| <=
   Ball Rp_m_size_;
   Followed start_;  ///< at t = 0
   Followed moves_;  ///< at the end of the part
-  Followed now_;
 
+  // During the part, as the header names them:
+  Followed now_;
   Vectors u_;
-  Vector6<Ball> length_;
-  std::array<Vectors, 6> h_, q_, w_;
+  Vector6<Ball> length_;              ///< |d_i|
+  std::array<Vectors, 6> h_, q_, w_;  ///< [r][i]
   Vector6<Ball> x_;
   Matrix6<Ball> z_;  ///< rows z_r
 };

@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clause "deviations": by how much tensions and lengths of a machine within the tolerances differ from the stated one's.
+// Clause "deviations": by how much tensions and lengths of a machine within the tolerances differ from the stated
+// one's.
 //
-// Scale a deviation (machine.h) by t from 0 to 1, the rotation along its axis: that is within the tolerances, too. Let f' be
-// the rate of a quantity f along this family. The way from t = 0 to t = 1 is taken in n parts; during part j everything is
-// enclosed for t in [0, j/n], for every u of the box and every deviation, and f changes by no more than |f'| / n.
+// Scale a deviation (machine.h) by t from 0 to 1, the rotation along its axis: that is within the tolerances, too. Let
+// f' be the rate of a quantity f along this family. The way from t = 0 to t = 1 is taken in n parts; during part j
+// everything is enclosed for t in [0, j/n], for every u of the box and every deviation, and f changes by no more than
+// |f'| / n.
 //
 // Let the pose move at the rates p' and W (of rotation, about the axes of W). Then
 //     d_i' = p' + W x R b_i + b_i' - a_i',   r_i' = W x r_i + b_i' - p_m'      (b_i' and p_m' along the axes of W)
 // and with y_r = (f, m) row r of Y = D^-1, column i of D being (d_i ; r_i x d_i),
 //     y_r . D_i' = h_ri . d_i' + q_ri . r_i',   h_ri = f + m x r_i,   q_ri = d_i x m.
 //
-// Where things are.  A length-controlled machine follows its anchors and lengths: |d_i| = L_i + t e_i at the commanded pose.
-// Where only cable j has a rate, D' (v, W) = (rho_j in place j, else 0) for the velocity v of P_m, with
+// Where things are.  A length-controlled machine follows its anchors and lengths: |d_i| = L_i + t e_i at the commanded
+// pose. Where only cable j has a rate, D' (v, W) = (rho_j in place j, else 0) for the velocity v of P_m, with
 //     rho_j = |d_j| e_j' - d_j . (b_j' - a_j'),  so that W = m_j rho_j,  v = f_j rho_j,
-// and B_i moves by h_ji rho_j, the arm r_i by w_ji rho_j, w_ji = m_j x r_i. Tracking errors come on top: they turn W, b_i' and
-// these motions by no more than their angle. So the rates of d_i and r_i are bounded by what Y, d_i and r_i themselves are, and
-// that of Y by Y' = -Y D' Y. Now guess how far all of these come from where they are at t = 0, up to j/n. If, on everything
-// that this guess allows, they move by less than is left of it, they stay within it: as long as they do, D is non-singular,
-// since Y is bounded, and so there is one pose that continues the last (implicit function theorem); and none of them can be
-// the first to leave. So each deviation has its pose, the one to which it leads from the stated machine's. Any guess will do.
+// and B_i moves by h_ji rho_j, the arm r_i by w_ji rho_j, w_ji = m_j x r_i. Tracking errors come on top: they turn W,
+// b_i' and these motions by no more than their angle. So the rates of d_i and r_i are bounded by what Y, d_i and r_i
+// themselves are, and that of Y by Y' = -Y D' Y. Now guess how far all of these come from where they are at t = 0, up
+// to j/n. If, on everything that this guess allows, they move by less than is left of it, they stay within it: as long
+// as they do, D is non-singular, since Y is bounded, and so there is one pose that continues the last (implicit
+// function theorem); and none of them can be the first to leave. So each deviation has its pose, the one to which it
+// leads from the stated machine's. Any guess will do.
 //
-// What tensions do.  From D x = w and D Z = L (machine.h) follow x' = Y w' - Y D' x and Z' = -Y D' Z. For the rows z_r of Z
-// and V_r = |z_r|, the tension with tension_radius F_r = |d_r| (x_r + c V_r), c = -1 or 1, has therefore the rate
+// What tensions do.  From D x = w and D Z = L (machine.h) follow x' = Y w' - Y D' x and Z' = -Y D' Z. For the rows z_r
+// of Z and V_r = |z_r|, the tension with tension_radius F_r = |d_r| (x_r + c V_r), c = -1 or 1, has therefore the rate
 //     F_r' = phi u_r . d_r' + |d_r| (y_r . w' - sum_i kappa_i y_r . D_i'),
 //     kappa_i = x_i + c (z_r . z_i) / V_r,   phi = kappa_r,   u_r = d_r / |d_r|,
-// linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r, where Q_r is the one of
-// a rotation about P_m; a coefficient's length times the tolerance bounds what that deviation does. Where lengths are
-// controlled, rho_j adds to it P_r . f_j + Q_r . m_j, up to what tracking turns.
+// linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r, where Q_r is the
+// one of a rotation about P_m; a coefficient's length times the tolerance bounds what that deviation does. Where
+// lengths are controlled, rho_j adds to it P_r . f_j + Q_r . m_j, up to what tracking turns.
 //
-// The length |d_i| of a cable changes at the rate u_i . d_i', by no more than |p'| + min(|W x R b_i . u_i|, |W||b_i|) + ...
-// Where lengths are controlled, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking then takes it
-// by no more than the distance and the angle times |b_i'|.
+// The length |d_i| of a cable changes at the rate u_i . d_i', by no more than |p'| + min(|W x R b_i . u_i|, |W||b_i|) +
+// ... Where lengths are controlled, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking
+// then takes it by no more than the distance and the angle times |b_i'|.
 #pragma once
 
 #include "checker/kernel/machine.h"

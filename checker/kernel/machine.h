@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Clauses "machine", "loads" and "limits": tensions and lengths at every pose of a box, and how far inside their limits.
+// Clauses "machine", "loads" and "limits": tensions and lengths at every pose of a box, and how far inside their
+// limits.
 //
 // Every quantity is a MeanValueForm in u in [-1, 1], which stands for the place in the box (motion.h).
 //
@@ -13,7 +14,7 @@
 //
 // D^-1 on a whole box.  Let C be any fixed matrix, A(u) = C D(u) - I and |A(u)| <= N entry by entry for every u. If
 // rho = ||N|| < 1 (largest row sum), then C D = I + A is non-singular, hence so is D (Neumann), and with P = (I + A)^-1
-//     D^-1 = P C,     P y = y - A y + A A P y,     |P y|_i <= q_i := |y_i| + sum_j N_ij max_k |y_k| / (1 - rho)      (1)
+//     D^-1 = P C,    P y = y - A y + A A P y,    |P y|_i <= q_i := |y_i| + sum_j N_ij max_k |y_k| / (1 - rho)    (1)
 // for every vector y, so that D^-1 B = P (C B) is known to first order, up to N (N q), for each column y of C B.
 #pragma once
 
@@ -47,10 +48,10 @@ class Inverse {
   [[nodiscard]] Matrix6<MeanValueForm> times(const Matrix6<Ball>& B) const;
 
  private:
-  /// P y
+  /// P y, by (1).
   [[nodiscard]] Vector6<MeanValueForm> times_P(const Vector6<Ball>& y) const;
 
-  Matrix6<Ball> C_;
+  Matrix6<Ball> C_;  ///< close to the inverse of D in the middle of the box
   Matrix6<MeanValueForm> A_;
   Matrix6<Ball> N_;
   Ball gap_;  ///< 1 - rho

@@ -9,9 +9,9 @@
 //     f g     (x + y u)(v + w u) = x v + (x w + y v) u + y w u^2, and u^2 is in [0, 1];
 //     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + y u, by Taylor's
 //             theorem, for F twice differentiable on the range of f.
-// An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the existence
-// of a MeanValueForm also proves that its function is continuous. Where `slope` is exactly 0, f is known as a constant
-// (in `at`); its F(f) is one too, and F need not be differentiable.
+// An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the
+// existence of a MeanValueForm also proves that its function is continuous. Where `slope` is exactly 0, f is known as a
+// constant (in `at`); its F(f) is one too, and F need not be differentiable.
 //
 // A Jet holds, for every point of a box of variables, the value of a function and its partial derivatives.
 #pragma once

@@ -103,7 +103,8 @@ class OnConstraints : public Equations {
   std::vector<std::vector<MeanValueForm>> normals_;  ///< N, one row a parameter
 };
 
-// ---- Poses -----------------------------------------------------------------------------------------------------------
+// ---- Poses
+// -----------------------------------------------------------------------------------------------------------
 
 /// R = Rz(phi) Ry(theta) Rz(sigma - phi).
 Frame frame(const Vector6<MeanValueForm>& pose) {

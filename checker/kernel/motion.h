@@ -3,10 +3,10 @@
 //
 // A box is a part [s0, s1] of a segment, written s = m + r u with u in [-1, 1].
 //
-//   curve        l(s), and the normals N(s), mix the control points by the path's law: polynomials in s, expanded about m
-//                exactly, c0 + c1 u + c2 u^2 + c3 u^3.
-//   parameters   Without constraints they are l. With k constraints C(lambda) = 0 they are l + N y, where y(u) is the only
-//                zero of g(y, u) = C(l(u) + N(u) y) in the tube |y_i| <= t (zero.h).
+//   curve        l(s), and the normals N(s), mix the control points by the path's law: polynomials in s, expanded
+//                about m exactly, c0 + c1 u + c2 u^2 + c3 u^3.
+//   parameters   Without constraints they are l. With k constraints C(lambda) = 0 they are l + N y, where y(u) is the
+//                only zero of g(y, u) = C(l(u) + N(u) y) in the tube |y_i| <= t (zero.h).
 //   poses        by the problem's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi); or of a
 //                geodesic between two poses; or, where lengths L are straight, from forward kinematics:
 //
@@ -14,8 +14,9 @@
 //     p = p_ref + r_p z_p,   R = R(v, 1) R_ref,   v = r_u z_v,   z = (z_p, z_v) in [-1, 1]^6
 // (R(v, 1) the rotation of the quaternion with vector part v and scalar part 1) as the zero of
 //     g_i(z, u) = (|d_i|^2 - L_i^2) / 2,   d_i = p + R b_i - a_i.
-// As L_i > 0, g_i = 0 says |d_i| = L_i. When z moves, v turns the platform at the rate 2 (v' + v x v') / (1 + |v|^2), so
-//     dg_i/dz_p = r_p d_i,    dg_i/dz_v = r_u 2 / (1 + |v|^2) (x_i + x_i x v)  with x_i = R b_i x d_i = R b_i x (p - a_i).
+// As L_i > 0, g_i = 0 says |d_i| = L_i. When z moves, v turns the platform at the rate 2 (v' + v x v') / (1 + |v|^2),
+// so
+//     dg_i/dz_p = r_p d_i,    dg_i/dz_v = r_u 2 / (1 + |v|^2) (x_i + x_i x v),   x_i = R b_i x d_i = R b_i x (p - a_i).
 #pragma once
 
 #include <memory>
@@ -30,7 +31,7 @@ namespace taut::checker {
 [[nodiscard]] std::vector<MeanValueForm> parameters(const Problem& problem, const Path& path, std::size_t k,
                                                     const Box& box);
 
-/// Whether each parameter of kind range is in its closed range. @throws Undefined where that is not certain.
+/// Each parameter of kind range is in its closed range. @throws Undefined where that is not certain.
 void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& parameters);
 
 /// px py pz [m], phi theta sigma [rad], by the problem's expressions.
@@ -56,8 +57,8 @@ struct LengthControlled {
 /// Whether parameters of an implied motion have to be in their ranges. They need not on the way to a witness.
 enum class Ranges { kRequired, kIgnored };
 
-/// The machine as the problem states it, at the pose that is commanded: all of its geometry over a box of segment k that
-/// reaches across no inner pose. @throws Undefined where that is not proved.
+/// The machine as the problem states it, at the pose that is commanded: all of its geometry over a box of segment k
+/// that reaches across no inner pose. @throws Undefined where that is not proved.
 [[nodiscard]] Geometry commanded_geometry(const Machine& machine, const Problem& problem, const Path& path,
                                           std::size_t k, const Box& box, Ranges ranges = Ranges::kRequired);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the kernel is asked about, as exact numbers: a problem, a path through it, boxes of the path, and witnesses.
+// What the kernel is asked about, as exact numbers: a problem, a path through it, boxes of the path, and deviations.
 //
 // These are plain data. format/ fills them from a certificate and vouches for their form (sizes, signs, order); the
 // kernel proves statements about them. docs/certificate-format.md says what each key means.
@@ -123,33 +123,10 @@ struct Box {
   int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
 };
 
-/// Proved lower bounds.
-struct Margins {
-  mpq_class tension;       ///< [N]
-  mpq_class length;        ///< [m]
-  mpq_class wrench_scale;  ///< [1]
-};
-
 /// Whether the lengths of the cables are what a controller commands, not the pose.
 inline bool is_length_controlled(const Problem& problem, const Path& path) {
   return path.law == Law::kCableLengths || (problem.tolerances && problem.tolerances->cable_length);
 }
-
-/// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
-inline bool is_implied(const Problem& problem, const Path& path) {
-  return path.law == Law::kCableLengths || !problem.constraints.empty();
-}
-
-struct PathPoint {
-  std::size_t segment = 0;
-  mpq_class s;
-};
-
-/// A Box of a path's segment, of which only the motion is shown.
-struct MotionBox {
-  std::size_t segment = 0;
-  Box box;
-};
 
 /// A deviation, exactly: what is added to the numbers of the problem and to the commanded pose.
 struct WitnessDeviation {
@@ -174,24 +151,6 @@ struct WitnessDeviation {
     return cable_lengths && (base_anchors != none.base_anchors || platform_anchors != none.platform_anchors ||
                              *cable_lengths != std::array<mpq_class, kCables>());
   }
-};
-
-enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
-
-struct Witness {
-  WitnessKind kind = WitnessKind::kSingular;
-  PathPoint at;
-  Box at_box;             ///< [s, s] and how the pose there is shown
-  PathPoint to;           ///< kSingular only; the others use what follows
-  Box to_box;             ///< likewise
-  std::size_t cable = 0;  ///< 0 to 5
-  mpq_class value_lower;
-  mpq_class value_upper;
-  std::optional<WitnessDeviation> deviation;
-  /// Connects the witness: for kSingular the boxes over which the path is shown to be continuous between `at` and
-  /// `to`; where the motion is implied, for the witness of the certificate, boxes that with the proved ones cover the
-  /// path from its beginning to the witness.
-  std::vector<MotionBox> motion;
 };
 
 }  // namespace taut::checker

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A motion that equations imply: where the zero y(u) of g(y, u) = 0 is, for every u in [-1, 1], and that it is the only one.
+// A motion that equations imply: where the zero y(u) of g(y, u) = 0 is, for every u in [-1, 1], and that it is the only
+// one.
 //
 // Let Y be a box of k unknowns and G enclose the partial derivatives of g by y on all of Y and for all u. By the mean
 // value theorem g(y, u) - g(z, u) = G' (y - z) for some G' in G. Take any matrix A and M = I - A G.
 //
-//   at most one   If ||M|| < 1 (row sums), then A G' = I - M' is non-singular; so two zeros in Y are equal.           (1)
+//   at most one   If ||M|| < 1 (row sums), then A G' = I - M' is non-singular; so two zeros in Y are equal.    (1)
 //   exactly one   Let c(u) be any curve, w >= 0, and Z(u) the box |y_i - c_i(u)| <= w_i, within Y. For each u and each
 //                 y in Z(u), y - A g(y, u) is in
-//                     K(u) = c(u) - A g(c(u), u) + M [-w, w],                                                        (2)
+//                     K(u) = c(u) - A g(c(u), u) + M [-w, w],                                                  (2)
 //                 so where K(u) is within Z(u) this map has a fixed point there (Brouwer), a zero of g as A is
 //                 non-singular, and by (1) the only one in Y.
 //   where         That zero is in K(u); and again, whenever it is known to be within w' of a curve c', in the K of
-//                 these, with G over the range of that box. So its enclosure is narrowed.                             (3)
+//                 these, with G over the range of that box. So its enclosure is narrowed.                      (3)
 //
 // As G' is non-singular and g continuously differentiable, y(u) is continuous (implicit function theorem).
 #pragma once
@@ -35,14 +36,15 @@ class Equations {
   [[nodiscard]] virtual Matrix6<Ball> jacobian(const Vector6<Ball>& Y) const = 0;
 };
 
-/// A, and M for the box Y. @throws Undefined unless ||M|| < 1.
+/// A, close to the inverse of G in its middle, and M for the box Y. @throws Undefined unless ||M|| < 1.
 struct Contraction {
   Contraction(const Equations& equations, const Vector6<Ball>& Y);
   Matrix6<Ball> A;
   Matrix6<Ball> M;  ///< magnitudes
 };
 
-/// The only zero with |y_i| <= tube, for every u. @throws Undefined unless there is exactly one.
+/// The only zero with |y_i| <= tube, for every u; `near` states c, w and how often (3) is applied. @throws Undefined
+/// unless there is exactly one.
 [[nodiscard]] Vector6<MeanValueForm> only_zero(const Equations& equations, const Ball& tube, const NearZero& near);
 
 }  // namespace taut::checker

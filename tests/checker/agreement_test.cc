@@ -48,7 +48,8 @@ TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
   for (const char* folder : {"accepted", "rejected"}) {
     for (const auto& file : checker::certificates(folder)) {
       SCOPED_TRACE(file);
-      // The checker can tell what the prover leaves open: towers of powers times 0, and a zero at the very end of its tube.
+      // The checker can tell what the prover leaves open: towers of powers times 0, and a zero at the very end of its
+      // tube.
       const std::string name = file.stem();
       if (name.starts_with("attack_tower") || name == "implied_zero_at_the_end_of_the_tube") continue;
       const json certificate = json::parse(checker::read_text(file));

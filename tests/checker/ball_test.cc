@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of the checker's numbers, in the way of the tests of IEEE 1788 (ITF1788): a result holds the exact range over the
-// operands, found by MPFR alone to 2100 bits (tests/support/interval_operations.h), and is Undefined wherever some member
-// of the operands is outside of the domain.
+// Laws of the checker's numbers, in the way of the tests of IEEE 1788 (ITF1788): a result holds the exact range over
+// the operands, found by MPFR alone to 2100 bits (tests/support/interval_operations.h), and is Undefined wherever some
+// member of the operands is outside of the domain.
 //
 // TAUT_INTERVAL_CASES=N: random cases an operation (the slow suite).
 #include <gtest/gtest.h>

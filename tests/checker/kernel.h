@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the kernel's tests share: the robots as the kernel reads them, and numbers of 200 bits to hold its balls against,
-// which come from MPFR by other equations than the kernel's (tests/soundness/machine.h).
+// What the kernel's tests share: the robots as the kernel reads them, and numbers of 200 bits to hold its balls
+// against, which come from MPFR by other equations than the kernel's (tests/soundness/machine.h).
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Witnesses: deviations that are too large, values that are wrong, and ways that lead elsewhere are not confirmed.
-#include "checker/kernel/refutation.h"
+#include "checker/witness.h"
 
 #include <gtest/gtest.h>
 
@@ -156,7 +156,7 @@ mpq_class middle_of(const Ball& x) {
   return result;
 }
 
-TEST(Refutation, TheQuantityIsThatOfTheMachineThatDeviates) {
+TEST(Witness, TheQuantityIsThatOfTheMachineThatDeviates) {
   const PrecisionScope oracle(kOracleBits);
   for (const bool length_controlled : {false, true}) {
     for (const int boxes : {1, 2, 5}) {
@@ -188,7 +188,7 @@ TEST(Refutation, TheQuantityIsThatOfTheMachineThatDeviates) {
   }
 }
 
-TEST(Refutation, ADeviationBeyondATolerancesIsRejected) {
+TEST(Witness, ADeviationBeyondATolerancesIsRejected) {
   const PrecisionScope oracle(kOracleBits);
   using By = WitnessDeviation;
   const std::vector<std::pair<const char*, std::function<void(By&)>>> beyond = {
@@ -243,7 +243,7 @@ TEST(Refutation, ADeviationBeyondATolerancesIsRejected) {
   EXPECT_THROW(scene.confirm(), Rejected);
 }
 
-TEST(Refutation, ADeviationJustWithinTheTolerancesIsNotRejected) {
+TEST(Witness, ADeviationJustWithinTheTolerancesIsNotRejected) {
   ReportContext scene(false);
   scene.state(BigFloat(0.0), 1e6);
   scene.witness.deviation->base_anchors[3] = {mpq_class(1, 1000), 0, 0};
@@ -261,7 +261,7 @@ std::array<double, 7> mirrored(std::array<double, 7> x) {
   return x;
 }
 
-TEST(Refutation, AWayThroughAnotherAssemblyIsNotConfirmed) {
+TEST(Witness, AWayThroughAnotherAssemblyIsNotConfirmed) {
   const PrecisionScope oracle(kOracleBits);
   ReportContext scene(true);
   // The anchors stay in their planes, so that the mirrored pose has the lengths of the deviating machine, too.
@@ -300,7 +300,7 @@ TEST(Refutation, AWayThroughAnotherAssemblyIsNotConfirmed) {
   EXPECT_THROW(crossing.confirm(), Undefined);
 }
 
-TEST(Refutation, AWayThatStopsBeforeItsEndIsRejected) {
+TEST(Witness, AWayThatStopsBeforeItsEndIsRejected) {
   ReportContext scene(true);
   scene.state(BigFloat(0.0), 1e6);
   scene.lead(scene.start(), 2);
@@ -311,7 +311,7 @@ TEST(Refutation, AWayThatStopsBeforeItsEndIsRejected) {
   EXPECT_THROW(scene.confirm(), Rejected);
 }
 
-TEST(Refutation, ATubeThatDoesNotHoldTheCommandedPoseIsNotConfirmed) {
+TEST(Witness, ATubeThatDoesNotHoldTheCommandedPoseIsNotConfirmed) {
   ReportContext scene(true);
   scene.state(BigFloat(0.0), 1e6);
   scene.lead(scene.start(), 1);

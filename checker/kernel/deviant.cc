@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "checker/kernel/refutation.h"
+#include "checker/kernel/deviant.h"
 
 #include <algorithm>
 
@@ -80,35 +80,6 @@ Frame deviated_pose(const Machine& machine, const Geometry& stated, const Witnes
   return pose;
 }
 
-/// The geometry of the machine that the witness is about.
-Geometry deviating_geometry(const Machine& machine, const Machine& deviant, const Geometry& stated,
-                            const WitnessDeviation& by) {
-  Frame pose = by.leads_away() ? deviated_pose(machine, stated, by) : stated.pose;
-  Vector3<MeanValueForm> u;
-  for (std::size_t c = 0; c < 3; ++c) {
-    pose.p[c] += MeanValueForm(Ball(by.position[c]));
-    u[c] = MeanValueForm(Ball(by.turn[c]));
-  }
-  pose.R = multiply(rotation({u[0], u[1], u[2], MeanValueForm(Ball(1))}), pose.R);
-  return deviant.geometry(pose);
-}
-
-/// f0 - v, f0 + v, or d of the witness's cable.
-Ball quantity(const Machine& machine, const Geometry& geometry, const Witness& witness) {
-  const MeanValueForm& length = geometry.length[witness.cable];
-  if (witness.kind == WitnessKind::kLengthMin || witness.kind == WitnessKind::kLengthMax) return length.range();
-  const Tensions tensions = machine.tensions(Inverse(geometry.D));
-  const MeanValueForm& tension_radius = tensions.tension_radius[witness.cable];
-  const MeanValueForm& density = tensions.density[witness.cable];
-  return (length * (witness.kind == WitnessKind::kTensionMin ? density - tension_radius : density + tension_radius))
-      .range();
-}
-
-Box at_place(const PathPoint& place, Box how) {
-  how.begin = how.end = place.s;
-  return how;
-}
-
 }  // namespace
 
 LengthControlled growing_deviation(const Machine& machine, const Geometry& stated, const WitnessDeviation& by,
@@ -132,26 +103,16 @@ LengthControlled growing_deviation(const Machine& machine, const Geometry& state
   return result;
 }
 
-Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path, const PathPoint& place,
-                    const Box& how) {
-  const Geometry geometry = commanded_geometry(machine, problem, path, place.segment, at_place(place, how));
-  return determinant(map(geometry.D, [](const MeanValueForm& f) { return f.range(); }));
-}
-
-Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
-  const Geometry stated =
-      commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
-  if (!witness.deviation) return quantity(machine, stated, witness);
-  const Machine deviant(deviating(problem, *witness.deviation));
-  return quantity(deviant, deviating_geometry(machine, deviant, stated, *witness.deviation), witness);
-}
-
-void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
-  const Ball seen = witnessed_quantity(machine, problem, path, witness);
-  for (const Ball& excess : {seen - Ball(witness.value_lower), Ball(witness.value_upper) - seen}) {
-    if (certainly_negative(excess)) throw Rejected("false: the value of the witness");
-    if (!certainly_nonnegative(excess)) throw Undefined("the value of the witness");
+Deviant deviant(const Machine& machine, const Problem& problem, const Geometry& stated, const WitnessDeviation& by) {
+  const Machine other(deviating(problem, by));
+  Frame pose = by.leads_away() ? deviated_pose(machine, stated, by) : stated.pose;
+  Vector3<MeanValueForm> u;
+  for (std::size_t c = 0; c < 3; ++c) {
+    pose.p[c] += MeanValueForm(Ball(by.position[c]));
+    u[c] = MeanValueForm(Ball(by.turn[c]));
   }
+  pose.R = multiply(rotation({u[0], u[1], u[2], MeanValueForm(Ball(1))}), pose.R);
+  return {other, other.geometry(pose)};
 }
 
 }  // namespace taut::checker

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a certificate states of its boxes and witnesses, beyond what the kernel is asked (checker/kernel/statement.h).
+#pragma once
+
+#include "checker/kernel/statement.h"
+
+namespace taut::checker {
+
+/// Proved lower bounds.
+struct Margins {
+  mpq_class tension;       ///< [N]
+  mpq_class length;        ///< [m]
+  mpq_class wrench_scale;  ///< [1]
+};
+
+/// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
+inline bool is_implied(const Problem& problem, const Path& path) {
+  return path.law == Law::kCableLengths || !problem.constraints.empty();
+}
+
+/// A place of the path.
+struct PathPoint {
+  std::size_t segment = 0;
+  mpq_class s;
+};
+
+/// A Box of a path's segment, of which only the motion is shown.
+struct MotionBox {
+  std::size_t segment = 0;
+  Box box;
+};
+
+enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
+
+struct Witness {
+  WitnessKind kind = WitnessKind::kSingular;
+  PathPoint at;
+  Box at_box;             ///< [s, s] and how the pose there is shown
+  PathPoint to;           ///< kSingular only; the others use what follows
+  Box to_box;             ///< likewise
+  std::size_t cable = 0;  ///< 0 to 5
+  mpq_class value_lower;
+  mpq_class value_upper;
+  std::optional<WitnessDeviation> deviation;
+  /// Connects the witness: for kSingular the boxes over which the path is shown to be continuous between `at` and
+  /// `to`; where the motion is implied, for the witness of the certificate, boxes that with the proved ones cover the
+  /// path from its beginning to the witness.
+  std::vector<MotionBox> motion;
+};
+
+}  // namespace taut::checker

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checker/witness.h"
+
+namespace taut::checker {
+namespace {
+
+/// f0 - v, f0 + v, or d of the witness's cable.
+Ball quantity(const Machine& machine, const Geometry& geometry, const Witness& witness) {
+  const MeanValueForm& length = geometry.length[witness.cable];
+  if (witness.kind == WitnessKind::kLengthMin || witness.kind == WitnessKind::kLengthMax) return length.range();
+  const Tensions tensions = machine.tensions(Inverse(geometry.D));
+  const MeanValueForm& tension_radius = tensions.tension_radius[witness.cable];
+  const MeanValueForm& density = tensions.density[witness.cable];
+  return (length * (witness.kind == WitnessKind::kTensionMin ? density - tension_radius : density + tension_radius))
+      .range();
+}
+
+Box at_place(const PathPoint& place, Box how) {
+  how.begin = how.end = place.s;
+  return how;
+}
+
+}  // namespace
+
+Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path, const PathPoint& place,
+                    const Box& how) {
+  const Geometry geometry = commanded_geometry(machine, problem, path, place.segment, at_place(place, how));
+  return determinant(map(geometry.D, [](const MeanValueForm& f) { return f.range(); }));
+}
+
+Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
+  const Geometry stated =
+      commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
+  if (!witness.deviation) return quantity(machine, stated, witness);
+  const Deviant deviates = deviant(machine, problem, stated, *witness.deviation);
+  return quantity(deviates.machine, deviates.geometry, witness);
+}
+
+void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
+  const Ball seen = witnessed_quantity(machine, problem, path, witness);
+  for (const Ball& excess : {seen - Ball(witness.value_lower), Ball(witness.value_upper) - seen}) {
+    if (certainly_negative(excess)) throw Rejected("false: the value of the witness");
+    if (!certainly_nonnegative(excess)) throw Undefined("the value of the witness");
+  }
+}
+
+}  // namespace taut::checker

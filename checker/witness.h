@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a witness claims: a limit broken at one pose of the path, or a sign change of det J between two.
+//
+// A limit kind: at the pose of the path (shown by kernel/motion.h, at one place), for the machine as the problem states
+// it or with the deviation that the witness states (kernel/deviant.h), the named quantity is within `value`, which lies
+// beyond the limit. That the motion of the path leads to this pose is shown by confirm.cc.
+#pragma once
+
+#include "checker/format/witness.h"
+#include "checker/kernel/deviant.h"
+
+namespace taut::checker {
+
+/// det D at a place of the path. @throws Undefined where the pose is not shown.
+[[nodiscard]] Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path,
+                                  const PathPoint& place, const Box& how);
+
+/// f0 - v, f0 + v [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre not kSingular
+/// @throws Rejected where the deviation is not within the tolerances; Undefined where the quantity can't be enclosed.
+[[nodiscard]] Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path,
+                                      const Witness& witness);
+
+/// Confirms that this quantity is within the witness's `value`. @pre `value` lies beyond the limit.
+/// @throws Rejected where it is certainly outside; Undefined where that can't be told.
+void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness);
+
+}  // namespace taut::checker
