@@ -11,7 +11,7 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
   const Inverse inverse(geometry.D);  // J is non-singular on the box
   const Tensions tensions = machine.tensions(inverse);
   MarginLoss loss;
-  if (machine.deviations) {
+  if (machine.tolerances) {
     loss = margin_loss(machine, geometry, inverse, is_length_controlled(problem, path), box.parts, box.guesses);
   }
   std::optional<Bounds> result;

@@ -54,7 +54,8 @@ class Family {
  public:
   /// At t = 0.
   Family(const Machine& machine, const Geometry& geometry, const Inverse& inverse, bool length_controlled)
-      : machine_(machine), length_controlled_(length_controlled), whole_(*machine.deviations) {
+      : machine_(machine), length_controlled_(length_controlled), whole_(*machine.tolerances) {
+    if (whole_.cable_length) e_ = *whole_.cable_length;
     const Matrix3<Ball> R = range(geometry.pose.R);
     Matrix6<Ball> identity;
     for (std::size_t i = 0; i < 6; ++i) {
@@ -63,11 +64,10 @@ class Family {
       start_.r[i] = range(geometry.arm[i]);
       start_.Rb[i] = multiply(R, machine.platform[i]);
       length_start_[i] = geometry.length[i].range();
-      b_size_[i] = length_bound(machine.platform[i]) + whole_.platform[i];
-      r_size_[i] = length_bound(machine.arms[i]) + whole_.platform[i] + whole_.load_point;
+      b_size_[i] = length_bound(machine.platform[i]) + whole_.platform_anchors[i];
+      r_size_[i] = length_bound(machine.arms[i]) + whole_.platform_anchors[i] + whole_.load_point;
       if (!length_controlled) continue;
-      rho_[i] =
-          magnitude((length_start_[i] + whole_.length[i]) * (whole_.length[i] + whole_.base[i] + whole_.platform[i]));
+      rho_[i] = magnitude((length_start_[i] + e_[i]) * (e_[i] + whole_.base_anchors[i] + whole_.platform_anchors[i]));
     }
     start_.Rp_m = multiply(R, machine.load_point);
     start_.Y = map(inverse.times(identity), [](const MeanValueForm& y) { return y.range(); });
@@ -120,7 +120,13 @@ class Family {
   [[nodiscard]] Ball length_rate(std::size_t i) const {
     const Ball by_turning = length_bound(cross(now_.Rb[i], u_[i]));
     const Ball lever = smaller(by_turning, highest(b_size_[i]));
-    return whole_.position + whole_.angle * lever + whole_.base[i] + whole_.platform[i];
+    return whole_.position + whole_.orientation * lever + whole_.base_anchors[i] + whole_.platform_anchors[i];
+  }
+
+  /// A bound of the change of |d_i| where that is L_i + e_i at the commanded pose, whatever leads there. Tracking is
+  /// added to the whole deviation, not part by part.
+  [[nodiscard]] Ball controlled_length_loss(std::size_t i) const {
+    return e_[i] + whole_.position + whole_.orientation * b_size_[i];
   }
 
  private:
@@ -128,8 +134,8 @@ class Family {
   void set(const Followed& moves, const Ball& until) {
     for_each([](Ball& x, const Ball& start, const Ball& move) { x = plus_minus(start, move); }, now_, start_, moves);
     for (std::size_t i = 0; i < 6; ++i) {
-      const Ball change = length_controlled_ ? whole_.length[i] : whole_.base[i] + whole_.platform[i];
-      const Ball tracked = whole_.position + whole_.angle * b_size_[i];
+      const Ball change = length_controlled_ ? e_[i] : whole_.base_anchors[i] + whole_.platform_anchors[i];
+      const Ball tracked = whole_.position + whole_.orientation * b_size_[i];
       length_[i] = plus_minus(length_start_[i], until * (change + tracked));
       if (!certainly_positive(length_[i])) throw Undefined("a cable may have no length");
       for (std::size_t c = 0; c < 3; ++c) u_[i][c] = now_.d[i][c] / length_[i];
@@ -148,13 +154,13 @@ class Family {
   [[nodiscard]] Followed rates() const {
     Ball spin;  // of the commanded pose
     for (std::size_t j = 0; j < 6; ++j) spin += rho_[j] * length_bound(Row(now_.Y[j]).m);
-    const Ball turn = whole_.angle * (Ball(1) + spin);
+    const Ball turn = whole_.orientation * (Ball(1) + spin);
     Followed rate;
     Matrix6<Ball> YD;  // |y_r . D_i'|
     for (std::size_t i = 0; i < 6; ++i) {
-      const Ball Rb_alone = turn * b_size_[i] + whole_.platform[i];
-      const Ball d_alone = Rb_alone + whole_.position + whole_.base[i];
-      const Ball r_alone = turn * r_size_[i] + whole_.platform[i] + whole_.load_point;
+      const Ball Rb_alone = turn * b_size_[i] + whole_.platform_anchors[i];
+      const Ball d_alone = Rb_alone + whole_.position + whole_.base_anchors[i];
+      const Ball r_alone = turn * r_size_[i] + whole_.platform_anchors[i] + whole_.load_point;
       rate.d[i].fill(d_alone);
       rate.r[i].fill(r_alone);
       rate.Rb[i].fill(Rb_alone);
@@ -203,8 +209,8 @@ class Family {
     const Ball turn_size = length_bound(Q + cross(now_.Rp_m, P));
     Ball of_wrench;
     for (std::size_t k = 0; k < 6; ++k) of_wrench += now_.Y[r][k] * whole_.wrench[k];
-    Ball rate = whole_.position * P_size + whole_.angle * turn_size + whole_.load_point * length_bound(of_load_point) +
-                magnitude(length_[r] * of_wrench);
+    Ball rate = whole_.position * P_size + whole_.orientation * turn_size +
+                whole_.load_point * length_bound(of_load_point) + magnitude(length_[r] * of_wrench);
     for (std::size_t i = 0; i < 6; ++i) {
       Vector3<Ball> of_base = pull[i] * h_[r][i];
       Vector3<Ball> of_platform = Ball(-1) * (pull[i] * (h_[r][i] + q_[r][i]));
@@ -215,22 +221,22 @@ class Family {
       if (length_controlled_) {
         const Row y(now_.Y[i]);
         // The angle turns W, by which Q + R p_m x P is multiplied, and p_m of the commanded pose.
-        const Ball turning = whole_.angle * length_bound(y.m) * (turn_size + Rp_m_size_ * P_size);
+        const Ball turning = whole_.orientation * length_bound(y.m) * (turn_size + Rp_m_size_ * P_size);
         const Ball of_rho = plus_minus(dot(P, y.f) + dot(Q, y.m), turning);
         of_base = of_base + of_rho * now_.d[i];
-        of_platform = of_platform - of_rho * widened(now_.d[i], whole_.angle * magnitude(length_[i]));
-        rate += whole_.length[i] * magnitude(length_[i]) * magnitude(of_rho);
+        of_platform = of_platform - of_rho * widened(now_.d[i], whole_.orientation * magnitude(length_[i]));
+        rate += e_[i] * magnitude(length_[i]) * magnitude(of_rho);
       }
-      rate += whole_.base[i] * length_bound(of_base) + whole_.platform[i] * length_bound(of_platform);
+      rate += whole_.base_anchors[i] * length_bound(of_base) + whole_.platform_anchors[i] * length_bound(of_platform);
     }
     return highest(rate);
   }
 
   const Machine& machine_;
   bool length_controlled_;
-  const DeviationBounds& whole_;  ///< at t = 1
+  const Tolerances<Ball, Ball>& whole_;  ///< at t = 1
   Vector6<Ball> length_start_;
-  Vector6<Ball> rho_;              ///< |rho_i| <=
+  Vector6<Ball> e_, rho_;          ///< |e_i|, |rho_i| <=
   Vector6<Ball> b_size_, r_size_;  ///< |b_i'|, |b_i' - p_m'| <=
   Ball Rp_m_size_;
   Followed start_;  ///< at t = 0
@@ -260,13 +266,7 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
       for (std::size_t side = 0; side < 2; ++side) result.tension[i][side] += share * rates[side];
     }
   }
-  if (!length_controlled) return result;
-  // |d_i| = L_i + e_i at the commanded pose, whatever leads to it; tracking is added to that whole, not part by part.
-  const DeviationBounds& whole = *machine.deviations;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Ball reach = length_bound(machine.platform[i]) + whole.platform[i];
-    result.length[i] = whole.length[i] + whole.position + whole.angle * reach;
-  }
+  for (std::size_t i = 0; i < 6 && length_controlled; ++i) result.length[i] = family.controlled_length_loss(i);
   return result;
 }
 

@@ -49,7 +49,7 @@ struct MarginLoss {
 /// @param parts    n above: more are tighter
 /// @param guesses  how often rates are evaluated before each part's guess must hold
 /// @throws Undefined unless every machine within the tolerances has its pose, and D is non-singular there, for every u.
-/// @pre machine.deviations
+/// @pre machine.tolerances
 [[nodiscard]] MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const Inverse& inverse,
                                      bool length_controlled, int parts, int guesses);
 

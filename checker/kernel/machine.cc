@@ -32,14 +32,16 @@ Matrix6<Ball> ellipsoid_factor(const std::array<std::array<mpq_class, 6>, 6>& E)
   return L;
 }
 
-DeviationBounds deviation_bounds(const ToleranceBounds& within) {
-  return {.base = balls(within.base_anchors),
-          .platform = balls(within.platform_anchors),
-          .length = within.cable_length ? balls(*within.cable_length) : Vector6<Ball>(),
-          .load_point = Ball(within.load_point),
-          .wrench = balls(within.wrench),
-          .position = Ball(within.position),
-          .angle = magnitude(within.orientation.evaluate<MeanValueForm>({}).range())};
+Tolerances<Ball, Ball> balls(const ToleranceBounds& exact) {
+  Tolerances<Ball, Ball> result;
+  result.base_anchors = balls(exact.base_anchors);
+  result.platform_anchors = balls(exact.platform_anchors);
+  result.load_point = Ball(exact.load_point);
+  result.wrench = balls(exact.wrench);
+  result.position = Ball(exact.position);
+  result.orientation = magnitude(exact.orientation.evaluate<MeanValueForm>({}).range());
+  if (exact.cable_length) result.cable_length = balls(*exact.cable_length);
+  return result;
 }
 
 }  // namespace
@@ -104,7 +106,7 @@ Machine::Machine(const Problem& problem) {
     tension_limits[i] = {Ball(problem.tension[i].lower), Ball(problem.tension[i].upper)};
     length_limits[i] = {Ball(problem.length[i].lower), Ball(problem.length[i].upper)};
   }
-  if (problem.tolerances) deviations = deviation_bounds(*problem.tolerances);
+  if (problem.tolerances) tolerances = balls(*problem.tolerances);
 }
 
 Geometry Machine::geometry(const Frame& pose) const {

@@ -62,17 +62,6 @@ struct Tensions {
   Vector6<MeanValueForm> tension_radius;  ///< V_i [N/m]
 };
 
-/// Bounds of the deviations that are within the tolerances.
-struct DeviationBounds {
-  Vector6<Ball> base;      ///< |a_i' - a_i| <= [m]
-  Vector6<Ball> platform;  ///< |b_i' - b_i| <= [m]
-  Vector6<Ball> length;    ///< of the lengths, where these are controlled [m]
-  Ball load_point;         ///< |p_m' - p_m| <= [m]
-  Vector6<Ball> wrench;    ///< w0' - w0 = t wrench, |t| <= 1 [N, N m]
-  Ball position;           ///< tracking: |p' - p| <= [m]
-  Ball angle;              ///< tracking: of the rotation from R to R' [rad]
-};
-
 /// One problem's numbers at one precision. All functions compute at that working precision, which the caller sets.
 struct Machine {
   /// @throws Undefined where E can't be shown to be positive definite at this precision.
@@ -86,7 +75,7 @@ struct Machine {
   Matrix6<Ball> ellipsoid;                ///< L: K = { w0 + L z : |z| <= 1 }
   std::array<std::array<Ball, 2>, 6> tension_limits;
   std::array<std::array<Ball, 2>, 6> length_limits;
-  std::optional<DeviationBounds> deviations;
+  std::optional<Tolerances<Ball, Ball>> tolerances;
 
   /// @throws Undefined where a cable may have no length.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;

@@ -33,16 +33,18 @@ struct Parameter {
   Expression upper;  ///< likewise
 };
 
-/// How far a machine may be from what a problem says of it. All but `wrench` are >= 0.
-struct ToleranceBounds {
-  std::array<mpq_class, kCables> base_anchors;                 ///< |a_i' - a_i| <= [m]
-  std::array<mpq_class, kCables> platform_anchors;             ///< |b_i' - b_i| <= [m]
-  mpq_class load_point;                                        ///< |p_m' - p_m| <= [m]
-  std::array<mpq_class, 6> wrench;                             ///< w0' = w0 + t wrench, |t| <= 1 [N, N m]
-  mpq_class position;                                          ///< tracking: |p' - p| <= [m]
-  Expression orientation;                                      ///< tracking: a constant in [0, 1) [rad]
-  std::optional<std::array<mpq_class, kCables>> cable_length;  ///< where the machine is length-controlled [m]
+/// How far a machine may be from what a problem says of it, and a load. All but `wrench` are >= 0.
+template <class Number, class Angle>
+struct Tolerances {
+  std::array<Number, kCables> base_anchors;                 ///< |a_i' - a_i| <= [m]
+  std::array<Number, kCables> platform_anchors;             ///< |b_i' - b_i| <= [m]
+  Number load_point;                                        ///< |p_m' - p_m| <= [m]
+  std::array<Number, 6> wrench;                             ///< w0' = w0 + t wrench, |t| <= 1 [N, N m]
+  Number position;                                          ///< tracking: |p' - p| <= [m]
+  Angle orientation;                                        ///< tracking: of the rotation from R to R', in [0, 1) [rad]
+  std::optional<std::array<Number, kCables>> cable_length;  ///< where the machine is length-controlled [m]
 };
+using ToleranceBounds = Tolerances<mpq_class, Expression>;  ///< the angle is a constant expression
 
 struct Problem {
   std::array<std::array<mpq_class, 3>, kCables> base_anchors;      ///< a_i in W [m]
