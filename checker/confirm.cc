@@ -124,8 +124,7 @@ class Confirmation {
     }
   }
 
-  // ---- Witnesses
-  // -----------------------------------------------------------------------------------------------------
+  // ---- Witnesses -----------------------------------------------------------------------------------------------------
 
   static bool is_before(const PathPoint& a, const PathPoint& b) {
     return a.segment != b.segment ? a.segment < b.segment : a.s < b.s;
@@ -173,9 +172,9 @@ class Confirmation {
 
   static mpq_class abscissa(const PathPoint& place) { return mpq_class(place.segment) + place.s; }
 
-  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of
-  /// them shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one
-  /// that begins in the first tube: where two boxes meet, one tube contains the other, and holds one pose only).
+  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of them
+  /// shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one that
+  /// begins in the first tube: where two boxes meet, one tube contains the other, and holds one pose only).
   void confirm_motion(const Witness& witness, const PathPoint& from, const PathPoint& to, const std::string& name) {
     std::vector<std::pair<mpq_class, mpq_class>> parts;
     for (const MotionBox& part : witness.motion) {
@@ -202,8 +201,7 @@ class Confirmation {
     if (reached < abscissa(to)) throw Rejected(name + ": the path is not shown to lead there from its beginning");
   }
 
-  // ---- The query
-  // -----------------------------------------------------------------------------------------------------
+  // ---- The query -----------------------------------------------------------------------------------------------------
 
   void require_waypoints_in_range() {
     if (has_poses(path_.law)) return;  // the free coordinates have no ranges
@@ -217,8 +215,8 @@ class Confirmation {
     }
   }
 
-  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a
-  /// single waypoint, that one is among them.
+  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a single
+  /// waypoint, that one is among them.
   void require_query() {
     if (problem_.query.empty()) return;  // an audit: the path is what was asked about
     const std::span<const Waypoint> path = path_.waypoints;
