@@ -98,8 +98,8 @@ std::vector<Row> measure(const Subject& subject, int largest) {
 
 std::string markdown(const std::vector<Row>& rows) {
   std::string text =
-      "# Growth of an atlas\n\nMade by `bench/run`; what is measured: the head of "
-      "[bench/atlas_growth.cc](../atlas_growth.cc).\n\n"
+      "# Growth of an atlas\n\nMade by `bench/run`; the head of "
+      "[bench/atlas_growth.cc](../atlas_growth.cc) says what is measured.\n\n"
       "| case | n | charts N | time, ms | µs a chart | ns / (N log2 N) | frames a chart | distances a chart | bytes a "
       "chart "
       "|\n|---|---|---|---|---|---|---|---|---|\n";

@@ -66,17 +66,16 @@ void print_row() {
 void run() {
   fmt::print(
       "# Widths of interval operations\n\n"
-      "Of {} results of points each, in ulps of the exact result: median · 99 % are at most · largest. 1 is best, but "
-      "where the result is exact. Half of "
-      "the points are in\n"
-      "[−8, 8], the others between 1e-6 and 1e6, logarithmically (asin and acos: their reciprocals). Written by\n"
-      "`bench/interval_widths.cc`; that each holds the exact result is tested by "
-      "`tests/certify/interval_laws_test.cc`.\n"
-      "Sine and cosine of `Interval` are 4 ulps of 1 wide within [−8, 8]: near a zero that is many ulps of the result, "
-      "beyond\n"
-      "|x| = 8 an ulp of 2 π is lost each turn.\n\n"
-      "| | `Interval` | its twin, `BoostInterval<double>` | `MpInterval`, 128 bits | 512 bits | the checker's, 128 "
-      "bits | 512 bits |\n"
+      "Widths of {} results each, for single points, in ulps of the exact result: median · 99th percentile · largest.\n"
+      "The best is 0 where the result is exact, and 1 elsewhere. Half of the points are in [−8, 8], the others between "
+      "1e-6\n"
+      "and 1e6, logarithmically (for asin and acos: their reciprocals). Written by `bench/interval_widths.cc`;\n"
+      "`tests/certify/interval_laws_test.cc` tests that each result contains the exact one. The twin of `Interval` is\n"
+      "`BoostInterval<double>`; the numbers after the other names are bits.\n\n"
+      "Sine and cosine of `Interval` are 4 ulps of 1 wide within [−8, 8], which is many ulps of the result near a "
+      "zero.\n"
+      "Beyond |x| = 8, an ulp of 2 π is lost with each turn.\n\n"
+      "| | `Interval` | its twin | `MpInterval`, 128 | 512 | the checker's, 128 | 512 |\n"
       "|---|---|---|---|---|---|---|\n",
       kPoints);
   for_each_operation([]<class Op>() { print_row<Op, Fast, Twin, Mp128, Mp512, Checker<128>, Checker<512>>(); });

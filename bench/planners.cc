@@ -559,15 +559,17 @@ std::string machine() {
 
 std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double load) {
   std::string out = fmt::format(
-      "# taut beside OMPL\n\n{}; load {:.1f} when it began. Medians: taut {} runs, RRTConnect {} seeds, BIT* {} seeds "
-      "of {:.0f} s. Made by `bench/run`; what is measured: [bench/README.md](../README.md).\n\n",
+      "# taut beside OMPL\n\n{}; load {:.1f} at the start.\n"
+      "Medians of {} runs of taut, {} seeds of RRTConnect, and {} seeds of BIT* of {:.0f} s each.\n"
+      "Made by `bench/run`; [bench/README.md](../README.md) says what is measured.\n\n",
       machine(), load, rounds.taut, rounds.rrt, rounds.bit_star, kBitStarSeconds);
 
   out +=
-      "## Time, ms\n\ntaut's columns are the whole call: search, every proof, and shortening where the path is pulled "
-      "taut. RRTConnect's path is not proved.\n\n"
-      "| robot | query | n | RRTConnect | greedy, as found | greedy, taut | A*, as found | A*, taut |"
-      " **greedy, as found ÷ RRTConnect** | A*, taut ÷ RRTConnect |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "## Time, ms\n\n"
+      "taut's columns are the whole call: search, every proof, and shortening where the path is pulled taut.\n"
+      "RRTConnect's path is not proved. \"Found\" is a path as found. The last two columns divide by RRTConnect's time."
+      "\n\n| robot | query | n | RRTConnect | greedy, found | greedy, taut | A*, found | A*, taut |"
+      " **greedy, found, ÷** | A*, ÷ |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     const double rrt = median(row.rrt.wall);
     out +=
@@ -578,10 +580,12 @@ std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double 
   }
 
   out +=
-      "\n## Where the time goes, ms\n\n`rest` is what a call takes besides: making the models and the query's "
-      "binary64.\n\n"
-      "| robot | query | pose sample, µs | RRTConnect's samples | greedy, as found: search + proofs + rest "
-      "| A*, taut: search + shortening + proofs + rest |\n|---|---|---|---|---|---|\n";
+      "\n## Where the time goes, ms\n\n"
+      "Greedy, as found: search + proofs + rest. A*, taut: search + shortening + proofs + rest. The rest is the time "
+      "for"
+      "\nmaking the models and the query's binary64.\n\n"
+      "| robot | query | pose sample, µs | RRTConnect's samples | greedy, as found | A*, taut |\n"
+      "|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     out += fmt::format("| {} | {} | {:.2f} | {:.0f} | {} | {} |\n", row.robot, row.query, row.pose_us,
                        median(row.rrt.evaluations), parts(row.taut[kGreedyAsFound], false),
@@ -589,8 +593,10 @@ std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double 
   }
 
   out +=
-      "\nLengths below are sums over small pieces of the path. \"BIT*, best\" is the shortest that any of its runs "
-      "found, whether it minimised the case's cost or the distance in the parameters.\n";
+      "\nLengths below are sums over small pieces of the path. RRTConnect: median (largest). BIT*: median (how many\n"
+      "runs found a path). \"Best\" is the shortest path that any run of BIT* found, whether it minimised the case's\n"
+      "cost or the distance in the parameters; the columns with ÷ divide by it. \"Found\" is greedy search as found;\n"
+      "greedy and A* are pulled taut. Lengths by cost are in rad turned, or in m on the sphere.\n";
 
   const auto lengths = [&](const std::string& title, bool by_parameters) {
     const std::size_t greedy = by_parameters ? kGreedyByParameters : kGreedyTaut;
@@ -600,17 +606,18 @@ std::string markdown(const std::vector<Row>& rows, const Rounds& rounds, double 
     };
     out += fmt::format(
         "\n## {}\n\n"
-        "| robot | query | {}RRTConnect, median (max) | BIT*, median (found) | BIT*, best | greedy, as found "
-        "| greedy, taut | A*, taut | **A*, taut ÷ BIT*'s best** | greedy, taut ÷ BIT*'s best | A*, taut, ms |\n"
+        "| robot | query | {}RRTConnect | BIT* | best | found | greedy | A* | A*, ÷ | greedy, ÷ | A*, ms |\n"
         "|---|---|{}---|---|---|---|---|---|---|---|---|\n",
         title, by_parameters ? "" : "unit | ", by_parameters ? "" : "---|");
     for (const Row& row : rows) {
       const Measurements& aimed = by_parameters ? row.bit_star : row.bit_star_by_cost;
       const double shortest = std::fmin(best(of(row.bit_star)), best(of(row.bit_star_by_cost)));
       const auto& rrt = of(row.rrt);
-      out += fmt::format("| {} | {} | {}{} ({}) | {} | {} | {} | {} | {} | **{}** | {} | {} |\n", row.robot, row.query,
-                         by_parameters ? "" : fmt::format("{} | ", cost_name(row.cost)), number(median(rrt)),
-                         number(rrt.empty() ? std::nan("") : *std::ranges::max_element(rrt)),
+      out += fmt::format("| {} | {} | {}{} ({}) | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.robot, row.query,
+                         by_parameters                    ? ""
+                         : row.cost == Cost::kGreatCircle ? "m | "
+                                                          : "rad | ",
+                         number(median(rrt)), number(rrt.empty() ? std::nan("") : *std::ranges::max_element(rrt)),
                          fmt::format("{} ({}/{})", number(median(of(aimed))), aimed.wall.size(), aimed.runs),
                          number(shortest), number(median(of(row.taut[kGreedyAsFound]))),
                          number(median(of(row.taut[greedy]))), number(median(of(row.taut[a_star]))),

@@ -197,10 +197,9 @@ Row measure(const std::string& name, const std::string& file, const std::string&
 
 std::string markdown(const std::vector<Row>& rows, std::size_t count, double load) {
   std::string text = fmt::format(
-      "# Queries on a stored atlas\n\n{} new queries a row, at random, with the atlas of all that can be reached and "
-      "without; ms, "
-      "everything included. Load {:.1f} on {} cores when it began. Made by `bench/run`; what is measured: head of "
-      "[stored_atlas.cc](../stored_atlas.cc).\n\n"
+      "# Queries on a stored atlas\n\n{} new random queries for each row, with the atlas of everything that can be "
+      "reached, and without; times in ms,\neverything included. Load {:.1f} on {} cores at the start. Made by "
+      "`bench/run`; the head of\n[stored_atlas.cc](../stored_atlas.cc) says what is measured.\n\n"
       "| case | n | charts | file, MB | made in | variant | with the atlas: median (90 %, worst) | without: median | "
       "proved |\n|---|---|---|---|---|---|---|---|---|\n",
       count, load, std::thread::hardware_concurrency());

@@ -33,7 +33,8 @@ UndecidedWords words(Undecided reason) {
     case Undecided::kNoPathFound: return {"the component of the start was covered by", nullptr};
     case Undecided::kChartBudget: return {"charts is spent", nullptr};
     case Undecided::kTimeBudget: return {" s is spent", nullptr};
-    case Undecided::kOutsideManifold: return {"of the query is outside the manifold in floating point", nullptr};
+    case Undecided::kOutsideManifold:
+      return {"of the query cannot be held within the limits, in floating point", nullptr};
     case Undecided::kKernel: return {"the checker's kernel does not confirm what was found", nullptr};
   }
   return {"", nullptr};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why something stayed undecided: each reason with the words that certificates and messages tell it in, and a short code that stays.
+// Why something stayed undecided: each reason has words, for certificates and messages, and a short code that never
+// changes.
 #pragma once
 
 #include <array>
@@ -32,21 +33,22 @@ enum class Undecided {
 };
 inline constexpr std::size_t kUndecidedReasons = 17;
 
-/// The words for it, which may be followed by a place: "bisection depth reached at". Of a single pose, where others fit better: `at_pose`.
+/// The words for a reason, which may be followed by a place: "bisection depth reached at". `at_pose` has words for a
+/// single pose, or is null.
 struct UndecidedWords {
   const char* words;
   const char* at_pose;
 };
 [[nodiscard]] UndecidedWords words(Undecided reason);
 
-/// Why something stayed undecided, as certificates and messages say it: the words for one of the reasons, with what stands before and
-/// behind them. It can't be made of anything else, so that every reason that is told has a code.
+/// Why something stayed undecided, as certificates and messages say it: the words for one of the reasons, with text
+/// before and after them. It can't be made from anything else, so every stated reason has a code.
 class Reason {
  public:
   Reason() = default;  ///< None: empty.
   Reason(Undecided reason,
          std::string_view behind = {});  // NOLINT(google-explicit-constructor): is one, without a place
-  /// Of a single pose. @pre There are such words.
+  /// The words for a single pose. @pre There are such words.
   [[nodiscard]] static Reason at_pose(Undecided reason);
   [[nodiscard]] Reason preceded_by(std::string_view before) const;
 
@@ -61,10 +63,10 @@ class Reason {
 /// "U3"
 [[nodiscard]] std::string code(Undecided reason);
 
-/// The reason that a text tells, in a message or in a certificate; nothing where it is none of ours.
+/// The reason that the text of a message or certificate states; nothing if it is none of these.
 [[nodiscard]] std::optional<Undecided> undecided_reason(std::string_view text);
 
-/// The text with the code of its reason behind it: "… singular or nearly so [U5]"; without, where it has none.
+/// The text followed by the code of its reason, "… singular or nearly so [U5]"; unchanged if it states none.
 [[nodiscard]] std::string with_code(const std::string& text);
 
 }  // namespace taut

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Proves a certificate again that somebody else made, about a case of ours: check_certificate CERTIFICATE.json CASE.yaml
+// Proves a certificate again that somebody else made about our case: check_certificate CERTIFICATE.json CASE.yaml
 #include <taut/taut.h>
 
 #include <fstream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// taut._taut: the library's interface as Python sees it. What people use is in taut/__init__.py.
+// taut._taut: the library's interface for the Python package. Its public part is taut/__init__.py.
 //
-// Work is done in a thread of its own, with the interpreter released; the calling thread wakes up now and then, calls `progress`
-// and looks for signals, so that Ctrl-C stops the work.
+// Work is done in a thread of its own, with the interpreter released. The calling thread wakes up now and then, calls
+// `progress` and looks for signals, so that Ctrl-C stops the work.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -27,7 +27,7 @@ using IntArray = py::array_t<int, py::array::c_style>;
 
 // --- Running ---------------------------------------------------------------------------------------------------------
 
-/// What the worker tells the caller.
+/// What the worker thread tells the calling thread.
 class Desk {
  public:
   void report(const taut::Progress& progress) {
@@ -39,7 +39,7 @@ class Desk {
     finished_ = true;
     wake_.notify_all();
   }
-  /// Waits a little; whether all is done.
+  /// Waits for at most 50 ms. @returns whether the work is done.
   bool wait() {
     constexpr auto kWhile = std::chrono::milliseconds(50);
     std::unique_lock lock(mutex_);
@@ -57,7 +57,7 @@ class Desk {
   bool finished_ = false;
 };
 
-/// Calls `work(stop, progress)` and returns what it does. @param progress  a callable (stage, done, total), or None
+/// Calls `work(stop, progress)` and returns its result. @param progress  a callable (stage, done, total), or None
 template <class Work>
 auto run(const py::object& progress, const Work& work) {
   using Result = decltype(work(std::stop_token(), taut::ProgressCallback()));
@@ -94,7 +94,7 @@ auto run(const py::object& progress, const Work& work) {
   return *std::move(result);
 }
 
-/// Of work without progress.
+/// The same for work that reports no progress.
 template <class Work>
 auto run(const Work& work) {
   return run(py::none(), [&](const std::stop_token& stop, const taut::ProgressCallback&) { return work(stop); });
@@ -164,7 +164,7 @@ py::array_t<T> array_of(const std::vector<Row>& rows, std::size_t columns) {
   return array;
 }
 
-/// interpolation, waypoints, half turns or None, times
+/// The tuple (interpolation, waypoints, half turns or None, times).
 py::tuple path_tuple(const taut::Path& path) {
   std::vector<std::vector<double>> x;
   std::vector<std::vector<int>> half_turns;
@@ -194,7 +194,7 @@ py::dict witness_dict(const taut::Witness& witness) {
   return dict;
 }
 
-/// verdict, claim, margins, witness, SHA-256; or None
+/// The tuple (verdict, claim, margins, witness, SHA-256), or None.
 py::object theorem_tuple(const std::optional<taut::Theorem>& theorem) {
   if (!theorem) return py::none();
   const auto margins = theorem->margins();

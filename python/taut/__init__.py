@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plans motions of cable-driven hexapods, and proves them.
+"""Plans motions of cable-driven hexapods and proves them.
 
     import taut
 
@@ -11,8 +11,8 @@
 A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that
 was loaded has none until check() has proved it again.
 
-SI and radians everywhere. Certificates are those of the commands `taut plan` and `taut audit`, byte for byte. All work releases the
-interpreter and is stopped by Ctrl-C. docs/library.md has the whole.
+Everything is in SI units and radians. Certificates are the same as those of the commands `taut plan` and `taut audit`,
+byte for byte. All work releases the interpreter and is stopped by Ctrl-C. docs/library.md describes the whole library.
 """
 from __future__ import annotations
 
@@ -28,27 +28,28 @@ from numpy.typing import ArrayLike, NDArray
 from . import _taut
 from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachine
 
-__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path", "Place",
-           "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove",
-           "report"]
+__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path",
+           "Place", "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan",
+           "prove", "report"]
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
-#: Called now and then, in the calling thread, with a stage ("planning" or "auditing"), what is done (charts or segments), and of
-#: how many (0: nobody knows). What it raises ends the work and comes through.
+#: Called at most twenty times a second, in the calling thread, with the stage ("planning" or "auditing"), the number of
+#: charts or segments that are done, and their total (0: unknown). An exception that it raises ends the work and reaches
+#: the caller.
 Progress = Callable[[str, int, int], Any]
 FileName = Union[str, "os.PathLike[str]"]
-#: What the checker may take if nobody says [s]: a check takes about as long as the proof did.
+#: Default time limit of the checker [s].
 CHECK_SECONDS = 300.0
 
 
-# --- Cases and paths ---------------------------------------------------------------------------------------------------
+# --- Cases and paths --------------------------------------------------------------------------------------------------
 
 class Case:
     """A robot, its load, the space of its poses, and maybe a query (docs/case-format.md).
 
-    :param source: the text of a case file (YAML), or a dict of the same form, with NumPy arrays where it has lists
-    :param name: stands for the file in messages
+    :param source: the text of a case file (YAML), or a dict of the same form, which may have NumPy arrays for lists
+    :param name: used instead of a file name in messages
     """
 
     def __init__(self, source: Union[str, Mapping[str, Any]], name: str = "case") -> None:
@@ -73,12 +74,12 @@ class Case:
 
     @property
     def parameters(self) -> list[str]:
-        """Their names, in the order of waypoints."""
+        """The parameters' names, in the order of a waypoint's columns."""
         return self._case.parameters
 
     @property
     def query_waypoints(self) -> int:
-        """How many the query has; 0: there is nothing to plan."""
+        """Number of waypoints of the query; 0: there is nothing to plan."""
         return self._case.query_waypoints
 
     @property
@@ -92,12 +93,14 @@ class Case:
         return self._case.length_limits_m
 
     def summary(self) -> str:
-        """What the case was understood to say, with tensions, lengths and margins at the query's waypoints in floating point: what
-        `taut show` prints. Nothing is proved here."""
+        """How the case was understood, as `taut show` prints it.
+
+        It has tensions, lengths and margins at the query's waypoints, in floating point; nothing is proved here.
+        """
         return self._case.summary()
 
     def summary_data(self) -> dict[str, Any]:
-        """The same in Python's types, in SI."""
+        """The summary as Python types, in SI units."""
         return json.loads(self._case.summary_json())
 
     def drawing_svg(self) -> str:
@@ -105,7 +108,7 @@ class Case:
         return self._case.drawing_svg()
 
     def _repr_svg_(self) -> Optional[str]:
-        """In notebooks."""
+        """How notebooks show a case."""
         return self.drawing_svg() if self.query_waypoints else None
 
     def __repr__(self) -> str:
@@ -114,11 +117,11 @@ class Case:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Path:
-    """Waypoints, bit for bit, and what happens between them: "straight", "spline", "geodesic" or "cable-lengths"."""
+    """Waypoints, bit for bit, and the law between them: "straight", "spline", "geodesic" or "cable-lengths"."""
     interpolation: str
     waypoints: Floats                      #: (n, columns), see prove()
-    half_turns: Optional[NDArray[np.intc]] #: likewise: parameters are waypoints + π half_turns; None under a law of poses
-    times: tuple[str, ...]                 #: decimals [s], or none
+    half_turns: Optional[NDArray[np.intc]] #: (n, columns): parameters are waypoints + π half_turns; None for poses
+    times: tuple[str, ...]                 #: decimals [s]; may be empty
 
     @property
     def parameters(self) -> Floats:
@@ -126,25 +129,25 @@ class Path:
         return self.waypoints if self.half_turns is None else self.waypoints + np.pi * self.half_turns
 
 
-# --- Certificates ------------------------------------------------------------------------------------------------------
+# --- Certificates -----------------------------------------------------------------------------------------------------
 
 @dataclasses.dataclass(frozen=True)
 class Margins:
     """Proved lower bounds, rounded down."""
-    tension_N: float     #: every tension stays so far inside its limits, for every wrench
-    length_m: float      #: and every length
+    tension_N: float     #: every tension stays at least this far inside its limits, for every wrench
+    length_m: float      #: every length stays at least this far inside its limits
     wrench_scale: float  #: the ellipsoid of wrenches could be larger by this factor
 
 
 @dataclasses.dataclass(frozen=True)
 class Place:
-    """The point s of a segment, or a waypoint."""
+    """A point of a path: a waypoint, or the point s of a segment."""
     index: int
     s: Optional[float]  #: from 0 to 1; None: a waypoint
 
     @property
     def position(self) -> float:
-        """index + s: where on the axis of Samples.position."""
+        """index + s, comparable with Samples.position."""
         return self.index + (self.s or 0.0)
 
 
@@ -153,7 +156,7 @@ class Witness:
     """A proved violation."""
     kind: str                              #: "tension_min", "tension_max", "length_min", "length_max" or "singular"
     at: Place
-    to: Optional[Place]                    #: singular: somewhere from `at` to here; the next three are None then
+    to: Optional[Place]                    #: of "singular", which is between `at` and `to`; the next three are None
     cable: Optional[int]                   #: 1 to 6
     value: Optional[tuple[float, float]]   #: the tension [N] or length [m] lies between these two
     limit: Optional[float]
@@ -173,17 +176,17 @@ class Theorem:
 @dataclasses.dataclass(frozen=True)
 class Stretch:
     """A stretch of an audited path that is not proved."""
-    begin: Place                                     #: outside of these two a refuted path is proved
+    begin: Place                                     #: a refuted path is proved outside of its stretches
     end: Place
-    violations: Optional[tuple[Witness, Witness]]    #: the first and the last proved one
-    reason: str                                      #: why it is open; empty where there are violations
-    reason_code: str                                 #: "U5": `taut explain` has more about it; may be empty
+    violations: Optional[tuple[Witness, Witness]]    #: the first and the last proved violation; None: it is open
+    reason: str                                      #: why it is open; empty if there are violations
+    reason_code: str                                 #: "U5": `taut explain` explains it; may be empty
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Samples:
-    """Poses of a path in floating point. For plots: nothing here is proved."""
-    position: Floats         #: (n,) k + s: the point s of segment k
+    """Poses of a path in floating point, for plots. Nothing here is proved."""
+    position: Floats         #: (n,): k + s is the point s of segment k
     p_m: Floats              #: (n, 3)
     quaternion: Floats       #: (n, 4): x, y, z, w
     tension_lower_N: Floats  #: (n, 6) over all wrenches of the ellipsoid; NaN where the pose is singular
@@ -192,10 +195,10 @@ class Samples:
 
 
 class Certificate:
-    """A claim with all that is needed to prove it again (docs/certificate-format.md).
+    """A claim with everything that is needed to prove it again (docs/certificate-format.md).
 
-    One that was loaded or parsed is one whose digest fits, no more: unless it claims nothing it is unchecked, and
-    whether it is true is check()'s to say.
+    Loading or parsing a certificate only verifies its digest. The certificate is then unchecked, unless it claims
+    nothing; check() says whether its claim is true.
     """
 
     def __init__(self, text: Union[str, bytes], name: str = "certificate") -> None:
@@ -209,31 +212,31 @@ class Certificate:
 
     @classmethod
     def load(cls, file: FileName) -> Certificate:
-        """Reads certificate.json. Raises InputError where it is none, or was cut or altered."""
+        """Reads certificate.json. Raises InputError if the file is not a certificate, or was cut or altered."""
         return cls._of(_taut.Certificate.load(os.fspath(file)))
 
     def save(self, file: FileName) -> None:
-        """Writes the file as a whole, or not at all."""
+        """Writes the whole file or, if that fails, nothing."""
         self._certificate.save(os.fspath(file))
 
     @property
     def text(self) -> str:
-        """What a file of it holds, byte for byte: JSON."""
+        """The content of a file with this certificate, byte for byte: JSON."""
         return self._certificate.text
 
     @property
     def data(self) -> dict[str, Any]:
-        """The same as Python's types."""
+        """The certificate as Python types."""
         return json.loads(self.text)
 
     @property
     def theorem(self) -> Optional[Theorem]:
-        """What the checker made of this text for plan(), prove() or audit(); None of a certificate that was loaded."""
+        """What the checker proved when plan(), prove() or audit() made this text; None for a loaded certificate."""
         return _theorem(self._certificate.theorem)
 
     @property
     def verdict(self) -> str:
-        """The theorem's, "proved" or "refuted"; without one "undecided", which is not unsafe, or "unchecked"."""
+        """The theorem's verdict, "proved" or "refuted"; without a theorem "undecided" (not unsafe) or "unchecked"."""
         return self._certificate.verdict
 
     @property
@@ -246,18 +249,18 @@ class Certificate:
 
     @property
     def stretches(self) -> list[Stretch]:
-        """Of an audit that is not proved; none of an unchecked one."""
+        """Stretches of an audited path that are not proved; empty if the certificate is unchecked."""
         return [Stretch(Place(*begin), Place(*end), violations and tuple(map(_witness, violations)), reason, code)
                 for begin, end, violations, reason, code in self._certificate.stretches]
 
     @property
     def reason(self) -> str:
-        """Only if undecided."""
+        """Why the certificate is undecided; empty otherwise."""
         return self._certificate.reason
 
     @property
     def reason_code(self) -> str:
-        """"U5": `taut explain` has more about it; may be empty."""
+        """The code of the reason, such as "U5", which `taut explain` explains; may be empty."""
         return self._certificate.reason_code
 
     @property
@@ -267,7 +270,7 @@ class Certificate:
 
     @property
     def path_csv(self) -> str:
-        """As `taut plan` writes it: for the machine that is to follow it."""
+        """The path as `taut plan` writes it, for the machine that will follow it."""
         return self._certificate.path_csv
 
     @property
@@ -276,11 +279,11 @@ class Certificate:
 
     @property
     def boxes(self) -> int:
-        """Pieces of the proof."""
+        """Number of boxes of the proof."""
         return self._certificate.boxes
 
     def samples(self, about: int = 200) -> Samples:
-        """About so many poses along the path, in order, with both ends."""
+        """About this many poses along the path, in order, including both ends."""
         return Samples(**self._certificate.samples(about))
 
     def __reduce__(self):
@@ -290,19 +293,19 @@ class Certificate:
         return f"<taut.Certificate {self.verdict}, of {self.case_name!r}, {self.segments} segments>"
 
 
-# --- What taut does ----------------------------------------------------------------------------------------------------
+# --- What taut does ---------------------------------------------------------------------------------------------------
 
 def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
          save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
          max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
     """Plans through the case's query and proves the path: `taut plan`.
 
-    :param budget_seconds: for planning and proving; 0: the case's own
-    :param atlas: begin with the charts of this file (docs/atlas-file.md)
-    :param save_atlas: write all charts into this file
+    :param budget_seconds: time limit for planning and proving; 0: the case's own
+    :param atlas: file with charts to begin with (docs/atlas-file.md)
+    :param save_atlas: file into which all charts are written
     :param grow: make all charts that can be reached before they are saved
     :param signing_key: PEM of an Ed25519 private key that signs the certificate
-    :param max_check_seconds: that the checker may take before the certificate is unchecked
+    :param max_check_seconds: time limit of the checker, after which the certificate is unchecked
     """
     return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key,
                                       max_check_seconds, progress))
@@ -311,17 +314,18 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
 def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,
           half_turns: Optional[ArrayLike] = None, times: Sequence[Union[float, str]] = (), max_bits: int = 4096,
           signing_key: str = "", max_check_seconds: float = CHECK_SECONDS) -> Certificate:
-    """Proves a path of yours, bit for bit. One that is not proved is refuted at the first violation found, or undecided at the first
-    piece that is: audit() tells of all.
+    """Proves a path of yours, bit for bit.
+
+    Stops at the first violation found, or at the first piece that is undecided; audit() reports all of them.
 
     :param waypoints: a Path, or (n, columns); the columns are
-        "straight" (the default)  the case's parameters: they go from value to value at constant rates
-        "spline"         the same, as control points of a cubic B-spline
-        "geodesic"       px, py, pz [m], qx, qy, qz, qw: straight, and about one axis
-        "cable-lengths"  these, and l1 … l6 [m]: the pose tells which of those that have the lengths is meant; a rough one is
-                         refined
-    :param half_turns: (n, columns): parameters are waypoints + π half_turns, exactly; of periodic ones only
-    :param times: [s], ascending; no part of any claim
+        "straight" (the default)  the case's parameters, which go from value to value at constant rates
+        "spline"         the case's parameters, as control points of a cubic B-spline
+        "geodesic"       px, py, pz [m], qx, qy, qz, qw: the origin moves straight, the platform turns about one axis
+        "cable-lengths"  the same, and l1 … l6 [m]; several poses may have these lengths, and the given pose, which is
+                         refined, selects one
+    :param half_turns: (n, columns): parameters are exactly waypoints + π half_turns; only for periodic parameters
+    :param times: [s], ascending; not part of any claim
     """
     if isinstance(waypoints, Path):
         if interpolation is not None or half_turns is not None or len(times) > 0:
@@ -343,14 +347,14 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
           columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None, allow_repeats: bool = False,
           max_bits: int = 4096, signing_key: str = "", name: str = "table",
           max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
-    """Proves a path, or says of every stretch that is not proved where it is and why: `taut audit`.
+    """Proves a path, or lists every stretch that is not proved, with the reason: `taut audit`.
 
-    :param path: a path file, or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from columns to
-        arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
-    :param columns: of an array: their names and units, "phi[deg]", "px[m]", "qw" (docs/audits.md)
+    :param path: a path file or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from
+        columns to arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
+    :param columns: names and units of an array's columns, "phi[deg]", "px[m]", "qw" (docs/audits.md)
     :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
     :param allow_repeats: drop rows that repeat the pose of the row before
-    :param name: of a table, for messages and the certificate
+    :param name: name of a table, for messages and the certificate
     """
     if path is None or isinstance(path, (str, os.PathLike)):
         if columns is not None:
@@ -368,8 +372,8 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     values = _floats(path, "values")
     if values.shape[1] != len(columns):
         raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
-    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats, max_bits,
-                                             signing_key, max_check_seconds, progress))
+    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats,
+                                             max_bits, signing_key, max_check_seconds, progress))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -377,27 +381,27 @@ class CheckResult:
     #: "accepted", "rejected", "undecided" (the certificate claims nothing), "unchecked" or "malformed"
     outcome: str
     message: str      #: one line
-    theorem: Optional[Theorem]  #: exactly where accepted
+    theorem: Optional[Theorem]  #: present if and only if accepted
     signer: str       #: public key whose signature was verified, 64 hex digits, or empty
-    is_trusted: bool  #: whether the signer is one of those asked for
+    is_trusted: bool  #: whether the signer is one of the trusted keys
     segments: int
     boxes: int
     not_compared: tuple[str, ...]  #: "case", "path file", and what of the case does not matter to an audit
 
     @property
     def is_accepted(self) -> bool:
-        """A refuted certificate is accepted too when its refutation holds: look at its theorem."""
+        """Also true of a refuted certificate whose refutation holds: see theorem.verdict."""
         return self.outcome == "accepted"
 
 
 def check(certificate: Union[Certificate, bytes, FileName], case: Optional[Case] = None, *,
           trusted_keys: Sequence[str] = (), max_seconds: Optional[float] = None) -> CheckResult:
-    """Proves a certificate again, by the independent checker: what `taut-check` says.
+    """Proves a certificate again, by the independent checker, like `taut-check`.
 
     :param certificate: a Certificate, the bytes of one, or a file
-    :param case: that the certificate must be about, to the last digit
-    :param trusted_keys: PEMs of Ed25519 public keys, one of which must have signed
-    :param max_seconds: budget; None: no end
+    :param case: the case that the certificate must be about, to the last digit
+    :param trusted_keys: PEMs of Ed25519 public keys, one of which must have signed the certificate
+    :param max_seconds: time limit; None: no limit
     """
     if isinstance(certificate, Certificate):
         text = certificate.text.encode()
@@ -413,19 +417,21 @@ def check(certificate: Union[Certificate, bytes, FileName], case: Optional[Case]
 
 def report(certificate: Certificate, format: str = "html", *, document: str = "", revision: str = "", date: str = "",
            max_check_seconds: float = CHECK_SECONDS) -> str:
-    """A page for people, made from the certificate alone: `taut report`. The checker proves the certificate again
-    first, unless it has a theorem already. Raises InputError where the checker rejects it.
+    """A page for people, made from the certificate alone: `taut report`.
+
+    The checker first proves the certificate again, unless it has a theorem already. Raises InputError if the checker
+    rejects it.
 
     :param format: "html", "text", "markdown" or "json"
-    :param max_check_seconds: that the checker may take; else the page is headed UNCHECKED
+    :param max_check_seconds: time limit of the checker, after which the page is headed UNCHECKED
     """
     return _taut.report(certificate._certificate, format, document, revision, date, max_check_seconds)
 
 
-# --- Inside ------------------------------------------------------------------------------------------------------------
+# --- Inside -----------------------------------------------------------------------------------------------------------
 
 def _plain(value: Any) -> Any:
-    """NumPy's arrays and scalars as JSON has them."""
+    """Converts NumPy's arrays and scalars to lists and numbers."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     raise TypeError(f"a case can't hold a {type(value).__name__}")
@@ -435,7 +441,7 @@ def _floats(values: Any, what: str) -> Floats:
     array = np.asarray(values)
     if array.ndim != 2:
         raise InputError(f"{what}: got the shape {array.shape}, expected a row for each waypoint", field=what)
-    return np.ascontiguousarray(array.astype(np.float64, casting="safe"))  # nothing that would round
+    return np.ascontiguousarray(array.astype(np.float64, casting="safe"))  # refuses types that would be rounded
 
 
 def _decimal(time: Union[float, str]) -> str:

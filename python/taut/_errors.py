@@ -1,29 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What goes wrong. That something is not proved is a verdict, no error."""
+"""The exceptions. A path that is not proved is not an error: it has a verdict."""
 
 
 class InputError(ValueError):
-    """A case, path, certificate, key or option is wrong in some way. The message has the place, what was seen and what was
-    expected: "crane.yaml:12:9: load.mass: got 'NaN', expected …"."""
+    """A case, path, certificate, key or option is wrong.
+
+    The message says where, what was seen and what was expected: "crane.yaml:12:9: load.mass: got 'NaN', expected …".
+    """
 
     def __init__(self, message: str, file: str = "", line: int = 0, field: str = "",
                  code: str = "E1") -> None:
         super().__init__(message)
         self.file = file    #: may be empty
-        self.line = line    #: from 1; 0: unknown, or the file as a whole
+        self.line = line    #: from 1; 0: unknown, or the whole file
         self.field = field  #: "load.mass", or a column; may be empty
-        self.code = code    #: "E3": `taut explain` has more about it
+        self.code = code    #: such as "E3", which `taut explain` explains
 
     def __reduce__(self):
         return InputError, (str(self), self.file, self.line, self.field, self.code)
 
 
 class Interrupted(RuntimeError):
-    """The work was asked to stop."""
+    """The caller asked to stop the work."""
 
 
 class UntrustworthyMachine(RuntimeError):
-    """This machine does not round as told: nothing can be proved on it."""
+    """Directed rounding fails on this machine, so nothing can be proved."""
 
 
 class InternalError(RuntimeError):

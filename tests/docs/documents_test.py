@@ -27,7 +27,7 @@ def text_of(path):
 
 def commands(text):
     for block in re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S):
-        for line in block.splitlines():
+        for line in block.replace("\\\n", "").splitlines():  # a backslash continues a line
             command, _, comment = line.partition(" #")
             if not command.strip() or command.startswith("#") or command.startswith(NOT_HERE):
                 continue
