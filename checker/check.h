@@ -2,7 +2,8 @@
 // Is the claim of a certificate true? Proves it again, from the file alone.
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
-// arithmetic, and no search. To believe "accepted", read in this order: theorem.h and errors.h; in kernel/ ball.h, form.h,
+// arithmetic, and no search. To believe "accepted", read in this order: theorem.h and errors.h; in kernel/ ball.h,
+// mean_value_form.h,
 // linear.h, machine.h, zero.h, motion.h, deviation.h, box_proof.h, refutation.h and their .cc (the mathematics); confirm.cc
 // (what is proved of which poses); then format/ (that the numbers are those of the file); signature.h if it matters who
 // wrote it.
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "checker/kernel/errors.h"
+#include "checker/kernel/statement.h"
 #include "checker/theorem.h"
 
 namespace taut::checker {
@@ -36,16 +38,15 @@ enum class Outcome {
 /// these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m
 /// and 1e-6.
 struct ExpectedPath {
-  struct Waypoint {
-    std::vector<double> x;
-    std::vector<int> half_turns;  ///< under a law of poses there are none to compare
-    std::string place;            ///< in the file, for messages: "line 7"
+  struct Row {
+    Waypoint waypoint;
+    std::size_t line = 0;  ///< of the file, for messages
   };
-  std::string name;                 ///< of the file, for messages
-  std::string interpolation;        ///< as the format names laws: "straight-in-parameters"
-  std::vector<Waypoint> waypoints;  ///< a single one is a path that stays there
-  std::string sha256;               ///< of the file
-  std::string certificate_sha256;   ///< that the file names as its certificate's; empty where it names none
+  std::string name;  ///< of the file, for messages
+  Law law = Law::kStraight;
+  std::vector<Row> waypoints;      ///< a single one is a path that stays there
+  std::string sha256;              ///< of the file
+  std::string certificate_sha256;  ///< that the file names as its certificate's; empty where it names none
 };
 
 struct CheckOptions {

@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files.h"
 #include "base/input_error.h"
 #include "base/process.h"
 #include "base/sanitize.h"
@@ -30,19 +30,7 @@
 namespace taut::checker {
 namespace {
 
-constexpr std::streamoff kMaxFileSize = std::streamoff{2} << 30;  ///< bytes; a certificate of 10^6 boxes has 10^8
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  std::vector<char> chunk(1 << 20);
-  while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0) {
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-    if (static_cast<std::streamoff>(text.size()) > kMaxFileSize) throw Malformed(path + ": larger than 2 GiB");
-  }
-  if (!file.eof()) throw Malformed(path + ": cannot be read");
-  return text;
-}
+constexpr std::size_t kMaxFileSize = std::size_t{2} << 30U;  ///< bytes; a certificate of 10^6 boxes has 10^8
 
 taut::Interpolation law_of(const std::string& name, const PathHeader& header) {
   if (name == "straight") return taut::Interpolation::kStraight;
@@ -51,15 +39,14 @@ taut::Interpolation law_of(const std::string& name, const PathHeader& header) {
   return usual_law(header);
 }
 
-/// As the format names it.
-const char* name_of(taut::Interpolation law) {
+Law to_kernel(taut::Interpolation law) {
   switch (law) {
-    case taut::Interpolation::kStraight: break;
-    case taut::Interpolation::kCubicBSpline: return "cubic-b-spline";
-    case taut::Interpolation::kGeodesic: return "geodesic";
-    case taut::Interpolation::kCableLengths: return "straight-in-cable-lengths";
+    case taut::Interpolation::kStraight: return Law::kStraight;
+    case taut::Interpolation::kCubicBSpline: return Law::kCubicBSpline;
+    case taut::Interpolation::kGeodesic: return Law::kGeodesic;
+    case taut::Interpolation::kCableLengths: break;
   }
-  return "straight-in-parameters";
+  return Law::kCableLengths;
 }
 
 /// The path of a path file, read as `taut audit` does, repeated rows left out.
@@ -74,12 +61,12 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
   WaypointMaker maker(problem, file.header(), law_of(interpolation, file.header()), name);
   ExpectedPath path;
   path.name = name;
-  path.interpolation = name_of(maker.law());
+  path.law = to_kernel(maker.law());
   path.sha256 = sha256(text);
   path.certificate_sha256 = named_certificate(text);
   for (PathRow row; file.next(row);) {
     const taut::Waypoint& waypoint = maker.next(row, file.start());
-    path.waypoints.push_back({waypoint.x, waypoint.half_turns, "line " + std::to_string(row.line)});
+    path.waypoints.push_back({{waypoint.x, waypoint.half_turns, {}}, static_cast<std::size_t>(row.line)});
   }
   return path;
 }
@@ -115,19 +102,21 @@ CheckResult check_file(const Arguments& arguments) {
     options.keeps_certificate = false;
     options.threads = arguments.threads;
     options.max_seconds = arguments.max_seconds;
-    for (const std::string& path : arguments.key_paths)
-      options.trusted.push_back(read_public_key(read_file(path), path));
+    for (const std::string& path : arguments.key_paths) {
+      options.trusted.push_back(read_public_key(read_whole(path, kMaxKeyFile), path));
+    }
     if (!arguments.expect.empty()) {
       options.expect = arguments.expect == "proved" ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted;
     }
-    const std::string bytes = read_file(arguments.certificate_path);
+    const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) return check(bytes, options);
     const taut::Problem problem = load_case(arguments.case_path).problem;
     const nlohmann::json of_case = to_json(problem);
     options.problem = &of_case;
     std::optional<ExpectedPath> path;
     if (!arguments.path_path.empty()) {
-      path = read_expected_path(read_file(arguments.path_path), arguments.path_path, problem, arguments.interpolation);
+      path = read_expected_path(read_whole(arguments.path_path, kMaxFileSize), arguments.path_path, problem,
+                                arguments.interpolation);
       options.path = &*path;
     }
     return check(bytes, options);
