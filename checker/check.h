@@ -2,11 +2,10 @@
 // Is the claim of a certificate true? Proves it again, from the file alone.
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
-// arithmetic, and no search. To believe "accepted", read in this order: theorem.h and errors.h; in kernel/ ball.h,
-// mean_value_form.h,
-// linear.h, machine.h, zero.h, motion.h, deviation.h, box_proof.h, refutation.h and their .cc (the mathematics); confirm.cc
-// (what is proved of which poses); then format/ (that the numbers are those of the file); signature.h if it matters who
-// wrote it.
+// arithmetic, and no search. To believe "accepted", read in this order: theorem.h; in kernel/ errors.h, ball.h,
+// mean_value_form.h, linear.h, machine.h, zero.h, motion.h, deviation.h, box_proof.h, refutation.h and their .cc (the
+// mathematics); confirm.cc (what is proved of which poses); then format/ (that the numbers are those of the file);
+// signature.h if it matters who wrote it.
 #pragma once
 
 #include <memory>
@@ -82,8 +81,8 @@ struct CheckResult {
 /// @param bytes  the whole file.
 /// Never throws because of what the bytes say. @throws Interrupted where options.stop asked for it; any other
 /// std::exception only where this program or machine fails.
-/// Cost: about a fifth of a millisecond a box; with tolerances half a millisecond for each part of the ways to deviations; in
-/// proportion to the size of the file. Thread-safe.
+/// Cost: in proportion to the size of the file; about a fifth of a millisecond a box, and with tolerances half a
+/// millisecond for each part of the ways to deviations. Thread-safe.
 [[nodiscard]] CheckResult check(const std::string& bytes, const CheckOptions& options = {});
 
 }  // namespace taut::checker

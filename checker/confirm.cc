@@ -126,12 +126,13 @@ class Confirmation {
     }
   }
 
-  // ---- Witnesses -----------------------------------------------------------------------------------------------------
+  // ---- Witnesses ----------------------------------------------------------------------------------------------------
 
   /// The first and the last place that a witness is about, along the path.
   static std::pair<mpq_class, mpq_class> places(const Witness& witness) {
     const mpq_class at = abscissa(witness.at);
-    return witness.kind == WitnessKind::kSingular ? std::minmax(at, abscissa(witness.to)) : std::pair(at, at);
+    const mpq_class to = witness.kind == WitnessKind::kSingular ? abscissa(witness.to) : at;
+    return std::minmax(at, to);
   }
 
   void confirm_witness(const Witness& witness, const std::string& name) {
@@ -164,8 +165,8 @@ class Confirmation {
     confirm_motion(witness, first, last, name);
   }
 
-  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of them
-  /// shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one that
+  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of
+  /// them shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one that
   /// begins in the first tube: where two boxes meet, one tube contains the other, and holds one pose only).
   void confirm_motion(const Witness& witness, mpq_class reached, const mpq_class& to, const std::string& name) {
     const bool is_singular = witness.kind == WitnessKind::kSingular;
@@ -193,7 +194,7 @@ class Confirmation {
     if (reached < to) throw Rejected(name + ": the path is not shown to lead there from its beginning");
   }
 
-  // ---- The query -----------------------------------------------------------------------------------------------------
+  // ---- The query ----------------------------------------------------------------------------------------------------
 
   void require_waypoints_in_range() {
     const auto has_range = [](const Parameter& x) { return x.kind == ParameterKind::kRange; };
@@ -205,8 +206,8 @@ class Confirmation {
     }
   }
 
-  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a single
-  /// waypoint, that one is among them.
+  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a
+  /// single waypoint, that one is among them.
   void require_query() {
     if (problem_.query.empty()) return;  // an audit: the path is what was asked about
     const std::span<const Waypoint> path = path_.waypoints;

@@ -101,7 +101,7 @@ class Reader {
     if (size != expected) json.fail("an array of " + std::to_string(expected));
   }
 
-  // ---- The path ------------------------------------------------------------------------------------------------------
+  // ---- The path -----------------------------------------------------------------------------------------------------
 
   void read_path(const Cursor& json) {
     Path& path = result_.path;
@@ -184,7 +184,7 @@ class Reader {
     }
   }
 
-  // ---- What is stated of it ------------------------------------------------------------------------------------------
+  // ---- What is stated of it -----------------------------------------------------------------------------------------
 
   void read_verdict(const Cursor& json) {
     static constexpr std::array<std::pair<const char*, Verdict>, 3> kVerdicts = {
