@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -137,14 +138,8 @@ void require_asked_for(const Certificate& certificate, const CheckOptions& optio
 }  // namespace
 
 const char* name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kAccepted: return "accepted";
-    case Outcome::kRejected: return "rejected";
-    case Outcome::kUndecided: return "undecided";
-    case Outcome::kUnchecked: return "unchecked";
-    case Outcome::kMalformed: break;
-  }
-  return "malformed";
+  constexpr std::array<const char*, 5> kNames = {"accepted", "rejected", "undecided", "unchecked", "malformed"};
+  return kNames.at(static_cast<std::size_t>(outcome));
 }
 
 std::string sha256(const std::string& bytes) {

@@ -5,9 +5,12 @@
 // Results go to stdout; bad input is complained about on stderr, as wrong use is, and with --json on stdout too.
 // Exit codes: 0 accepted; 1 rejected, or not as expected; 2 the certificate itself is undecided, or the budget ran out;
 // 3 malformed input or wrong use; 4 this program failed.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -32,22 +35,17 @@ namespace {
 
 constexpr std::size_t kMaxFileSize = std::size_t{2} << 30U;  ///< bytes; a certificate of 10^6 boxes has 10^8
 
-taut::Interpolation law_of(const std::string& name, const PathHeader& header) {
-  if (name == "straight") return taut::Interpolation::kStraight;
-  if (name == "geodesic") return taut::Interpolation::kGeodesic;
-  if (name == "cable-lengths") return taut::Interpolation::kCableLengths;
-  return usual_law(header);
-}
-
-Law to_kernel(taut::Interpolation law) {
-  switch (law) {
-    case taut::Interpolation::kStraight: return Law::kStraight;
-    case taut::Interpolation::kCubicBSpline: return Law::kCubicBSpline;
-    case taut::Interpolation::kGeodesic: return Law::kGeodesic;
-    case taut::Interpolation::kCableLengths: break;
-  }
-  return Law::kCableLengths;
-}
+/// A law as --interpolation, as path files, and as the kernel name it.
+struct LawNames {
+  const char* option;
+  taut::Interpolation of_file;
+  Law of_kernel;
+};
+constexpr std::array<LawNames, 4> kLawNames = {
+    {{"straight", taut::Interpolation::kStraight, Law::kStraight},
+     {"geodesic", taut::Interpolation::kGeodesic, Law::kGeodesic},
+     {"cable-lengths", taut::Interpolation::kCableLengths, Law::kCableLengths},
+     {"cubic-b-spline", taut::Interpolation::kCubicBSpline, Law::kCubicBSpline}}};
 
 /// The path of a path file, read as `taut audit` does, repeated rows left out.
 /// @param interpolation  "straight", "geodesic" or "cable-lengths"; empty: the law that such a file usually has
@@ -58,10 +56,12 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
     throw InputError(name + ": got the name of a certificate, expected a path file, such as path.csv", {name});
   }
   PathFile file(std::make_unique<std::istringstream>(text), name, problem.space, {.allow_repeats = true});
-  WaypointMaker maker(problem, file.header(), law_of(interpolation, file.header()), name);
+  const auto* const named = std::ranges::find(kLawNames, interpolation, &LawNames::option);
+  WaypointMaker maker(problem, file.header(), named == kLawNames.end() ? usual_law(file.header()) : named->of_file,
+                      name);
   ExpectedPath path;
   path.name = name;
-  path.law = to_kernel(maker.law());
+  path.law = std::ranges::find(kLawNames, maker.law(), &LawNames::of_file)->of_kernel;
   path.sha256 = sha256(text);
   path.certificate_sha256 = named_certificate(text);
   for (PathRow row; file.next(row);) {
@@ -72,14 +72,8 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
 }
 
 int exit_code(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kAccepted: return 0;
-    case Outcome::kRejected: return 1;
-    case Outcome::kUndecided:
-    case Outcome::kUnchecked: return 2;
-    case Outcome::kMalformed: return 3;
-  }
-  return 4;
+  constexpr std::array<int, 5> kCodes = {0, 1, 2, 2, 3};  // in the order of the outcomes
+  return kCodes.at(static_cast<std::size_t>(outcome));
 }
 
 struct Arguments {
@@ -224,10 +218,8 @@ int run(int argc, char** argv) {
   if (arguments.as_json && !arguments.quiet) {
     std::cout << to_json(result, seconds).dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
   } else if (!arguments.quiet && !is_malformed) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result) << "; "
-              << time << "; " << describe_signer(result) << std::endl;
+    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
+              << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
   }
   if (!arguments.quiet && is_malformed)
     std::cerr << name(result.outcome) << ": " << sanitize(result.message) << std::endl;
