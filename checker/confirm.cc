@@ -70,7 +70,9 @@ class Confirmation {
     if (certificate_.witness) {
       const Witness& witness = *certificate_.witness;
       confirm_witness(witness, name_of(witness));
-      if (is_implied(problem_, path_)) confirm_motion(witness, 0, places(witness).second, name_of(witness));
+      if (is_implied(problem_, path_)) {
+        confirm_motion(witness, proved_parts(), 0, places(witness).second, name_of(witness));
+      }
     }
     for (std::size_t i = 0; i < certificate_.stretch_texts.size(); ++i) {
       for (const Witness& witness : certificate_.stretch(i).inner) {
@@ -162,16 +164,30 @@ class Confirmation {
       throw Rejected(name + ": det D has the same sign at both places");
     }
     const auto [first, last] = places(witness);
-    confirm_motion(witness, first, last, name);
+    // Boxes of segments are of no use here, as they do not overlap with stretches, in which such witnesses are.
+    confirm_motion(witness, {}, first, last, name);
   }
 
-  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of
-  /// them shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one that
-  /// begins in the first tube: where two boxes meet, one tube contains the other, and holds one pose only).
-  void confirm_motion(const Witness& witness, mpq_class reached, const mpq_class& to, const std::string& name) {
+  using Parts = std::vector<std::pair<mpq_class, mpq_class>>;  ///< of the path, from one abscissa to another
+
+  /// The boxes of `segments`.
+  [[nodiscard]] Parts proved_parts() const {
+    Parts parts;
+    for (std::size_t k = 0; k < certificate_.segment_texts.size(); ++k) {
+      for (const Box& box : certificate_.segment(k).boxes) {
+        parts.emplace_back(abscissa({k, box.begin}), abscissa({k, box.end}));
+      }
+    }
+    return parts;
+  }
+
+  /// The witness's motion boxes and these `parts`, on which boxes of segments show the motion, cover the path from one
+  /// place to another. So the motion is continuous there (and where it is implied, the one that begins in the first
+  /// tube: where two boxes meet, one tube contains the other, and holds one pose only).
+  void confirm_motion(const Witness& witness, Parts parts, mpq_class reached, const mpq_class& to,
+                      const std::string& name) {
     const bool is_singular = witness.kind == WitnessKind::kSingular;
     const mpq_class first_place = places(witness).first;
-    std::vector<std::pair<mpq_class, mpq_class>> parts;
     for (const MotionBox& part : witness.motion) {
       at_precision(part.box.bits, name + ": motion: " + name_of(part.segment, part.box), [&](const Machine& machine) {
         // Between the places of a sign change, too, parameters are in their ranges.
@@ -181,11 +197,6 @@ class Confirmation {
         require_near_waypoints(machine, problem_, path_, part.segment, part.box);
       });
       parts.emplace_back(abscissa({part.segment, part.box.begin}), abscissa({part.segment, part.box.end}));
-    }
-    for (std::size_t k = 0; k < certificate_.segment_texts.size() && k <= to; ++k) {
-      for (const Box& box : certificate_.segment(k).boxes) {
-        parts.emplace_back(abscissa({k, box.begin}), abscissa({k, box.end}));
-      }
     }
     std::ranges::sort(parts);
     for (const auto& [begin, end] : parts) {

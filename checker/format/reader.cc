@@ -266,12 +266,14 @@ class Reader {
     if (result_.verdict != Verdict::kRefuted) return json.require(json.is_null(), "null");
     result_.witness = read_witness(json, result_.problem, result_.path);
     if (top_["stretches"].is_null()) return;
+    const auto without_motion = [](Json witness) {
+      witness["motion"] = nullptr;
+      return witness;
+    };
+    const Json witness = without_motion(json.json());
     bool is_found = false;
     for_each("stretches", "stretches", [&](const Cursor& stretch, std::string_view /*text*/) {
-      for (Json inner : stretch.json()["inner"]) {
-        inner["motion"] = json.json()["motion"];
-        is_found |= inner == json.json();
-      }
+      for (const Json& inner : stretch.json()["inner"]) is_found |= without_motion(inner) == witness;
     });
     json.require(is_found, "one of the stretches', but for its motion");
   }
