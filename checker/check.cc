@@ -35,7 +35,7 @@ std::vector<std::string> require_problem(nlohmann::json problem, const nlohmann:
 }
 
 /// Waypoints are the same bit for bit; but poses beside lengths of cables only say in which assembly the robot is.
-bool is_same(Law law, const Waypoint& waypoint, const Waypoint& expected) {
+bool is_same(Law law, const Waypoint& waypoint, const ExpectedPath::Row& expected) {
   if (law != Law::kCableLengths) {
     return waypoint.x == expected.x && (has_poses(law) || waypoint.half_turns == expected.half_turns);
   }
@@ -71,7 +71,7 @@ void require_path(const Certificate& certificate, const std::string& sha256, con
               std::to_string(file.waypoints.size()));
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
     const ExpectedPath::Row& row = file.waypoints[stays ? 0 : k];
-    if (is_same(path.law, path.waypoints[k], row.waypoint)) continue;
+    if (is_same(path.law, path.waypoints[k], row)) continue;
     require(false, "waypoint " + std::to_string(k) + " differs from line " + std::to_string(row.line) + " of the file");
   }
   require(!file.certificate_sha256.empty() || !certificate.source || certificate.source->sha256 == file.sha256,

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "checker/kernel/errors.h"
-#include "checker/kernel/statement.h"
 #include "checker/theorem.h"
 
 namespace taut::checker {
@@ -33,16 +32,19 @@ enum class Outcome {
 /// "accepted", "rejected", "undecided", "unchecked" or "malformed".
 [[nodiscard]] const char* name(Outcome outcome);
 
+enum class Law;  // of kernel/statement.h, which this header leaves out as it needs Arb
+
 /// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths
 /// these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m
 /// and 1e-6.
 struct ExpectedPath {
   struct Row {
-    Waypoint waypoint;
-    std::size_t line = 0;  ///< of the file, for messages
+    std::vector<double> x;
+    std::vector<int> half_turns;  ///< under a law of poses there are none to compare
+    std::size_t line = 0;         ///< of the file, for messages
   };
   std::string name;  ///< of the file, for messages
-  Law law = Law::kStraight;
+  Law law{};
   std::vector<Row> waypoints;      ///< a single one is a path that stays there
   std::string sha256;              ///< of the file
   std::string certificate_sha256;  ///< that the file names as its certificate's; empty where it names none

@@ -27,6 +27,7 @@
 #include "checker/check.h"
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
+#include "checker/kernel/statement.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"
 
@@ -66,7 +67,7 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
   path.certificate_sha256 = named_certificate(text);
   for (PathRow row; file.next(row);) {
     const taut::Waypoint& waypoint = maker.next(row, file.start());
-    path.waypoints.push_back({{waypoint.x, waypoint.half_turns, {}}, static_cast<std::size_t>(row.line)});
+    path.waypoints.push_back({waypoint.x, waypoint.half_turns, row.line});
   }
   return path;
 }
