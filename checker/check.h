@@ -32,20 +32,22 @@ enum class Outcome {
 /// "accepted", "rejected", "undecided", "unchecked" or "malformed".
 [[nodiscard]] const char* name(Outcome outcome);
 
+enum class Law;  // of kernel/statement.h, which this header leaves out as it needs Arb
+
 /// A path that the certificate's must equal: its law, and its waypoints bit for bit. Under the law of cable lengths
 /// these are the lengths; the poses beside them, which only say in which assembly the robot is, must agree to 1e-6 m
 /// and 1e-6.
 struct ExpectedPath {
-  struct Waypoint {
+  struct Row {
     std::vector<double> x;
     std::vector<int> half_turns;  ///< under a law of poses there are none to compare
-    std::string place;            ///< in the file, for messages: "line 7"
+    std::size_t line = 0;         ///< of the file, for messages
   };
-  std::string name;                 ///< of the file, for messages
-  std::string interpolation;        ///< as the format names laws: "straight-in-parameters"
-  std::vector<Waypoint> waypoints;  ///< a single one is a path that stays there
-  std::string sha256;               ///< of the file
-  std::string certificate_sha256;   ///< that the file names as its certificate's; empty where it names none
+  std::string name;  ///< of the file, for messages
+  Law law{};
+  std::vector<Row> waypoints;      ///< a single one is a path that stays there
+  std::string sha256;              ///< of the file
+  std::string certificate_sha256;  ///< that the file names as its certificate's; empty where it names none
 };
 
 struct CheckOptions {
@@ -81,8 +83,8 @@ struct CheckResult {
 /// @param bytes  the whole file.
 /// Never throws because of what the bytes say. @throws Interrupted where options.stop asked for it; any other
 /// std::exception only where this program or machine fails.
-/// Cost: about a fifth of a millisecond a box; with tolerances half a millisecond for each part of the ways to deviations; in
-/// proportion to the size of the file. Thread-safe.
+/// Cost: in proportion to the size of the file; about a fifth of a millisecond a box, and with tolerances half a
+/// millisecond for each part of the ways to deviations. Thread-safe.
 [[nodiscard]] CheckResult check(const std::string& bytes, const CheckOptions& options = {});
 
 }  // namespace taut::checker

@@ -2,6 +2,7 @@
 #include "checker/confirm.h"
 
 #include <flint/flint.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <span>
 #include <thread>
 
+#include "checker/format/parts.h"
 #include "checker/kernel/box_proof.h"
 #include "checker/near_waypoints.h"
 #include "checker/witness.h"
@@ -18,10 +20,12 @@
 namespace taut::checker {
 namespace {
 
-std::string show(const Box& box) { return "[" + box.begin.get_str() + ", " + box.end.get_str() + "]"; }
-
 std::string name_of(std::size_t segment, const Box& box) {
-  return "segment " + std::to_string(segment) + ", box " + show(box);
+  return fmt::format("segment {}, box [{}, {}]", segment, box.begin.get_str(), box.end.get_str());
+}
+
+std::string name_of(const Witness& witness) {
+  return fmt::format("the witness at segment {}, s = {}", witness.at.segment, witness.at.s.get_str());
 }
 
 /// Calls `work(k)` for k in [0, count) on some threads. Rethrows what was thrown for the smallest k.
@@ -37,10 +41,9 @@ void for_each(std::size_t count, unsigned threads, const Work& work) {
         work(k);
       } catch (...) {
         const std::lock_guard lock(mutex);
-        if (k < first_failure) {
-          first_failure = k;
-          failure = std::current_exception();
-        }
+        if (k >= first_failure) continue;
+        first_failure = k;
+        failure = std::current_exception();
       }
     }
   };
@@ -66,16 +69,15 @@ class Confirmation {
     require_waypoints_in_range();
     require_query();
     if (certificate_.witness) {
-      confirm_witness(*certificate_.witness, "the witness");
+      const Witness& witness = *certificate_.witness;
+      confirm_witness(witness, name_of(witness));
       if (is_implied(problem_, path_)) {
-        const Witness& witness = *certificate_.witness;
-        const PathPoint& last = witness.kind == WitnessKind::kSingular ? later(witness) : witness.at;
-        confirm_motion(witness, {0, 0}, last, "the witness");
+        confirm_motion(witness, proved_parts(), 0, places(witness).second, name_of(witness));
       }
     }
     for (std::size_t i = 0; i < certificate_.stretch_texts.size(); ++i) {
       for (const Witness& witness : certificate_.stretch(i).inner) {
-        confirm_witness(witness, "stretch " + std::to_string(i) + ": the witness");
+        confirm_witness(witness, fmt::format("stretch {}: {}", i, name_of(witness)));
       }
     }
     for_each(certificate_.segment_texts.size(), options_.threads, [&](std::size_t k) { prove_segment(k); });
@@ -83,7 +85,7 @@ class Confirmation {
   }
 
  private:
-  /// `prove(machine)` at a precision. @throws Rejected naming `what` where it throws Undefined.
+  /// `prove(machine)` at a precision. @throws Rejected naming `what` where it throws Undefined or Rejected.
   template <class Prove>
   void at_precision(int bits, const std::string& what, const Prove& prove) {
     options_.before_box();
@@ -93,6 +95,8 @@ class Confirmation {
       prove(machine(bits));
     } catch (const Undefined& why) {
       throw Rejected("not confirmed: " + what + ": " + why.what());
+    } catch (const Rejected& why) {
+      throw Rejected(what + ": " + why.what());
     }
   }
 
@@ -114,7 +118,8 @@ class Confirmation {
       at_precision(box.bits, name_of(k, box), [&](const Machine& machine) {
         const Bounds bounds = prove_box(machine, problem_, path_, k, box);
         const auto require = [](const Ball& bound, const mpq_class& claimed, const char* what) {
-          if (!certainly_nonnegative(bound - Ball(claimed))) throw Undefined(std::string(what) + " as claimed");
+          if (certainly_nonnegative(bound - Ball(claimed))) return;
+          throw Undefined(std::string(what) + " is not proved as claimed");
         };
         require(bounds.tension, margins.tension, "the tension margin");
         require(bounds.length, margins.length, "the length margin");
@@ -124,16 +129,13 @@ class Confirmation {
     }
   }
 
-  // ---- Witnesses -----------------------------------------------------------------------------------------------------
+  // ---- Witnesses ----------------------------------------------------------------------------------------------------
 
-  static bool is_before(const PathPoint& a, const PathPoint& b) {
-    return a.segment != b.segment ? a.segment < b.segment : a.s < b.s;
-  }
-  static const PathPoint& later(const Witness& witness) {
-    return is_before(witness.at, witness.to) ? witness.to : witness.at;
-  }
-  static const PathPoint& earlier(const Witness& witness) {
-    return is_before(witness.at, witness.to) ? witness.at : witness.to;
+  /// The first and the last place that a witness is about, along the path.
+  static std::pair<mpq_class, mpq_class> places(const Witness& witness) {
+    const mpq_class at = abscissa(witness.at);
+    const mpq_class to = witness.kind == WitnessKind::kSingular ? abscissa(witness.to) : at;
+    return std::minmax(at, to);
   }
 
   void confirm_witness(const Witness& witness, const std::string& name) {
@@ -143,13 +145,8 @@ class Confirmation {
     }
     at_precision(witness.at_box.bits, name, [&](const Machine& machine) {
       confirm_violation(machine, problem_, path_, witness);
-      if (path_.segments() == 0) require_near_waypoints(machine, problem_, path_, 0, at(witness.at.s, witness.at_box));
+      if (path_.segments() == 0) require_near_waypoints(machine, problem_, path_, 0, witness.at_box);
     });
-  }
-
-  static Box at(const mpq_class& s, Box how) {
-    how.begin = how.end = s;
-    return how;
   }
 
   /// det D has opposite signs at two places, and the path is continuous in between with all lengths positive. As
@@ -160,54 +157,60 @@ class Confirmation {
       at_precision(how.bits, name, [&](const Machine& machine) {
         const Ball det = determinant_at(machine, problem_, path_, place, how);
         result = certainly_positive(det) ? 1 : certainly_negative(det) ? -1 : 0;
-        if (result == 0) throw Undefined("the sign of det D");
+        if (result == 0) throw Undefined("the sign of det D is not known");
       });
       return result;
     };
     if (sign(witness.at, witness.at_box) == sign(witness.to, witness.to_box)) {
       throw Rejected(name + ": det D has the same sign at both places");
     }
-    confirm_motion(witness, earlier(witness), later(witness), name);
+    const auto [first, last] = places(witness);
+    // Boxes of segments are of no use here, as they do not overlap with stretches, in which such witnesses are.
+    confirm_motion(witness, {}, first, last, name);
   }
 
-  static mpq_class abscissa(const PathPoint& place) { return mpq_class(place.segment) + place.s; }
+  using Parts = std::vector<std::pair<mpq_class, mpq_class>>;  ///< of the path, from one abscissa to another
 
-  /// The witness's motion boxes, with the proved boxes of segments, cover the path from one place to another; each of them
-  /// shows the motion on its part of the path. So the motion is continuous there (and where it is implied, the one that
-  /// begins in the first tube: where two boxes meet, one tube contains the other, and holds one pose only).
-  void confirm_motion(const Witness& witness, const PathPoint& from, const PathPoint& to, const std::string& name) {
-    std::vector<std::pair<mpq_class, mpq_class>> parts;
+  /// The boxes of `segments`.
+  [[nodiscard]] Parts proved_parts() const {
+    Parts parts;
+    for (std::size_t k = 0; k < certificate_.segment_texts.size(); ++k) {
+      for (const Box& box : certificate_.segment(k).boxes) {
+        parts.emplace_back(abscissa({k, box.begin}), abscissa({k, box.end}));
+      }
+    }
+    return parts;
+  }
+
+  /// The witness's motion boxes and these `parts`, on which boxes of segments show the motion, cover the path from one
+  /// place to another. So the motion is continuous there (and where it is implied, the one that begins in the first
+  /// tube: where two boxes meet, one tube contains the other, and holds one pose only).
+  void confirm_motion(const Witness& witness, Parts parts, mpq_class reached, const mpq_class& to,
+                      const std::string& name) {
+    const bool is_singular = witness.kind == WitnessKind::kSingular;
+    const mpq_class first_place = places(witness).first;
     for (const MotionBox& part : witness.motion) {
       at_precision(part.box.bits, name + ": motion: " + name_of(part.segment, part.box), [&](const Machine& machine) {
         // Between the places of a sign change, too, parameters are in their ranges.
-        const bool is_between = witness.kind == WitnessKind::kSingular &&
-                                abscissa({part.segment, part.box.end}) > abscissa(earlier(witness));
+        const bool is_between = is_singular && abscissa({part.segment, part.box.end}) > first_place;
         const Ranges ranges = is_between ? Ranges::kRequired : Ranges::kIgnored;
         (void)commanded_geometry(machine, problem_, path_, part.segment, part.box, ranges);
         require_near_waypoints(machine, problem_, path_, part.segment, part.box);
       });
       parts.emplace_back(abscissa({part.segment, part.box.begin}), abscissa({part.segment, part.box.end}));
     }
-    for (std::size_t k = 0; k < certificate_.segment_texts.size() && k <= to.segment; ++k) {
-      for (const Box& box : certificate_.segment(k).boxes) {
-        parts.emplace_back(abscissa({k, box.begin}), abscissa({k, box.end}));
-      }
-    }
     std::ranges::sort(parts);
-    mpq_class reached = abscissa(from);
     for (const auto& [begin, end] : parts) {
       if (begin <= reached && end > reached) reached = end;
     }
-    if (reached < abscissa(to)) throw Rejected(name + ": the path is not shown to lead there from its beginning");
+    if (reached < to) throw Rejected(name + ": the path is not shown to lead there from its beginning");
   }
 
-  // ---- The query -----------------------------------------------------------------------------------------------------
+  // ---- The query ----------------------------------------------------------------------------------------------------
 
   void require_waypoints_in_range() {
-    if (has_poses(path_.law)) return;  // the free coordinates have no ranges
-    if (std::ranges::none_of(problem_.parameters, [](const Parameter& x) { return x.kind == ParameterKind::kRange; })) {
-      return;
-    }
+    const auto has_range = [](const Parameter& x) { return x.kind == ParameterKind::kRange; };
+    if (has_poses(path_.law) || std::ranges::none_of(problem_.parameters, has_range)) return;
     for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
       constexpr int kBits = 256;
       at_precision(kBits, "waypoint " + std::to_string(k),
@@ -215,8 +218,8 @@ class Confirmation {
     }
   }
 
-  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a single
-  /// waypoint, that one is among them.
+  /// Each waypoint of the case occurs along the path, in order, the first first and the last last. Of a path of a
+  /// single waypoint, that one is among them.
   void require_query() {
     if (problem_.query.empty()) return;  // an audit: the path is what was asked about
     const std::span<const Waypoint> path = path_.waypoints;

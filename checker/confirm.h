@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Confirms all statements of a certificate by the kernel: which boxes, which witnesses, and that the path is the query's.
+// Confirms all statements of a certificate by the kernel: which boxes, which witnesses, and that the path is the
+// query's.
 //
-// Nothing is searched: each box and each witness is proved at one go at the precision that the certificate states, or it is
-// not confirmed. So the work is proportional to the size of the file.
+// Nothing is searched: each box and each witness is proved at one go at the precision that the certificate states, or
+// it is not confirmed. So the work is proportional to the size of the file.
 #pragma once
 
 #include <functional>

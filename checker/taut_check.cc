@@ -5,10 +5,12 @@
 // Results go to stdout; bad input is complained about on stderr, as wrong use is, and with --json on stdout too.
 // Exit codes: 0 accepted; 1 rejected, or not as expected; 2 the certificate itself is undecided, or the budget ran out;
 // 3 malformed input or wrong use; 4 this program failed.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <chrono>
-#include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -16,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files.h"
 #include "base/input_error.h"
 #include "base/process.h"
 #include "base/sanitize.h"
@@ -24,43 +27,26 @@
 #include "checker/check.h"
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
+#include "checker/kernel/statement.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"
 
 namespace taut::checker {
 namespace {
 
-constexpr std::streamoff kMaxFileSize = std::streamoff{2} << 30;  ///< bytes; a certificate of 10^6 boxes has 10^8
+constexpr std::size_t kMaxFileSize = std::size_t{2} << 30U;  ///< bytes; a certificate of 10^6 boxes has 10^8
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  std::vector<char> chunk(1 << 20);
-  while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0) {
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-    if (static_cast<std::streamoff>(text.size()) > kMaxFileSize) throw Malformed(path + ": larger than 2 GiB");
-  }
-  if (!file.eof()) throw Malformed(path + ": cannot be read");
-  return text;
-}
-
-taut::Interpolation law_of(const std::string& name, const PathHeader& header) {
-  if (name == "straight") return taut::Interpolation::kStraight;
-  if (name == "geodesic") return taut::Interpolation::kGeodesic;
-  if (name == "cable-lengths") return taut::Interpolation::kCableLengths;
-  return usual_law(header);
-}
-
-/// As the format names it.
-const char* name_of(taut::Interpolation law) {
-  switch (law) {
-    case taut::Interpolation::kStraight: break;
-    case taut::Interpolation::kCubicBSpline: return "cubic-b-spline";
-    case taut::Interpolation::kGeodesic: return "geodesic";
-    case taut::Interpolation::kCableLengths: return "straight-in-cable-lengths";
-  }
-  return "straight-in-parameters";
-}
+/// A law as --interpolation, as path files, and as the kernel name it.
+struct LawNames {
+  const char* option;
+  taut::Interpolation of_file;
+  Law of_kernel;
+};
+constexpr std::array<LawNames, 4> kLawNames = {
+    {{"straight", taut::Interpolation::kStraight, Law::kStraight},
+     {"geodesic", taut::Interpolation::kGeodesic, Law::kGeodesic},
+     {"cable-lengths", taut::Interpolation::kCableLengths, Law::kCableLengths},
+     {"cubic-b-spline", taut::Interpolation::kCubicBSpline, Law::kCubicBSpline}}};
 
 /// The path of a path file, read as `taut audit` does, repeated rows left out.
 /// @param interpolation  "straight", "geodesic" or "cable-lengths"; empty: the law that such a file usually has
@@ -71,28 +57,24 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
     throw InputError(name + ": got the name of a certificate, expected a path file, such as path.csv", {name});
   }
   PathFile file(std::make_unique<std::istringstream>(text), name, problem.space, {.allow_repeats = true});
-  WaypointMaker maker(problem, file.header(), law_of(interpolation, file.header()), name);
+  const auto* const named = std::ranges::find(kLawNames, interpolation, &LawNames::option);
+  WaypointMaker maker(problem, file.header(), named == kLawNames.end() ? usual_law(file.header()) : named->of_file,
+                      name);
   ExpectedPath path;
   path.name = name;
-  path.interpolation = name_of(maker.law());
+  path.law = std::ranges::find(kLawNames, maker.law(), &LawNames::of_file)->of_kernel;
   path.sha256 = sha256(text);
   path.certificate_sha256 = named_certificate(text);
   for (PathRow row; file.next(row);) {
     const taut::Waypoint& waypoint = maker.next(row, file.start());
-    path.waypoints.push_back({waypoint.x, waypoint.half_turns, "line " + std::to_string(row.line)});
+    path.waypoints.push_back({waypoint.x, waypoint.half_turns, row.line});
   }
   return path;
 }
 
 int exit_code(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kAccepted: return 0;
-    case Outcome::kRejected: return 1;
-    case Outcome::kUndecided:
-    case Outcome::kUnchecked: return 2;
-    case Outcome::kMalformed: return 3;
-  }
-  return 4;
+  constexpr std::array<int, 5> kCodes = {0, 1, 2, 2, 3};  // in the order of the outcomes
+  return kCodes.at(static_cast<std::size_t>(outcome));
 }
 
 struct Arguments {
@@ -115,19 +97,21 @@ CheckResult check_file(const Arguments& arguments) {
     options.keeps_certificate = false;
     options.threads = arguments.threads;
     options.max_seconds = arguments.max_seconds;
-    for (const std::string& path : arguments.key_paths)
-      options.trusted.push_back(read_public_key(read_file(path), path));
+    for (const std::string& path : arguments.key_paths) {
+      options.trusted.push_back(read_public_key(read_whole(path, kMaxKeyFile), path));
+    }
     if (!arguments.expect.empty()) {
       options.expect = arguments.expect == "proved" ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted;
     }
-    const std::string bytes = read_file(arguments.certificate_path);
+    const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) return check(bytes, options);
     const taut::Problem problem = load_case(arguments.case_path).problem;
     const nlohmann::json of_case = to_json(problem);
     options.problem = &of_case;
     std::optional<ExpectedPath> path;
     if (!arguments.path_path.empty()) {
-      path = read_expected_path(read_file(arguments.path_path), arguments.path_path, problem, arguments.interpolation);
+      path = read_expected_path(read_whole(arguments.path_path, kMaxFileSize), arguments.path_path, problem,
+                                arguments.interpolation);
       options.path = &*path;
     }
     return check(bytes, options);
@@ -235,10 +219,8 @@ int run(int argc, char** argv) {
   if (arguments.as_json && !arguments.quiet) {
     std::cout << to_json(result, seconds).dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
   } else if (!arguments.quiet && !is_malformed) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%.2f s", seconds);
-    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result) << "; "
-              << time << "; " << describe_signer(result) << std::endl;
+    std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
+              << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
   }
   if (!arguments.quiet && is_malformed)
     std::cerr << name(result.outcome) << ": " << sanitize(result.message) << std::endl;

@@ -21,8 +21,8 @@ bool take(std::string_view& text, char c) {
 }
 
 /// Removes the digits from the front of `text`.
-std::string_view take_digits(std::string_view& text) {
-  const std::string_view digits = text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
+std::string take_digits(std::string_view& text) {
+  const std::string digits(text.substr(0, text.find_first_not_of("0123456789")));
   text.remove_prefix(digits.size());
   return digits;
 }
@@ -31,15 +31,15 @@ std::string_view take_digits(std::string_view& text) {
 
 std::optional<mpq_class> parse_decimal(std::string_view text) {
   const bool is_negative = take(text, '-');
-  std::string digits(take_digits(text));
-  const std::string_view fraction = take(text, '.') ? take_digits(text) : std::string_view();
-  digits += fraction;
+  const std::string whole = take_digits(text);
+  const std::string fraction = take(text, '.') ? take_digits(text) : "";
+  const std::string digits = whole + fraction;
   if (digits.empty() || digits.size() > kMaxDigits) return std::nullopt;
   long exponent = 0;
   if (take(text, 'e') || take(text, 'E')) {
     const bool is_minus = take(text, '-');
     if (!is_minus) take(text, '+');
-    const std::string written(take_digits(text));
+    const std::string written = take_digits(text);
     if (written.empty() || written.size() > 4 || std::stol(written) > kMaxExponent) return std::nullopt;
     exponent = is_minus ? -std::stol(written) : std::stol(written);
   }

@@ -45,20 +45,18 @@ class Parser {
  private:
   // Each of these reads the part of the grammar that it is named after and returns the node of its value.
   int sum(int depth) {
-    int left = product(depth);
-    while (peek() == '+' || peek() == '-') {
-      const Op op = text_[at_++] == '+' ? Op::kAdd : Op::kSubtract;
-      const int right = product(depth);
-      left = add({op, 0, left, right});
-    }
-    return left;
+    return joined("+-", [&] { return joined("*/", [&] { return unary(depth); }); });
   }
 
-  int product(int depth) {
-    int left = unary(depth);
-    while (peek() == '*' || peek() == '/') {
-      const Op op = text_[at_++] == '*' ? Op::kMultiply : Op::kDivide;
-      const int right = unary(depth);
+  /// Operands with operators between them, which associate to the left.
+  template <class Operand>
+  int joined(std::string_view operators, const Operand& operand) {
+    static const std::map<char, Op> kOps = {
+        {'+', Op::kAdd}, {'-', Op::kSubtract}, {'*', Op::kMultiply}, {'/', Op::kDivide}};
+    int left = operand();
+    while (operators.find(peek()) != std::string_view::npos) {
+      const Op op = kOps.at(text_[at_++]);
+      const int right = operand();
       left = add({op, 0, left, right});
     }
     return left;
@@ -196,11 +194,14 @@ bool mentions(const Expression& expression, std::size_t parameter) {
 }
 
 std::optional<long> turns(const Expression& expression, std::size_t parameter) {
+  using Count = std::optional<long>;
   struct Known {
-    std::optional<long> turns;
-    std::optional<long> integer;  ///< the value of a node that is an integer literal or its negative
+    Count turns;
+    Count integer;  ///< the value of a node that is an integer literal or its negative
   };
-  const auto bounded = [](long k) { return std::abs(k) <= kMaxTurns ? std::optional(k) : std::nullopt; };
+  const auto bounded = [](long k) { return std::abs(k) <= kMaxTurns ? Count(k) : std::nullopt; };
+  const auto sum = [&](const Count& a, const Count& b) { return a && b ? bounded(*a + *b) : std::nullopt; };
+  const auto product = [&](const Count& a, const Count& b) { return a && b ? bounded(*a * *b) : std::nullopt; };
   const Known none;
   std::vector<Known> known;
   for (const Expression::Node& node : expression.nodes) {
@@ -217,19 +218,13 @@ std::optional<long> turns(const Expression& expression, std::size_t parameter) {
         if (number.get_den() == 1 && abs(number) <= kMaxTurns) result.integer = number.get_num().get_si();
         break;
       }
-      case Op::kNegate:
-        if (a.turns) result.turns = -*a.turns;
-        if (a.integer) result.integer = -*a.integer;
-        break;
-      case Op::kAdd:
-        if (a.turns && b.turns) result.turns = bounded(*a.turns + *b.turns);
-        break;
-      case Op::kSubtract:
-        if (a.turns && b.turns) result.turns = bounded(*a.turns - *b.turns);
-        break;
+      case Op::kNegate: result = {product(-1, a.turns), product(-1, a.integer)}; break;
+      case Op::kAdd: result.turns = sum(a.turns, b.turns); break;
+      case Op::kSubtract: result.turns = sum(a.turns, product(-1, b.turns)); break;
       case Op::kMultiply:
-        if (!is_unchanged && a.integer && b.turns) result.turns = bounded(*a.integer * *b.turns);
-        if (!is_unchanged && b.integer && a.turns) result.turns = bounded(*b.integer * *a.turns);
+        if (is_unchanged) break;
+        result.turns = product(a.integer, b.turns);
+        if (b.integer) result.turns = product(b.integer, a.turns);
         break;
       case Op::kPower:
         if (node.n == 0) result = {0, 1};

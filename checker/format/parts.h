@@ -7,20 +7,29 @@
 
 namespace taut::checker {
 
+inline constexpr std::array<std::pair<const char*, Law>, 4> kLaws = {
+    {{"straight-in-parameters", Law::kStraight},
+     {"cubic-b-spline", Law::kCubicBSpline},
+     {"geodesic", Law::kGeodesic},
+     {"straight-in-cable-lengths", Law::kCableLengths}}};
+
+void read(const Cursor& json, Limits& limits);
+void read(const Cursor& json, ToleranceBounds& tolerances);
 [[nodiscard]] Problem read_problem(const Cursor& json);
 /// `problem.space` of a path whose law is one of poses: the free coordinates px py pz phi theta sigma.
 [[nodiscard]] const Json& coordinate_space();
 
-[[nodiscard]] Law read_law(const Cursor& json);
 /// Leaves out the sizes and ranges that the problem prescribes.
 [[nodiscard]] Waypoint read_waypoint(const Cursor& json, Law law);
+/// Widths >= 0; that they are positive is asked where something is claimed.
+void read(const Cursor& json, PoseTube& tube);
 /// Appends an entry of `pose_tubes` to the path.
 void read_pose_tube(const Cursor& json, Path& path);
 /// Of two successive tubes one contains the other. Otherwise the motion might change from one pose to another between
 /// them.
 [[nodiscard]] bool are_nested(const PoseTube& a, const PoseTube& b);
 
-[[nodiscard]] Margins read_margins(const Cursor& json);
+void read(const Cursor& json, Margins& margins);
 [[nodiscard]] Segment read_segment(const Cursor& json, std::size_t k, const Problem& problem, const Path& path);
 [[nodiscard]] Witness read_witness(const Cursor& json, const Problem& problem, const Path& path);
 [[nodiscard]] Stretch read_stretch(const Cursor& json, const Problem& problem, const Path& path);

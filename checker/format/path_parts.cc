@@ -7,89 +7,68 @@
 namespace taut::checker {
 namespace {
 
-constexpr std::int64_t kMaxHalfTurns = 1'000'000;
 constexpr std::size_t kPoseSize = 7;  ///< px, py, pz, qx, qy, qz, qw
 
-/// The numbers of `position` and `quaternion`.
-std::vector<double> read_pose(const Cursor& json) {
-  std::vector<double> x = json["position"].binary64s(3);
-  const std::vector<double> q = json["quaternion"].binary64s(4);
-  if (std::ranges::all_of(q, [](double c) { return c == 0; })) json["quaternion"].fail("a quaternion that is not 0");
-  x.insert(x.end(), q.begin(), q.end());
-  return x;
-}
-
-/// Widths >= 0; that they are positive is asked where something is claimed.
-PoseTube read_tube(const Cursor& json) {
-  const PoseTube tube = {json["position"].binary64(), json["turn"].binary64()};
-  if (tube.position < 0 || tube.turn < 0) json.fail("positive widths");
-  return tube;
+auto quaternion(std::span<double> q) {
+  return [q](const Cursor& json) {
+    read(json, q);
+    json.require(std::ranges::any_of(q, [](double c) { return c != 0; }), "a quaternion that is not 0");
+  };
 }
 
 /// @param key  under which the pose's place is found
 InnerPose read_reference_pose(const Cursor& json, const char* key) {
   static const mpz_class kMaxDenominator = mpz_class(1) << 52;
-  json.object({"position", "quaternion", key, "tube"});
   InnerPose pose;
-  pose.s = json[key].dyadic();
-  if (pose.s.get_den() > kMaxDenominator) json[key].fail("a denominator of at most 2^52");
-  std::ranges::copy(read_pose(json), pose.x.begin());
-  const Cursor tube = json["tube"];
-  tube.object({"position", "turn"});
-  pose.tube = read_tube(tube);
+  const std::span<double> x = pose.x;
+  json.object("position", x.first(3), "quaternion", quaternion(x.last(4)), key, dyadic(pose.s), "tube", pose.tube);
+  json[key].require(pose.s.get_den() <= kMaxDenominator, "a denominator of at most 2^52");
   return pose;
 }
-
-/// What a box's object has besides "bits".
-struct BoxKeys {
-  bool s = true;
-  std::size_t unknowns = 0;  ///< "near" is there unless this is 0
-  bool end_point = false;    ///< whether "s" may be ["1", "1"]
-  bool tolerances = false;   ///< "parts" and "guesses"
-  bool segment = false;
-};
 
 /// The unknowns of the equations that imply poses; 0 where poses are stated.
 std::size_t unknowns(const Problem& problem, const Path& path) {
   return path.law == Law::kCableLengths ? kCables : problem.constraints.size();
 }
 
-NearZero read_near(const Cursor& json, std::size_t unknowns) {
-  json.object({"at", "narrowings", "radius", "slope"});
-  NearZero near{json["at"].binary64s(unknowns), json["slope"].binary64s(unknowns), json["radius"].binary64(),
-                static_cast<int>(json["narrowings"].integer(0, 8))};
-  if (near.radius <= 0) json["radius"].fail("a positive radius");
-  return near;
-}
+/// What a box's object has besides "bits".
+struct BoxKeys {
+  bool s = true;
+  std::size_t unknowns = 0;     ///< "near" is there unless this is 0
+  bool end_point = false;       ///< whether "s" may be ["1", "1"]
+  bool tolerances = false;      ///< "parts" and "guesses"
+  MotionBox* motion = nullptr;  ///< where not null: "segment", which is read into it
+  std::size_t segments = 0;     ///< of the path
+};
 
 Box read_box(const Cursor& json, const BoxKeys& keys) {
-  std::vector<std::string_view> names = {"bits"};
-  if (keys.s) names.emplace_back("s");
-  if (keys.unknowns > 0) names.emplace_back("near");
-  if (keys.tolerances) names.insert(names.end(), {"guesses", "parts"});
-  if (keys.segment) names.emplace_back("segment");
-  json.object(names);
   Box box;
-  box.bits = static_cast<int>(json["bits"].integer(32, 4096));
-  if (keys.s) {
-    const Cursor s = json["s"];
-    s.array(2);
-    box.begin = s.at(0).dyadic();
-    box.end = s.at(1).dyadic();
-    if (box.begin > box.end || (box.begin == box.end && !(keys.end_point && box.begin == 1))) s.fail("begin < end");
-  }
-  if (keys.unknowns > 0) box.near = read_near(json["near"], keys.unknowns);
-  if (keys.tolerances) {
-    box.parts = static_cast<int>(json["parts"].integer(1, 64));
-    box.guesses = static_cast<int>(json["guesses"].integer(1, 16));
-  }
+  std::size_t segment = 0;
+  const auto read_near = [&](const Cursor& here) {
+    NearZero& near = box.near.emplace(NearZero{std::vector<double>(keys.unknowns), std::vector<double>(keys.unknowns)});
+    here.object("at", std::span(near.at), "narrowings", integer(near.narrowings, 0, 8), "radius", near.radius, "slope",
+                std::span(near.slope));
+    here["radius"].require(near.radius > 0, "a positive radius");
+  };
+  const auto read_ends = [&](const Cursor& s) {
+    s.require_size(2);
+    dyadic(box.begin)(s.at(0));
+    dyadic(box.end)(s.at(1));
+    s.require(box.begin < box.end || (box.begin == box.end && keys.end_point && box.begin == 1), "begin < end");
+  };
+  const auto if_tolerances = [&](const char* key) { return keys.tolerances ? key : nullptr; };
+  json.object("bits", integer(box.bits, 32, 4096), keys.s ? "s" : nullptr, read_ends,
+              keys.unknowns > 0 ? "near" : nullptr, read_near, if_tolerances("guesses"), integer(box.guesses, 1, 16),
+              if_tolerances("parts"), integer(box.parts, 1, 64), keys.motion != nullptr ? "segment" : nullptr,
+              integer(segment, 0, static_cast<std::int64_t>(keys.segments) - 1));
+  if (keys.motion != nullptr) *keys.motion = {segment, box};
   return box;
 }
 
 /// Boxes never reach across a pose at which the reference changes direction.
 void require_one_piece(const Cursor& json, const Box& box, const std::vector<InnerPose>& poses) {
   const auto next = std::ranges::upper_bound(poses, box.begin, {}, &InnerPose::s);
-  if (next != poses.end() && next->s < box.end) json["s"].fail("a box that reaches across no pose of the reference");
+  json["s"].require(next == poses.end() || next->s >= box.end, "a box that reaches across no pose of the reference");
 }
 
 void require_one_piece(const Cursor& json, const Box& box, std::size_t segment, const Path& path) {
@@ -97,27 +76,34 @@ void require_one_piece(const Cursor& json, const Box& box, std::size_t segment, 
 }
 
 PathPoint read_point(const Cursor& json, const Path& path) {
-  json.object({"s", "segment"});
-  const auto segments = static_cast<std::int64_t>(path.segments());
-  if (segments == 0) json.fail("a path with segments");
-  return {static_cast<std::size_t>(json["segment"].integer(0, segments - 1)), json["s"].dyadic()};
+  PathPoint point;
+  const std::size_t segments = path.segments();
+  json.require(segments > 0, "a path with segments");
+  json.object("s", dyadic(point.s), "segment", integer(point.segment, 0, static_cast<std::int64_t>(segments) - 1));
+  return point;
 }
 
 /// Or {"waypoint": k}, except on a spline: s = 0 of segment k, or the end of the last segment.
-PathPoint read_witness_point(const Cursor& json, const Path& path) {
-  if (path.waypoints.empty()) json.fail("a path");
-  if (path.law == Law::kCubicBSpline || !json.has("waypoint")) return read_point(json, path);
-  json.object({"waypoint"});
-  const std::size_t segments = path.segments();
-  const auto k = static_cast<std::size_t>(json["waypoint"].integer(0, static_cast<std::int64_t>(segments)));
-  return k == 0 || k < segments ? PathPoint{k, 0} : PathPoint{k - 1, 1};
+auto witness_point(PathPoint& point, const Path& path) {
+  return [&](const Cursor& json) {
+    json.require(!path.waypoints.empty(), "a path");
+    if (path.law == Law::kCubicBSpline || !json.has("waypoint")) {
+      point = read_point(json, path);
+      return;
+    }
+    std::size_t k = 0;
+    const std::size_t segments = path.segments();
+    json.object("waypoint", integer(k, 0, static_cast<std::int64_t>(segments)));
+    point = k == 0 || k < segments ? PathPoint{k, 0} : PathPoint{k - 1, 1};
+  };
 }
 
-/// The box of a single point.
-Box read_proof(const Cursor& json, const PathPoint& point, std::size_t unknowns) {
-  Box box = read_box(json, {.s = false, .unknowns = unknowns});
-  box.begin = box.end = point.s;
-  return box;
+/// The box of a single point, which has been read.
+auto proof(Box& box, const PathPoint& point, std::size_t unknowns) {
+  return [&, unknowns](const Cursor& json) {
+    box = read_box(json, {.s = false, .unknowns = unknowns});
+    box.begin = box.end = point.s;
+  };
 }
 
 bool is_zero(const mpq_class& x) { return x == 0; }
@@ -128,219 +114,208 @@ bool is_zero(const Range& range) {
 
 /// How the pose is followed while the deviation grows.
 void read_way(const Cursor& json, WitnessDeviation& deviation) {
-  json.object({"boxes", "poses"});
-  const Cursor poses = json["poses"];
-  if (poses.size() < 2) poses.fail("at least two poses");
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Cursor here = poses.at(i);
+  std::vector<InnerPose>& way = deviation.poses;
+  const auto read_pose = [&](const Cursor& here, std::size_t i) {
     InnerPose pose = read_reference_pose(here, "tau");
-    if (pose.tube.position == 0 || pose.tube.turn == 0) here["tube"].fail("positive widths");
-    const bool follows = i == 0 ? pose.s == 0 : pose.s > deviation.poses.back().s;
-    if (!follows) here["tau"].fail("0 at first, then rising");
-    if (i > 0 && !are_nested(deviation.poses.back().tube, pose.tube)) {
-      here["tube"].fail("a tube that contains the one before, or is contained in it");
-    }
-    deviation.poses.push_back(std::move(pose));
-  }
-  if (deviation.poses.back().s != 1) poses.fail("tau = 1 at last");
-  const Cursor boxes = json["boxes"];
-  mpq_class reached = 0;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Cursor here = boxes.at(i);
-    Box box = read_box(here, {.unknowns = kCables, .end_point = i + 1 == boxes.size()});
-    if (box.begin != reached) here["s"].fail("a box that begins where the last one ended");
-    require_one_piece(here, box, deviation.poses);
-    reached = box.end;
-    deviation.boxes.push_back(std::move(box));
-  }
-  if (reached != 1) boxes.fail("boxes up to 1");
+    here["tube"].require(pose.tube.position != 0 && pose.tube.turn != 0, "positive widths");
+    here["tau"].require(i == 0 ? pose.s == 0 : pose.s > way.back().s, "0 at first, then rising");
+    here["tube"].require(i == 0 || are_nested(way.back().tube, pose.tube),
+                         "a tube that contains the one before, or is contained in it");
+    way.push_back(std::move(pose));
+  };
+  const auto read_poses = [&](const Cursor& poses) {
+    poses.require(poses.size() >= 2, "at least two poses");
+    poses.elements(read_pose);
+    poses.require(way.back().s == 1, "tau = 1 at last");
+  };
+  const auto read_boxes = [&](const Cursor& boxes) {
+    mpq_class reached = 0;
+    boxes.elements([&](const Cursor& here, std::size_t i) {
+      Box box = read_box(here, {.unknowns = kCables, .end_point = i + 1 == boxes.size()});
+      here["s"].require(box.begin == reached, "a box that begins where the last one ended");
+      require_one_piece(here, box, way);
+      reached = box.end;
+      deviation.boxes.push_back(std::move(box));
+    });
+    boxes.require(reached == 1, "boxes up to 1");
+  };
+  json.object("poses", read_poses, "boxes", read_boxes);
 }
 
 WitnessDeviation read_deviation(const Cursor& json, bool is_controlled) {
-  std::vector<std::string_view> keys = {"base_anchors_m", "load_point_m", "platform_anchors_m",
-                                        "position_m",     "turn",         "wrench"};
-  if (is_controlled) keys.insert(keys.end(), {"cable_lengths_m", "way"});
-  json.object(keys);
-  WitnessDeviation result;
-  result.base_anchors = json["base_anchors_m"].decimal_rows<kCables, 3>();
-  result.platform_anchors = json["platform_anchors_m"].decimal_rows<kCables, 3>();
-  result.load_point = json["load_point_m"].decimals<3>();
-  result.wrench = json["wrench"].decimal();
-  result.position = json["position_m"].decimals<3>();
-  result.turn = json["turn"].decimals<3>();
-  if (!is_controlled) return result;
-  result.cable_lengths = json["cable_lengths_m"].decimals<kCables>();
-  const bool stays = is_zero(result.base_anchors) && is_zero(result.platform_anchors) && is_zero(*result.cable_lengths);
-  const Cursor way = json["way"];
-  if (stays != way.is_null()) way.fail(stays ? "null where neither anchors nor lengths deviate" : "an object");
-  if (!stays) read_way(way, result);
-  return result;
-}
-
-std::vector<MotionBox> read_motion(const Cursor& json, const Problem& problem, const Path& path) {
-  std::vector<MotionBox> motion;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const Cursor here = json.at(i);
-    MotionBox& last = motion.emplace_back();
-    last.box = read_box(here, {.unknowns = unknowns(problem, path), .segment = true});
-    const auto segments = static_cast<std::int64_t>(path.segments());
-    last.segment = static_cast<std::size_t>(here["segment"].integer(0, segments - 1));
-    require_one_piece(here, last.box, last.segment, path);
-  }
-  return motion;
+  WitnessDeviation x;
+  std::array<mpq_class, kCables> lengths;
+  const auto read_way_or_null = [&](const Cursor& way) {
+    const bool stays = is_zero(x.base_anchors) && is_zero(x.platform_anchors) && is_zero(lengths);
+    if (stays != way.is_null()) way.fail(stays ? "null where neither anchors nor lengths deviate" : "an object");
+    if (!stays) read_way(way, x);
+  };
+  json.object("base_anchors_m", x.base_anchors, "load_point_m", x.load_point, "platform_anchors_m", x.platform_anchors,
+              "position_m", x.position, "turn", x.turn, "wrench", x.wrench, is_controlled ? "cable_lengths_m" : nullptr,
+              lengths, is_controlled ? "way" : nullptr, read_way_or_null);
+  if (is_controlled) x.cable_lengths = lengths;
+  return x;
 }
 
 /// The violated limit, and the value that lies beyond it.
-void read_violation(const Cursor& json, const Problem& problem, Witness& witness) {
-  witness.cable = static_cast<std::size_t>(json["cable"].integer(1, kCables)) - 1;
-  const auto value = json["value"].decimals<2>();
-  witness.value_lower = value[0];
-  witness.value_upper = value[1];
+void require_violation(const Cursor& json, const mpq_class& stated_limit, const Problem& problem,
+                       const Witness& witness) {
   const bool is_tension = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kTensionMax;
   const bool is_minimum = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kLengthMin;
   const Limits& limits = (is_tension ? problem.tension : problem.length)[witness.cable];
   const mpq_class& limit = is_minimum ? limits.lower : limits.upper;
-  if (json["limit"].decimal() != limit) json["limit"].fail("the cable's limit in the problem");
-  if (value[0] > value[1]) json["value"].fail("ends in order");
-  if (is_minimum ? value[1] > limit : value[0] < limit) json["value"].fail("an enclosure that lies beyond the limit");
+  json["limit"].require(stated_limit == limit, "the cable's limit in the problem");
+  const Cursor value = json["value"];
+  value.require(witness.value_lower <= witness.value_upper, "ends in order");
+  value.require(is_minimum ? witness.value_upper <= limit : witness.value_lower >= limit,
+                "an enclosure that lies beyond the limit");
 }
 
 }  // namespace
 
-Law read_law(const Cursor& json) {
-  return json.one_of<Law>({{"straight-in-parameters", Law::kStraight},
-                           {"cubic-b-spline", Law::kCubicBSpline},
-                           {"geodesic", Law::kGeodesic},
-                           {"straight-in-cable-lengths", Law::kCableLengths}},
-                          "a law of the format");
-}
-
 Waypoint read_waypoint(const Cursor& json, Law law) {
+  constexpr std::int64_t kMaxHalfTurns = 1'000'000;
   Waypoint waypoint;
-  if (law == Law::kCableLengths) {
-    json.object({"lengths", "position", "quaternion"});
-    waypoint.x = read_pose(json);
-    const std::vector<double> lengths = json["lengths"].binary64s(kCables);
-    if (std::ranges::any_of(lengths, [](double x) { return x <= 0; })) json["lengths"].fail("positive lengths");
-    waypoint.x.insert(waypoint.x.end(), lengths.begin(), lengths.end());
-  } else if (law == Law::kGeodesic) {
-    json.object({"position", "quaternion"});
-    waypoint.x = read_pose(json);
-  } else {
-    json.object({"half_turns", "x"}, {"normals"});
-    if (json.has("normals")) {
-      waypoint.normals = json["normals"].binary64s(json["normals"].size());
-      if (waypoint.normals.empty()) json["normals"].fail("numbers, or no such key");
-    }
-    waypoint.x = json["x"].binary64s(json["x"].size());
-    const Cursor half_turns = json["half_turns"];
-    half_turns.array(waypoint.x.size());
-    for (std::size_t j = 0; j < half_turns.size(); ++j) {
-      waypoint.half_turns.push_back(static_cast<int>(half_turns.at(j).integer(-kMaxHalfTurns, kMaxHalfTurns)));
-    }
+  if (has_poses(law)) {
+    const bool has_lengths = law == Law::kCableLengths;
+    waypoint.x.resize(kPoseSize + (has_lengths ? kCables : 0));
+    const std::span<double> x = waypoint.x;
+    const std::span<double> lengths = x.subspan(kPoseSize);
+    json.object(has_lengths ? "lengths" : nullptr, lengths, "position", x.first(3), "quaternion",
+                quaternion(x.subspan(3, 4)));
+    const bool are_positive = std::ranges::all_of(lengths, [](double length) { return length > 0; });
+    if (!are_positive) json["lengths"].fail("positive lengths");
+    return waypoint;
   }
+  const auto read_half_turns = [&](const Cursor& half_turns) {
+    half_turns.elements([&](const Cursor& here, std::size_t) {
+      waypoint.half_turns.push_back(static_cast<int>(here.integer(-kMaxHalfTurns, kMaxHalfTurns)));
+    });
+  };
+  json.object("half_turns", read_half_turns, "normals?", waypoint.normals, "x", waypoint.x);
+  json["half_turns"].require_size(waypoint.x.size());
+  if (json.has("normals")) json["normals"].require(!waypoint.normals.empty(), "numbers, or no such key");
   return waypoint;
 }
 
+void read(const Cursor& json, PoseTube& tube) {
+  json.object("position", tube.position, "turn", tube.turn);
+  json.require(tube.position >= 0 && tube.turn >= 0, "positive widths");
+}
+
 void read_pose_tube(const Cursor& json, Path& path) {
-  json.object({"position", "turn"}, {"inner"});
-  path.pose_tubes.push_back(read_tube(json));
+  PoseTube& tube = path.pose_tubes.emplace_back();
   std::vector<InnerPose>& poses = path.inner_poses.emplace_back();
-  if (!json.has("inner")) return;
-  const Cursor inner = json["inner"];
-  if (inner.size() == 0) inner.fail("inner poses, or no such key");
-  poses.reserve(inner.size());
-  for (std::size_t i = 0; i < inner.size(); ++i) {
-    const Cursor here = inner.at(i);
-    InnerPose pose = read_reference_pose(here, "s");
-    if (pose.s <= (i == 0 ? mpq_class(0) : poses.back().s) || pose.s >= 1) here["s"].fail("rising s in (0, 1)");
-    poses.push_back(std::move(pose));
-  }
+  const auto read_inner = [&](const Cursor& inner) {
+    inner.require(inner.size() > 0, "inner poses, or no such key");
+    poses.reserve(inner.size());
+    inner.elements([&](const Cursor& here, std::size_t i) {
+      InnerPose pose = read_reference_pose(here, "s");
+      here["s"].require(pose.s > (i == 0 ? mpq_class(0) : poses.back().s) && pose.s < 1, "rising s in (0, 1)");
+      poses.push_back(std::move(pose));
+    });
+  };
+  json.object("position", tube.position, "turn", tube.turn, "inner?", read_inner);
+  json.require(tube.position >= 0 && tube.turn >= 0, "positive widths");
 }
 
 bool are_nested(const PoseTube& a, const PoseTube& b) {
   return (a.position <= b.position && a.turn <= b.turn) || (a.position >= b.position && a.turn >= b.turn);
 }
 
-Margins read_margins(const Cursor& json) {
-  json.object({"length_m", "tension_N", "wrench_scale"});
-  return {json["tension_N"].decimal(), json["length_m"].decimal(), json["wrench_scale"].decimal()};
+void read(const Cursor& json, Margins& margins) {
+  json.object("length_m", margins.length, "tension_N", margins.tension, "wrench_scale", margins.wrench_scale);
 }
 
 Segment read_segment(const Cursor& json, std::size_t k, const Problem& problem, const Path& path) {
-  json.object({"boxes", "from", "margins", "to"});
-  const auto from = static_cast<std::int64_t>(k);
-  const auto to = from + static_cast<std::int64_t>(path.control_points()) - 1;
-  (void)json["from"].integer(from, from);
-  (void)json["to"].integer(to, to);
   Segment segment;
-  const Cursor boxes = json["boxes"];
   const BoxKeys keys = {.unknowns = unknowns(problem, path), .tolerances = problem.tolerances.has_value()};
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Cursor here = boxes.at(i);
-    Box box = read_box(here, keys);
-    if (!segment.boxes.empty() && box.begin < segment.boxes.back().end) here["s"].fail("a box after the last one");
-    require_one_piece(here, box, k, path);
-    segment.boxes.push_back(std::move(box));
-  }
-  const Cursor margins = json["margins"];
-  if (segment.boxes.empty() != margins.is_null()) margins.fail("null where there is no box, and only there");
-  if (!margins.is_null()) segment.margins = read_margins(margins);
+  const auto read_boxes = [&](const Cursor& boxes) {
+    boxes.elements([&](const Cursor& here, std::size_t i) {
+      Box box = read_box(here, keys);
+      here["s"].require(i == 0 || box.begin >= segment.boxes.back().end, "a box after the last one");
+      require_one_piece(here, box, k, path);
+      segment.boxes.push_back(std::move(box));
+    });
+  };
+  const auto read_margins = [&](const Cursor& margins) {
+    margins.require(segment.boxes.empty() == margins.is_null(), "null where there is no box, and only there");
+    if (!margins.is_null()) read(margins, segment.margins);
+  };
+  json.object("from", exactly(k), "to", exactly(k + path.control_points() - 1), "boxes", read_boxes, "margins",
+              read_margins);
   return segment;
 }
 
 Witness read_witness(const Cursor& json, const Problem& problem, const Path& path) {
-  if (!json.has("kind")) json.fail("an object with the key 'kind'");
+  static constexpr std::array<std::pair<const char*, WitnessKind>, 5> kKinds = {
+      {{"tension_min", WitnessKind::kTensionMin},
+       {"tension_max", WitnessKind::kTensionMax},
+       {"length_min", WitnessKind::kLengthMin},
+       {"length_max", WitnessKind::kLengthMax},
+       {"singular", WitnessKind::kSingular}}};
+  json.require(json.has("kind"), "an object with the key 'kind'");
   Witness witness;
-  witness.kind = json["kind"].one_of<WitnessKind>({{"tension_min", WitnessKind::kTensionMin},
-                                                   {"tension_max", WitnessKind::kTensionMax},
-                                                   {"length_min", WitnessKind::kLengthMin},
-                                                   {"length_max", WitnessKind::kLengthMax},
-                                                   {"singular", WitnessKind::kSingular}},
-                                                  "a kind of the format");
-  const std::size_t k = unknowns(problem, path);
-  const bool is_singular = witness.kind == WitnessKind::kSingular;
-  if (is_singular) {
-    json.object({"at", "at_proof", "kind", "motion", "to", "to_proof"});
-    witness.to = read_witness_point(json["to"], path);
-    witness.to_box = read_proof(json["to_proof"], witness.to, k);
-  } else {
-    json.object({"at", "cable", "kind", "limit", "motion", "proof", "value"}, {"deviation"});
-    read_violation(json, problem, witness);
-    if (json.has("deviation")) {
-      const Cursor deviation = json["deviation"];
-      if (!problem.tolerances) deviation.fail("tolerances to be within");
-      witness.deviation = read_deviation(deviation, is_length_controlled(problem, path));
-    }
+  witness.kind = json["kind"].one_of<WitnessKind>(kKinds, "a kind of the format");
+  const std::size_t n = unknowns(problem, path);
+  const auto read_motion = [&](const Cursor& motion) {
+    motion.elements([&](const Cursor& here, std::size_t) {
+      MotionBox& last = witness.motion.emplace_back();
+      (void)read_box(here, {.unknowns = n, .motion = &last, .segments = path.segments()});
+      require_one_piece(here, last.box, last.segment, path);
+    });
+  };
+  const auto ignore = [](const Cursor&) {};
+  if (witness.kind == WitnessKind::kSingular) {
+    json.object("kind", ignore, "at", witness_point(witness.at, path), "at_proof", proof(witness.at_box, witness.at, n),
+                "to", witness_point(witness.to, path), "to_proof", proof(witness.to_box, witness.to, n), "motion",
+                read_motion);
+    return witness;
   }
-  witness.at = read_witness_point(json["at"], path);
-  witness.at_box = read_proof(json[is_singular ? "at_proof" : "proof"], witness.at, k);
-  witness.motion = read_motion(json["motion"], problem, path);
+  mpq_class limit;
+  const auto read_value = [&](const Cursor& value) {
+    std::array<mpq_class, 2> ends;
+    read(value, ends);
+    witness.value_lower = ends[0];
+    witness.value_upper = ends[1];
+  };
+  const auto read_deviating = [&](const Cursor& deviation) {
+    deviation.require(problem.tolerances.has_value(), "tolerances to be within");
+    witness.deviation = read_deviation(deviation, is_length_controlled(problem, path));
+  };
+  json.object("kind", ignore, "cable", integer(witness.cable, 1, kCables), "limit", limit, "value", read_value, "at",
+              witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n), "motion", read_motion,
+              "deviation?", read_deviating);
+  --witness.cable;
+  require_violation(json, limit, problem, witness);
   return witness;
 }
 
 Stretch read_stretch(const Cursor& json, const Problem& problem, const Path& path) {
-  json.object({"inner", "outer", "reason"});
-  const Cursor outer = json["outer"];
-  outer.array(2);
-  Stretch stretch{read_point(outer.at(0), path), read_point(outer.at(1), path), {}};
-  const mpq_class begin = abscissa(stretch.begin);
-  const mpq_class end = abscissa(stretch.end);
-  if (begin >= end) outer.fail("two places in order");
-  const Cursor inner = json["inner"];
-  if (inner.is_null()) {
-    (void)json["reason"].text();
-    return stretch;
-  }
-  if (!json["reason"].is_null()) json["reason"].fail("null where a violation is proved");
-  inner.array(2);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Witness& witness = stretch.inner.emplace_back(read_witness(inner.at(i), problem, path));
-    for (const PathPoint& point : {witness.at, witness.kind == WitnessKind::kSingular ? witness.to : witness.at}) {
-      if (abscissa(point) < begin || abscissa(point) > end) inner.at(i).fail("a place between the outer ends");
-    }
-  }
-  if (abscissa(stretch.inner[1].at) < abscissa(stretch.inner[0].at)) inner.fail("two witnesses in order");
+  Stretch stretch;
+  const auto read_outer = [&](const Cursor& outer) {
+    outer.require_size(2);
+    stretch.begin = read_point(outer.at(0), path);
+    stretch.end = read_point(outer.at(1), path);
+    outer.require(abscissa(stretch.begin) < abscissa(stretch.end), "two places in order");
+  };
+  const auto read_inner = [&](const Cursor& inner) {
+    if (inner.is_null()) return;
+    inner.require_size(2);
+    inner.elements([&](const Cursor& here, std::size_t) {
+      const Witness& witness = stretch.inner.emplace_back(read_witness(here, problem, path));
+      for (const PathPoint& point : {witness.at, witness.kind == WitnessKind::kSingular ? witness.to : witness.at}) {
+        here.require(abscissa(point) >= abscissa(stretch.begin) && abscissa(point) <= abscissa(stretch.end),
+                     "a place between the outer ends");
+      }
+    });
+    inner.require(abscissa(stretch.inner[0].at) <= abscissa(stretch.inner[1].at), "two witnesses in order");
+  };
+  const auto read_reason = [&](const Cursor& reason) {
+    if (stretch.inner.empty()) (void)reason.text();
+    reason.require(stretch.inner.empty() || reason.is_null(), "null where a violation is proved");
+  };
+  json.object("outer", read_outer, "inner", read_inner, "reason", read_reason);
   return stretch;
 }
 

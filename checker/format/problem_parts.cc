@@ -15,80 +15,48 @@ Expression expression(const Cursor& json, const Names& names) {
   return parse_expression(json.text(), names, json.where());
 }
 
-Expression constant(const Cursor& json) { return expression(json, {}); }
-
-std::array<Limits, kCables> limits(const Cursor& json) {
-  const auto rows = json.decimal_rows<kCables, 2>();
-  std::array<Limits, kCables> result;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    if (rows[i][0] < 0 || rows[i][0] >= rows[i][1]) json.at(i).fail("0 <= lower < upper");
-    result[i] = {rows[i][0], rows[i][1]};
-  }
-  return result;
-}
-
-mpq_class tolerance(const Cursor& json) {
-  mpq_class result = json.decimal();
-  if (result < 0) json.fail("a tolerance >= 0");
-  return result;
-}
-
-std::array<mpq_class, kCables> tolerances_of_cables(const Cursor& json) {
-  json.array(kCables);
-  std::array<mpq_class, kCables> result;
-  for (std::size_t i = 0; i < kCables; ++i) result[i] = tolerance(json.at(i));
-  return result;
+/// Reads a constant expression.
+auto constant(Expression& x) {
+  return [&x](const Cursor& json) { x = expression(json, {}); };
 }
 
 /// A constant expression whose value is certainly below 1, and not certainly below 0.
-Expression tolerance_of_angle(const Cursor& json) {
+void read_angle(const Cursor& json, Expression& angle) {
   constexpr const char* kExpected = "an angle from 0 to below 1";
-  Expression result = constant(json);
+  constant(angle)(json);
   try {
     const WorkingPrecision precision(128);
-    const Ball value = result.evaluate<MeanValueForm>({}).range();
-    if (certainly_negative(value) || !certainly_positive(Ball(1) - value)) json.fail(kExpected);
+    const Ball value = angle.evaluate<MeanValueForm>({}).range();
+    json.require(!certainly_negative(value) && certainly_positive(Ball(1) - value), kExpected);
   } catch (const Undefined& why) {
     json.fail(std::string(kExpected) + ", not " + why.what());
   }
-  return result;
 }
 
-ToleranceBounds read_tolerances(const Cursor& json) {
-  json.object({"base_anchor_m", "cable_length_m", "load_point_m", "orientation_rad", "platform_anchor_m", "position_m",
-               "wrench"});
-  ToleranceBounds result;
-  result.base_anchors = tolerances_of_cables(json["base_anchor_m"]);
-  result.platform_anchors = tolerances_of_cables(json["platform_anchor_m"]);
-  result.load_point = tolerance(json["load_point_m"]);
-  result.wrench = json["wrench"].decimals<6>();
-  result.position = tolerance(json["position_m"]);
-  result.orientation = tolerance_of_angle(json["orientation_rad"]);
-  const Cursor lengths = json["cable_length_m"];
-  if (!lengths.is_null()) result.cable_length = tolerances_of_cables(lengths);
-  return result;
+void require_tolerance(const Cursor& json, const mpq_class& x) { json.require(x >= 0, "a tolerance >= 0"); }
+void require_tolerance(const Cursor& json, const std::array<mpq_class, kCables>& x) {
+  for (std::size_t i = 0; i < kCables; ++i) require_tolerance(json.at(i), x[i]);
 }
 
 /// Appends the parameter and its name.
 void read_parameter(const Cursor& json, Problem& problem, Names& names) {
-  json.object({"kind", "name"}, {"range"});
-  const bool is_range = json.has("range");
+  using Kind = ParameterKind;
+  static constexpr std::array<std::pair<const char*, Kind>, 3> kKinds = {
+      {{"real", Kind::kReal}, {"periodic", Kind::kPeriodic}, {"range", Kind::kRange}}};
+  constexpr const char* kExpected = "real, periodic, or range with its ends";
   Parameter parameter;
-  parameter.name = json["name"].text();
+  json.object(
+      "name", parameter.name, "kind",
+      [&](const Cursor& kind) { parameter.kind = kind.one_of<Kind>(kKinds, kExpected); }, "range?",
+      [&](const Cursor& range) {
+        range.require_size(2);
+        constant(parameter.lower)(range.at(0));
+        constant(parameter.upper)(range.at(1));
+      });
   const bool is_taken = names.constants.contains(parameter.name) ||
                         std::ranges::find(names.parameters, parameter.name) != names.parameters.end();
-  if (!is_free_name(parameter.name) || is_taken) json["name"].fail("a name that nothing else has");
-  constexpr const char* kExpected = "real, periodic, or range with its ends";
-  parameter.kind = json["kind"].one_of<ParameterKind>(
-      {{"real", ParameterKind::kReal}, {"periodic", ParameterKind::kPeriodic}, {"range", ParameterKind::kRange}},
-      kExpected);
-  if (is_range != (parameter.kind == ParameterKind::kRange)) json["kind"].fail(kExpected);
-  if (is_range) {
-    const Cursor range = json["range"];
-    range.array(2);
-    parameter.lower = constant(range.at(0));
-    parameter.upper = constant(range.at(1));
-  }
+  json["name"].require(is_free_name(parameter.name) && !is_taken, "a name that nothing else has");
+  json["kind"].require(json.has("range") == (parameter.kind == Kind::kRange), kExpected);
   names.parameters.push_back(parameter.name);
   problem.parameters.push_back(std::move(parameter));
 }
@@ -114,96 +82,111 @@ void require_closed(const Cursor& space, const Problem& problem) {
 
 /// Where (phi, theta) and (phi + pi, -theta) are the same pose.
 void read_flip(const Cursor& json, const Json& pose, Problem& problem) {
-  json.array(2);
+  json.require_size(2);
   const auto last = static_cast<std::int64_t>(problem.parameters.size()) - 1;
   const auto phi = static_cast<std::size_t>(json.at(0).integer(0, last));
   const auto theta = static_cast<std::size_t>(json.at(1).integer(0, last));
   const Parameter& first = problem.parameters[phi];
   const Parameter& second = problem.parameters[theta];
-  if (phi == theta || pose["phi"] != first.name || pose["theta"] != second.name) {
-    json.fail("the parameters that are phi and theta themselves");
-  }
-  if (first.kind != ParameterKind::kPeriodic || second.kind != ParameterKind::kReal) {
-    json.fail("phi of kind periodic and theta of kind real");
-  }
+  json.require(phi != theta && pose["phi"] == first.name && pose["theta"] == second.name,
+               "the parameters that are phi and theta themselves");
+  json.require(first.kind == ParameterKind::kPeriodic && second.kind == ParameterKind::kReal,
+               "phi of kind periodic and theta of kind real");
   const auto mentions_either = [&](const Expression& x) { return mentions(x, phi) || mentions(x, theta); };
   for (const std::size_t c : {0, 1, 2, 5}) {
-    if (mentions_either(problem.pose[c])) {
-      json.fail(std::string("a pose whose ") + kPoseNames[c] + " mentions neither phi nor theta");
-    }
+    if (!mentions_either(problem.pose[c])) continue;
+    json.fail(std::string("a pose whose ") + kPoseNames[c] + " mentions neither phi nor theta");
   }
-  if (std::ranges::any_of(problem.constraints, mentions_either)) {
-    json.fail("constraints that mention neither phi nor theta");
-  }
+  json.require(std::ranges::none_of(problem.constraints, mentions_either),
+               "constraints that mention neither phi nor theta");
   problem.flip = {phi, theta};
 }
 
 void read_space(const Cursor& json, Problem& problem) {
-  json.object({"constants", "constraints", "flip", "parameters", "pose"});
   Names names;
-  const Cursor constants = json["constants"];
-  if (!constants.json().is_object()) constants.fail("an object");
-  for (const auto& item : constants.json().items()) {
-    if (!is_free_name(item.key())) constants.fail("a name, not '" + item.key() + "'");
-    names.constants[item.key()] = constants[item.key().c_str()].decimal();
-  }
-  const Cursor parameters = json["parameters"];
-  if (parameters.size() == 0 || parameters.size() > kMaxParameters) parameters.fail("1 to 64 parameters");
-  for (std::size_t j = 0; j < parameters.size(); ++j) read_parameter(parameters.at(j), problem, names);
-  const Cursor pose = json["pose"];
-  pose.object({kPoseNames.begin(), kPoseNames.end()});
-  for (std::size_t c = 0; c < 6; ++c) problem.pose[c] = expression(pose[kPoseNames[c]], names);
-  const Cursor constraints = json["constraints"];
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    problem.constraints.push_back(expression(constraints.at(i), names));
-  }
-  const std::size_t n = problem.parameters.size();
-  if (constraints.size() > 0 && (n > kMaxConstrainedParameters || constraints.size() >= n)) {
-    constraints.fail("fewer constraints than parameters, and at most 6 of these");
-  }
-  require_closed(json, problem);
-  const Cursor flip = json["flip"];
-  if (!flip.is_null()) read_flip(flip, pose.json(), problem);
+  const auto read_constants = [&](const Cursor& constants) {
+    constants.require(constants.json().is_object(), "an object");
+    for (const auto& item : constants.json().items()) {
+      if (!is_free_name(item.key())) constants.fail("a name, not '" + item.key() + "'");
+      read(constants[item.key()], names.constants[item.key()]);
+    }
+  };
+  const auto read_parameters = [&](const Cursor& parameters) {
+    parameters.require(parameters.size() > 0 && parameters.size() <= kMaxParameters, "1 to 64 parameters");
+    parameters.elements([&](const Cursor& here, std::size_t) { read_parameter(here, problem, names); });
+  };
+  const auto read_pose = [&](const Cursor& pose) {
+    const auto read_coordinate = [&](std::size_t c) {
+      return [&, c](const Cursor& here) { problem.pose[c] = expression(here, names); };
+    };
+    pose.object("px", read_coordinate(0), "py", read_coordinate(1), "pz", read_coordinate(2), "phi", read_coordinate(3),
+                "theta", read_coordinate(4), "sigma", read_coordinate(5));
+  };
+  const auto read_constraints = [&](const Cursor& constraints) {
+    const std::size_t n = problem.parameters.size();
+    constraints.elements(
+        [&](const Cursor& here, std::size_t) { problem.constraints.push_back(expression(here, names)); });
+    constraints.require(constraints.size() == 0 || (n <= kMaxConstrainedParameters && constraints.size() < n),
+                        "fewer constraints than parameters, and at most 6 of these");
+    require_closed(json, problem);
+  };
+  json.object("constants", read_constants, "parameters", read_parameters, "pose", read_pose, "constraints",
+              read_constraints, "flip", [&](const Cursor& flip) {
+                if (!flip.is_null()) read_flip(flip, json["pose"].json(), problem);
+              });
 }
 
 void read_query(const Cursor& json, Problem& problem) {
-  json.object({"waypoints"});
-  const Cursor waypoints = json["waypoints"];
-  if (waypoints.size() == 1) waypoints.fail("none, or at least two waypoints");
-  for (std::size_t k = 0; k < waypoints.size(); ++k) {
-    const Cursor waypoint = waypoints.at(k);
-    waypoint.array(problem.parameters.size());
-    std::vector<Expression>& x = problem.query.emplace_back();
-    for (std::size_t j = 0; j < waypoint.size(); ++j) x.push_back(constant(waypoint.at(j)));
-  }
+  json.object("waypoints", [&](const Cursor& waypoints) {
+    waypoints.require(waypoints.size() != 1, "none, or at least two waypoints");
+    waypoints.elements([&](const Cursor& waypoint, std::size_t) {
+      waypoint.require_size(problem.parameters.size());
+      std::vector<Expression>& x = problem.query.emplace_back(waypoint.size());
+      waypoint.elements([&](const Cursor& here, std::size_t j) { constant(x[j])(here); });
+    });
+  });
 }
 
 }  // namespace
 
+void read(const Cursor& json, Limits& limits) {
+  std::array<mpq_class, 2> ends;
+  read(json, ends);
+  json.require(ends[0] >= 0 && ends[0] < ends[1], "0 <= lower < upper");
+  limits = {ends[0], ends[1]};
+}
+
+void read(const Cursor& json, ToleranceBounds& x) {
+  const auto read_orientation = [&](const Cursor& here) { read_angle(here, x.orientation); };
+  json.object("base_anchor_m", x.base_anchors, "cable_length_m", x.cable_length, "load_point_m", x.load_point,
+              "orientation_rad", read_orientation, "platform_anchor_m", x.platform_anchors, "position_m", x.position,
+              "wrench", x.wrench);
+  require_tolerance(json["base_anchor_m"], x.base_anchors);
+  require_tolerance(json["platform_anchor_m"], x.platform_anchors);
+  require_tolerance(json["load_point_m"], x.load_point);
+  require_tolerance(json["position_m"], x.position);
+  if (x.cable_length) require_tolerance(json["cable_length_m"], *x.cable_length);
+}
+
 Problem read_problem(const Cursor& json) {
-  json.object({"load", "name", "query", "robot", "space", "tolerances"});
-  (void)json["name"].text();
   Problem problem;
-  const Cursor robot = json["robot"];
-  robot.object({"base_anchors_m", "length_m", "platform_anchors_m", "tension_N"});
-  problem.base_anchors = robot["base_anchors_m"].decimal_rows<kCables, 3>();
-  problem.platform_anchors = robot["platform_anchors_m"].decimal_rows<kCables, 3>();
-  problem.tension = limits(robot["tension_N"]);
-  problem.length = limits(robot["length_m"]);
-  const Cursor load = json["load"];
-  load.object({"ellipsoid", "point_m", "wrench"});
-  problem.load_point = load["point_m"].decimals<3>();
-  problem.wrench = load["wrench"].decimals<6>();
-  problem.ellipsoid = load["ellipsoid"].decimal_rows<6, 6>();
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (problem.ellipsoid[i][j] != problem.ellipsoid[j][i]) load["ellipsoid"].fail("a symmetric matrix");
+  std::string name;
+  const auto read_robot = [&](const Cursor& robot) {
+    robot.object("base_anchors_m", problem.base_anchors, "length_m", problem.length, "platform_anchors_m",
+                 problem.platform_anchors, "tension_N", problem.tension);
+  };
+  const auto read_load = [&](const Cursor& load) {
+    load.object("ellipsoid", problem.ellipsoid, "point_m", problem.load_point, "wrench", problem.wrench);
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        load["ellipsoid"].require(problem.ellipsoid[i][j] == problem.ellipsoid[j][i], "a symmetric matrix");
+      }
     }
-  }
-  const Cursor tolerances = json["tolerances"];
-  if (!tolerances.is_null()) problem.tolerances = read_tolerances(tolerances);
-  read_space(json["space"], problem);
-  read_query(json["query"], problem);
+  };
+  json.object(
+      "name", name, "robot", read_robot, "load", read_load, "tolerances", problem.tolerances, "space",
+      [&](const Cursor& space) { read_space(space, problem); }, "query",
+      [&](const Cursor& query) { read_query(query, problem); });
   return problem;
 }
 

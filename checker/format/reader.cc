@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sha256.h"
 #include "checker/format/claims.h"
 #include "checker/format/parts.h"
 #include "checker/format/signature.h"
@@ -15,349 +16,299 @@ namespace {
 constexpr std::int64_t kVersion = 4;  ///< of the format
 constexpr std::array<const char*, 3> kMarginKeys = {"tension_N", "length_m", "wrench_scale"};
 
-[[noreturn]] void fail(const std::string& where, const std::string& expected) {
-  throw Malformed(where + ": expected " + expected);
+auto is_digest(std::string_view digest) {
+  return exactly(digest, "the digest of what the file contains: it was altered");
 }
-std::string at(const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
 
-/// From one abscissa of the path to another.
-struct Interval {
-  mpq_class begin;
-  mpq_class end;
-};
-
-/// What is left of a path beside boxes that come in order.
-class Gaps {
+/// Parts of a path that come in order, each from one abscissa to another. Parts that meet are one.
+class Parts {
  public:
-  void add(std::size_t k, const std::vector<Box>& boxes) {
-    mpq_class reached = 0;
-    for (const Box& box : boxes) {
-      if (box.begin != reached) append(k, reached, box.begin);
-      reached = box.end;
+  void append(const mpq_class& begin, const mpq_class& end) {
+    if (!parts_.empty() && parts_.back().second == begin) {
+      parts_.back().second = end;
+    } else {
+      parts_.emplace_back(begin, end);
     }
-    if (reached != 1) append(k, reached, 1);
   }
-  [[nodiscard]] const std::vector<Interval>& intervals() const { return intervals_; }
-
-  /// Whether intervals that come in order tile them.
-  [[nodiscard]] bool are_tiled(const std::vector<Interval>& tiles) const {
-    auto gap = intervals_.begin();
-    mpq_class reached = intervals_.empty() ? mpq_class(0) : gap->begin;
-    for (const Interval& tile : tiles) {
-      if (gap == intervals_.end() || tile.begin != reached || tile.end > gap->end) return false;
-      reached = tile.end;
-      if (reached == gap->end && ++gap != intervals_.end()) reached = gap->begin;
-    }
-    return gap == intervals_.end();
-  }
+  [[nodiscard]] bool empty() const { return parts_.empty(); }
+  [[nodiscard]] const mpq_class& begin() const { return parts_.front().first; }
+  [[nodiscard]] const mpq_class& end() const { return parts_.back().second; }
+  bool operator==(const Parts&) const = default;
 
  private:
-  void append(std::size_t k, const mpq_class& begin, const mpq_class& end) {
-    const Interval gap = {abscissa({k, begin}), abscissa({k, end})};
-    if (!intervals_.empty() && intervals_.back().end == gap.begin) {
-      intervals_.back().end = gap.end;
-    } else {
-      intervals_.push_back(gap);
-    }
-  }
-  std::vector<Interval> intervals_;
+  std::vector<std::pair<mpq_class, mpq_class>> parts_;
 };
 
-/// Takes the elements of the lists as they come, and then the outline, whose keys follow one another by code point: so
-/// the path comes before the problem, both before the segments, and the verdict comes after these.
 class Reader {
  public:
-  explicit Reader(std::size_t size) : size_(size) {}
+  explicit Reader(std::string_view text) : outline_(read_json(text)), top_(outline_.json, "") {}
 
-  void visit(const Json& outline, const Element& element) {
-    const Cursor here(element.value, element.list, element.index);
-    Path& path = result_.path;
-    if (element.list == "path.waypoints") {
-      if (element.index == 0) path.waypoints.reserve(announced(outline, "waypoints"));
-      path.waypoints.push_back(read_waypoint(here, law(outline)));
-    } else if (element.list == "path.tubes") {
-      path.tubes.push_back(here.binary64());
-      if (path.tubes.back() < 0) here.fail("a positive width");
-      note_width(path.tubes.back(), here);
-    } else if (element.list == "path.pose_tubes") {
-      read_pose_tube(here, path);
-      note_tube(path.pose_tubes.back(), here);
-      for (const InnerPose& pose : path.inner_poses.back()) note_tube(pose.tube, here);
-    } else if (element.list == "path.times") {
-      const mpq_class time = here.decimal();
-      if (element.index > 0 && time <= last_time_) here.fail("a time after the last one");
-      last_time_ = time;
-      times_ = element.index + 1;
-    } else if (element.list == "segments") {
-      visit_segment(outline, element, here);
-    } else {
-      visit_stretch(outline, element, here);
-    }
-  }
-
-  Certificate finish(Outline outline) {
-    const Cursor top(outline.json, "");
-    const std::vector<std::string_view> keys = {"claim",    "footer", "format",      "generator", "illustration",
-                                                "margins",  "path",   "path_sha256", "problem",   "problem_sha256",
-                                                "segments", "source", "stretches",   "undecided", "verdict",
-                                                "version",  "witness"};
-    top.object(keys, {"signature"});
-    if (top["format"].text() != "taut-certificate") top["format"].fail("'taut-certificate'");
-    (void)top["version"].integer(kVersion, kVersion);
-    if (!top["generator"].json().is_object()) top["generator"].fail("an object");
-    const Cursor footer = top["footer"];
-    footer.object({"boxes", "segments", "sha256", "waypoints"});
-    require_digest(footer["sha256"], outline.body_sha256);
-    require_digest(top["problem_sha256"], outline.problem_sha256);
-    require_digest(top["path_sha256"], outline.path_sha256);
-    if (top.has("signature")) result_.signer = verify_signature(top["signature"], outline.body_sha256);
-
-    complete_path(outline.json);
-    read_verdict(top);
-    read_segments_and_stretches(top);
-    read_witness_of(top);
-    read_rest(top);
-    const auto require_count = [&](const char* key, std::size_t n) {
-      (void)footer[key].integer(static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));
+  Certificate read() {
+    require_version();
+    const auto by = [this](void (Reader::*read)(const Cursor&)) {
+      return [this, read](const Cursor& json) { (this->*read)(json); };
     };
-    require_count("waypoints", result_.path.waypoints.size());
-    require_count("segments", result_.segment_texts.size());
-    require_count("boxes", result_.boxes);
-    result_.problem_json = std::move(outline.problem);
-    result_.path_sha256 = outline.path_sha256;
+    const auto later = [](const Cursor& /*json*/) {};
+    const auto read_footer = [&](const Cursor& footer) {
+      footer.object("sha256", is_digest(outline_.body_sha256), "boxes", later, "segments", later, "waypoints", later);
+    };
+    top_.object("format", exactly("taut-certificate", "'taut-certificate'"), "version", exactly(kVersion), "footer",
+                read_footer, "generator", by(&Reader::read_generator), "illustration", later, "claim", later, "verdict",
+                by(&Reader::read_verdict), "path_sha256", is_digest(outline_.path_sha256), "problem",
+                by(&Reader::read_problem_and_digest), "problem_sha256", later, "path", by(&Reader::read_path),
+                "stretches", by(&Reader::read_stretches), "segments", by(&Reader::read_segments), "margins",
+                by(&Reader::read_margins_of_path), "witness", by(&Reader::read_witness_of_path), "undecided",
+                by(&Reader::read_undecided), "source", by(&Reader::read_source), "signature?",
+                by(&Reader::read_signature));
+    const Cursor footer = top_["footer"];
+    exactly(result_.path.waypoints.size())(footer["waypoints"]);
+    exactly(result_.segment_texts.size())(footer["segments"]);
+    exactly(result_.boxes)(footer["boxes"]);
+    result_.problem_json = std::move(outline_.json["problem"]);
     return std::move(result_);
   }
 
  private:
-  /// What the footer says of the size of a list, as far as the file is long enough for it.
-  [[nodiscard]] std::size_t announced(const Json& outline, const char* key) const {
-    if (!outline.contains("footer")) return 0;
-    const Json& footer = outline["footer"];
-    const bool is_count = footer.is_object() && footer.contains(key) && footer[key].is_number_unsigned();
-    return is_count ? std::min(footer[key].get<std::size_t>(), size_ / 32) : 0;
+  /// A certificate of another version has other keys; that it is of another version says more than which.
+  void require_version() const {
+    const Json& json = outline_.json;
+    if (!json.is_object() || json.value("format", Json()) != "taut-certificate") return;
+    const Json version = json.value("version", Json());
+    if (!version.is_number_integer() || version == kVersion) return;
+    top_["version"].fail(std::to_string(kVersion) + ", got " + version.dump() +
+                         ": only the taut-check that came with the taut that made it can check it");
   }
 
-  Law law(const Json& outline) {
-    if (!has_law_) {
-      const Cursor path(outline["path"], "path");
-      if (!path.has("interpolation")) path.fail("the key 'interpolation'");
-      result_.path.law = read_law(path["interpolation"]);
-      has_law_ = true;
+  void read_generator(const Cursor& json) { json.require(json.json().is_object(), "an object"); }
+  void read_problem_and_digest(const Cursor& json) {
+    is_digest(sha256(json.json()))(top_["problem_sha256"]);
+    result_.problem = read_problem(json);
+  }
+  void read_signature(const Cursor& json) { result_.signer = verify_signature(json, outline_.body_sha256); }
+
+  /// Calls `read(element, text)` for each element of a list that may be long. @returns how many there are
+  template <class Read>
+  std::size_t for_each(const char* key, const char* name, const Read& read) const {
+    std::size_t count = 0;
+    const auto list = outline_.lists.find(key);
+    if (list == outline_.lists.end()) return 0;
+    for_each_element(list->second,
+                     [&](const Json& element, std::string_view text) { read(Cursor(element, name, count++), text); });
+    return count;
+  }
+
+  static void require_size(const Cursor& json, std::size_t size, std::size_t expected) {
+    if (size != expected) json.fail("an array of " + std::to_string(expected));
+  }
+
+  // ---- The path -----------------------------------------------------------------------------------------------------
+
+  void read_path(const Cursor& json) {
+    Path& path = result_.path;
+    const Problem& problem = result_.problem;
+    const auto is_list = [](const Cursor& list) { (void)list.size(); };
+    const auto is_list_or_null = [&](const Cursor& list) { list.is_null() ? void() : is_list(list); };
+    json.object(
+        "interpolation", [&](const Cursor& law) { path.law = law.one_of<Law>(kLaws, "a law of the format"); },
+        "pose_tubes", is_list, "times", is_list_or_null, "tubes", is_list, "waypoints", is_list);
+    for_each("waypoints", "path.waypoints", [&](const Cursor& here, std::string_view /*text*/) {
+      path.waypoints.push_back(read_waypoint(here, path.law));
+      if (!has_poses(path.law)) require_waypoint(here, path.waypoints.back());
+    });
+    const std::size_t waypoints = path.waypoints.size();
+    if (!json["times"].is_null()) require_size(json["times"], read_times(), waypoints);
+    json["waypoints"].require(path.law != Law::kCubicBSpline || path.segments() > 0, "at least four of a spline");
+    read_tubes();
+    const std::size_t segments = std::max(path.segments(), std::min<std::size_t>(waypoints, 1));
+    require_size(json["tubes"], path.tubes.size(), problem.constraints.empty() ? 0 : segments);
+    require_size(json["pose_tubes"], path.pose_tubes.size(), path.law == Law::kCableLengths ? segments : 0);
+    if (!has_poses(path.law)) return;
+    const Cursor of_case = top_["problem"];
+    if (!problem.query.empty()) {
+      throw Malformed("problem.query.waypoints: expected none where the path has a law of poses");
     }
-    return result_.path.law;
+    of_case["space"].require(of_case["space"].json() == coordinate_space(), "the one of the free coordinates");
+  }
+
+  [[nodiscard]] std::size_t read_times() const {
+    mpq_class last = -1;
+    bool is_first = true;
+    return for_each("times", "path.times", [&](const Cursor& here, std::string_view /*text*/) {
+      mpq_class time;
+      taut::checker::read(here, time);
+      here.require(is_first || time > last, "a time after the last one");
+      last = time;
+      is_first = false;
+    });
+  }
+
+  void read_tubes() {
+    Path& path = result_.path;
+    for_each("tubes", "path.tubes", [&](const Cursor& here, std::string_view /*text*/) {
+      taut::checker::read(here, path.tubes.emplace_back());
+      here.require(path.tubes.back() >= 0, "a positive width");
+      require_width(here, path.tubes.back());
+    });
+    std::optional<PoseTube> last;
+    const auto require_tube = [&](const Cursor& here, const PoseTube& tube) {
+      require_width(here, std::min(tube.position, tube.turn));
+      here.require(!last || are_nested(*last, tube),
+                   "tubes each of which contains the one before, or is contained in it");
+      last = tube;
+    };
+    for_each("pose_tubes", "path.pose_tubes", [&](const Cursor& here, std::string_view /*text*/) {
+      read_pose_tube(here, path);
+      require_tube(here, path.pose_tubes.back());
+      for (const InnerPose& pose : path.inner_poses.back()) require_tube(here, pose.tube);
+    });
   }
 
   /// A width may be 0 in an undecided certificate only.
-  void note_width(double width, const Cursor& where) {
-    if (width == 0 && no_width_.empty()) no_width_ = where.where();
-  }
-  void note_tube(const PoseTube& tube, const Cursor& where) {
-    note_width(std::min(tube.position, tube.turn), where);
-    if (last_tube_ && !are_nested(*last_tube_, tube)) {
-      where.fail("tubes each of which contains the one before, or is contained in it");
-    }
-    last_tube_ = tube;
+  void require_width(const Cursor& json, double width) const {
+    json.require(width > 0 || result_.verdict == Verdict::kUndecided, "a positive width");
   }
 
-  /// Reads the problem, and checks the path against it, when both are there.
-  void complete_path(const Json& outline) {
-    if (is_path_complete_) return;
-    is_path_complete_ = true;
-    const Cursor top(outline, "");
-    for (const char* key : {"margins", "path", "problem"}) {
-      if (!top.has(key)) top.fail(std::string("the key '") + key + "'");
-    }
-    const Cursor json = top["path"];
-    json.object({"interpolation", "pose_tubes", "times", "tubes", "waypoints"});
-    Path& path = result_.path;
-    (void)law(outline);
-    result_.problem = read_problem(top["problem"]);
-    const Problem& problem = result_.problem;
-    for (const char* key : {"pose_tubes", "tubes", "waypoints"}) (void)json[key].size();
-    if (!json["times"].is_null()) {
-      (void)json["times"].size();
-      require_size("path.times", times_, path.waypoints.size());
-    }
-    if (path.law == Law::kCubicBSpline && path.segments() == 0) fail("path.waypoints", "at least four of a spline");
-    const std::size_t segments = std::max(path.segments(), std::min<std::size_t>(path.waypoints.size(), 1));
-    require_size("path.tubes", path.tubes.size(), problem.constraints.empty() ? 0 : segments);
-    require_size("path.pose_tubes", path.pose_tubes.size(), path.law == Law::kCableLengths ? segments : 0);
-    if (has_poses(path.law)) {
-      if (!problem.query.empty()) fail("problem.query.waypoints", "none where the path has a law of poses");
-      if (outline["problem"]["space"] != coordinate_space()) fail("problem.space", "the one of the free coordinates");
-    } else {
-      for (std::size_t k = 0; k < path.waypoints.size(); ++k) require_waypoint(path.waypoints[k], k);
-    }
-  }
-
-  static void require_size(const char* list, std::size_t size, std::size_t expected) {
-    if (size != expected) fail(list, "an array of " + std::to_string(expected));
-  }
-
-  void require_waypoint(const Waypoint& waypoint, std::size_t k) const {
+  void require_waypoint(const Cursor& json, const Waypoint& waypoint) const {
     const std::vector<Parameter>& parameters = result_.problem.parameters;
     const std::size_t n = parameters.size();
     const std::size_t normals = n * result_.problem.constraints.size();
-    const std::string where = at("path.waypoints", k);
-    if (waypoint.x.size() != n) fail(where + ".x", "an array of " + std::to_string(n));
+    json["x"].require_size(n);
     if (waypoint.normals.size() != normals) {
-      fail(where + ".normals", normals == 0 ? "no such key" : "an array of " + std::to_string(normals));
+      throw Malformed(json.where() + ".normals: expected " +
+                      (normals == 0 ? "no such key" : "an array of " + std::to_string(normals)));
     }
+    const Cursor half_turns = json["half_turns"];
     for (std::size_t j = 0; j < n; ++j) {
-      if (waypoint.half_turns[j] == 0 || parameters[j].kind == ParameterKind::kPeriodic) continue;
-      fail(where + ".half_turns[" + std::to_string(j) + "]", "0 of a parameter that is not periodic");
+      half_turns.at(j).require(waypoint.half_turns[j] == 0 || parameters[j].kind == ParameterKind::kPeriodic,
+                               "0 of a parameter that is not periodic");
     }
   }
 
-  void visit_segment(const Json& outline, const Element& element, const Cursor& here) {
-    complete_path(outline);
-    const std::size_t k = element.index;
-    if (k == 0) result_.segment_texts.reserve(announced(outline, "segments"));
-    if (k >= result_.path.segments()) here.fail("no more segments than the path has");
-    const Segment segment = read_segment(here, k, result_.problem, result_.path);
-    gaps_.add(k, segment.boxes);
-    result_.boxes += segment.boxes.size();
-    result_.segment_texts.push_back(element.text);
-    if (segment.boxes.empty()) return;
-    const std::array<const mpq_class*, 3> margins = {&segment.margins.tension, &segment.margins.length,
-                                                     &segment.margins.wrench_scale};
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!least_[i] || *margins[i] < *least_[i]) least_[i] = *margins[i];
-      const Json& written = outline["margins"];
-      is_of_segment_[i] |=
-          written.is_object() && written.value(kMarginKeys[i], Json()) == element.value["margins"][kMarginKeys[i]];
-    }
-  }
+  // ---- What is stated of it -----------------------------------------------------------------------------------------
 
-  void visit_stretch(const Json& outline, const Element& element, const Cursor& here) {
-    complete_path(outline);
-    if (!result_.problem.query.empty()) fail("stretches", "null where nothing was audited");
-    const Stretch stretch = read_stretch(here, result_.problem, result_.path);
-    const Interval outer = {abscissa(stretch.begin), abscissa(stretch.end)};
-    if (!outer_.empty() && outer.begin < outer_.back().end) here.fail("a stretch after the last one");
-    outer_.push_back(outer);
-    is_violated_ |= !stretch.inner.empty();
-    result_.stretch_texts.push_back(element.text);
-  }
-
-  static void require_digest(const Cursor& claimed, const std::string& digest) {
-    if (claimed.text() != digest) claimed.fail("the digest of what the file contains: it was altered");
-  }
-
-  void read_verdict(const Cursor& top) {
+  void read_verdict(const Cursor& json) {
+    static constexpr std::array<std::pair<const char*, Verdict>, 3> kVerdicts = {
+        {{"proved", Verdict::kProved}, {"refuted", Verdict::kRefuted}, {"undecided", Verdict::kUndecided}}};
     constexpr std::array<const char*, 3> kClaims = {kProvedClaim, kRefutedClaim, kUndecidedClaim};
-    result_.verdict = top["verdict"].one_of<Verdict>(
-        {{"proved", Verdict::kProved}, {"refuted", Verdict::kRefuted}, {"undecided", Verdict::kUndecided}},
-        "proved, refuted or undecided");
-    result_.claim = kClaims[static_cast<std::size_t>(result_.verdict)];
-    if (top["claim"].text() != result_.claim) top["claim"].fail("the text that belongs to the verdict");
-    if (result_.verdict != Verdict::kUndecided && !no_width_.empty()) fail(no_width_, "a positive width");
-    if (result_.verdict == Verdict::kProved && result_.path.segments() == 0) {
-      fail("path.waypoints", "at least two of a proved path");
-    }
+    result_.verdict = json.one_of<Verdict>(kVerdicts, "proved, refuted or undecided");
+    exactly(kClaims[static_cast<std::size_t>(result_.verdict)], "the text that belongs to the verdict")(top_["claim"]);
   }
 
-  void read_segments_and_stretches(const Cursor& top) {
-    const bool is_proved = result_.verdict == Verdict::kProved;
-    const bool is_refuted = result_.verdict == Verdict::kRefuted;
-    const bool has_stretches = !top["stretches"].is_null();
-    (void)top["segments"].size();
-    if (has_stretches) (void)top["stretches"].size();
-    require_size("segments", result_.segment_texts.size(),
-                 is_proved || (is_refuted && has_stretches) ? result_.path.segments() : 0);
-    const Cursor margins = top["margins"];
-    if (is_proved) {
-      if (has_stretches) top["stretches"].fail("null");
-      if (!gaps_.intervals().empty()) {
-        const mpz_class k = gaps_.intervals()[0].begin.get_num() / gaps_.intervals()[0].begin.get_den();
-        fail(at("segments", k.get_ui()) + ".boxes", "boxes that tile [0, 1]");
-      }
-      (void)read_margins(margins);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Cursor margin = margins[kMarginKeys[i]];
-        if (*least_[i] < margin.decimal()) margin.fail("not more than any segment's");
-        if (!is_of_segment_[i]) margin.fail("the text of a segment's");
-        result_.margins[i] = margin.text();
-      }
-      return;
-    }
-    margins.object({});
-    if (!has_stretches) return;
-    if (!result_.problem.query.empty()) fail("stretches", "null where nothing was audited");
-    if (!is_refuted && is_violated_) fail("stretches", "open ones only, where nothing is refuted");
-    if (is_refuted && !gaps_.are_tiled(outer_)) fail("stretches", "boxes and outer ends that tile the path");
-  }
-
-  void read_witness_of(const Cursor& top) {
-    const Cursor json = top["witness"];
-    if (result_.verdict != Verdict::kRefuted) {
-      if (!json.is_null()) json.fail("null");
-      return;
-    }
-    result_.witness = read_witness(json, result_.problem, result_.path);
-    if (top["stretches"].is_null()) return;
-    const auto is_witness = [&](Json of_stretch) {
-      of_stretch["motion"] = json.json()["motion"];
-      return of_stretch == json.json();
-    };
-    const bool is_found = std::ranges::any_of(result_.stretch_texts, [&](std::string_view text) {
-      const Json inner = Json::parse(text)["inner"];
-      return !inner.is_null() && (is_witness(inner[0]) || is_witness(inner[1]));
+  void read_stretches(const Cursor& json) {
+    if (json.is_null()) return;
+    (void)json.size();
+    const bool is_audit = result_.problem.query.empty();
+    json.require(is_audit && result_.verdict != Verdict::kProved, is_audit ? "null" : "null where nothing was audited");
+    bool is_violated = false;
+    for_each("stretches", "stretches", [&](const Cursor& here, std::string_view text) {
+      const Stretch stretch = read_stretch(here, result_.problem, result_.path);
+      const mpq_class begin = abscissa(stretch.begin);
+      here.require(outer_.empty() || begin >= outer_.end(), "a stretch after the last one");
+      outer_.append(begin, abscissa(stretch.end));
+      is_violated |= !stretch.inner.empty();
+      result_.stretch_texts.push_back(text);
     });
-    if (!is_found) json.fail("one of the stretches', but for its motion");
+    json.require(result_.verdict == Verdict::kRefuted || !is_violated, "open ones only, where nothing is refuted");
   }
 
-  void read_rest(const Cursor& top) {
-    const Cursor undecided = top["undecided"];
-    if (result_.verdict == Verdict::kUndecided) {
-      read_undecided(undecided);
-    } else if (!undecided.is_null()) {
-      undecided.fail("null");
+  void read_segments(const Cursor& json) {
+    const bool is_proved = result_.verdict == Verdict::kProved;
+    const bool has_stretches = !top_["stretches"].is_null();
+    const std::size_t expected =
+        is_proved || (result_.verdict == Verdict::kRefuted && has_stretches) ? result_.path.segments() : 0;
+    (void)json.size();
+    Parts gaps;
+    for_each("segments", "segments", [&](const Cursor& here, std::string_view text) {
+      const std::size_t k = result_.segment_texts.size();
+      here.require(k < result_.path.segments(), "no more segments than the path has");
+      const Segment segment = read_segment(here, k, result_.problem, result_.path);
+      mpq_class reached = 0;
+      for (const Box& box : segment.boxes) {
+        if (box.begin != reached) gaps.append(abscissa({k, reached}), abscissa({k, box.begin}));
+        reached = box.end;
+      }
+      if (reached != 1) gaps.append(abscissa({k, reached}), abscissa({k, 1}));
+      if (is_proved) here["boxes"].require(gaps.empty(), "boxes that tile [0, 1]");
+      result_.boxes += segment.boxes.size();
+      result_.segment_texts.push_back(text);
+      if (!segment.boxes.empty()) note_margins(segment.margins, here["margins"].json());
+    });
+    require_size(json, result_.segment_texts.size(), expected);
+    if (is_proved && expected == 0) throw Malformed("path.waypoints: expected at least two of a proved path");
+    if (expected > 0 && !is_proved) {
+      top_["stretches"].require(gaps == outer_, "boxes and outer ends that tile the path");
     }
-    const Cursor source = top["source"];
-    if (source.is_null()) return;
-    if (!result_.problem.query.empty()) source.fail("null where nothing was audited");
-    source.object({"file", "sha256"});
-    result_.source = Source{source["file"].text(), source["sha256"].hex(32)};
+  }
+
+  void note_margins(const Margins& margins, const Json& written) {
+    const std::array<const mpq_class*, 3> values = {&margins.tension, &margins.length, &margins.wrench_scale};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!least_[i] || *values[i] < *least_[i]) least_[i] = *values[i];
+      const Json& of_path = outline_.json["margins"];
+      is_of_segment_[i] |= of_path.is_object() && of_path.value(kMarginKeys[i], Json()) == written[kMarginKeys[i]];
+    }
+  }
+
+  void read_margins_of_path(const Cursor& json) {
+    if (result_.verdict != Verdict::kProved) return json.object();
+    Margins margins;
+    taut::checker::read(json, margins);
+    const std::array<const mpq_class*, 3> values = {&margins.tension, &margins.length, &margins.wrench_scale};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Cursor margin = json[kMarginKeys[i]];
+      margin.require(*least_[i] >= *values[i], "not more than any segment's");
+      margin.require(is_of_segment_[i], "the text of a segment's");
+      result_.margins[i] = margin.text();
+    }
+  }
+
+  void read_witness_of_path(const Cursor& json) {
+    if (result_.verdict != Verdict::kRefuted) return json.require(json.is_null(), "null");
+    result_.witness = read_witness(json, result_.problem, result_.path);
+    if (top_["stretches"].is_null()) return;
+    const auto without_motion = [](Json witness) {
+      witness["motion"] = nullptr;
+      return witness;
+    };
+    const Json witness = without_motion(json.json());
+    bool is_found = false;
+    for_each("stretches", "stretches", [&](const Cursor& stretch, std::string_view /*text*/) {
+      for (const Json& inner : stretch.json()["inner"]) is_found |= without_motion(inner) == witness;
+    });
+    json.require(is_found, "one of the stretches', but for its motion");
   }
 
   void read_undecided(const Cursor& json) {
-    json.object({"box", "reason", "segment"});
-    const Cursor box = json["box"];
-    if (json["segment"].is_null() != box.is_null()) json.fail("segment and box, or neither");
-    if (!box.is_null()) {
-      (void)json["segment"].integer(0, static_cast<std::int64_t>(result_.path.segments()) - 1);
-      box.array(2);
-      if (box.at(0).dyadic() > box.at(1).dyadic()) box.fail("ends in order");
-    }
-    result_.undecided_reason = json["reason"].text();
+    if (result_.verdict != Verdict::kUndecided) return json.require(json.is_null(), "null");
+    const auto read_segment_number = [&](const Cursor& segment) {
+      if (!segment.is_null()) (void)segment.integer(0, static_cast<std::int64_t>(result_.path.segments()) - 1);
+    };
+    const auto read_box = [&](const Cursor& box) {
+      json.require(box.is_null() == json["segment"].is_null(), "segment and box, or neither");
+      if (box.is_null()) return;
+      mpq_class begin, end;
+      box.require_size(2);
+      dyadic(begin)(box.at(0));
+      dyadic(end)(box.at(1));
+      box.require(begin <= end, "ends in order");
+    };
+    json.object("box", read_box, "reason", result_.undecided_reason, "segment", read_segment_number);
   }
 
-  std::size_t size_;  ///< of the text
+  void read_source(const Cursor& json) {
+    if (json.is_null()) return;
+    json.require(result_.problem.query.empty(), "null where nothing was audited");
+    Source& source = result_.source.emplace();
+    json.object("file", source.file, "sha256", hex(source.sha256, 32));
+  }
+
+  Outline outline_;
+  Cursor top_;
   Certificate result_;
-  bool has_law_ = false;
-  bool is_path_complete_ = false;
-  std::string no_width_;  ///< where a tube first has no width
-  std::optional<PoseTube> last_tube_;
-  mpq_class last_time_;
-  std::size_t times_ = 0;
-  Gaps gaps_;
-  std::vector<Interval> outer_;                    ///< of the stretches
-  bool is_violated_ = false;                       ///< in some stretch
+  Parts outer_;                                    ///< of the stretches
   std::array<std::optional<mpq_class>, 3> least_;  ///< margins of segments
   std::array<bool, 3> is_of_segment_{};  ///< whether a segment writes the top-level margin as the top level does
 };
-
-/// A certificate of another version has other keys; that it is of another version says more than which.
-void require_version(std::string_view text) {
-  const auto is_of_top = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= 1; };
-  const Json json = Json::parse(text, is_of_top, false);
-  if (!json.is_object() || json.value("format", Json()) != "taut-certificate") return;
-  const Json version = json.value("version", Json());
-  if (!version.is_number_integer() || version == kVersion) return;
-  fail("version", std::to_string(kVersion) + ", got " + version.dump() +
-                      ": only the taut-check that came with the taut that made it can check it");
-}
 
 }  // namespace
 
@@ -371,14 +322,6 @@ Stretch Certificate::stretch(std::size_t i) const {
   return read_stretch(Cursor(json, "stretches", i), problem, path);
 }
 
-Certificate read_certificate(std::string_view text) {
-  try {
-    Reader reader(text.size());
-    return reader.finish(read_json(text, [&](const Json& outline, const Element& x) { reader.visit(outline, x); }));
-  } catch (const Malformed&) {
-    require_version(text);
-    throw;
-  }
-}
+Certificate read_certificate(std::string_view text) { return Reader(text).read(); }
 
 }  // namespace taut::checker

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,11 +35,9 @@ struct Source {
 
 struct Certificate {
   Verdict verdict = Verdict::kUndecided;
-  std::string claim;
   Problem problem;
-  std::string problem_json;  ///< `problem` as canonical JSON
+  nlohmann::json problem_json;  ///< `problem` as the file states it
   Path path;
-  std::string path_sha256;
   std::array<std::string, 3> margins;  ///< of the whole path, as written: tension_N, length_m, wrench_scale
   std::optional<Witness> witness;
   std::string undecided_reason;

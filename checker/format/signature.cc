@@ -4,6 +4,7 @@
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "base/sha256.h"
@@ -18,22 +19,12 @@ using Owner = std::unique_ptr<T, void (*)(T*)>;
 
 constexpr std::size_t kKeySize = 32;
 constexpr std::size_t kSignatureSize = 64;
-constexpr std::size_t kMaxPemSize = 1 << 16;
 
-std::string to_hex(const Bytes& bytes) {
-  std::string hex;
-  for (const unsigned char byte : bytes) {
-    hex += "0123456789abcdef"[byte >> 4U];
-    hex += "0123456789abcdef"[byte & 15U];
-  }
-  return hex;
-}
-
-/// @param hex  an even number of hex digits
 Bytes from_hex(const std::string& hex) {
-  Bytes bytes;
-  for (std::size_t i = 0; i < hex.size(); i += 2) {
-    bytes.push_back(static_cast<unsigned char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  Bytes bytes(hex.size() / 2);
+  std::size_t size = 0;
+  if (OPENSSL_hexstr2buf_ex(bytes.data(), bytes.size(), &size, hex.c_str(), '\0') != 1) {
+    throw std::runtime_error("OpenSSL could not read hex digits");
   }
   return bytes;
 }
@@ -58,21 +49,20 @@ bool is_signed(const std::string& message, const Bytes& value, const Bytes& publ
 }  // namespace
 
 std::string verify_signature(const Cursor& json, const std::string& digest) {
-  json.object({"algorithm", "public_key", "value"});
-  if (json["algorithm"].text() != "Ed25519") json["algorithm"].fail("'Ed25519'");
-  const Bytes public_key = from_hex(json["public_key"].hex(kKeySize));
-  const Bytes value = from_hex(json["value"].hex(kSignatureSize));
-  if (!is_signed("taut certificate " + digest, value, public_key)) {
-    json["value"].fail("a signature of this certificate by that key: one of the three was altered");
-  }
-  return to_hex(public_key);
+  std::string public_key;
+  std::string value;
+  json.object("algorithm", exactly("Ed25519", "'Ed25519'"), "public_key", hex(public_key, kKeySize), "value",
+              hex(value, kSignatureSize));
+  json["value"].require(is_signed("taut certificate " + digest, from_hex(value), from_hex(public_key)),
+                        "a signature of this certificate by that key: one of the three was altered");
+  return public_key;
 }
 
 std::string read_public_key(const std::string& pem, const std::string& where) {
   const auto fail = [&](const std::string& seen) {
     throw Malformed(where + ": got " + seen + ", expected one Ed25519 public key in PEM (openssl pkey -pubout)");
   };
-  if (pem.size() > kMaxPemSize) fail("a file too long");
+  if (pem.size() > kMaxKeyFile) fail("a file too long");
   const std::size_t first = pem.find("-----BEGIN ");
   if (first == std::string::npos) fail("no PEM");
   if (pem.find("-----BEGIN ", first + 1) != std::string::npos) fail("more than one key");
@@ -84,10 +74,15 @@ std::string read_public_key(const std::string& pem, const std::string& where) {
   if (EVP_PKEY_id(key.get()) != EVP_PKEY_ED25519) fail("a key of another type");
   Bytes bytes(kKeySize);
   std::size_t size = kKeySize;
-  if (EVP_PKEY_get_raw_public_key(key.get(), bytes.data(), &size) != 1 || size != kKeySize) {
+  std::string digits(2 * kKeySize + 1, '\0');  // OpenSSL ends them with a NUL
+  if (EVP_PKEY_get_raw_public_key(key.get(), bytes.data(), &size) != 1 ||
+      OPENSSL_buf2hexstr_ex(digits.data(), digits.size(), nullptr, bytes.data(), size, '\0') != 1) {
     throw std::runtime_error("OpenSSL could not tell the public key");
   }
-  return to_hex(bytes);
+  digits.pop_back();
+  std::ranges::transform(digits, digits.begin(),
+                         [](char c) { return c >= 'A' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return digits;
 }
 
 std::string fingerprint(const std::string& public_key) {
@@ -97,8 +92,7 @@ std::string fingerprint(const std::string& public_key) {
   if (size <= 0) throw std::runtime_error("OpenSSL could not write a public key");
   const Owner<unsigned char> owner(der, [](unsigned char* p) { OPENSSL_free(p); });
   Sha256 digest;
-  const std::string bytes(der, der + size);
-  digest.update(bytes);
+  digest.update({reinterpret_cast<const char*>(der), static_cast<std::size_t>(size)});
   return "SHA256:" + digest.hex();
 }
 

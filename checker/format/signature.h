@@ -8,6 +8,9 @@
 
 namespace taut::checker {
 
+/// A file with a key is not larger [bytes].
+inline constexpr std::size_t kMaxKeyFile = 1U << 16;
+
 /// Verifies the object `signature` of a certificate whose footer has this digest.
 /// @returns the signer's public key, 64 lower-case hex digits.
 /// @throws Malformed where the object is not well formed or the signature does not belong to digest and key.

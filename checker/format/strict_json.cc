@@ -23,38 +23,36 @@ std::string json_string(const std::string& text) {
 }
 
 /// Iterates over a text and tells others how far it has come.
-class TextIterator {
- public:
+struct TextIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
   using difference_type = std::ptrdiff_t;
   using pointer = const char*;
   using reference = const char&;
 
-  TextIterator(const char* at, const char** reached) : at_(at), reached_(reached) {}
-  reference operator*() const { return *at_; }
+  reference operator*() const { return *at; }
   TextIterator& operator++() {
-    *reached_ = ++at_;
+    *reached = ++at;
     return *this;
   }
-  bool operator==(const TextIterator& other) const { return at_ == other.at_; }
+  bool operator==(const TextIterator& other) const { return at == other.at; }
 
- private:
-  const char* at_;
-  const char** reached_;
+  const char* at;
+  const char** reached;
 };
 
-/// Receives the events of the parser. For each it appends canonical text to what is digested, and builds the outline.
+/// Receives the events of the parser. For each it appends canonical text to what is digested.
 class Handler final : public nlohmann::json_sax<Json> {
  public:
-  using Visit = std::function<void(const Json&, const Element&)>;
-
-  Handler(std::string_view text, const Visit& visit) : text_(text), visit_(visit), reached_(text.data()) {}
+  explicit Handler(std::string_view text) : text_(text), reached_(text.data()) {}
 
   Outline read() {
-    Json::sax_parse(TextIterator(text_.data(), &reached_), TextIterator(text_.data() + text_.size(), &reached_), this);
+    const char* const end = text_.data() + text_.size();
+    Json::sax_parse(TextIterator{text_.data(), &reached_}, TextIterator{end, &reached_}, this);
     flush();
-    return {std::move(root_), std::move(problem_), body_.hex(), path_.hex(), problem_digest_.hex()};
+    outline_.body_sha256 = body_.hex();
+    outline_.path_sha256 = path_.hex();
+    return std::move(outline_);
   }
 
   bool null() override { return scalar("null", nullptr); }
@@ -64,37 +62,32 @@ class Handler final : public nlohmann::json_sax<Json> {
   bool number_float(number_float_t /*value*/, const string_t& /*text*/) override {
     throw Malformed("a number that is no integer");
   }
-  bool string(string_t& value) override {
-    const std::string canonical = json_string(value);
-    return scalar(canonical, std::move(value));
-  }
+  bool string(string_t& value) override { return scalar(json_string(value), value); }
   bool binary(binary_t& /*value*/) override { return false; }  // JSON has none
-  bool start_object(std::size_t /*size*/) override { return open(false); }
-  bool start_array(std::size_t /*size*/) override { return open(true); }
-  bool end_object() override { return close("}"); }
-  bool end_array() override { return close("]"); }
+  bool start_object(std::size_t /*size*/) override { return open('{'); }
+  bool start_array(std::size_t /*size*/) override { return open('['); }
+  bool end_object() override { return close('}'); }
+  bool end_array() override { return close(']'); }
 
   bool key(string_t& name) override {
     Container& object = open_.back();
     const bool is_top = open_.size() == 1;
-    // What is known last may stand last, out of its order.
+    // What is known last may stand anywhere, out of its order.
     const bool is_closing = is_top && (name == "footer" || name == "signature");
-    if ((!object.is_empty && name == object.last) || (is_closing && root_.contains(name))) {
+    if (is_closing ? outline_.json.contains(name) : !object.is_empty && name == object.last) {
       throw Malformed("the key '" + name + "' appears twice in one object");
     }
     if (!object.is_empty && !is_closing && name < object.last) {
       throw Malformed("the key '" + name + "' comes after '" + object.last + "': expected keys in code-point order");
     }
-    if (is_top) choose_digests(!is_closing);
+    if (is_top) digest_from_here(!is_closing, false);
     write((object.is_empty ? "" : ",") + json_string(name) + ":");
-    if (is_top && (name == "path" || name == "problem")) {
-      flush();
-      digests_.push_back(name == "path" ? &path_ : &problem_digest_);
-      is_problem_ = name == "problem";
+    if (is_top && name == "path") digest_from_here(true, true);
+    if (!is_closing) {
+      object.is_empty = false;
+      object.last = name;
     }
-    object.is_empty = false;
-    if (!is_closing) object.last = name;
-    object.key = std::move(name);
+    object.key = name;
     return true;
   }
 
@@ -106,71 +99,54 @@ class Handler final : public nlohmann::json_sax<Json> {
 
  private:
   struct Container {
-    Json* json = nullptr;  ///< null where the outline leaves its content out
     bool is_array = false;
     bool is_empty = true;
     std::string key{};   ///< the one whose value comes next, of an object
     std::string last{};  ///< the last one in code-point order
   };
 
-  bool scalar(std::string_view canonical, Json value) {
+  /// Where the outline keeps the value that comes next, if it keeps it by itself.
+  [[nodiscard]] Json* slot() {
+    if (open_.empty()) return &outline_.json;
+    if (open_[0].is_array || open_.size() > 2) return nullptr;
+    Json& of_top = outline_.json[open_[0].key];
+    if (open_.size() == 1) return &of_top;
+    return open_[0].key == "path" && !open_[1].is_array ? &of_top[open_[1].key] : nullptr;
+  }
+
+  bool scalar(std::string_view canonical, const Json& value) {
     separate();
     write(canonical);
-    place(std::move(value));
-    visit_element({});
+    if (Json* const kept = slot()) *kept = value;
     return true;
   }
 
-  bool open(bool is_array) {
+  bool open(char bracket) {
     separate();
-    write(is_array ? "[" : "{");
+    write({&bracket, 1});
     if (open_.size() == kMaxNesting) throw Malformed("nested too deeply");
-    if (open_.size() == list_depth_) element_begin_ = static_cast<std::size_t>(reached_ - text_.data()) - 1;
-    const std::string list = is_array ? list_name() : "";
-    Json* const json = place(is_array ? Json::array() : Json::object());
-    const bool is_left_out = open_.size() == 1 && (open_[0].key == "generator" || open_[0].key == "illustration");
-    open_.push_back({is_left_out ? nullptr : json, is_array});
-    if (!list.empty()) {
-      list_ = list;
-      list_depth_ = open_.size();
-      index_ = 0;
+    if (Json* const kept = slot()) {
+      *kept = bracket == '[' ? Json::array() : Json::object();
+      begin_ = reached_ - 1;
+    }
+    open_.push_back({.is_array = bracket == '['});
+    return true;
+  }
+
+  bool close(char bracket) {
+    if (open_.size() == 1) digest_from_here(true, false);
+    write({&bracket, 1});
+    open_.pop_back();
+    Json* const kept = slot();
+    if (open_.empty() || kept == nullptr) return true;
+    const std::string& key = open_.back().key;
+    const std::string_view value(begin_, static_cast<std::size_t>(reached_ - begin_));
+    if (key == "segments" || key == "stretches" || open_.size() == 2) {
+      if (kept->is_array()) outline_.lists[key] = value;
+    } else if (key != "path" && key != "generator" && key != "illustration") {
+      *kept = Json::parse(value);
     }
     return true;
-  }
-
-  bool close(const char* bracket) {
-    if (open_.size() == 1) choose_digests(true);
-    write(bracket);
-    if (open_.size() == list_depth_) list_depth_ = kNoList;
-    open_.pop_back();
-    visit_element(text_.substr(element_begin_, static_cast<std::size_t>(reached_ - text_.data()) - element_begin_));
-    return true;
-  }
-
-  /// The name of the list that begins here, if its elements are to be visited.
-  [[nodiscard]] std::string list_name() const {
-    if (open_.size() == 1 && (open_[0].key == "segments" || open_[0].key == "stretches")) return open_[0].key;
-    if (open_.size() != 2 || open_[0].key != "path" || open_[1].is_array) return "";
-    const std::string& key = open_[1].key;
-    return key == "waypoints" || key == "tubes" || key == "pose_tubes" || key == "times" ? "path." + key : "";
-  }
-
-  /// Hands over the value that was just completed, if it is an element of a list that is visited.
-  void visit_element(std::string_view text) {
-    if (open_.size() != list_depth_) return;
-    Json& list = *open_.back().json;
-    visit_(root_, {list_, index_++, list.back(), list.back().is_object() ? text : std::string_view()});
-    list.clear();
-  }
-
-  /// Puts a value where it belongs in the outline.
-  Json* place(Json value) {
-    if (open_.empty()) return &(root_ = std::move(value));
-    Container& parent = open_.back();
-    if (parent.json == nullptr) return nullptr;
-    if (!parent.is_array) return &((*parent.json)[parent.key] = std::move(value));
-    parent.json->push_back(std::move(value));
-    return &parent.json->back();
   }
 
   /// Writes the comma before every element of an array but the first.
@@ -180,50 +156,53 @@ class Handler final : public nlohmann::json_sax<Json> {
     open_.back().is_empty = false;
   }
 
-  void choose_digests(bool has_body) {
+  void digest_from_here(bool is_body, bool is_path) {
     flush();
-    digests_.clear();
-    if (has_body) digests_.push_back(&body_);
-    is_problem_ = false;
+    is_body_ = is_body;
+    is_path_ = is_path;
   }
   void write(std::string_view canonical) {
     buffer_ += canonical;
     if (buffer_.size() >= kMaxBuffer) flush();
   }
   void flush() {
-    for (Sha256* digest : digests_) digest->update(buffer_);
-    if (is_problem_) problem_ += buffer_;
+    if (is_body_) body_.update(buffer_);
+    if (is_path_) path_.update(buffer_);
     buffer_.clear();
   }
 
-  static constexpr std::size_t kNoList = static_cast<std::size_t>(-1);
   std::string_view text_;
-  const Visit& visit_;
   const char* reached_;
-  Json root_;
+  const char* begin_ = nullptr;  ///< of the value that the outline keeps
+  Outline outline_;
   std::vector<Container> open_;
-  std::string list_;                  ///< the one whose elements are being visited,
-  std::size_t list_depth_ = kNoList;  ///< its depth,
-  std::size_t index_ = 0;             ///< and its next element
-  std::size_t element_begin_ = 0;
-  std::string buffer_;
-  Sha256 body_, path_, problem_digest_;
-  std::vector<Sha256*> digests_ = {&body_};
-  std::string problem_;
-  bool is_problem_ = false;
+  std::string buffer_;  ///< canonical text that is not digested yet
+  Sha256 body_, path_;
+  bool is_body_ = true;
+  bool is_path_ = false;
 };
 
 }  // namespace
 
-Outline read_json(std::string_view text, const std::function<void(const Json&, const Element&)>& visit) {
+Outline read_json(std::string_view text) {
   // The library would skip a byte order mark, and take a NUL byte for the end.
   if (text.starts_with("\xEF\xBB\xBF")) throw Malformed("no JSON: it begins with a byte order mark");
   if (text.find('\0') != std::string_view::npos) throw Malformed("no JSON: it contains a NUL byte");
-  try {
-    return Handler(text, visit).read();
-  } catch (const Json::exception& error) {
-    throw Malformed(std::string("no JSON, or cut: ") + error.what());
-  }
+  return Handler(text).read();
+}
+
+void for_each_element(std::string_view list, const std::function<void(const Json&, std::string_view)>& visit) {
+  const char* reached = list.data();
+  const char* begin = reached;
+  const auto take = [&](int depth, Json::parse_event_t event, const Json& value) {
+    using Event = Json::parse_event_t;
+    if (depth == 1 && event == Event::object_start) begin = reached - 1;
+    if (depth != 1 || (event != Event::value && event != Event::object_end && event != Event::array_end)) return true;
+    visit(value, value.is_object() ? std::string_view(begin, reached) : std::string_view());
+    return false;  // the list forgets it
+  };
+  [[maybe_unused]] const Json emptied =
+      Json::parse(TextIterator{list.data(), &reached}, TextIterator{list.data() + list.size(), &reached}, take);
 }
 
 }  // namespace taut::checker

@@ -50,11 +50,11 @@ Json way_to_json(const WitnessDeviation& deviation) {
   Json poses = Json::array();
   for (const InnerPose& pose : deviation.poses) {
     const std::span<const double, 7> x = pose.x;
-    poses.push_back(
-        {{"tau", pose.s.get_str()},
-         {"position", to_json(x.first<3>())},
-         {"quaternion", to_json(x.last<4>())},
-         {"tube", {{"position", print_binary64(pose.tube.position)}, {"turn", print_binary64(pose.tube.turn)}}}});
+    const auto& [position, turn] = pose.tube;
+    poses.push_back({{"tau", pose.s.get_str()},
+                     {"position", to_json(x.first<3>())},
+                     {"quaternion", to_json(x.last<4>())},
+                     {"tube", {{"position", print_binary64(position)}, {"turn", print_binary64(turn)}}}});
   }
   Json boxes = Json::array();
   for (const Box& box : deviation.boxes) boxes.push_back(to_json(box, false));

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 #include "tests/checker/fixtures.h"
 
@@ -63,6 +64,17 @@ TEST(TautCheck, ComplainsOfBadInputOnStderr) {
     EXPECT_EQ(nlohmann::json::parse(run("--json " + arguments).text)["outcome"], "malformed");
   }
   EXPECT_EQ(run(kFolder + "rejected/anchor_moved.json", "2>&1 >/dev/null").text, "");
+}
+
+TEST(TautCheck, ReadsNoMoreOfAKeyThanAKeyHas) {
+  const std::string trust = kFolder + "accepted/refuted_length_max.json --trust ";
+  EXPECT_EQ(run(trust + "/dev/zero").exit_code, 3);
+  EXPECT_NE(run(trust + "/dev/zero", "2>&1").text.find("/dev/zero: got a device, expected a file"), std::string::npos);
+  const std::string pipe = testing::TempDir() + "taut_check_endless_key";
+  ASSERT_EQ(std::system(("rm -f " + pipe + " && mkfifo " + pipe).c_str()), 0);
+  const std::string seen = run(trust + pipe, "2>&1 & timeout 30 sh -c 'yes >" + pipe + "'; wait").text;
+  EXPECT_NE(seen.find("got more than 65536 bytes, expected a smaller file"), std::string::npos) << seen;
+  std::remove(pipe.c_str());
 }
 
 TEST(TautCheck, NoticesThatNobodyCanReadItsResult) {
