@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The wrench-feasible C-space as a manifold for the atlas.
 //
-// The navigation manifold F(x) = 0 (docs/theory.md) is a graph over the pose, and its components and their derivatives
+// The navigation manifold F(x) = 0 of the paper is a graph over the pose, and its components and their derivatives
 // are closed form. So a chart needs one 6x6 inverse and no iteration: coordinates are the parameters of the case's
 // space, and a point over tangent coordinates u has the parameters λ_c + lift·u.
 //
