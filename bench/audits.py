@@ -50,7 +50,8 @@ def audit(folder, path, cores):
 
 def main():
     lines = ["# Long audits", "",
-             "A helix in a log of times and quaternions (geodesic): read, proved, and written as path.csv and certificate.json.",
+             "A helix in a log of times and quaternions (geodesic): read, proved, and written as path.csv and "
+             "certificate.json.",
              f"One core and {len(CORES)} take turns; medians of {REPEATS}. Rate: segments a second while they are proved. All: from start",
              "to end of the command, which reads the file once before it proves and puts the certificate together behind.", "",
              f"| waypoints | rate, 1 core | rate, {len(CORES)} cores | ratio | all, 1 core [s] | all, {len(CORES)} cores [s] | ratio | "

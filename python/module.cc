@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// taut._taut: the library's interface as Python sees it. What people use is in taut/__init__.py.
+// taut._taut: the library's interface in Python. The interface for users is taut/__init__.py.
 //
-// Work is done in a thread of its own, with the interpreter released; the calling thread wakes up now and then, calls `progress`
-// and looks for signals, so that Ctrl-C stops the work.
+// Work is done in a thread of its own, with the interpreter released. The calling thread wakes up from time to time,
+// calls `progress` and looks for signals, so that Ctrl-C stops the work.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

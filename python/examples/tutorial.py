@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Plans a case, looks at the path, and audits one of one's own: tutorial.py [CASE.yaml [FOLDER]]
 
-Writes plan.png, audit.png, certificate.json and report.html into FOLDER (default: here). CASE is cases/robot1-slice-qs-qg.yaml if none is
-given, and has the parameters phi and theta.
+Writes plan.png, audit.png, certificate.json and report.html into FOLDER (default: here). CASE has the parameters phi
+and theta; the default is cases/robot1-slice-qs-qg.yaml.
 """
 import pathlib
 import sys
@@ -22,7 +22,8 @@ out = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path(".")
 
 
 def draw_tensions(axes, samples, limits):
-    """Each cable's tensions over all wrenches of the load, and its limits. Floating point: the proof is in the certificate."""
+    """Draws each cable's tensions over all wrenches of the load, and its limits. These are floating-point samples; the
+    proof is in the certificate."""
     for cable in range(6):
         axes.fill_between(samples.position, samples.tension_lower_N[:, cable], samples.tension_upper_N[:, cable],
                           alpha=0.6, label=f"cable {cable + 1}")

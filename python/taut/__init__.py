@@ -8,11 +8,11 @@
     print(certificate.verdict, certificate.theorem)
     certificate.save("certificate.json")
 
-A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that
-was loaded has none until check() has proved it again.
+Every verdict comes from the independent checker: plan(), prove() and audit() run it before they return, and a
+certificate that was loaded has no verdict until check() has proved it again.
 
-SI and radians everywhere. Certificates are those of the commands `taut plan` and `taut audit`, byte for byte. All work releases the
-interpreter and is stopped by Ctrl-C. docs/library.md has the whole.
+All units are SI and radians. Certificates are the same, byte for byte, as those of the commands `taut plan` and
+`taut audit`. All work releases the interpreter and is stopped by Ctrl-C. docs/library.md describes everything.
 """
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ from numpy.typing import ArrayLike, NDArray
 from . import _taut
 from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachine
 
-__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path", "Place",
-           "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan", "prove",
-           "report"]
+__all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path",
+           "Place", "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan",
+           "prove", "report"]
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
-#: Called now and then, in the calling thread, with a stage ("planning" or "auditing"), what is done (charts or segments), and of
-#: how many (0: nobody knows). What it raises ends the work and comes through.
+#: Called from time to time in the calling thread, with a stage ("planning" or "auditing"), the number of charts or
+#: segments done, and their total (0: unknown). An exception that it raises ends the work and is passed on.
 Progress = Callable[[str, int, int], Any]
 FileName = Union[str, "os.PathLike[str]"]
-#: What the checker may take if nobody says [s]: a check takes about as long as the proof did.
+#: Default time limit of the checker [s]. A check takes about as long as the proof did.
 CHECK_SECONDS = 300.0
 
 
-# --- Cases and paths ---------------------------------------------------------------------------------------------------
+# --- Cases and paths --------------------------------------------------------------------------------------------------
 
 class Case:
     """A robot, its load, the space of its poses, and maybe a query (docs/case-format.md).
@@ -92,8 +92,8 @@ class Case:
         return self._case.length_limits_m
 
     def summary(self) -> str:
-        """What the case was understood to say, with tensions, lengths and margins at the query's waypoints in floating point: what
-        `taut show` prints. Nothing is proved here."""
+        """The case as taut understands it, with tensions, lengths and margins at the query's waypoints in floating
+        point, as `taut show` prints it. Nothing is proved here."""
         return self._case.summary()
 
     def summary_data(self) -> dict[str, Any]:
@@ -117,7 +117,7 @@ class Path:
     """Waypoints, bit for bit, and what happens between them: "straight", "spline", "geodesic" or "cable-lengths"."""
     interpolation: str
     waypoints: Floats                      #: (n, columns), see prove()
-    half_turns: Optional[NDArray[np.intc]] #: likewise: parameters are waypoints + π half_turns; None under a law of poses
+    half_turns: Optional[NDArray[np.intc]]  #: likewise; parameters are waypoints + π half_turns; None for laws of poses
     times: tuple[str, ...]                 #: decimals [s], or none
 
     @property
@@ -126,7 +126,7 @@ class Path:
         return self.waypoints if self.half_turns is None else self.waypoints + np.pi * self.half_turns
 
 
-# --- Certificates ------------------------------------------------------------------------------------------------------
+# --- Certificates -----------------------------------------------------------------------------------------------------
 
 @dataclasses.dataclass(frozen=True)
 class Margins:
@@ -228,7 +228,7 @@ class Certificate:
 
     @property
     def theorem(self) -> Optional[Theorem]:
-        """What the checker made of this text for plan(), prove() or audit(); None of a certificate that was loaded."""
+        """The checker's result from plan(), prove() or audit(); None for a certificate that was loaded."""
         return _theorem(self._certificate.theorem)
 
     @property
@@ -290,7 +290,7 @@ class Certificate:
         return f"<taut.Certificate {self.verdict}, of {self.case_name!r}, {self.segments} segments>"
 
 
-# --- What taut does ----------------------------------------------------------------------------------------------------
+# --- What taut does ---------------------------------------------------------------------------------------------------
 
 def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
          save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
@@ -311,15 +311,15 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
 def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,
           half_turns: Optional[ArrayLike] = None, times: Sequence[Union[float, str]] = (), max_bits: int = 4096,
           signing_key: str = "", max_check_seconds: float = CHECK_SECONDS) -> Certificate:
-    """Proves a path of yours, bit for bit. One that is not proved is refuted at the first violation found, or undecided at the first
-    piece that is: audit() tells of all.
+    """Proves a path of yours, bit for bit. A path that is not proved is refuted at the first violation found, or
+    undecided at the first undecided piece; audit() reports all of them.
 
     :param waypoints: a Path, or (n, columns); the columns are
         "straight" (the default)  the case's parameters: they go from value to value at constant rates
         "spline"         the same, as control points of a cubic B-spline
         "geodesic"       px, py, pz [m], qx, qy, qz, qw: straight, and about one axis
-        "cable-lengths"  these, and l1 … l6 [m]: the pose tells which of those that have the lengths is meant; a rough one is
-                         refined
+        "cable-lengths"  these, and l1 … l6 [m]; several poses may have these lengths, and the given one selects one
+                         of them, for which a rough pose suffices
     :param half_turns: (n, columns): parameters are waypoints + π half_turns, exactly; of periodic ones only
     :param times: [s], ascending; no part of any claim
     """
@@ -345,8 +345,8 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
           max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or says of every stretch that is not proved where it is and why: `taut audit`.
 
-    :param path: a path file, or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from columns to
-        arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
+    :param path: a path file or a certificate.json (docs/audits.md); None for the file that the case names; a mapping
+        from columns to arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
     :param columns: of an array: their names and units, "phi[deg]", "px[m]", "qw" (docs/audits.md)
     :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
     :param allow_repeats: drop rows that repeat the pose of the row before
@@ -368,8 +368,8 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     values = _floats(path, "values")
     if values.shape[1] != len(columns):
         raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
-    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats, max_bits,
-                                             signing_key, max_check_seconds, progress))
+    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats,
+                                             max_bits, signing_key, max_check_seconds, progress))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -422,7 +422,7 @@ def report(certificate: Certificate, format: str = "html", *, document: str = ""
     return _taut.report(certificate._certificate, format, document, revision, date, max_check_seconds)
 
 
-# --- Inside ------------------------------------------------------------------------------------------------------------
+# --- Inside -----------------------------------------------------------------------------------------------------------
 
 def _plain(value: Any) -> Any:
     """NumPy's arrays and scalars as JSON has them."""

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What goes wrong. That something is not proved is a verdict, no error."""
+"""Errors. A path that is not proved is a verdict, not an error."""
 
 
 class InputError(ValueError):
-    """A case, path, certificate, key or option is wrong in some way. The message has the place, what was seen and what was
-    expected: "crane.yaml:12:9: load.mass: got 'NaN', expected …"."""
+    """A case, path, certificate, key or option is wrong in some way. The message names the place, what was seen and
+    what was expected: "crane.yaml:12:9: load.mass: got 'NaN', expected …"."""
 
     def __init__(self, message: str, file: str = "", line: int = 0, field: str = "",
                  code: str = "E1") -> None:
