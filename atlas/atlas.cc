@@ -12,21 +12,21 @@
 namespace taut {
 namespace {
 
-// Of two charts that see each other as neighbours, the distance between one's centre and the other's tangent space is
-// at most this fraction of the distance along it: a slope of 27 degrees, whatever epsilon allows.
+// Two charts are neighbours only if the distance of each centre from the other's tangent space is at most this fraction
+// of the distance along it: a slope of 27 degrees, even if epsilon allows more.
 constexpr double kMaxSlope = 0.5;
-// Neighbours are up to two radii apart, where a curved manifold is four times as far from the tangent space as at one,
-// and turns twice as far.
+// Neighbours are up to two radii apart. There a curved manifold is four times as far from the tangent space as at one
+// radius, and has turned by twice the angle.
 constexpr double kDistanceGrowth = 4.0;
-// Charts further away than this many radii have bisectors that leave the chart's ball alone.
+// The bisectors with charts further away than this many radii do not meet the chart's ball.
 constexpr double kReach = 2.0;
-// The same where polytopes are sampled. Charts have 2^n times as many others within twice the distance, and the nearer ones
-// shorten all rays that those further away would.
+// The same for sampled polytopes. Twice the distance contains 2^n times as many charts, and the nearer ones shorten all
+// rays that the others would.
 constexpr double kSampledReach = 1.4;
-// Half side of the cube that a polytope begins as, in radii: all its corners are outside the ball, also for n = 1.
+// Half side of the cube from which polytopes are cut, in radii. All its corners are outside the ball, also for n = 1.
 constexpr double kCube = 1.25;
 constexpr const char* kOutside = "its centre is outside the domain";
-// Centres closer than this fraction of a radius are one.
+// Centres closer than this fraction of a radius are the same point.
 constexpr double kSamePoint = 1e-9;
 
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDimension, kMaxDimension>;
@@ -37,9 +37,9 @@ double absolute_determinant(const SmallMatrix& a) {
   return std::abs(a.determinant());
 }
 
-// How two frames see each other's centre.
+// The centres of two frames, each in the other's tangent space.
 struct View {
-  TangentVector u_ab;  // b's centre from a
+  TangentVector u_ab;  // b's centre in a's tangent space
   TangentVector u_ba;
   double distance_ab;  // of b's centre from a's tangent space
   double distance_ba;
@@ -64,13 +64,13 @@ bool tangents_agree(const Frame& a, const Frame& b, double min_cosine) {
   for (int i = 0; i < product.rows(); ++i) {
     for (int j = 0; j < product.cols(); ++j) product(i, j) = a.tangent().col(i).dot(b.tangent().col(j));
   }
-  // The singular values s_i are cosines: prod s_i^2 >= 1 - sum (1 - s_i^2), which nearly always settles it.
+  // The singular values s_i are cosines, so prod s_i^2 >= 1 - sum (1 - s_i^2); this bound nearly always suffices.
   const double least_squared = 1.0 - static_cast<double>(product.rows()) + product.squaredNorm();
   return least_squared >= min_cosine * min_cosine || absolute_determinant(product) >= min_cosine;
 }
 
-// Whether the tangent spaces of a parent and a new centre fit each other; if so, the radius at which a manifold as
-// curved as between them has left its tangent space by epsilon.
+// Nothing if the tangent spaces of a parent and a new centre differ too much; else the radius at which the manifold,
+// with the curvature that it has between them, is epsilon away from its tangent space.
 std::optional<double> flat_radius(const Frame& parent, const Frame& child, const AtlasOptions& options) {
   const View view(parent, child);
   if (!view.near(options.epsilon) || !tangents_agree(parent, child, options.min_tangent_cosine)) return std::nullopt;
@@ -96,7 +96,7 @@ void clip(Chart& chart, const TangentVector& normal, double offset, int facet) {
   std::visit([&](auto& polytope) { polytope.clip(normal, offset, facet); }, chart.polytope);
 }
 
-// The corner outside the ball that is to be tried next: the one furthest out, or nearest to a direction. -1 if none.
+// The external corner to be tried next: the one furthest out, or, with `direction`, the one nearest to it. -1 if none.
 int external_corner(const Chart& chart, const TangentVector* direction) {
   return std::visit(
       [&](const auto& polytope) {
@@ -156,10 +156,10 @@ void Atlas::restore(int id) const {
   static_cast<void>(frame(id));
   charts_[id] = std::make_unique<Chart>(Chart{std::move(stored_frames_.extract(id).mapped()), file_->radius(id),
                                               file_->polytope(id), file_->complete(id)});
-  const auto owed = owed_cuts_.extract(id);
-  if (owed.empty()) return;
+  const auto pending = pending_cuts_.extract(id);
+  if (pending.empty()) return;
   const Frame& own = charts_[id]->frame;
-  for (const int other : owed.mapped()) {
+  for (const int other : pending.mapped()) {
     const Frame& theirs = charts_[other]->frame;
     clip(*charts_[id], own.tangent_coordinates(theirs.point()), (own.point() - theirs.point()).squaredNorm() / 2,
          other);
@@ -211,8 +211,8 @@ bool Atlas::expand(int chart_id, int budget, std::optional<int> target) {
   }
 }
 
-// Tries the direction of an external corner at shorter and shorter distances. The corner is marked first: where a chart
-// comes to be, its bisector cuts the corner off; where none can be, the mark says that it was tried.
+// Tries to make a chart in the direction of an external corner, at shorter and shorter distances. The corner is marked
+// first. If a chart is made, its bisector cuts the corner off; if not, the mark says that the corner was tried.
 void Atlas::grow_towards(int parent_id, int corner) {
   Chart& parent = restored(parent_id);
   const TangentVector direction = std::visit(
@@ -222,7 +222,7 @@ void Atlas::grow_towards(int parent_id, int corner) {
       },
       parent.polytope);
   double distance = options_.step * parent.radius;
-  bool too_curved = false;  // at the last distance tried, rather than outside the domain
+  bool too_curved = false;  // why the last distance failed: too curved, or else outside the domain
   Coordinates coordinates;
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings, distance /= 2) {
     ++frame_evaluations_;
@@ -242,7 +242,7 @@ void Atlas::grow_towards(int parent_id, int corner) {
   }
 }
 
-// The candidate becomes a chart. It meets its neighbours nearest first: then most of the others come too late to cut.
+// Makes a chart of the candidate. The nearest neighbours cut it first, so that most others have nothing left to cut.
 int Atlas::insert(double radius) {
   const int id = size();
   charts_.push_back(std::make_unique<Chart>(
@@ -273,7 +273,7 @@ void Atlas::separate(int a, int b, double squared_distance) {
   if (charts_[a]) {
     clip(*charts_[a], view.u_ab, squared_distance / 2, b);
   } else if (squared_distance / 2 < circumradius(a) * view.u_ab.norm()) {
-    owed_cuts_[a].push_back(b);
+    pending_cuts_[a].push_back(b);
   }
   clip(*charts_[b], view.u_ba, squared_distance / 2, a);
 }
@@ -285,7 +285,7 @@ bool Atlas::grow_all(const std::function<bool()>& go_on) {
   return true;
 }
 
-bool Atlas::is_as_stored(int id) const { return !charts_[id] && !owed_cuts_.contains(id); }
+bool Atlas::is_as_stored(int id) const { return !charts_[id] && !pending_cuts_.contains(id); }
 
 bool Atlas::is_bounded_by(int chart, int other) const {
   return is_as_stored(chart) ? file_->are_neighbours(chart, other) : has_facet(restored(chart), other);

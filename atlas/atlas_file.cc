@@ -22,13 +22,13 @@ static_assert(std::endian::native == std::endian::little && sizeof(int) == 4, "a
 static_assert(sizeof(NeighbourIndex::Entry) == 88 && std::is_trivially_copyable_v<NeighbourIndex::Entry>);
 
 constexpr std::string_view kMagic = "tautatl\n";
-// Refused beyond: more than any atlas has had, and far from overflow.
+// Files with more charts are refused. No atlas has had as many, and this is far from overflow.
 constexpr int kMostCharts = 10'000'000;
-// Charts do not shrink below this fraction of the largest radius; smaller ones would be grown without end.
+// Least radius of a chart, as a fraction of the largest; around smaller ones the atlas would grow almost without end.
 constexpr double kLeastRadius = 1e-6;
-// Periodic coordinates stay far from where counts of half turns overflow.
+// Largest periodic coordinate; it keeps counts of half turns far from overflow.
 constexpr double kLargestAngle = 1e8;
-// By which the ambient point of a chart may differ between compilers.
+// Largest relative difference of a chart's ambient point between compilers.
 constexpr double kSameMetric = 1e-9;
 
 template <class T>
@@ -36,7 +36,7 @@ void append(std::string& bytes, const std::vector<T>& values) {
   append_values(bytes, values.data(), values.size());
 }
 
-/// Hands out a block of memory table by table; empty-handed where it ends.
+/// Takes tables from a block of memory, one after the other; take() is false if the rest is too short.
 class Cursor {
  public:
   explicit Cursor(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -57,7 +57,7 @@ bool ascends_to(std::span<const std::uint64_t> ends, std::size_t last) {
   return std::ranges::is_sorted(ends) && ends.back() == last;
 }
 
-/// [ends[k - 1], ends[k]), with 0 before the first.
+/// The part [ends[k - 1], ends[k]) of `all`; part 0 begins at 0.
 template <class T>
 std::span<const T> part(std::span<const T> all, std::span<const std::uint64_t> ends, int k) {
   const std::size_t begin = k == 0 ? 0 : ends[k - 1];
@@ -66,7 +66,7 @@ std::span<const T> part(std::span<const T> all, std::span<const std::uint64_t> e
 
 }  // namespace
 
-/// What the file begins with. The tables follow, then the polytopes.
+/// The beginning of the file. The tables follow, then the polytopes.
 struct AtlasFile::Header {
   std::array<char, 8> magic;
   std::uint32_t version;
@@ -257,7 +257,7 @@ void AtlasFile::require_sound_tables(double largest_radius) const {
   if (!(clearance_ >= 0 && clearance_ < 1)) refuse("the atlas is damaged: its clearance is none");
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::ranges::all_of(coordinates_, finite)) refuse("the atlas is damaged: its coordinates are not finite");
-  // Places that are not where their charts are only hide these: neither they nor reaches need to make sense.
+  // Points and reaches need not be right: an entry with a wrong point only hides its chart.
   std::vector<bool> seen(radii_.size());
   for (const NeighbourIndex::Entry& place : places_) {
     const bool known = place.id >= 0 && place.id < size() && !seen[place.id];

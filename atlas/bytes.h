@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plain values to bytes and back, in the order of memory; for files of this machine's kind.
+// Copies plain values to bytes and back, in this machine's byte order.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ void append_values(std::string& bytes, const T* values, std::size_t count) {
   bytes.append(reinterpret_cast<const char*>(values), sizeof(T) * count);
 }
 
-/// Reads `count` values and moves `bytes` behind them. @pre there are as many.
+/// Reads `count` values and removes them from `bytes`. @pre `bytes` holds as many.
 template <class T>
 void take_values(std::span<const std::byte>& bytes, T* values, std::size_t count) {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -3,15 +3,15 @@
 //
 // symbol  name                  meaning
 //   n     dimension             dimension of the manifold
-//   N     ambient_dimension     dimension of the space that it lies in; distances are measured there
+//   N     ambient_dimension     dimension of the space around it, in which distances are measured
 //   m     coordinate_dimension  how many coordinates name a point: m = N for an implicit surface F(x) = 0,
 //                               m = n for a surface that is a graph over its parameters
 //
-// Equal points must have equal ambient points, whatever coordinates name them: an angle enters by its sine and cosine.
-// So the atlas, which only looks at ambient points, never asks whether two coordinate vectors mean the same. Only
-// the search does, when it unwraps a path; CoordinateSymmetry answers there.
+// Coordinate vectors that name the same point must have equal ambient points: an angle enters by its sine and cosine.
+// The atlas looks at ambient points only, so it never compares coordinate vectors. Only the search does, when it
+// unwraps a path, with CoordinateSymmetry.
 //
-// All of it is binary64 without claim: the atlas proposes, certify/ proves.
+// Everything is computed in binary64 and nothing is guaranteed: the atlas proposes, certify/ proves.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,17 +22,18 @@
 
 namespace taut {
 
-inline constexpr int kMaxDimension = 6;    ///< of a manifold: the pose space of a rigid body
-inline constexpr int kMaxCoordinates = 8;  ///< that name a point
+inline constexpr int kMaxDimension = 6;    ///< of a manifold: the pose space of a rigid body has six
+inline constexpr int kMaxCoordinates = 8;  ///< of a point
 
 using TangentVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDimension, 1>;
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxCoordinates, 1>;
 using AmbientPoint = Eigen::Ref<const Eigen::VectorXd>;
 
-/// A point of the manifold and its tangent space. All numbers lie in one block of memory, since atlases hold many frames.
+/// A point of the manifold and its tangent space. All numbers lie in one block of memory, since atlases hold many
+/// frames.
 class Frame {
  public:
-  /// Sets the sizes m, N and n; what the frame held is lost. Memory is used again where there is enough.
+  /// Sets the sizes m, N and n. The content is lost; memory is reused if there is enough.
   void resize(Eigen::Index coordinates, Eigen::Index ambient, Eigen::Index dimension) {
     m_ = coordinates;
     ambient_ = ambient;
@@ -41,10 +42,10 @@ class Frame {
   }
   [[nodiscard]] Eigen::Index dimension() const { return n_; }
 
-  /// m: names the point.
+  /// m: the coordinates that name the point.
   [[nodiscard]] auto coordinates() const { return Eigen::Map<const Eigen::VectorXd>(values_.data(), m_); }
   [[nodiscard]] auto coordinates() { return Eigen::Map<Eigen::VectorXd>(values_.data(), m_); }
-  /// N: x.
+  /// N: the ambient point x.
   [[nodiscard]] auto point() const { return Eigen::Map<const Eigen::VectorXd>(values_.data() + m_, ambient_); }
   [[nodiscard]] auto point() { return Eigen::Map<Eigen::VectorXd>(values_.data() + m_, ambient_); }
   /// N x n: Phi, orthonormal columns.
@@ -75,22 +76,23 @@ class Frame {
   std::vector<double> values_;  ///< coordinates, point, tangent, lift; matrices by columns
 };
 
-/// Which of its equivalent coordinate vectors a point is given by:
+/// One of the equivalent coordinate vectors of a point:
 ///   coordinates_j = ± base_j + pi * half_turns_j,
-/// minus only for the second coordinate of a flip, when `flipped`. Exact, where a rounded sum would not be.
+/// with minus only for the second coordinate of a flip, if `flipped`. This is exact; the sum in binary64 is rounded.
 struct Image {
   std::array<int, kMaxCoordinates> half_turns{};
   bool flipped = false;
   bool operator==(const Image&) const = default;
 };
 
-/// Coordinates that mean the same point: angles modulo 2 pi, and tilt-and-torsion's (phi, theta) ~ (phi + pi, -theta).
+/// Which coordinates name the same point: angles are modulo 2 pi, and in tilt-and-torsion angles (phi, theta) and
+/// (phi + pi, -theta) are the same.
 struct CoordinateSymmetry {
   std::array<bool, kMaxCoordinates> periodic{};
   /// Indices of phi and theta; phi is periodic.
   std::optional<std::array<int, 2>> flip;
 
-  /// The image of `base` that lies nearest to `near`; of several equally near ones, the unflipped.
+  /// The image of `base` nearest to `near`; if a flipped and an unflipped one are equally near, the unflipped.
   [[nodiscard]] Image nearest_image(const Coordinates& base, const Coordinates& near) const;
   /// The coordinates of an image, rounded.
   [[nodiscard]] Coordinates apply(const Coordinates& base, const Image& image) const;
@@ -103,18 +105,19 @@ class Manifold {
   [[nodiscard]] virtual int dimension() const = 0;
   [[nodiscard]] virtual int ambient_dimension() const = 0;
   [[nodiscard]] virtual int coordinate_dimension() const = 0;
-  /// Default: different coordinates are different points.
+  /// By default, different coordinates are different points.
   [[nodiscard]] virtual CoordinateSymmetry symmetry() const { return {}; }
 
-  /// Point and tangent space at the given coordinates, which the frame repeats bit for bit; for an implicit surface
-  /// they are those of a point on it. False, and `frame` is of no use, outside the domain.
-  /// `frame` is passed in so that its memory is used again; implementations should write into it in place. The atlas
-  /// looks up neighbours by the first NeighbourIndex::kDimension ambient coordinates: put those first that tell
-  /// points apart best.
+  /// Computes the point and the tangent space at these coordinates, which the frame repeats bit for bit; on an implicit
+  /// surface they are those of a point near by that is on the surface. Returns false outside the domain; `frame` is
+  /// undefined then. `frame` is passed in so that its memory is reused; implementations should write into it in place.
+  /// The atlas looks up neighbours by the first NeighbourIndex::kDimension ambient coordinates, so the ones that
+  /// distinguish points best should come first.
   [[nodiscard]] virtual bool frame_at(const Coordinates& coordinates, Frame& frame) const = 0;
 
-  /// Coordinates of the manifold's point over tangent coordinates u. False where there is none (Newton failed).
-  /// Default: coordinates + lift u, which is right to first order and is all that a graph over its parameters needs.
+  /// Computes the coordinates of the manifold's point over tangent coordinates u. Returns false if there is none
+  /// (Newton's method failed). The default is coordinates + lift u, which is right to first order; a graph over its
+  /// parameters needs no more.
   [[nodiscard]] virtual bool project(const Frame& frame, const TangentVector& u, Coordinates& coordinates) const {
     coordinates = frame.coordinates() + frame.lift() * u;
     return true;

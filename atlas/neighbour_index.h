@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the charts near a point without looking at all of them.
 //
-// Points have kDimension coordinates: any fixed choice of ambient coordinates, since leaving some out only shortens
+// Points have kDimension coordinates, a fixed choice of the ambient coordinates. Leaving some out only shortens
 // distances, so that nothing near is missed. Each point has a reach of its own.
 // Source: Bentley, Saxe 1980, "Decomposable searching problems": static kd-trees of sizes 1, 2, 4, … buckets, merged
-// as a binary counter is; an insertion costs O(log^2 N), amortised.
+// like the digits of a binary counter; an insertion costs O(log^2 N), amortised.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +23,10 @@ class NeighbourIndex {
   static constexpr int kDimension = 8;
   using Point = std::array<double, kDimension>;
 
-  /// The first kDimension coordinates of an ambient point, or all and zeros.
+  /// The first kDimension coordinates of an ambient point, filled up with zeros if it has fewer.
   [[nodiscard]] static Point locate(const AmbientPoint& ambient_point);
 
-  /// Also, in the middle of its range in a tree, the node of that range.
+  /// A point. The entry in the middle of a range of a tree is also the node of that range.
   struct Entry {
     Point point;
     double reach;
@@ -37,7 +37,7 @@ class NeighbourIndex {
   using Entries = std::vector<Entry>;
 
   NeighbourIndex() = default;
-  /// Begins with what tree() gave, without a copy: the memory must outlive the index.
+  /// Begins with the result of an earlier tree(), which is not copied: the memory must outlive the index.
   explicit NeighbourIndex(std::span<const Entry> tree) : stored_(tree) {}
 
   /// All points in one tree.
@@ -45,8 +45,8 @@ class NeighbourIndex {
 
   void insert(int id, const Point& point, double reach);
 
-  /// Calls visit(id, |p_i - point|^2) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that depends
-  /// on the insertions alone.
+  /// Calls visit(id, |p_i - point|^2) for each point p_i with |p_i - point| <= max(reach, reach_i), in an order that is
+  /// the same on every machine.
   template <class Visit>
   void visit(const Point& point, double reach, Visit&& visit) const {
     scan(recent_, 0, recent_.size(), point, reach, visit);
@@ -55,7 +55,7 @@ class NeighbourIndex {
     for (const auto& tree : trees_) descend(tree, 0, tree.size(), point, reach, everywhere, visit);
   }
 
-  /// Distances computed so far: what a look-up costs, whatever the machine.
+  /// Number of distances computed so far, a measure of cost that does not depend on the machine.
   [[nodiscard]] long distance_evaluations() const { return distance_evaluations_; }
 
  private:
@@ -76,8 +76,8 @@ class NeighbourIndex {
     }
   }
 
-  /// What is known of the part of space that a descent has come to: the point's distance from it, squared, and along each
-  /// coordinate (Arya, Mount 1993: incremental distances).
+  /// The part of space that a descent has reached: the squared distance of the point from it, and the distance along
+  /// each coordinate (Arya, Mount 1993: incremental distances).
   struct Cell {
     double squared_distance = 0;
     Point gaps{};
@@ -93,7 +93,7 @@ class NeighbourIndex {
     const double gap = point[node.split] - node.point[node.split];
     double& known_gap = cell.gaps[static_cast<std::size_t>(node.split)];
     const double here = cell.squared_distance;
-    const double beyond = here - known_gap * known_gap + gap * gap;  // of the half that the point is not in
+    const double beyond = here - known_gap * known_gap + gap * gap;  // squared distance of the other half
     const auto half = [&](std::size_t from, std::size_t to, bool holds_point) {
       if (holds_point) return descend(entries, from, to, point, reach, cell, visit);
       if (beyond > limit * limit) return;

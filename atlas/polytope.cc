@@ -13,7 +13,7 @@ namespace {
 // A vertex that a cut would move by less than this fraction of the cube's half side counts as lying on the cut.
 constexpr double kOnTheCut = 1e-12;
 
-// One end of an edge to come in a new facet. The edge lies in the 2-face that the cut crosses, named by its facets.
+// One end of an edge to be made in the new facet. The edge lies in a 2-face that the cut crosses; `face` identifies it.
 struct OpenEnd {
   std::uint64_t face;
   int vertex;
@@ -29,7 +29,7 @@ struct Scratch {
 };
 thread_local Scratch scratch;
 
-// Scatters a facet's name over 64 bits (the finaliser of splitmix64), so that sums of a few tell sets of facets apart.
+// Hashes a facet's name to 64 bits (the finaliser of splitmix64), so that sums of a few hashes identify sets of facets.
 std::uint64_t scatter(int facet) {
   std::uint64_t z = (std::uint64_t{std::uint32_t(facet)} + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -193,7 +193,8 @@ bool Polytope::has_facet(int facet) const {
   return false;
 }
 
-// ---- Bytes: half_side, then of each vertex position, facets, neighbours, marked ----------------------------------------
+// ---- Bytes: half_side, then for each vertex position, facets, neighbours, marked
+// ---------------------------------------
 
 namespace {
 
@@ -235,9 +236,10 @@ std::optional<Polytope> Polytope::from_bytes(int dimension, std::span<const std:
   return result;
 }
 
-// What clip() relies on so as not to leave its arrays: each edge leads to a vertex that lies on all facets but the one that the
-// edge leaves, on another instead, and leads back. Then the two ends of each edge lie on different sets of facets, no two
-// edges join the same vertices, and a 2-face's vertices form cycles, which any cut crosses an even number of times.
+// The invariant that keeps clip() within its arrays: each edge leads to a vertex that lies on all the same facets
+// except the one that the edge leaves, and leads back. Then the two ends of each edge lie on different sets of facets,
+// no two edges join the same vertices, and the vertices of a 2-face form cycles, which any cut crosses an even number
+// of times.
 bool Polytope::is_simple(int facet_end) const {
   const int n = dimension_;
   const int count = static_cast<int>(vertices_.size());

@@ -12,7 +12,7 @@
 namespace taut {
 namespace {
 
-using Directions = Eigen::MatrixXd;  // a row each
+using Directions = Eigen::MatrixXd;  // one in each row
 
 Directions make_directions(int n) {
   Directions result = Directions::Zero(2 * n * n, n);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNone = -1;
 constexpr int kProgressPeriod = 256;  // expansions between two reports
-// First finite weight of an anytime search; from below the last but one, the next is 1.
+// The weights of an anytime search begin with infinity and kFirstWeight; the one after a weight up to kLastWeight is 1.
 constexpr double kFirstWeight = 2.0;
 constexpr double kLastWeight = 1.03;
 
@@ -22,14 +22,14 @@ struct Node {
   bool closed = false;
   bool edge_accepted = false;  // the edge from the parent
   int parent = kNone;
-  double cost = 0;          // from the start; of a closed node
-  double heuristic = -1;    // negative: not computed yet, nor is the next
+  double cost = 0;          // from the start; for closed nodes
+  double heuristic = -1;    // negative if it and `remaining` are not computed yet
   double remaining = 0;     // distance to the goal in the coordinates
-  Image image;              // of a closed node
-  Coordinates coordinates;  // unwrapped, of a closed node
+  Image image;              // for closed nodes
+  Coordinates coordinates;  // unwrapped, for closed nodes
 };
 
-// A way to reach a node; or, with child == parent, a node whose surroundings are not finished.
+// An edge to a node; or, with child == parent, a node around which charts are still to be made.
 struct Candidate {
   double priority;
   double remaining;  // of the child
@@ -38,8 +38,9 @@ struct Candidate {
   int child;
   int parent;
 
-  // Of equals, the one that looks nearer to the goal comes first: a heuristic that knows only a part of a pose, as the
-  // angle that is left to turn, leaves many. Then the one further along; ids make the order total.
+  // Among candidates of equal priority, the one nearer to the goal in the coordinates comes first. There are many such
+  // candidates if the heuristic knows only a part of the pose, such as the angle left to turn. The next criterion is
+  // the larger cost from the start; ids make the order total.
   bool operator<(const Candidate& other) const {
     if (priority != other.priority) return priority > other.priority;
     if (remaining != other.remaining) return remaining > other.remaining;
@@ -117,7 +118,7 @@ class Search {
     return atlas_.coordinates(node);
   }
 
-  // Start and goal are one point, perhaps under two names: a path of one edge.
+  // Start and goal are the same point, perhaps with different coordinates: the path has one edge.
   SearchStatus join_equal_ends() {
     const Image image = symmetry_.nearest_image(problem_.goal, problem_.start);
     const Coordinates end = symmetry_.apply(problem_.goal, image);
@@ -147,7 +148,7 @@ class Search {
     node.coordinates = symmetry_.apply(base(candidate.child), node.image);
   }
 
-  // The node's tree edge is settled: its neighbours become candidates.
+  // Makes the node part of the tree, and its neighbours candidates.
   void close(int node) {
     nodes_[node].closed = true;
     closed_.push_back(node);
@@ -157,7 +158,7 @@ class Search {
     if (!atlas_.complete(node)) postpone(node);
   }
 
-  // The node's surroundings are finished when its turn comes again.
+  // Queues the node again, to make the rest of the charts around it.
   void postpone(int node) { push(node, node, nodes_[node].cost, nodes_[node].cost); }
 
   // Makes charts around a closed node and offers them to every closed neighbour that they have.
@@ -201,13 +202,12 @@ class Search {
       const Coordinates goal = symmetry_.apply(problem_.goal, symmetry_.nearest_image(problem_.goal, at));
       value = problem_.heuristic(at, goal);
       nodes_[node].remaining = (goal - at).norm();
-      if (node != goal_)
-        lowest_heuristic_ = std::min(lowest_heuristic_, value);  // the goal's own chart is there from the start
+      if (node != goal_) lowest_heuristic_ = std::min(lowest_heuristic_, value);
     }
     return value;
   }
 
-  // Whether the edge above an adopted node may stand, as far as is asked so early.
+  // Asks edge_likely about the edge above an adopted node, once an edge of a path has failed.
   bool is_likely(int node) const {
     if (!problem_.edge_likely || !tree_edge_failed_) return true;
     return problem_.edge_likely(nodes_[nodes_[node].parent].coordinates, nodes_[node].coordinates);
@@ -218,7 +218,7 @@ class Search {
     rejected_.insert(key(nodes_[node].parent, node));
   }
 
-  // Puts the edges from the start to the goal to edge_ok. Returns the node below the first that fails.
+  // Checks the edges of the path from the start to the goal. Returns the node below the first that fails.
   int first_broken_edge() {
     std::vector<int> nodes;
     for (int node = goal_; node != start_; node = nodes_[node].parent) nodes.push_back(node);
@@ -229,7 +229,7 @@ class Search {
     return kNone;
   }
 
-  // Puts the edge from the node's parent to edge_ok, once.
+  // Asks edge_ok about the edge from the node's parent, unless it was accepted before.
   bool accept_edge(int child) {
     Node& node = nodes_[child];
     if (node.edge_accepted) return true;
@@ -237,8 +237,8 @@ class Search {
     return node.edge_accepted = problem_.edge_ok(nodes_[node.parent].coordinates, node.coordinates);
   }
 
-  // Strikes out the edge above `broken` and opens the subtree below again: all other closed nodes keep their cost, since
-  // striking out edges makes no path shorter.
+  // Removes the edge above `broken` and opens the subtree below it again. All other closed nodes keep their cost, since
+  // removing edges makes no path shorter.
   void repair(int broken) {
     reject(broken);
     tree_edge_failed_ = true;
@@ -283,7 +283,7 @@ class Search {
   std::vector<int> closed_;  // in the order of closing
   std::priority_queue<Candidate> open_;
   std::unordered_set<std::uint64_t> rejected_;
-  bool tree_edge_failed_ = false;  // struck out of a path that had reached the goal
+  bool tree_edge_failed_ = false;  // an edge of a path that had reached the goal was removed
   bool chart_limit_hit_ = false;
   double lowest_heuristic_ = std::numeric_limits<double>::infinity();
   SearchResult result_;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shortest and quickly found paths on an atlas that is grown while it is searched.
+// Searches an atlas, growing it on the way, for shortest paths or for paths that are found quickly.
 //
 // A path runs from the start through centres of neighbouring charts to the goal. Start and goal are centres of charts
 // of their own, made first; the goal is reached when charts grown from the start meet its chart.
 //
-// Edges are validated lazily: only those of a path that would be the answer are put to `edge_ok`, which may cost a
-// hundred times a chart; the last edge first. One that fails is struck out for good (both ways), the search tree is repaired below it, and
-// the search goes on. A path found with weight 1 is shortest among those on the charts' graph whose edges are ok, one found with weight w at
-// most w times as long, if the heuristic is consistent: |h(a) - h(b)| <= cost(a, b), h(goal) = 0.
+// Edges are validated lazily: `edge_ok`, which may cost a hundred times as much as a chart, is called only for edges of
+// a path that would be the answer, the last edge first. An edge that fails is removed for good (in both directions),
+// the search tree is repaired below it, and the search goes on. If the heuristic is consistent, |h(a) - h(b)| <=
+// cost(a, b) and h(goal) = 0, a path found with weight 1 is the shortest of those on the charts' graph whose edges are
+// ok; one found with weight w is at most w times as long.
 //
-// With a weight above 1 the charts around a node are made one at a time, in the goal's direction first, as long as no other
-// candidate is more promising than the node: charts have exponentially many neighbours in the dimension, and few
-// are needed. With weight 1 no neighbour can be more promising than its node, so all are made.
+// With a weight above 1 the charts around a node are made one at a time, in the goal's direction first, as long as no
+// other candidate is more promising than the node: the number of a chart's neighbours grows exponentially with the
+// dimension, and few are needed. With weight 1 no neighbour can be more promising than its node, so all are made.
 //
 // Sources: J. M. Porta, L. Jaillet, O. Bohigas 2012; O. Bohigas, M. Manubens, L. Ros (greedy best-first, A*);
 // C. Dellin, S. Srinivasa, "A unifying formalism for shortest path problems with expensive edge evaluations", 2016;
@@ -33,32 +34,32 @@ struct SearchProgress {
   double lowest_heuristic = 0;
 };
 
-/// What is searched for. Coordinate vectors passed in are unwrapped: `b` is the image nearest to `a`.
+/// The query. Coordinate vectors passed to the functions are unwrapped: `b` is the image nearest to `a`.
 struct SearchProblem {
   Coordinates start;
   Coordinates goal;
-  /// Length of the edge from a to b, non-negative and the same for equivalent pairs.
+  /// Length of the edge from a to b: non-negative, and the same for equivalent pairs.
   std::function<double(const Coordinates& a, const Coordinates& b)> cost;
-  /// Lower bound of the length from a to the goal, here its image nearest to a.
+  /// Lower bound of the length from a to `goal`, the image of the goal nearest to a.
   std::function<double(const Coordinates& a, const Coordinates& goal)> heuristic;
   /// Whether the robot may go straight from a to b. Called only for edges of a candidate path.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
-  /// May be empty. A necessary condition of edge_ok that costs little: once an edge of a candidate path has failed,
-  /// edges are put to it as soon as they would join the search tree, so that fewer have to be struck out of it later.
+  /// A cheap necessary condition of edge_ok; may be empty. Once an edge of a candidate path has failed, it is called
+  /// for every edge that is about to join the search tree, so that fewer edges have to be removed from it later.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_likely;
-  /// Adds to the charts' graph an edge from every chart straight to the goal: most are not ok, and the one that is saves
-  /// all charts beyond it. `edge_ok` is then asked often and should be quick to refuse.
+  /// Adds to the charts' graph an edge from every chart straight to the goal. Most are not ok; one that is saves all
+  /// charts beyond it. `edge_ok` is then called often and should refuse quickly.
   bool straight_to_goal = false;
   std::function<void(const SearchProgress&)> progress;  ///< may be empty
-  std::stop_token stop;                                 ///< looked at before each expansion and each edge_ok
+  std::stop_token stop;                                 ///< checked before each expansion and each edge_ok of a path
 };
 
-/// What is sought: candidates are taken in the order of cost from the start + weight * heuristic.
+/// Candidates are taken in the order of cost from the start + weight * heuristic.
 struct SearchOptions {
-  /// 1: A*, the shortest path. Above: sooner, and at most `weight` times as long. Infinite: greedy best-first, by the
-  /// heuristic alone.
+  /// 1 is A* and finds the shortest path. A larger weight finds one sooner that is at most `weight` times as long.
+  /// Infinity is greedy best-first search, in the order of the heuristic alone.
   double weight = 1;
-  /// Only a path shorter than this is of interest. kExhausted then means that none on the charts' graph is shorter than
+  /// Only paths shorter than this are looked for. kExhausted then means that none on the charts' graph is shorter than
   /// cost_bound / weight.
   double cost_bound = std::numeric_limits<double>::infinity();
 
@@ -66,8 +67,8 @@ struct SearchOptions {
   void validate() const;
 };
 
-/// A centre of a chart as the path passes through it. `base` is the centre's coordinates bit for bit (the query's own
-/// for start and goal); `image` says exactly by how many half turns they were shifted, so that the path is continuous.
+/// A chart's centre as a vertex of the path. `base` is the centre's coordinates bit for bit (the query's own for start
+/// and goal); `image` says exactly by how many half turns they were shifted to make the path continuous.
 /// The first vertex is the start, unshifted; the last is the image of the goal that was reached.
 struct PathVertex {
   Coordinates base;
@@ -77,8 +78,8 @@ struct PathVertex {
 
 enum class SearchStatus {
   kFound,
-  kExhausted,    ///< all charts that can be reached were made, all edges tried; says nothing about the robot
-  kChartLimit,   ///< no path on the charts made
+  kExhausted,    ///< all charts that can be reached were made and all edges tried; this proves nothing about the robot
+  kChartLimit,   ///< there is no path on the charts made so far, and max_charts is reached
   kInterrupted,  ///< by `stop`
   kOutside,      ///< start or goal is not in the manifold's domain
 };
@@ -91,8 +92,8 @@ struct SearchResult {
   int nodes_expanded = 0;
   int edges_checked = 0;
   int edges_rejected = 0;
-  double nearest = std::numeric_limits<double>::infinity();  ///< least heuristic of a node: how near the goal it came
-  /// The path is at most so many times as long as the shortest on the charts' graph: 1 if it is the shortest.
+  double nearest = std::numeric_limits<double>::infinity();  ///< least heuristic of a node other than the goal's
+  /// The path is at most `factor` times as long as the shortest on the charts' graph; 1 if it is the shortest.
   double factor = std::numeric_limits<double>::infinity();
 };
 
@@ -100,10 +101,10 @@ struct SearchResult {
 /// @pre all three functions of `problem` are set.
 [[nodiscard]] SearchResult search(Atlas& atlas, const SearchProblem& problem, const SearchOptions& options);
 
-/// Finds a path soon and a shorter one later: greedy best-first, then searches with weights that halve their distance to 1,
-/// each for a path shorter than the last, all on the same atlas. `improved` sees each path as it is found.
-/// Ends when the last path is known to be the shortest on the charts' graph; or when charts run out or `stop` asks,
-/// which `factor` > 1 then shows. @returns the last path found, with counts over all searches.
+/// Finds a path soon and shorter ones later: a greedy best-first search is followed by searches with weights that halve
+/// their distance to 1, each for a path shorter than the last, all on the same atlas. Calls `improved` with each path
+/// found. Ends when the last path is known to be the shortest on the charts' graph, or with `factor` > 1 when
+/// max_charts is reached or `stop` is requested. @returns the last path found, with counts over all searches.
 [[nodiscard]] SearchResult search_anytime(Atlas& atlas, const SearchProblem& problem,
                                           const std::function<void(const SearchResult&)>& improved);
 

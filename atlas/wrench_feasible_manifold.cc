@@ -24,11 +24,11 @@ CoordinateSymmetry symmetry_of(const SpaceText& space) {
   return symmetry;
 }
 
-/// Parameters and their derivatives in n directions; all parameters' own directions where there are no constraints.
+/// Parameters and their derivatives in n directions; without constraints these are the directions of the parameters.
 template <int N>
 using ParameterJets = std::array<Jet<double, N>, kMaxCoordinates>;
 
-/// Written for up to N dimensions; fewer leave the last partial derivatives unused.
+/// The manifold for up to N dimensions; with fewer, the last partial derivatives are unused.
 template <int N>
 class WrenchFeasibleManifold final : public Manifold {
  public:
@@ -76,7 +76,7 @@ class WrenchFeasibleManifold final : public Manifold {
       for (int k = 0; k < n_; ++k) tangent(row, k) = weight * x.partial[static_cast<std::size_t>(k)];
       ++row;
     };
-    // First what tells poses apart best: the neighbour index looks at these.
+    // The coordinates that distinguish poses best come first, because the neighbour index uses these.
     for (int i = 0; i < 3; ++i) put(r_WP(i, 2), std::sqrt(0.5));
     for (int i = 0; i < 3; ++i) put(pose.p_WP(i), 1.0 / model_.characteristic_length);
     for (int i = 0; i < 3; ++i) put(r_WP(i, 0), std::sqrt(0.5));
@@ -86,7 +86,7 @@ class WrenchFeasibleManifold final : public Manifold {
     return orthonormalise(frame);
   }
 
-  /// With constraints: from the lifted point along the normals at the frame's coordinates, back to the constraints.
+  /// With constraints, goes from the lifted point back to them, along the normals at the frame's coordinates.
   [[nodiscard]] bool project(const Frame& frame, const TangentVector& u, Coordinates& coordinates) const override {
     coordinates = frame.coordinates() + frame.lift() * u;
     if (!constraints_) return true;
@@ -108,8 +108,8 @@ class WrenchFeasibleManifold final : public Manifold {
     return true;
   }
 
-  /// The point on the constraints near the coordinates, which may be off them a little, and the directions in which it may
-  /// move: an orthonormal basis of the null space of C'. False where the rank is not full.
+  /// Computes the point on the constraints near the coordinates, which may be slightly off them, and the directions in
+  /// which it may move: an orthonormal basis of the null space of C'. Returns false if the rank is not full.
   bool put_constrained(const Coordinates& coordinates, ParameterJets<N>& parameters, Frame& frame) const {
     const auto at = constraints_->nearest(coordinates);
     if (!at) return false;
@@ -131,7 +131,7 @@ class WrenchFeasibleManifold final : public Manifold {
   void put_parameter(int j, const Jet<double, N>& x, Put&& put) const {
     const double weight = weights_.parameter;
     const bool flips = symmetry_.flip.has_value();
-    if (flips && j == (*symmetry_.flip)[1]) {  // θ changes sign with a flip: its square root is in R already
+    if (flips && j == (*symmetry_.flip)[1]) {  // θ changes sign with a flip, so it can't be used; R contains it already
       put(Jet<double, N>(0.0), 0.0);
       put(Jet<double, N>(0.0), 0.0);
     } else if (symmetry_.periodic[static_cast<std::size_t>(j)]) {
@@ -145,7 +145,8 @@ class WrenchFeasibleManifold final : public Manifold {
     }
   }
 
-  /// The κ log of the slack variables and their derivatives; false where a margin is within the clearance or D is singular.
+  /// The κ log of the slack variables and their derivatives; false where a margin is within the clearance or D is
+  /// singular.
   template <class Put>
   bool put_slacks(const CableGeometry<Jet<double, N>>& geometry, Put&& put) const {
     using J = Jet<double, N>;
@@ -217,7 +218,8 @@ class WrenchFeasibleManifold final : public Manifold {
     return clear;
   }
 
-  /// Gram–Schmidt on the columns of dx/dv = Φ T, v along the columns of the lift L; then dλ/du = L T^-1.
+  /// Gram–Schmidt on the columns of dx/dv = Φ T, where v are coordinates along the columns of the lift L. Replaces L by
+  /// dλ/du = L T^-1.
   bool orthonormalise(Frame& frame) const {
     auto tangent = frame.tangent();
     auto lift = frame.lift();

@@ -27,7 +27,8 @@ namespace {
                          {path.string()});
 }
 
-/// Where the system can't tell, as of a link that leads to itself or a name that is too long, that is a failure of `action`.
+/// The status of `path`. If the system can't tell, because a link leads to itself or a name is too long, `action`
+/// fails.
 std::filesystem::file_status status_of(const std::filesystem::path& path, const char* action) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -37,13 +38,13 @@ std::filesystem::file_status status_of(const std::filesystem::path& path, const 
 
 constexpr std::string_view kPart = ".part";
 
-/// Unlike the name of any other file that is being written, in this process or another: they differ by process and number.
+/// A name that no other file being written has, in this process or another: it contains the process and a number.
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
   static std::atomic<unsigned> number = 0;
   return path.string() + fmt::format(".{}-{}{}", ::getpid(), number++, kPart);
 }
 
-/// Where a link leads, if it leads anywhere; else the path itself.
+/// The target of a link, if it has one; else the path itself.
 std::filesystem::path target_of(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_symlink(path, error)) return path;
@@ -51,7 +52,7 @@ std::filesystem::path target_of(const std::filesystem::path& path) {
   return error ? path : target;
 }
 
-/// The process that made a file of that name for one named `file`; 0 where it is no such name.
+/// The process that made the temporary file `name` for a file named `file`; 0 if `name` is not a temporary name for it.
 pid_t maker(std::string_view name, const std::string& file) {
   const std::string prefix = file + ".";
   if (!name.starts_with(prefix) || !name.ends_with(kPart) || name.size() <= prefix.size() + kPart.size()) return 0;
@@ -66,7 +67,7 @@ pid_t maker(std::string_view name, const std::string& file) {
   return no_number == std::errc() && read_all == end ? process : 0;
 }
 
-/// Removes temporary files for `path` that a run left behind which was killed: its process is gone, and nobody holds the file locked.
+/// Removes temporary files for `path` that killed runs left behind: their process is gone and nobody locks the file.
 void remove_leftovers(const std::filesystem::path& path) {
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -85,15 +86,15 @@ void remove_leftovers(const std::filesystem::path& path) {
 
 NewFile::NewFile(const std::filesystem::path& path) : path_(target_of(path)) {
   if (std::filesystem::is_other(status_of(path_, "write"))) {
-    fail(path_, "write", EINVAL);  // a device or pipe, which no file should replace
+    fail(path_, "write", EINVAL);  // a device or pipe must not be replaced by a file
   }
   remove_leftovers(path_);
   do {
     temporary_ = temporary_name(path_);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  } while (descriptor_ < 0 && errno == EEXIST);  // left by a process of the same number, or of another container's
+  } while (descriptor_ < 0 && errno == EEXIST);  // left by a process of the same number, maybe in another container
   if (descriptor_ < 0) fail(path_, "write", errno);
-  static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));  // says that it is in use, to whoever looks for leftovers
+  static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));  // tells remove_leftovers() that the file is in use
 }
 
 NewFile::~NewFile() {
@@ -138,7 +139,7 @@ void NewFile::rename_into_place() {
 
 namespace {
 
-/// While it lives, no other thread or process has one of the same folder, as far as the file system has locks.
+/// A lock on a folder that only one thread of one process holds at a time, if the file system supports locks.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder)
@@ -165,7 +166,7 @@ void rename_into_place(std::span<NewFile* const> files, std::span<const std::fil
   const FolderLock lock(files.front()->temporary().parent_path());
   for (const std::filesystem::path& old : remove_first) {
     std::error_code error;
-    const std::filesystem::path target = target_of(old);  // a link to it stays
+    const std::filesystem::path target = target_of(old);  // a link to the file stays
     if (!std::filesystem::is_directory(target, error)) std::filesystem::remove(target, error);
     if (error) fail(old, "remove", error.value());
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outside world is wrong: a case file, a path, a flag, a certificate. Caught once, in main; exit code 3.
+// Errors in what comes from outside: a case file, a path, a flag, a certificate. They are caught once, in main, and end
+// the program with exit code 3.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +12,15 @@
 
 namespace taut {
 
-/// Where the outside world is wrong, as far as it is known; the message says it, too.
+/// The place of the error, as far as it is known; the message names it, too.
 struct InputPlace {
   std::string file = {};
   std::size_t line = 0;    ///< from 1; 0: unknown, or the file as a whole
-  std::string field = {};  ///< of a case, "load.mass"; of a table, the column
+  std::string field = {};  ///< in a case, "load.mass"; in a table, the column
 };
 
-/// Names the place, the value seen and what was expected: "robot.yaml:12: load.mass: got 'NaN', expected a
-/// positive decimal". On one line, without anything that would steer a terminal, whatever the file says.
+/// The message names the place, the value seen and what was expected: "robot.yaml:12: load.mass: got 'NaN', expected a
+/// positive decimal". It is one line without characters that steer a terminal, whatever the file contains.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message, InputPlace place = {})
@@ -30,7 +31,7 @@ class InputError : public std::runtime_error {
   InputPlace place_;
 };
 
-/// A field of a problem breaks its promise: "robot.length[2]: got [0.5, 0.1], expected 0 <= lower < upper".
+/// A field of a problem is wrong: "robot.length[2]: got [0.5, 0.1], expected 0 <= lower < upper".
 class FieldError : public InputError {
  public:
   FieldError(std::string field, std::string seen, std::string expected);

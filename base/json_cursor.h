@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON from outside: each value knows where it stands, so that what is wrong with it has a place.
+// JSON from outside. Each value knows its place in the file, so that error messages can name it.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace taut {
 
-/// A value and its place, "path.waypoints[3].x". What is asked of it and isn't so is a FieldError that names the place,
-/// the value seen and what was expected. Refers to the value, which must outlive it.
+/// A value and its place, "path.waypoints[3].x". A value that is not what a member asks for is a FieldError that names
+/// the place, the value seen and what was expected. The cursor refers to the value, which must outlive it.
 class JsonCursor {
  public:
   JsonCursor(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
@@ -26,11 +26,11 @@ class JsonCursor {
   [[nodiscard]] const std::string& where() const { return where_; }
   [[nodiscard]] bool is_null() const;
 
-  /// An object has the member. @throws FieldError if it is no object
+  /// Whether the object has this member. @throws FieldError if the value is no object
   [[nodiscard]] bool contains(const char* key) const;
   /// Member of an object.
   [[nodiscard]] JsonCursor at(const char* key) const;
-  /// Checks that it is an object with these keys and no other.
+  /// Checks that the value is an object with exactly these keys.
   const JsonCursor& expect_keys(std::initializer_list<const char*> keys) const;
 
   /// Length of a list.
@@ -39,14 +39,14 @@ class JsonCursor {
   [[nodiscard]] JsonCursor at(std::size_t index) const;
   /// All elements of a list.
   [[nodiscard]] std::vector<JsonCursor> elements() const;
-  /// All elements of a list of that length.
+  /// All elements of a list of `size` elements.
   [[nodiscard]] std::vector<JsonCursor> elements(std::size_t size) const;
 
   [[nodiscard]] const std::string& text() const;
-  /// An integer between these, inclusive.
+  /// An integer from `least` to `most`, inclusive.
   [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t most) const;
 
-  /// Says that another value was `expected`, such as "a list". @throws FieldError
+  /// @throws FieldError saying that another value was `expected`, such as "a list".
   [[noreturn]] void fail(const std::string& expected) const;
 
  private:

@@ -17,7 +17,7 @@ constexpr int kInternalExit = 4;
 const char* program_name = "";
 const char* failure_code = "";
 
-/// Without memory of its own, and safe in a signal handler.
+/// Allocates no memory and is safe in a signal handler.
 void write_to_stderr(const char* text) { static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text))); }
 
 [[noreturn]] void end_with(const char* reason) {
@@ -45,10 +45,11 @@ extern "C" void end_at_abort(int /*signal*/) { end_with("aborted"); }
   end_with("an exception that could not be caught, or no memory for one");
 }
 
-/// Opened for reading where writing is meant and the other way round, so that every use fails as that of a closed one.
+/// Opens /dev/null for reading in place of an output, for writing in place of the input. Every use fails then, as it
+/// does on a closed descriptor.
 void replace_if_closed(int descriptor) {
   if (::fcntl(descriptor, F_GETFD) >= 0) return;
-  static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));  // takes the lowest number
+  static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));  // gets the lowest number
 }
 
 }  // namespace

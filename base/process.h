@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a program sets up before anything else, so that it ends with an exit code of its own whatever happens.
+// Set-up at the start of a program, which makes it end with one of its own exit codes whatever happens.
 #pragma once
 
 namespace taut {
 
-/// To be called once, before any other initialisation. `program` is its name in messages, `code` that of an internal
-/// failure, or empty.
+/// Call this once, before any other initialisation. `program` is the program's name in messages, `code` the code that
+/// messages of internal failures end with; it may be empty.
 ///
-/// Standard streams that are closed are replaced by ones that fail, so that no file that is opened later takes their
-/// number and is written to by a message. What would abort the program (an exception that cannot be caught, GMP without
-/// memory, a failed assertion) writes a line to stderr and ends the program with exit code 4, an internal failure.
+/// Standard streams that are closed are replaced by ones on which every use fails. Otherwise a file opened later would
+/// take the number of the stream, and messages would be written into it. Whatever would abort the program (an exception
+/// that cannot be caught, GMP without memory, a failed assertion) writes a line to stderr and ends the program with
+/// exit code 4, an internal failure.
 void prepare_process(const char* program, const char* code) noexcept;
 
 }  // namespace taut

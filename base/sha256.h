@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SHA-256, of all at once or piece by piece.
+// SHA-256 of JSON values, or of bytes piece by piece.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class Sha256 {
  public:
   Sha256();
   void update(std::string_view bytes);
-  /// 64 lower-case hex digits; no update() after it.
+  /// The digest, 64 lower-case hex digits. @pre called once; no update() follows.
   [[nodiscard]] std::string hex();
 
  private:
@@ -25,7 +25,7 @@ class Sha256 {
   std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
-/// Of the canonical JSON of `value`, 64 lower-case hex digits.
+/// The SHA-256 of the canonical JSON of `value`: 64 lower-case hex digits.
 [[nodiscard]] std::string sha256(const nlohmann::json& value);
 
 }  // namespace taut

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What charts cost as atlases grow: time and memory per chart, from 10^2 to 10^5 charts of the wrench-feasible C-spaces of
-// the cases, with two, three and six free parameters.
+// What charts cost as atlases grow: time and memory per chart, from 10^2 to 10^5 charts of the wrench-feasible C-spaces
+// of the cases, with two, three and six free parameters.
 //
 // An atlas is grown from the query's first waypoint, chart after chart in the order of creation, until it has N charts.
-// The radius is so small that the component has more than 10^5 charts. All runs of one dimension are made of the same first
-// charts, so that the growth of the cost with N is seen and little else: a cost of N log N shows as a constant in bold. With six
-// parameters little is not nothing: 10^5 charts make a ball that is seven charts across, and up to there charts still gain
-// neighbours and come to meet the boundary. Times are the processor's, the best of a few runs; memory is what the
-// allocator has handed out for the atlas, neighbour index included.
+// The radius is so small that the component has more than 10^5 charts. All runs of one dimension are made of the same
+// first charts, so that the growth of the cost with N is seen and little else: a cost of N log N shows as a constant in
+// bold. With six parameters little is not nothing: 10^5 charts make a ball that is seven charts across, and up to there
+// charts still gain neighbours and come to meet the boundary. Times are the processor's, the best of a few runs; memory
+// is what the allocator has handed out for the atlas, neighbour index included.
 //
 // Usage: atlas_growth RESULTS_DIR [--quick]; writes atlas_growth.md and atlas_growth.json there.
 #include <fmt/format.h>

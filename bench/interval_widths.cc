@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How wide the interval arithmetics' results are: of each operation on points, in ulps of the exact result, against MPFR at 2100
-// bits. A correctly rounded operation gives 1 (or 0, where the result is exact).
+// How wide the interval arithmetics' results are: of each operation on points, in ulps of the exact result, against
+// MPFR at 2100 bits. A correctly rounded operation gives 1 (or 0, where the result is exact).
 //
 // Usage: interval_widths; Markdown on stdout.
 #include <fmt/format.h>
@@ -23,7 +23,8 @@ struct Widths {
   double largest = 0;
 };
 
-/// Of results of points, plainly sized ones: half of them in [-8, 8], half with any logarithm between those of 1e-6 and 1e6.
+/// Of results of points, plainly sized ones: half of them in [-8, 8], half with any logarithm between those of 1e-6 and
+/// 1e6.
 template <class A, class Op>
 Widths widths() {
   Operands operands(1);

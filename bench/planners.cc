@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // taut beside OMPL on the paper's queries: time to a proved path against time to an unproved one, and both lengths.
 //
-// Every query is planned by taut (greedy and A*, each with the path as found and the path pulled taut, each by the case's
-// own cost and by distance in the parameters), and by OMPL's RRTConnect and BIT*, whose validity check samples every motion
-// at 0.1 % of the extent of the space and proves nothing. All evaluate poses in double with the same compiled equations.
-// Rounds are interleaved: one run of each planner, then the next of each, so that whatever else the machine does hits all
-// alike. bench/README.md says what is measured and what was chosen.
+// Every query is planned by taut (greedy and A*, each with the path as found and the path pulled taut, each by the
+// case's own cost and by distance in the parameters), and by OMPL's RRTConnect and BIT*, whose validity check samples
+// every motion at 0.1 % of the extent of the space and proves nothing. All evaluate poses in double with the same
+// compiled equations. Rounds are interleaved: one run of each planner, then the next of each, so that whatever else the
+// machine does hits all alike. bench/README.md says what is measured and what was chosen.
 //
 // Usage: planners RESULTS_DIR [--quick]; writes table.md and table.json there.
 #include <fmt/format.h>
@@ -84,7 +84,8 @@ class Stopwatch {
   double cpu_start_ = process_seconds();
 };
 
-// ---- Poses and lengths -------------------------------------------------------------------------------------------------
+// ---- Poses and lengths
+// -------------------------------------------------------------------------------------------------
 
 /// Poses of a problem in double: feasibility of one, and length of a path by either metric.
 class Poses {
@@ -141,7 +142,8 @@ class Poses {
   Evaluator<double> pose_;
 };
 
-// ---- Queries -----------------------------------------------------------------------------------------------------------
+// ---- Queries
+// -----------------------------------------------------------------------------------------------------------
 
 struct Query {
   std::string robot, name;
@@ -166,7 +168,8 @@ std::vector<Query> all_queries() {
           leg_of("2", "q2→q3, free-flying", "robot2-free-q2-q3")};
 }
 
-// ---- What a run yields -------------------------------------------------------------------------------------------------
+// ---- What a run yields
+// -------------------------------------------------------------------------------------------------
 
 struct Measurements {
   std::vector<double> wall, cpu;              ///< of the runs that found a path [s]
@@ -184,7 +187,8 @@ void add_lengths(Measurements& into, const Poses& poses, Cost cost, const std::v
   into.parameters.push_back(poses.length(Cost::kParameters, path));
 }
 
-// ---- taut --------------------------------------------------------------------------------------------------------------
+// ---- taut
+// --------------------------------------------------------------------------------------------------------------
 
 struct Variant {
   std::string name;
@@ -249,7 +253,8 @@ void run_taut(const Query& query, const Variant& variant, const Poses& poses, Me
   }
 }
 
-// ---- OMPL --------------------------------------------------------------------------------------------------------------
+// ---- OMPL
+// --------------------------------------------------------------------------------------------------------------
 
 double wrap(double angle) { return angle - 2.0 * kPi * std::round(angle / (2.0 * kPi)); }
 
@@ -323,8 +328,8 @@ class ParameterSpace final : public ob::RealVectorStateSpace {
   std::vector<bool> periodic_;
 };
 
-/// The length of a motion, bounded from below by the distance of its ends. By a case's cost it is summed up in pieces, since
-/// what is straight in the parameters curves in space.
+/// The length of a motion, bounded from below by the distance of its ends. By a case's cost it is summed up in pieces,
+/// since what is straight in the parameters curves in space.
 ///
 /// OMPL's own path length would have BIT* draw its samples from ellipses that know nothing of periodic parameters, so
 /// here they are drawn from the whole space and rejected by this bound.
@@ -464,7 +469,8 @@ class OmplQuery {
   std::vector<Point> goals_;
 };
 
-// ---- Rows --------------------------------------------------------------------------------------------------------------
+// ---- Rows
+// --------------------------------------------------------------------------------------------------------------
 
 struct Row {
   std::string robot, query;
@@ -516,7 +522,8 @@ Row measure(const Query& query, const Rounds& rounds) {
   return row;
 }
 
-// ---- Output ------------------------------------------------------------------------------------------------------------
+// ---- Output
+// ------------------------------------------------------------------------------------------------------------
 
 std::string milliseconds(const Measurements& m) {
   return m.found() ? fmt::format("{:.2f}", 1e3 * median(m.wall)) : m.note.empty() ? "—" : m.note;

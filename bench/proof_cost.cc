@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a proof costs, in units of what everybody else does: samples of the pose.
 //
-// Proves 2,000 random feasible segments of 0.15 rad of each robot's slice and sphere, and divides the time by that of one
-// floating-point evaluation of lengths, f0, v and margins at a pose (what a sampled validity check does once a sample).
-// Both are timed in the same run, alternately, and the medians are compared. The same with tolerances of all kinds, on such
-// segments as are proved with them; and between the same poses under the law of cable lengths. Also: one interval product of
-// ours, and of Boost.Interval with each operation directed by MPFR, which is why Interval exists.
+// Proves 2,000 random feasible segments of 0.15 rad of each robot's slice and sphere, and divides the time by that of
+// one floating-point evaluation of lengths, f0, v and margins at a pose (what a sampled validity check does once a
+// sample). Both are timed in the same run, alternately, and the medians are compared. The same with tolerances of all
+// kinds, on such segments as are proved with them; and between the same poses under the law of cable lengths. Also: one
+// interval product of ours, and of Boost.Interval with each operation directed by MPFR, which is why Interval exists.
 //
 // Usage: proof_cost [JSON_FILE]; Markdown on stdout.
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Queries on a stored atlas: what a new query costs, proof included, where an earlier run has charted everything that can be
-// reached (docs/atlas-file.md), beside the same query without the file.
+// Queries on a stored atlas: what a new query costs, proof included, where an earlier run has charted everything that
+// can be reached (docs/atlas-file.md), beside the same query without the file.
 //
-// Starts and goals are drawn at random (fixed seed) within the charts of the atlas, at least the case's clearance away from
-// every limit. Each query is run in turn with and without the file. Times are wall clock and contain all of it: opening the file, setting up,
-// searching, pulling taut, proving; for a process also its start, the case file, certificate and report.
+// Starts and goals are drawn at random (fixed seed) within the charts of the atlas, at least the case's clearance away
+// from every limit. Each query is run in turn with and without the file. Times are wall clock and contain all of it:
+// opening the file, setting up, searching, pulling taut, proving; for a process also its start, the case file,
+// certificate and report.
 //
 // Usage: stored_atlas RESULTS_DIR TAUT [--quick]; writes stored_atlas.md and stored_atlas.json there.
 #include <fcntl.h>

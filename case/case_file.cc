@@ -28,7 +28,7 @@
 namespace taut {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = 1 << 20;  // a case has a page; more is a mistake
+constexpr std::size_t kMaxFileBytes = 1 << 20;  // a case has about a page; a much larger file is a mistake
 
 // --- Fields: nodes of the file that know their place ---------------------------------------------------------------
 
@@ -48,7 +48,7 @@ std::string describe(const YAML::Node& node) {
   return node.IsSequence() ? fmt::format("a list of {}", node.size()) : "nothing";
 }
 
-/// The file's name and where its fields are.
+/// The file's name and the places of its fields.
 class Places {
  public:
   explicit Places(std::string file) : file_(std::move(file)) {}
@@ -65,7 +65,7 @@ class Places {
         {file_, mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1, path});
   }
 
-  /// Says where in the file the problem's field is, or the closest thing around it.
+  /// Reports the error at the place of the problem's field, or of the closest field around it.
   [[noreturn]] void fail(const FieldError& error) const {
     std::string path = error.field();
     if (path.starts_with("space.")) {
@@ -108,7 +108,7 @@ class Field {
     complain(fmt::format("got {}, expected {}", describe(node_), expected));
   }
   [[noreturn]] void complain(const std::string& message) const { places_->fail(node_.Mark(), path_, message); }
-  /// Under another path of the problem, too.
+  /// Makes the field known under another path of the problem, too.
   void remember_as(const std::string& path) const { places_->remember(path, node_); }
 
   [[nodiscard]] std::string text(const std::string& expected) const {
@@ -127,9 +127,9 @@ class Field {
     return list(expected);
   }
 
-  /// All keys allowed.
+  /// A map with any keys.
   [[nodiscard]] Map open_map(const std::string& expected) const;
-  /// No other keys than `keys` allowed.
+  /// A map that has no other keys than `keys`.
   [[nodiscard]] Map map(const std::vector<std::string>& keys) const;
 
  private:
@@ -180,7 +180,7 @@ Map Field::open_map(const std::string& expected) const {
   return {*this, std::move(entries)};
 }
 
-/// Number of insertions, deletions and replacements that make one word the other.
+/// Number of insertions, deletions and replacements that turn one word into the other.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
@@ -214,7 +214,7 @@ Map Field::map(const std::vector<std::string>& keys) const {
 
 // --- Values --------------------------------------------------------------------------------------------------------
 
-/// Calls `read`, whose InputErrors ("got …, expected …") are about the field's text.
+/// Calls `read`; an InputError ("got …, expected …") that it throws is reported at the field.
 template <class Read>
 auto in_field(const Field& field, Read read) {
   try {
@@ -232,7 +232,7 @@ Decimal read_decimal(const Field& field) {
   return in_field(field, [&] { return Decimal::parse(text); });
 }
 
-/// The value whose name the field gives.
+/// The value that the field names.
 template <class T>
 T read_choice(const Field& field, const std::vector<std::pair<std::string, T>>& choices) {
   std::vector<std::string> names;
@@ -269,7 +269,7 @@ class Units {
                                 si_unit(Dimension::kMass), si_unit(Dimension::kAngle)};
 };
 
-/// The field's text without its unit, and that unit or else `bare`.
+/// The field's text without its unit, and the unit, which is `bare` if the text has none.
 std::pair<std::string, Unit> read_with_unit(const Field& field, const Unit& bare, const std::string& expected) {
   auto [value, unit] = split_unit(field.text(expected));
   if (unit && unit->dimension != bare.dimension) field.fail(expected);
@@ -281,7 +281,7 @@ DecimalText read_quantity(const Field& field, const Unit& bare) {
   const std::string expected = fmt::format("a {}: a decimal number, bare ({}) or with one of the units {}",
                                            dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
   const auto [value, unit] = read_with_unit(field, bare, expected);
-  if (value.find(' ') != std::string::npos) field.fail(expected);  // a unit that there isn't, or no one number
+  if (value.find(' ') != std::string::npos) field.fail(expected);  // an unknown unit, or more than one number
   return in_field(field, [&, v = value, u = unit] { return decimal_to_si(v, u); });
 }
 
@@ -294,7 +294,7 @@ bool is_decimal(const std::string& text) {
   }
 }
 
-/// What an expression may mention.
+/// The names that an expression may mention.
 struct Names {
   std::vector<std::string> parameters;
   std::map<std::string, DecimalText> constants;
@@ -418,7 +418,7 @@ LoadText read_load(const Field& field, const Units& units) {
   return load;
 }
 
-/// One quantity for all six cables, or six.
+/// Reads one quantity for all six cables, or six quantities.
 std::array<DecimalText, kCables> read_for_each_cable(const Field& field, const Unit& unit) {
   std::array<DecimalText, kCables> result;
   if (field.node().IsScalar()) {
@@ -431,7 +431,7 @@ std::array<DecimalText, kCables> read_for_each_cable(const Field& field, const U
   return result;
 }
 
-/// The change of w0 that goes with a tolerance: of the mass, or of the wrench itself.
+/// Reads the tolerance of the wrench w0, which is given as a tolerance of the mass or of the wrench itself.
 void read_load_tolerance(const Map& map, const Field& load, const Units& units, TolerancesText& tolerances) {
   const auto mass = map.find("mass");
   const auto wrench = map.find("wrench");
@@ -478,7 +478,7 @@ const Unit& pose_unit(const Units& units, std::size_t i) {
   return units[i < 3 ? Dimension::kLength : Dimension::kAngle];
 }
 
-/// Makes pose coordinate i a parameter.
+/// Makes pose coordinate i a parameter of the space.
 void set_free(Space& space, std::size_t i, const Units& units) {
   const std::string name = kPoseNames[i];
   const bool is_turn = name == "phi" || name == "sigma";
@@ -487,7 +487,7 @@ void set_free(Space& space, std::size_t i, const Units& units) {
   space.units.push_back(pose_unit(units, i));
 }
 
-/// (phi, theta) and (phi + pi, -theta) are the same pose where both are free.
+/// Sets the space's flip if both phi and theta are free: (phi, theta) and (phi + pi, -theta) are then the same pose.
 void set_flip(SpaceText& space) {
   const auto index = [&](const std::string& name) {
     const auto found = std::find_if(space.parameters.begin(), space.parameters.end(),
@@ -579,7 +579,7 @@ Space all_poses(const Units& units) {
   return space;
 }
 
-/// The expression with its names replaced; numbers such as 1e3 mention no name. @pre it parses.
+/// The expression with its names replaced. The e of a number such as 1e3 is no name. @pre the expression parses.
 ExpressionText substitute(const ExpressionText& expression, const std::map<std::string, ExpressionText>& replacements) {
   static const std::regex token("[0-9.]+([eE][+-]?[0-9]+)?|[A-Za-z_][A-Za-z_0-9]*|[^A-Za-z_0-9.]+");
   ExpressionText result;
@@ -590,7 +590,7 @@ ExpressionText substitute(const ExpressionText& expression, const std::map<std::
   return result;
 }
 
-/// Constraints on the pose, in the case's length unit and radians, as constraints of the space's parameters.
+/// Reads constraints on the pose, in the case's length unit and radians, and rewrites them in the space's parameters.
 void read_constraints(Space& space, const Field& field, const Units& units) {
   const std::string expected = "an expression of px, py, pz, phi, theta and sigma that is to be 0";
   std::map<std::string, ExpressionText> in_parameters;
@@ -728,7 +728,7 @@ std::vector<Bound> read_bounds(const Map& map, const Units& units) {
   return bounds;
 }
 
-/// A verdict, or a map of it and of bounds.
+/// Reads a verdict, or a map with a verdict and bounds.
 void read_expectation(const Field& field, const Units& units, Case& result) {
   Field verdict = field;
   if (field.node().IsMap()) {
@@ -796,12 +796,12 @@ Case read_case(const Field& root) {
   return result;
 }
 
-/// @throws InputError at the first byte that is no part of a character.
+/// @throws InputError naming the place of the first byte that is not UTF-8, if there is one.
 void require_utf8(const std::string& text, const Places& places) {
   const std::size_t wrong = valid_utf8_prefix(text);
   if (wrong == text.size()) return;
   const std::string_view before = std::string_view(text).substr(0, wrong);
-  const std::size_t line = before.rfind('\n') + 1;  // where the byte's line begins; npos + 1 is 0
+  const std::size_t line = before.rfind('\n') + 1;  // begin of the byte's line; npos + 1 is 0
   YAML::Mark mark;
   mark.line = static_cast<int>(std::ranges::count(before, '\n'));
   mark.column = static_cast<int>(utf8::distance(before.begin() + static_cast<std::ptrdiff_t>(line), before.end()));
@@ -809,7 +809,7 @@ void require_utf8(const std::string& text, const Places& places) {
               fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[wrong])));
 }
 
-/// Listens to nothing.
+/// Ignores all events.
 class NullEventHandler : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
@@ -826,17 +826,17 @@ class NullEventHandler : public YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-/// The only document. Not by YAML::LoadAll, which makes documents without end where a stray `}` or `]` begins one.
+/// The only document of the file. YAML::LoadAll is not used: where a stray `}` or `]` begins a document, it never ends.
 YAML::Node only_document(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  NullEventHandler deaf;
-  if (!parser.HandleNextDocument(deaf)) throw InputError(name + ": got no YAML document, expected one", {name});
-  if (parser.HandleNextDocument(deaf)) throw InputError(name + ": got several YAML documents, expected one", {name});
+  NullEventHandler ignore;
+  if (!parser.HandleNextDocument(ignore)) throw InputError(name + ": got no YAML document, expected one", {name});
+  if (parser.HandleNextDocument(ignore)) throw InputError(name + ": got several YAML documents, expected one", {name});
   return YAML::Load(text);
 }
 
-/// The comment lines that the file begins with, without their marks.
+/// The comment lines at the beginning of the file, without the `#`.
 std::string leading_comment(const std::string& text) {
   std::istringstream lines(text);
   std::string comment;

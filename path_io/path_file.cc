@@ -21,8 +21,8 @@ namespace taut {
 namespace {
 
 constexpr std::size_t kMaxLineBytes = std::size_t{1} << 16U;
-constexpr int kMaxHalfTurns = 1'000'000;     // of certificates too
-constexpr std::string_view kBlanks = " \t";  // the carriage return of a line's end is taken off before
+constexpr int kMaxHalfTurns = 1'000'000;     // certificates have the same limit
+constexpr std::string_view kBlanks = " \t";  // a carriage return at the end of a line is removed before
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(kBlanks);
@@ -43,7 +43,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 // --- Lines -----------------------------------------------------------------------------------------------------------
 
-/// Lines of text, each checked to be one, in constant memory.
+/// Reads lines in constant memory and checks that each is text.
 class Lines {
  public:
   Lines(std::unique_ptr<std::istream> text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}
@@ -56,7 +56,8 @@ class Lines {
     throw InputError(fmt::format("{}: {}", file_, message), {file_});
   }
 
-  /// The next line that is neither blank nor a comment, without its end; valid until the next call. False behind the last.
+  /// Gets the next line that is neither blank nor a comment, without its end; it is valid until the next call. Returns
+  /// false after the last line.
   bool next(std::string_view& line) {
     while (next_of_any_kind(line)) {
       const std::string_view content = trimmed(line);
@@ -117,13 +118,14 @@ class Lines {
   std::unique_ptr<std::istream> text_;
   std::string file_;
   std::vector<char> buffer_ = std::vector<char>(std::size_t{1} << 16U);
-  std::size_t at_ = 0, end_ = 0;  ///< of the buffer, what is left to be handed out
+  std::size_t at_ = 0, end_ = 0;  ///< the part of the buffer that has not been handed out
   std::string line_;
   std::size_t number_ = 0;
   std::uintmax_t bytes_ = 0;
 };
 
-/// Cells between delimiters, or between runs of blanks; without surrounding blanks or quotes.
+/// Splits a line at delimiters, or at runs of blanks if the delimiter is a space. Cells have no surrounding blanks or
+/// quotes.
 void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   if (delimiter == ' ') {
@@ -146,10 +148,10 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
 
 // --- Columns ---------------------------------------------------------------------------------------------------------
 
-/// What a column may be in, besides nothing.
+/// The units that a column may have.
 enum class Quantity { kLength, kAngle, kPlainAngle, kPure, kTime };
 
-/// Time isn't a dimension of case files, where t is a tonne.
+/// Units of time are known here only: case files have no times, and their t is a tonne.
 std::optional<Unit> find_time_unit(std::string_view name) {
   for (const auto& [unit, factor] :
        {std::pair{"s", "1"}, {"ms", "1e-3"}, {"us", "1e-6"}, {"ns", "1e-9"}, {"min", "60"}}) {
@@ -256,7 +258,7 @@ class PathFile::Implementation {
   }
 
  private:
-  /// About the current line.
+  /// Reports a fault in the current line.
   [[noreturn]] void fail(const std::string& column, const std::string& message) const {
     lines_.fail(lines_.number(), message, column);
   }
@@ -277,7 +279,7 @@ class PathFile::Implementation {
     header_.form = PathForm::kQuaternion;
     add(Column::Role::kTime, 0, {"t", "s"}, *find_time_unit("s"));
     for (std::size_t i = 0; i < kQuaternionNames.size(); ++i) {
-      const Unit metre = si_unit(Dimension::kLength);  // and 1, for the quaternion
+      const Unit metre = si_unit(Dimension::kLength);  // the factor is 1, which is right for the quaternion, too
       add(Column::Role::kCoordinate, i, {kQuaternionNames[i], i < 3 ? "m" : ""}, metre);
     }
     first_row_ = std::string(first);
@@ -285,12 +287,13 @@ class PathFile::Implementation {
 
   [[nodiscard]] bool is_parameter(const std::string& name) const { return contains(parameter_names_, name); }
 
-  /// The case's own names go first: where a parameter is called t, time is called time.
+  /// Whether the column is the time. The case's own names have priority: if a parameter is called t, time is called
+  /// time.
   [[nodiscard]] bool is_time(const std::string& name) const {
     return !is_parameter(name) && name == (is_parameter("t") ? "time" : "t");
   }
 
-  /// The one name of a column that may be called by two.
+  /// The canonical name of a column: "time" becomes "t" and "d1" becomes "l1", unless the case has such parameters.
   [[nodiscard]] std::string canonical(const std::string& name) const {
     if (is_parameter(name)) return name;
     if (name == "time" && !is_parameter("t")) return "t";
@@ -343,7 +346,7 @@ class PathFile::Implementation {
 
   void read_own_header(const std::vector<Title>& titles, const std::vector<std::string>& names) {
     header_.format = names.front() == "waypoint" ? PathFormat::kTautWaypoints : PathFormat::kTautControlPoints;
-    const bool is_of_poses = contains(names, "x.px") && !is_parameter("px");  // an audited path in the free coordinates
+    const bool is_of_poses = contains(names, "x.px") && !is_parameter("px");  // an audited path in pose coordinates
     header_.form = is_of_poses ? PathForm::kAngles : PathForm::kParameters;
     const std::vector<std::string> coordinates = is_of_poses ? names_of(kPoseNames) : parameter_names_;
     for (const std::string& coordinate : coordinates) {
@@ -379,7 +382,7 @@ class PathFile::Implementation {
     }
   }
 
-  /// A set of columns that gives a pose.
+  /// A set of columns that together give a pose.
   struct PoseColumns {
     PathForm form;
     std::vector<std::string> names;
@@ -628,7 +631,7 @@ class PathFile::Implementation {
   char delimiter_ = ',';
   std::size_t start_size_ = 0;
   std::vector<double> start_;
-  std::string first_row_;  ///< if the line that told the format is one
+  std::string first_row_;  ///< the line that told the format, if it is a row
   std::vector<std::string_view> cells_;
   PathRow previous_;
   std::size_t rows_ = 0;

@@ -105,10 +105,9 @@ std::string PathSummary::text() const {
   if (const auto time = seconds()) text += fmt::format("  the motion takes {:.7g} s\n", *time);
   if (jumps_ > 0) {
     text += fmt::format(
-        "  {} rows, the first in line {}, are more than a half turn from the row before in some angle: the path takes "
-        "the "
+        "  in {} row{}, first in line {}, an angle is more than a half turn from the row before: the path takes the "
         "long way round, as the numbers say\n",
-        jumps_, first_jump_line_);
+        jumps_, jumps_ == 1 ? "" : "s", first_jump_line_);
   }
   return text;
 }

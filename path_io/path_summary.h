@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was read from a path file, at a glance: so that a wrong unit or a wrong column is seen.
+// A short summary of a path file, in which a wrong unit or a wrong column is easy to see.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace taut {
 
-/// Gathers rows, in constant memory. Floating point: for people, not for proofs.
+/// Gathers statistics of the rows in constant memory. They are computed in floating point, for people, not for proofs.
 class PathSummary {
  public:
   /// @throws InputError if the problem has no model in doubles.
@@ -26,17 +26,14 @@ class PathSummary {
   /// Least and largest value of each coordinate, half turns included [SI].
   [[nodiscard]] const std::vector<double>& lower() const { return lower_; }
   [[nodiscard]] const std::vector<double>& upper() const { return upper_; }
-  /// From first to last row [s].
+  /// Time from the first to the last row [s].
   [[nodiscard]] std::optional<double> seconds() const;
-  /// Of the polygon through the rows' positions of the platform's origin [m]; nothing for cable lengths, which don't say.
+  /// Length of the polygon through the positions of the platform's origin [m]; nothing for cable lengths, which don't
+  /// give positions.
   [[nodiscard]] std::optional<double> origin_length_m() const;
-  /// Rows at which an angle differs by more than a half turn from the row before, as it does where an export wraps angles at ±180
-  /// degrees; the path follows the numbers, the long way round.
-  [[nodiscard]] std::size_t jumps() const { return jumps_; }
-  [[nodiscard]] std::size_t first_jump_line() const { return first_jump_line_; }
-
-  /// Lines of text: number of rows; a line for each coordinate with first, last, least and largest value in the file's unit, and
-  /// in SI where that is another; times; the length of the origin's way.
+  /// Lines of text: the number of rows; for each coordinate the first, last, least and largest value in the file's
+  /// unit, and in SI if that is another; the distance that the origin travels; the duration; a warning if there are
+  /// jumps.
   [[nodiscard]] std::string text() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a path file as waypoints of an interpolation law (segment.h), one at a time.
+// Turns rows of a path file into waypoints of an interpolation law (segment.h), one at a time.
 //
-// Where the law's coordinates are the file's, the waypoints are the file's numbers, bit for bit. Otherwise they are computed in
-// floating point (pose_conversion.h): is_converted().
+// If the law's coordinates are the file's, the waypoints are the file's numbers, bit for bit. Otherwise they are
+// computed in floating point (pose_conversion.h), and is_converted() says so.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,29 @@
 
 namespace taut {
 
-/// The law that rows of such a file have if nobody says another.
+/// The law used for such a file if the user names none.
 [[nodiscard]] Interpolation usual_law(const PathHeader& header);
 
 class WaypointMaker {
  public:
-  /// @throws InputError, naming `file`, where such rows can't be joined by that law, or a start pose is missing.
+  /// @throws InputError, naming `file`, if such rows can't be joined by this law, or a start pose is missing.
   WaypointMaker(const Problem& problem, const PathHeader& header, Interpolation law, const std::string& file);
 
-  /// The problem that is audited: without a query, and in the space of all poses unless the rows are parameters of the case's.
+  /// The problem that is audited. It has no query, and its space is that of all poses unless the rows are the case's
+  /// parameters and the law joins parameters.
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] Interpolation law() const { return law_; }
   [[nodiscard]] bool is_converted() const { return is_converted_; }
 
-  /// The next row's. `start` is PathFile::start(), of which the first row needs to know. The result is valid until the
-  /// next call. @throws InputError where the pose gives a cable the length 0 and the law joins lengths.
+  /// The waypoint of the next row, valid until the next call. `start` is PathFile::start(), which only the first row
+  /// uses.
+  /// @throws InputError if the law joins lengths and a cable has the length 0 at the pose.
   [[nodiscard]] const Waypoint& next(const PathRow& row, const std::vector<double>& start);
 
-  /// Of cable lengths: the first line for which no pose was found next to that of the line before. Its waypoint's reference stays
-  /// where it was, and no proof will succeed.
+  /// For cable lengths: the first line for which no pose was found near that of the line before. From there on
+  /// waypoints keep the last reference pose found, and no proof will succeed.
   [[nodiscard]] std::optional<std::size_t> lost_line() const { return lost_line_; }
-  /// Of cable lengths: how much the start pose's lengths differ from the first row's, at most [m].
+  /// For cable lengths: the largest difference between the start pose's lengths and the first row's [m].
   [[nodiscard]] double start_error_m() const { return start_error_m_; }
 
  private:
@@ -47,7 +49,7 @@ class WaypointMaker {
   Interpolation law_;
   std::string file_;
   bool is_converted_ = false;
-  PoseSampler sampler_;  ///< of the case
+  PoseSampler sampler_;  ///< of the case's space
   std::optional<RigidPose> query_start_;
   std::optional<RigidPose> pose_;
   std::optional<TiltAndTorsion> angles_;

@@ -45,7 +45,7 @@ bool EdgeMotion::looks_single() const {
       return jacobian * n;
     };
     const Eigen::PartialPivLU<ConstraintFunctions::Jacobian> at_motion(newton_matrix(*y));
-    // Krawczyk's test: what the tube maps to must lie inside of it.
+    // Krawczyk's test: the image of the tube must lie inside it.
     ConstraintFunctions::Vector reach = ConstraintFunctions::Vector::Zero(y->size());
     for (Eigen::Index j = 0; j < y->size(); ++j) {
       ConstraintFunctions::Vector spread = ConstraintFunctions::Vector::Zero(y->size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The motion of an edge, in binary64: straight in the parameters or, in a space with constraints, what segment.h makes of that.
+// The motion of an edge, in binary64: straight in the parameters, or, in a space with constraints, projected onto them
+// as kinematics/segment.h defines.
 #pragma once
 
 #include "atlas/manifold.h"
@@ -12,10 +13,10 @@ class EdgeMotion {
   /// From a to b; `sampler` has to outlive this.
   EdgeMotion(const PoseSampler& sampler, const Coordinates& a, const Coordinates& b);
 
-  /// At s from 0 to 1. With constraints: the pose on them; not-a-number where none is found.
+  /// The pose at s from 0 to 1. With constraints it is the pose on them, or not-a-number if none is found.
   [[nodiscard]] Pose<double> pose(double s) const;
-  /// Whether a proof is likely to find one motion in a tube around the edge's line: not where the constraints bend so much
-  /// along the edge that Newton's matrix varies across the tube. True without constraints.
+  /// Whether a proof is likely to find a unique motion in a tube around the edge's line. It is not if the constraints
+  /// bend so much along the edge that Newton's matrix varies across the tube. True without constraints.
   [[nodiscard]] bool looks_single() const;
 
  private:

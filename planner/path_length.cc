@@ -14,7 +14,7 @@ namespace {
 
 std::span<const double> span_of(const Coordinates& q) { return {q.data(), static_cast<std::size_t>(q.size())}; }
 
-/// Of an arc of a circle, from its chord.
+/// Length of an arc of a circle, from its chord.
 double arc(double chord, double radius) { return 2.0 * radius * std::asin(std::min(1.0, chord / (2.0 * radius))); }
 
 }  // namespace
@@ -56,38 +56,40 @@ void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
   }
 }
 
-PathLength::Place PathLength::place(const Coordinates& q) const { return place(sampler_.pose(span_of(q))); }
+PathLength::RigidTransform PathLength::transform(const Coordinates& q) const {
+  return transform(sampler_.pose(span_of(q)));
+}
 
-PathLength::Place PathLength::place(const Pose<double>& pose) const {
+PathLength::RigidTransform PathLength::transform(const Pose<double>& pose) const {
   if (cost_ == Cost::kGreatCircle) return {pose.p_WP, {}};
   return {pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma)};
 }
 
-double PathLength::between(const Place& a, const Place& b) const {
+double PathLength::between(const RigidTransform& a, const RigidTransform& b) const {
   if (cost_ == Cost::kGreatCircle) return arc((a.p_WP - b.p_WP).norm(), sphere_radius_);
   return rotation_angle(a.r_WP, b.r_WP);
 }
 
 double PathLength::distance(const Coordinates& a, const Coordinates& b) const {
   if (cost_ == Cost::kParameters) return (b - a).norm();
-  return between(place(a), place(b));
+  return between(transform(a), transform(b));
 }
 
 double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   if (cost_ == Cost::kParameters) return (b - a).norm();
-  // Sums over pieces fall short by the square of their length: Richardson's extrapolation of the sums over double pieces
-  // and over single ones. A double piece is at most this long in the parameters.
+  // The error of a sum over pieces is of second order in their length. Richardson's extrapolation combines the sums
+  // over single and over double pieces. A double piece is at most this long in the parameters.
   constexpr double kDoublePiece = 0.4;
   constexpr int kMostPieces = 1000;
-  const double wanted = std::ceil((b - a).norm() / kDoublePiece);  // not finite where an atlas file says so
+  const double wanted = std::ceil((b - a).norm() / kDoublePiece);  // not finite if an atlas file is malicious
   const int pieces = 2 * (wanted < kMostPieces ? std::max(1, static_cast<int>(wanted)) : kMostPieces);
   double coarse = 0;
   double fine = 0;
   const EdgeMotion motion(sampler_, a, b);
-  Place even = place(motion.pose(0));
+  RigidTransform even = transform(motion.pose(0));
   for (int k = 1; k < pieces; k += 2) {
-    const Place middle = place(motion.pose(static_cast<double>(k) / pieces));
-    const Place end = place(motion.pose(static_cast<double>(k + 1) / pieces));
+    const RigidTransform middle = transform(motion.pose(static_cast<double>(k) / pieces));
+    const RigidTransform end = transform(motion.pose(static_cast<double>(k + 1) / pieces));
     coarse += between(even, end);
     fine += between(even, middle) + between(middle, end);
     even = end;

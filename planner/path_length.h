@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long a motion is, by the cost that a case names, in binary64.
+// The length of a motion by the cost that a case names, in binary64.
 //
-// A motion straight in the parameters curves in space, as does one on constraints: its length is that of its own curve, not the distance between its
-// ends. Distances are the heuristic of a search: no motion between two poses is shorter.
+// A motion that is straight in the parameters is a curve in space, and so is one on constraints. Its length is that of
+// the curve, not the distance between its ends. No motion between two poses is shorter than their distance, so
+// distances are the heuristic of a search.
 #pragma once
 
 #include <vector>
@@ -15,26 +16,27 @@ namespace taut {
 
 class PathLength {
  public:
-  /// `near`: where in the space to look for the sphere of Cost::kGreatCircle; at least one point.
-  /// @throws InputError if the positions p of the space do not lie on one sphere, for kGreatCircle.
+  /// @param near  points near which the sphere of Cost::kGreatCircle is fitted; at least one.
+  /// @throws InputError if, for kGreatCircle, the positions p of the space do not lie on one sphere.
   PathLength(const PoseSampler& sampler, Cost cost, const std::vector<Coordinates>& near);
 
-  /// Of the motion from a to b (edge_motion.h): rotation angle [rad], way of the origin [m], or length in the
-  /// parameters. Never less than distance(a, b); its relative error is of fourth order in the distance of samples.
+  /// Length of the motion from a to b (edge_motion.h): rotation angle [rad], distance travelled by the origin [m], or
+  /// length in the parameters. Never less than distance(a, b); its relative error is of fourth order in the distance
+  /// between samples.
   [[nodiscard]] double along(const Coordinates& a, const Coordinates& b) const;
 
-  /// Of the shortest motion between the two poses if nothing were in its way: the angle ‖log(R_a^T R_b)‖ [rad], the arc
-  /// on the sphere [m], or the distance in the parameters.
+  /// Length of the shortest motion between the two poses without limits: the angle ‖log(R_a^T R_b)‖ [rad], the arc on
+  /// the sphere [m], or the distance in the parameters.
   [[nodiscard]] double distance(const Coordinates& a, const Coordinates& b) const;
 
  private:
-  struct Place {
+  struct RigidTransform {
     Vector3<double> p_WP;
     Matrix3<double> r_WP;
   };
-  [[nodiscard]] Place place(const Pose<double>& pose) const;
-  [[nodiscard]] Place place(const Coordinates& q) const;
-  [[nodiscard]] double between(const Place& a, const Place& b) const;
+  [[nodiscard]] RigidTransform transform(const Pose<double>& pose) const;
+  [[nodiscard]] RigidTransform transform(const Coordinates& q) const;
+  [[nodiscard]] double between(const RigidTransform& a, const RigidTransform& b) const;
   [[nodiscard]] Coordinates point_near(const Coordinates& centre, const Coordinates& away) const;
   void fit_sphere(const std::vector<Coordinates>& near);
 

@@ -30,7 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// ---- Waypoints and the planner's coordinates --------------------------------------------------------------------------
+// ---- Waypoints and the planner's coordinates
+// --------------------------------------------------------------------------
 
 Coordinates to_coordinates(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<int>(x.size()));
@@ -44,7 +45,8 @@ Waypoint to_waypoint(const Coordinates& q, const PoseSampler& sampler) {
   return waypoint;
 }
 
-/// The same pose in the image `image`, exactly. Normals stay: constraints repeat with a turn, and mention no angle of a flip.
+/// The same pose in the image `image`, exactly. Normals stay, because constraints repeat with a turn and mention no
+/// angle of a flip.
 Waypoint apply(const Image& image, const std::optional<std::array<int, 2>>& flip, Waypoint waypoint) {
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
     const bool negated = image.flipped && flip && static_cast<std::size_t>((*flip)[1]) == j;
@@ -54,15 +56,15 @@ Waypoint apply(const Image& image, const std::optional<std::array<int, 2>>& flip
   return waypoint;
 }
 
-/// First `first`, then `second`.
+/// The composition of two images: first `first`, then `second`.
 Image compose(Image first, const Image& second) {
   for (std::size_t j = 0; j < first.half_turns.size(); ++j) first.half_turns[j] += second.half_turns[j];
   first.flipped = first.flipped != second.flipped;
   return first;
 }
 
-/// Appends a leg, seen in the image that the path has reached; its first vertex is there already. Vertices between the
-/// query's waypoints are ours to choose; the goal is kept exact.
+/// Appends a leg in the image that the path has reached, without its first vertex, which the path has already. Vertices
+/// between the query's waypoints may be rounded; the goal is kept exact.
 void append_leg(Path& path, const std::vector<Coordinates>& leg, const PathVertex& goal, const Image& reached,
                 const std::optional<std::array<int, 2>>& flip, const PoseSampler& sampler) {
   for (std::size_t k = 1; k + 1 < leg.size(); ++k) {
@@ -71,7 +73,7 @@ void append_leg(Path& path, const std::vector<Coordinates>& leg, const PathVerte
   path.waypoints.push_back(apply(reached, flip, apply(goal.image, flip, to_waypoint(goal.base, sampler))));
 }
 
-/// Moves coordinates onto the constraints; false where that fails.
+/// Moves coordinates onto the constraints; returns false if that fails.
 bool project(const PoseSampler& sampler, Coordinates& q) {
   const auto reached = sampler.constraints()->nearest(q);
   if (reached) q = *reached;
@@ -91,7 +93,7 @@ std::vector<Coordinates> to_coordinates(const std::vector<Waypoint>& waypoints) 
   return all;
 }
 
-/// Halfway along the straight way from a to b, and back on the constraints if there are any.
+/// The point halfway between a and b in the parameters, moved back onto the constraints if there are any.
 Waypoint halfway(const PoseSampler& sampler, const Waypoint& a, const Waypoint& b) {
   Waypoint middle = a;
   for (std::size_t j = 0; j < a.x.size(); ++j) {
@@ -99,7 +101,7 @@ Waypoint halfway(const PoseSampler& sampler, const Waypoint& a, const Waypoint& 
     middle.x[j] = 0.5 * (a.x[j] + b.x[j] + turned);
   }
   if (!sampler.constraints()) return middle;
-  // With a's half turns the constraints are where they are without, but for rounding.
+  // Half turns of a shift the constraints by nothing but rounding.
   Coordinates q = to_coordinates(middle);
   project(sampler, q);
   middle.x = {q.data(), q.data() + q.size()};
@@ -107,7 +109,7 @@ Waypoint halfway(const PoseSampler& sampler, const Waypoint& a, const Waypoint& 
   return middle;
 }
 
-/// As much of the clearance asked for as keeps the query's waypoints inside the manifold.
+/// The clearance asked for, reduced as far as it takes to keep the query's waypoints inside the manifold.
 double possible_clearance(double wanted, const PoseSampler& sampler, const std::vector<Waypoint>& query) {
   constexpr double kLeastClearance = 1e-9;
   double least = HUGE_VAL;
@@ -138,21 +140,21 @@ AtlasKey atlas_key(const Case& the_case) {
   return {sha256(problem), {.clearance = the_case.planner.clearance}, atlas_options(the_case.planner)};
 }
 
-/// Edges longer than this in the parameters are measured along their way [rad, m].
+/// Edges longer than this in the parameters are measured along their curve [rad, m].
 constexpr double kLongEdge = 0.5;
 
-/// Edges may come this much closer to a limit than the charts' centres that they join.
+/// The fraction of the charts' clearance that edges must keep.
 constexpr double kEdgeClearanceShare = 0.5;
 
-/// Above so many parameters there are more charts than an A* that wants them all can make.
+/// With more parameters there are too many charts for a plain A*, which needs all of them.
 constexpr int kMostParametersForAllCharts = 3;
 
 }  // namespace
 
-/// One of the ways between two waypoints of the query.
+/// The part of the path between two consecutive waypoints of the query.
 struct Planner::Leg {
   SearchResult found;
-  std::vector<Coordinates> vertices;  ///< of the path found, pulled taut where the case wants that
+  std::vector<Coordinates> vertices;  ///< of the path found, pulled taut if the case asks for that
   double cost_found = 0;
   double cost = std::numeric_limits<double>::infinity();
 };
@@ -173,7 +175,7 @@ class Planner::Edges {
     return accepted;
   }
 
-  /// The proof of an edge that was asked about and is proved, else null.
+  /// The proof of an edge, if one was made and succeeded; else null.
   [[nodiscard]] const SegmentProof* find(const Segment& segment) const {
     if (segment.law != Interpolation::kStraight) return nullptr;
     const Waypoint& a = *segment.control[0];
@@ -230,7 +232,7 @@ Planner::Planner(const Case& the_case, const std::filesystem::path& atlas_file)
 
 std::string Planner::atlas_bytes() const { return AtlasFile::bytes_of(*atlas_, atlas_key(case_), chart_clearance_); }
 
-/// The answer where a waypoint of the query is infeasible, or can't be told.
+/// The answer if a waypoint of the query is infeasible or undecided.
 std::optional<Plan> Planner::judge_query() const {
   for (std::size_t k = 0; k < query_.size(); ++k) {
     Plan answer;
@@ -251,13 +253,14 @@ std::optional<Plan> Planner::judge_query() const {
   return std::nullopt;
 }
 
-/// A path through the query on edges that `edges` accepts; nothing, and the reason, where there is none.
+/// A path through the query on edges that `edges` accepts. If none is found, nothing, and `reason` is set.
 std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progress& progress,
                                                      const std::stop_token& stop, PlanStatistics& statistics,
                                                      Reason& reason) {
   const auto distance = [&](const Coordinates& a, const Coordinates& b) { return length_.distance(a, b); };
   SearchProblem search_problem;
-  // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search soon.
+  // Neighbouring charts are so close that the distance is accurate enough. If only part of a pose counts, many costs
+  // are then equal, which ends a search soon.
   search_problem.cost = [&](const Coordinates& a, const Coordinates& b) {
     return (b - a).squaredNorm() > kLongEdge * kLongEdge ? length_.along(a, b) : length_.distance(a, b);
   };
@@ -296,7 +299,7 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
   return FoundPath{std::move(path), std::move(stops)};
 }
 
-/// The shortest path of a leg, as far as strategy and budget go; not found, and why, where there is none.
+/// The shortest path of a leg that strategy and budget allow; or its status if none was found.
 Planner::Leg Planner::find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics) {
   Leg best;
   const auto keep_better = [&](const SearchResult& found) {
@@ -325,7 +328,7 @@ Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& 
   for (const PathVertex& vertex : found.path) leg.vertices.push_back(vertex.coordinates);
   for (std::size_t k = 1; k < leg.vertices.size(); ++k) leg.cost_found += length(leg.vertices[k - 1], leg.vertices[k]);
   leg.cost = leg.cost_found;
-  constexpr double kNoLength = 1e-12;  // rounding of a leg whose ends are one pose, by two names
+  constexpr double kNoLength = 1e-12;  // rounding of a leg whose ends are the same pose in different coordinates
   const bool is_shortest = leg.vertices.size() <= 2 && leg.cost <= kNoLength;
   if (case_.planner.smoothing != Smoothing::kNone && !is_shortest) {
     const auto start = Clock::now();
@@ -343,7 +346,7 @@ bool Planner::is_anytime() const {
          (case_.planner.has_budget || manifold_->dimension() > kMostParametersForAllCharts);
 }
 
-/// The legs that are left share the time that is left.
+/// The remaining legs share the remaining time.
 double Planner::seconds_for_leg(std::size_t leg) const {
   return (case_.planner.max_seconds - seconds_since(begin_)) / static_cast<double>(query_.size() - 1 - leg);
 }
@@ -406,9 +409,10 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   return result;
 }
 
-/// On edges that only look clear; if the path is not proved, or has to be kept at any time, on edges that are.
+/// Seeks a path on edges that look clear and proves it. If that fails, seeks one on proved edges. An anytime search
+/// uses proved edges from the start, because it keeps the best path so far.
 void Planner::seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result) {
-  const Prover* const edge_prover = is_anytime() ? &prover_ : nullptr;  // what is kept has to be proved by then
+  const Prover* const edge_prover = is_anytime() ? &prover_ : nullptr;
   const bool done = try_plan(edge_prover, progress, stop, result) || stop.stop_requested();
   if (!done && edge_prover == nullptr) try_plan(&prover_, progress, stop, result);
 }
@@ -420,8 +424,8 @@ bool Planner::grow_atlas(const Progress& progress, const std::stop_token& stop) 
   });
 }
 
-/// Seeks a path on edges that look clear and, with a prover, are proved one by one; then proves the path. False where a
-/// path was found that is not proved.
+/// Seeks a path on edges that look clear and, with a prover, are proved one by one; then proves the path. Returns false
+/// if a path was found that is not proved.
 bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result) {
   PlanStatistics& statistics = result.statistics;
   statistics.cost = statistics.cost_found = 0;
@@ -449,7 +453,7 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   return true;
 }
 
-/// Puts a spline in the place of the path, where a proved one is found.
+/// Replaces the path by a spline, if a proved one is found.
 void Planner::round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const {
   const auto start = Clock::now();
   const auto curve = [&](const Segment& segment, double s) { return sampler_.parameters(segment, s); };

@@ -2,12 +2,13 @@
 // One plan, end to end: atlas, search, path, proof.
 //
 // The search proposes and the prover decides. A path is sought on edges that look clear of limits at sampled poses
-// (planner/sampled_motion_validator.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
-// each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
-// its proof is gathered, never inferred from the search.
+// (planner/sampled_motion_validator.h), and proved as a whole. If the proof fails, the path is sought again, now on
+// edges that are each proved first, so that the search goes around those that are not. The proof of a path consists of
+// the prover's results for its segments and is never inferred from the search.
 //
-// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is pulled
-// taut on proved edges, and the shortest such path is the result. What the budget cuts short is the search for a shorter one.
+// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is
+// pulled taut on proved edges, and the shortest such path is the result. The budget only ends the search for a shorter
+// one.
 #pragma once
 
 #include <chrono>
@@ -29,29 +30,29 @@ namespace taut {
 
 struct PlanStatistics {
   int charts = 0;
-  int charts_stored = 0;  ///< of them, those that were in the atlas file
+  int charts_stored = 0;  ///< charts among these that were in the atlas file
   int nodes_expanded = 0;
   int edges_checked = 0;  ///< by samples or by proof, for search and shortening
   int edges_rejected = 0;
   double cost_found = 0;      ///< of the path that the search found, by the case's cost
-  double factor = 1;          ///< that path is at most so many times as long as the shortest on the charts' graph
-  bool budget_spent = false;  ///< before the search ended by itself
-  double cost = 0;            ///< of the path
-  double plan_seconds = 0;    ///< atlas and search, without the proofs made within
-  double smooth_seconds = 0;  ///< shortening, without the proofs made within
+  double factor = 1;          ///< that path is at most this many times as long as the shortest on the charts' graph
+  bool budget_spent = false;  ///< the budget ended the search
+  double cost = 0;            ///< of the final path
+  double plan_seconds = 0;    ///< atlas and search, without the proofs of edges
+  double smooth_seconds = 0;  ///< shortening, without the proofs of edges
   double prove_seconds = 0;
 };
 
 struct Plan {
-  Path path;  ///< found path; or the waypoint that refutes; or the waypoints of the query where there is no path
+  Path path;  ///< the path found; or the waypoint that refutes; or the query's waypoints if no path was found
   PathProof proof;
   PlanStatistics statistics;
-  std::optional<std::size_t> refuted_waypoint;  ///< of the query: the one that `path` then is
+  std::optional<std::size_t> refuted_waypoint;  ///< index in the query of the waypoint that `path` then consists of
 };
 
 struct MotionLengths {
-  double length_m = 0;   ///< of the way of the platform's origin
-  double angle_rad = 0;  ///< that the platform turns on the way
+  double length_m = 0;   ///< distance that the platform's origin travels
+  double angle_rad = 0;  ///< angle that the platform turns by
 };
 
 struct PlanProgress {
@@ -61,26 +62,27 @@ struct PlanProgress {
 
 using Progress = std::function<void(const PlanProgress&)>;
 
-/// A case made ready: expressions parsed, models made, an atlas begun.
+/// A case prepared for planning: expressions parsed, models made, an atlas begun.
 class Planner {
  public:
-  /// `the_case` has to outlive the planner. The atlas is that of `atlas_file`, unless that is empty.
+  /// @param the_case    must outlive the planner.
+  /// @param atlas_file  the atlas to begin with; if empty, a new one.
   /// @throws InputError if the case has no model, or the file is refused (atlas/atlas_file.h).
   explicit Planner(const Case& the_case, const std::filesystem::path& atlas_file = {});
 
-  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again. Where a stored atlas leads
-  /// to no path, it is set aside and a new one begun: a poor file costs time, never the answer.
+  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again. If a stored atlas
+  /// leads to no path, a new atlas is begun: a poor file costs time, never the answer.
   /// @throws InputError if the atlas file turns out to be damaged.
   [[nodiscard]] Plan plan(const Progress& progress, const std::stop_token& stop);
 
-  /// Grows the atlas around all its charts, until nothing is left to cover, the case's max_charts, or `stop`.
-  /// @returns whether nothing is left.
+  /// Grows the atlas around all its charts, until nothing is left to cover, the case's max_charts are made, or `stop`
+  /// is requested. @returns whether nothing is left to cover.
   bool grow_atlas(const Progress& progress, const std::stop_token& stop);
 
   [[nodiscard]] MotionLengths measure(const Path& path) const;
 
   [[nodiscard]] const Atlas& atlas() const { return *atlas_; }
-  /// Of a file for the atlas. @pre the atlas has a chart.
+  /// The content of a file with the atlas. @pre the atlas has a chart.
   [[nodiscard]] std::string atlas_bytes() const;
 
  private:
@@ -93,7 +95,7 @@ class Planner {
   bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
   struct FoundPath {
     Path path;
-    std::vector<std::size_t> stops;  ///< of the path's waypoints, those of the query
+    std::vector<std::size_t> stops;  ///< indices of the path's waypoints that are the query's
   };
   [[nodiscard]] std::optional<FoundPath> find_path(Edges& edges, const Progress& progress, const std::stop_token& stop,
                                                    PlanStatistics& statistics, Reason& reason);
@@ -109,12 +111,12 @@ class Planner {
   PoseSampler sampler_;
   std::vector<Waypoint> query_;
   PathLength length_;
-  double clearance_;  ///< as much of what the case asks for as the query's waypoints leave
+  double clearance_;  ///< what the case asks for, or less if a waypoint of the query has less
   std::optional<AtlasFile> atlas_file_;
   double chart_clearance_;  ///< clearance_, or less if the stored atlas was made with less
   std::unique_ptr<Manifold> manifold_;
   std::optional<Atlas> atlas_;
-  std::chrono::steady_clock::time_point begin_;  ///< of the call of plan()
+  std::chrono::steady_clock::time_point begin_;  ///< when plan() was called
 };
 
 }  // namespace taut

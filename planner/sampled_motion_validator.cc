@@ -8,8 +8,9 @@
 namespace taut {
 namespace {
 
-// Samples are at most this far apart: as a fraction of the platform's size, plus in the parameters. A margin with
-// curvature M per rad^2 dips by M step^2 / 8 between two samples: less than a clearance of 0.5 % up to M = 16.
+// Largest distance between samples: the change of position as a fraction of the platform's size, plus that of the
+// parameters. A margin with curvature M per rad^2 dips by M step^2 / 8 between two samples, which is less than a
+// clearance of 0.5 % up to M = 16.
 constexpr double kStep = 0.05;
 constexpr int kMostLevels = 12;  // of bisection
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether an edge looks safe: poses sampled along it, in binary64. Thousands of times cheaper than a proof of an edge that
-// is not safe, and no proof: what passes has still to be proved.
+// Decides whether an edge looks safe from poses sampled along it, in binary64. This is thousands of times cheaper than
+// a failing proof, but it is no proof: edges that pass have still to be proved.
 #pragma once
 
 #include "atlas/manifold.h"
@@ -14,8 +14,9 @@ class SampledMotionValidator {
   /// `sampler` has to outlive this.
   SampledMotionValidator(const PoseSampler& sampler, double clearance) : sampler_(sampler), clearance_(clearance) {}
 
-  /// Whether all sampled poses of the motion from a to b (edge_motion.h) keep the clearance, with one sign of
-  /// det J. Ends first, then ever finer: an unsafe edge is often found out by its middle.
+  /// Whether all sampled poses of the motion from a to b (edge_motion.h) keep the clearance, with one sign of det J.
+  /// The ends are sampled first, then the middle and ever finer points, because the middle often shows that an edge is
+  /// unsafe.
   [[nodiscard]] bool operator()(const Coordinates& a, const Coordinates& b) const;
 
  private:

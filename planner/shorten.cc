@@ -23,7 +23,7 @@ class Shortener {
   }
 
  private:
-  // The path finds its way as a whole with few vertices; many would take far more sweeps.
+  // With few vertices the path takes its overall shape in a few sweeps; many vertices would need far more.
   static constexpr double kFewestEdges = 2.0;
 
   void sweep_until_settled(double edge_length) {
@@ -54,7 +54,7 @@ class Shortener {
     return problem_.edge_ok(a, b);
   }
 
-  /// Straight from a vertex to the farthest one that can be reached and is not farther that way, trying ever nearer ones.
+  /// Joins a vertex straight to the farthest one for which that is allowed and not longer, trying ever nearer ones.
   void leave_out() {
     std::size_t from = 0;
     while (from + 2 < path_.size() && may_go_on()) {
@@ -149,7 +149,7 @@ class Shortener {
     return x;
   }
 
-  // Relative: costs are measured by samples.
+  // The tolerance is relative because costs are measured by samples.
   static constexpr double kLeastLocalGain = 1e-6;
   static constexpr double kCostTolerance = 1e-4;
 

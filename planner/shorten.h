@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shortens a path: what a search through chart centres leaves jerky is pulled taut.
+// Shortens a path: a search through chart centres gives a jagged path, which is pulled taut.
 //
-// Alternates three moves on the vertices between start and goal, as long as they pay: a vertex is left out; a vertex is
-// moved towards where its neighbours want it; a long edge is divided, so that a path may follow a geodesic that is not
-// straight in the coordinates. What counts as long is halved from half the path down to a sixteenth: the path finds its way
-// as a whole first. A move is made only if it lowers the cost and every new edge is ok. So the result is never longer than
-// what came in, up to the error of `cost`, and its edges are as good as `edge_ok` says.
+// Three moves on the vertices between start and goal alternate as long as they lower the cost: a vertex is left out; a
+// vertex is moved downhill on the cost of its two edges; a long edge is divided, so that the path can follow a geodesic
+// that is not straight in the coordinates. The length above which an edge is divided is halved from half the path down
+// to a sixteenth, so that the path takes its overall shape first. A move is made only if it lowers the cost and every
+// new edge is ok. Therefore the result is never longer than the input, up to the error of `cost`, and `edge_ok` has
+// accepted all its new edges.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,7 @@ namespace taut {
 
 struct ShortenOptions {
   double edges = 16;         ///< edges longer than the whole path divided by this are divided, in the end
-  double least_gain = 1e-4;  ///< a sweep that lowers the cost by less than this share is the last
+  double least_gain = 1e-4;  ///< a sweep that lowers the cost by less than this fraction is the last
   int max_sweeps = 60;
   int max_edges_checked = 4000;
 };
@@ -29,8 +30,8 @@ struct ShortenProblem {
   /// Whether the robot may go straight from a to b.
   std::function<bool(const Coordinates& a, const Coordinates& b)> edge_ok;
   std::stop_token stop;
-  /// Moves a vertex onto the manifold, where straight lines between its points leave it; false where that fails. May be
-  /// empty.
+  /// Moves a vertex onto the manifold, if straight lines between its points leave it; returns false if that fails. May
+  /// be empty.
   std::function<bool(Coordinates& vertex)> project = {};
 };
 

@@ -9,7 +9,7 @@
 namespace taut {
 namespace {
 
-/// Bits of the control points: tells segments apart exactly.
+/// Bits of the control points, which identify a segment exactly.
 using Key = std::vector<double>;
 
 Key key_of(const Segment& segment) {
@@ -49,7 +49,7 @@ class Smoother {
   }
 
  private:
-  /// Proves the segments that are new.
+  /// Proves the new segments.
   void judge() {
     std::vector<std::size_t> fresh;
     path_.tubes.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rounds a path's corners: its straight segments become a cubic B-spline, twice continuously differentiable, with the
-// path's vertices as control points. Every segment of the spline is proved again; where one is not, more control points
-// are put on the edges around it, which pulls the spline to the path that is known to be good.
+// path's vertices as control points. Every segment of the spline is proved again. If a proof fails, more control points
+// are put on the edges around the segment, which pulls the spline towards the proved path.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ struct SmoothProblem {
   double clearance = 0;  ///< as Prover::prove
   /// Length of a path by the case's cost.
   std::function<double(const Path&)> length;
-  /// The waypoint halfway; on the constraints, and with normals, where there are any.
+  /// The waypoint halfway between two; if there are constraints, it is on them and has normals.
   std::function<Waypoint(const Waypoint&, const Waypoint&)> halfway;
   std::stop_token stop = {};
 };
@@ -30,8 +30,8 @@ struct SmoothPath {
   int segments_judged = 0;
 };
 
-/// A proved spline not longer than `straight` that passes through the waypoints `stops` (ascending indices, the first and the
-/// last among them), where the motion comes to rest; nothing if none was found. The motion is C² in s.
+/// A proved spline not longer than `straight` that passes through the waypoints `stops` (ascending indices, including
+/// the first and the last), where the motion comes to rest; nothing if none was found. The motion is C² in s.
 [[nodiscard]] std::optional<SmoothPath> smooth(const Path& straight, const std::vector<std::size_t>& stops,
                                                const SmoothProblem& problem);
 

@@ -13,7 +13,7 @@
 
 namespace taut {
 
-/// Requests a stop when its time is over, or when `parent` does. Costs a thread where there is a limit.
+/// Requests a stop when its time is over, or when `parent` does. With a limit it uses a thread.
 class TimeBudget {
  public:
   /// @param seconds  from now; infinite for no limit, none left if not positive.
@@ -36,7 +36,6 @@ class TimeBudget {
   void end() {
     source_.request_stop();
     over_ = true;
-    over_.notify_all();
   }
   void wait(double seconds, const std::stop_token& finished) {
     constexpr double kLongest = 1e9;  // more overflows the clock

@@ -136,22 +136,22 @@ cpp_rational Decimal::rational() const {
 double ScalarTraits<double>::from_decimal(const std::string& text) {
   double value = 0;
   const auto read = [&value](const std::string& digits) {
-    // from_chars multiplies short numbers in the current rounding mode, which a prover may have set upward: in MXCSR
-    // alone, so that fegetround() knows nothing of it.
+    // from_chars multiplies short numbers in the current rounding mode, which a prover may have set upward. It sets
+    // MXCSR only, so fegetround() does not show it.
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode & ~static_cast<unsigned>(_MM_ROUND_MASK));
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     _mm_setcsr(mode);
     return error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
   };
-  if (!read(text)) read(Decimal::parse(text).text());  // a leading plus sign, or no decimal at all
+  if (!read(text)) read(Decimal::parse(text).text());  // a leading plus sign, or not a decimal
   return value;
 }
 
 Decimal decimal_from_json(const JsonCursor& value) {
   try {
     if (value.value().is_string()) return Decimal::parse(value.text());
-  } catch (const InputError&) {  // says no place
+  } catch (const InputError&) {  // names no place; fail() below does
   }
   value.fail("a decimal number in a string");
 }

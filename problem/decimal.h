@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exact decimal numbers: what a number typed in a case file means.
+// Exact decimal numbers: the meaning of a number typed in a case file.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -13,28 +13,30 @@ namespace taut {
 
 /// mantissa · 10^exponent, exactly; the mantissa has no trailing zero, so each value has one representation.
 ///
-/// Invariant: zero, or at most kMaxDigits digits and 10^-kMaxMagnitude <= |value| < 10^kMaxMagnitude. So the text
-/// of every Decimal can be read back, and its nearest binary64 is finite and normal.
+/// Invariant: zero, or at most kMaxDigits digits and 10^-kMaxMagnitude <= |value| < 10^kMaxMagnitude. Therefore the
+/// text of every Decimal can be read back, and its nearest binary64 is zero or finite and normal.
 class Decimal {
  public:
-  static constexpr int kMaxDigits = 1000;    ///< Nobody types more; bounds the cost of hostile input.
-  static constexpr int kMaxMagnitude = 300;  ///< Within binary64's normal range, 2.2e-308 to 1.8e308.
+  static constexpr int kMaxDigits = 1000;    ///< bounds the cost of hostile input; nobody types more
+  static constexpr int kMaxMagnitude = 300;  ///< within binary64's normal range, 2.2e-308 to 1.8e308
 
   Decimal() = default;
 
   /// Reads an optional sign, digits with an optional point (at least one digit), and an optional exponent: "-0.021",
-  /// ".5", "+1E-4". Nothing else, no white space. @throws InputError with the text seen and what was expected.
+  /// ".5", "+1E-4". White space and anything else is an error. @throws InputError with the text seen and what was
+  /// expected.
   [[nodiscard]] static Decimal parse(std::string_view text);
 
   [[nodiscard]] bool is_power_of_ten() const { return mantissa_ == 1; }
   /// 1 / value, for a power of ten. @throws InputError for any other value.
   [[nodiscard]] Decimal reciprocal_of_power_of_ten() const;
 
-  /// The one canonical text: "-0.1905256", "10000", "0"; "1.25e-9" below 1e-7 and "1e21" from 1e21 on.
+  /// The canonical text of the value: "-0.1905256", "10000", "0"; with an exponent, as "1.25e-9", below 1e-7 and from
+  /// 1e21 on.
   [[nodiscard]] std::string text() const;
 
   [[nodiscard]] int sign() const { return mantissa_.sign(); }
-  /// @throws InputError where the product passes the limits.
+  /// @throws InputError if the product violates the invariant.
   [[nodiscard]] Decimal operator*(const Decimal& other) const;
   [[nodiscard]] bool operator==(const Decimal& other) const = default;
   [[nodiscard]] std::strong_ordering operator<=>(const Decimal& other) const;
@@ -47,7 +49,7 @@ class Decimal {
   int exponent_ = 0;
 };
 
-/// Of a text that is one. @throws FieldError that names the place
+/// The decimal in a JSON string. @throws FieldError that names the place
 [[nodiscard]] Decimal decimal_from_json(const JsonCursor& value);
 
 }  // namespace taut

@@ -146,10 +146,10 @@ bool ExpressionTape::depends_on(int output, int parameter) const {
 
 namespace {
 
-/// What turns() knows of a slot.
+/// What turns() knows about a slot.
 struct Turns {
   std::optional<int> turns;    ///< as ExpressionTape::turns
-  std::optional<int> integer;  ///< the value, where it is a small integer that was typed
+  std::optional<int> integer;  ///< the value, if it is a small integer that was typed
 };
 
 constexpr int kMaxTurns = 1000;  // keeps products within int

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Expressions that a user writes in a case file, evaluated on any scalar.
 //
-// Grammar: docs/certificate-format.md. Parsed once (Boost.Spirit X3) into a tape of operations on numbered slots;
-// the tape is evaluated on doubles, intervals, multiprecision intervals and centred forms alike, and a centred
-// form or a dual number differentiates it.
+// Grammar: docs/certificate-format.md. Each expression is parsed once (Boost.Spirit X3) into a tape of operations on
+// numbered slots. The same tape is evaluated on doubles, intervals and multiprecision intervals, and on mean value
+// forms and dual numbers, which differentiate it.
 #pragma once
 
 #include <map>
@@ -47,7 +47,7 @@ struct Instruction {
 /// Several expressions over the same parameters, on one tape; equal subexpressions are computed once.
 class ExpressionTape {
  public:
-  /// Bounds the stack that an evaluation takes; the paper's sphere needs some 30.
+  /// Bounds the stack that an evaluation takes; the paper's sphere needs about 30.
   static constexpr int kMaxInstructions = 256;
 
   /// @throws InputError naming the expression, the column, what was seen and what was expected.
@@ -61,8 +61,9 @@ class ExpressionTape {
   [[nodiscard]] const std::vector<DecimalText>& constants() const { return constants_; }
   /// Whether output i depends on parameter j.
   [[nodiscard]] bool depends_on(int output, int parameter) const;
-  /// The k for which output(parameter + 2 pi) = output(parameter) + 2 pi k for all parameters, where the form of the
-  /// expression shows one (the parameter stands only in sin, cos and tan, or alone, added, times integers); else none.
+  /// The k for which output(parameter + 2 pi) = output(parameter) + 2 pi k for all parameters, if the form of the
+  /// expression shows one: the parameter occurs only inside sin, cos and tan, or as an added integer multiple of
+  /// itself.
   [[nodiscard]] std::optional<int> turns(int output, int parameter) const;
 
  private:
@@ -76,7 +77,8 @@ template <class S>
 class Evaluator {
  public:
   explicit Evaluator(const ExpressionTape& tape);
-  /// values.size() == number of outputs. `parameters` in the order given to the tape.
+  /// Evaluates all expressions. @pre `parameters` are in the order given to the tape; values.size() is the number of
+  /// outputs.
   void evaluate(std::span<const S> parameters, std::span<S> values) const;
 
  private:

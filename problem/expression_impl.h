@@ -21,7 +21,7 @@ Evaluator<S>::Evaluator(const ExpressionTape& tape) : instructions_(tape.instruc
 template <class S>
 void Evaluator<S>::evaluate(std::span<const S> parameters, std::span<S> values) const {
   assert(values.size() == outputs_.size());
-  boost::container::static_vector<S, ExpressionTape::kMaxInstructions> slots;  // on the stack, made as they are pushed
+  boost::container::static_vector<S, ExpressionTape::kMaxInstructions> slots;  // on the stack, constructed one by one
   for (const Instruction& instruction : instructions_) {
     const int a = instruction.a;
     const int b = instruction.b;
@@ -41,7 +41,7 @@ void Evaluator<S>::evaluate(std::span<const S> parameters, std::span<S> values) 
         slots.push_back(both.cos);
         break;
       }
-      case Op::kCos: break;  // made by the kSin before it
+      case Op::kCos: break;  // pushed by the kSin before it
       case Op::kTan: slots.push_back(tan(slots[a])); break;
       case Op::kExp: slots.push_back(exp(slots[a])); break;
       case Op::kLog: slots.push_back(log(slots[a])); break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The grammar of docs/certificate-format.md, in Boost.Spirit X3. Every choice is settled by the next token, so an
-// operation goes on the tape as soon as it is read.
+// The grammar of docs/certificate-format.md, in Boost.Spirit X3. The next token decides every choice, so that an
+// operation is put on the tape as soon as it is read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr std::size_t kMaxLength = 4096;  ///< of an expression; with kMaxNestin
 constexpr int kMaxNesting = 200;
 constexpr int kMaxExponent = 64;
 
-/// What is wrong at `where`.
+/// A fault of the expression, at `where`.
 struct Complaint {
   Iterator where;
   std::string expected;
@@ -30,11 +30,11 @@ struct Complaint {
 
 const std::string kExponentExpected = fmt::format("an integer exponent from -{0} to {0}", kMaxExponent);
 
-// --- What the parser does with what it reads -------------------------------------------------------------------
+// --- Semantic actions --------------------------------------------------------------------------------------------
 
 struct BuilderTag;
 
-/// Sets the rule's value to make(builder); the builder's complaints get their place.
+/// Sets the rule's value to make(builder); an error of the builder gets its place in the text.
 template <class Context, class Make>
 void set_slot(Context& context, Iterator where, Make make) {
   try {
@@ -98,7 +98,7 @@ const auto exponent_power = [](auto& context) {
 };
 const auto exponent_negate = [](auto& context) { _val(context) = -_attr(context); };
 
-// --- The grammar; a rule's name is what messages say was expected there --------------------------------------------
+// --- The grammar; messages use a rule's name to say what was expected ------------------------------------------------
 
 struct Functions : x3::symbols<Op> {
   Functions() {
@@ -146,8 +146,8 @@ void check_size(const std::string& text) {
   if (text.size() > kMaxLength) {
     throw Complaint{text.begin() + kMaxLength, fmt::format("expected at most {} characters", kMaxLength)};
   }
-  int nesting = 0;  // an upper bound: a sign or '^' counts until the next opening or closing parenthesis
-  int pending = 0;
+  int nesting = 0;  // of parentheses
+  int pending = 0;  // signs and '^' in the current run, each of which makes the parser recurse once
   for (Iterator it = text.begin(); it != text.end(); ++it) {
     if (*it == '(') ++nesting;
     if (*it == ')') --nesting;

@@ -13,7 +13,7 @@
 namespace taut {
 namespace {
 
-constexpr mpfr_prec_t kFirstBits = 128;  // decides all but one number in 10^20
+constexpr mpfr_prec_t kFirstBits = 128;  // decides the rounding of all but about one number in 10^20
 
 class Number {
  public:
@@ -27,13 +27,13 @@ class Number {
   mpfr_t x_;
 };
 
-/// Whether a result is far inside the range that Decimal allows what was typed to have.
+/// Whether a result is far inside the range that a Decimal may have.
 bool is_usual(double x) {
   constexpr double kMost = 1e250;
   return std::abs(x) < kMost && std::abs(x) > 1 / kMost;
 }
 
-/// Whether this may be a decimal: mpfr_strtofr() takes "inf", "nan" and blanks besides.
+/// Whether this may be a decimal: mpfr_strtofr() also accepts "inf", "nan" and blanks.
 bool has_only_decimal_characters(const std::string& text) {
   return text.find_first_not_of("+-.0123456789eE") == std::string::npos;
 }
@@ -55,7 +55,7 @@ std::optional<double> NearestSi::at_precision(const std::string& text, long bits
     mpfr_set_str(factor.get(), factor_.c_str(), 10, MPFR_RNDN);
   }
   mpfr_mul(value.get(), value.get(), factor.get(), MPFR_RNDN);
-  // Four roundings, each off by at most 2^-bits of the value; and that of the bounds themselves.
+  // There are four roundings, each of at most 2^-bits of the value; 2^(4-bits) also covers the rounding of the bounds.
   mpfr_mul_2si(error.get(), value.get(), 4 - bits, MPFR_RNDA);
   mpfr_sub(bound.get(), value.get(), error.get(), MPFR_RNDN);
   const double one_side = mpfr_get_d(bound.get(), MPFR_RNDN);
@@ -75,7 +75,7 @@ double NearestSi::operator()(std::string_view typed) const {
   if (value.sign() == 0) return 0;
   if (!unit_.is_degree) return ScalarTraits<double>::from_decimal((value * unit_.factor).text());  // may be a tie
   const std::string text = value.text();
-  for (mpfr_prec_t bits = 2 * kFirstBits;; bits *= 2) {  // irrational, so that some precision decides
+  for (mpfr_prec_t bits = 2 * kFirstBits;; bits *= 2) {  // ends: the value is irrational, so it is no tie
     if (const auto result = at_precision(text, bits)) return *result;
   }
 }

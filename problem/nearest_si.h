@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Typed numbers to SI and binary64, with one rounding and that to nearest: for tables, where there are many.
+// Converts typed numbers to SI and binary64 with a single rounding, to nearest. It is fast, for tables with many
+// numbers.
 #pragma once
 
 #include <optional>
@@ -10,20 +11,22 @@
 
 namespace taut {
 
-/// Made once for all numbers of one unit.
+/// A converter for all numbers of one unit.
 class NearestSi {
  public:
   explicit NearestSi(Unit unit);
 
   [[nodiscard]] const Unit& unit() const { return unit_; }
 
-  /// The binary64 nearest to the exact value, in SI, of the decimal `text` of that unit (ties to even; −0 to 0). Degrees are
-  /// multiples of pi/180, enclosed as finely as it takes. Independent of the rounding mode.
+  /// The binary64 nearest to the exact value, in SI, of the decimal `text` in this unit (ties to even; −0 becomes 0).
+  /// Degrees are multiples of pi/180, enclosed as finely as the rounding needs. The result is independent of the
+  /// rounding mode.
   /// @throws InputError as Decimal::parse() does.
   [[nodiscard]] double operator()(std::string_view text) const;
 
  private:
-  /// Nothing where that many bits of precision don't decide, the text is not a decimal, or it is zero.
+  /// The result computed with `bits` bits of precision; nothing if they don't decide the rounding, or if the text is
+  /// zero or not a decimal.
   [[nodiscard]] std::optional<double> at_precision(const std::string& text, long bits) const;
 
   Unit unit_;

@@ -145,7 +145,7 @@ json tolerances_to_json(const TolerancesText& tolerances) {
 
 // --- Validating --------------------------------------------------------------------------------------------------
 
-/// Calls `check`; what it has to complain about is at `where`.
+/// Calls `check`; an InputError that it throws becomes a FieldError at `where`.
 template <class Check>
 auto at(const std::string& where, Check check) {
   try {
@@ -358,7 +358,7 @@ void validate_space(const SpaceText& space) {
   validate_constraints(space, names);
 }
 
-/// A pose that is undefined at a waypoint, or everywhere, is a mistake; elsewhere it is the proof's affair.
+/// Checks that the pose is defined at a waypoint. Whether it is defined in between is for the proof to decide.
 void validate_pose_at(const SpaceText& space, std::size_t waypoint, const std::vector<double>& parameters) {
   std::vector<std::string> names;
   for (const Parameter& parameter : space.parameters) names.push_back(parameter.name);

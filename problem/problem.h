@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exact problem: robot, load, space of poses and query, as exact decimals and expressions in SI units.
 //
-// A Problem is what a case file means, after units are resolved and before anything is rounded. It is written
-// into every certificate (docs/certificate-format.md, "problem") and every number of it is still the decimal that the
-// user typed, scaled exactly. ProofScalarTraits of any kind (double, intervals, multiprecision) are made from it by
-// model.h; nothing here computes with floating point.
+// A Problem is the meaning of a case file, after units are resolved and before anything is rounded. It is written into
+// every certificate (docs/certificate-format.md, "problem"), and every number in it is still the decimal that the user
+// typed, scaled exactly. kinematics/model.h makes scalars of any kind (doubles, intervals, multiprecision) from it.
+// validate() evaluates waypoints and ranges in binary64 to find mistakes; nothing else here is computed in floating
+// point.
 #pragma once
 
 #include <array>
@@ -45,8 +46,8 @@ struct LoadText {
   std::array<std::array<DecimalText, 6>, 6> ellipsoid;  ///< E, symmetric positive definite [1/N^2, 1/(N m)^2]
 };
 
-/// How far the machine may be from what the robot, the load and the path say. Distances and angles >= 0, in any direction.
-/// docs/theory.md, "Tolerances", has the theorem.
+/// How far the machine may deviate from the robot, the load and the path. All are >= 0; distances and angles hold in
+/// any direction. The theorem is in docs/theory.md, "Tolerances".
 struct TolerancesText {
   std::array<DecimalText, kCables> base_anchor_m{"0", "0", "0", "0", "0", "0"};      ///< |a_i' − a_i| <= [m]
   std::array<DecimalText, kCables> platform_anchor_m{"0", "0", "0", "0", "0", "0"};  ///< |b_i' − b_i| <= [m]
@@ -54,8 +55,8 @@ struct TolerancesText {
   std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};  ///< w0' = w0 + τ wrench, |τ| <= 1 [N, N m]
   DecimalText position_m = "0";                                     ///< tracking: |p' − p| <= [m]
   ExpressionText orientation_rad = "0";  ///< tracking: the angle between R' and R, a constant below 1 [rad]
-  /// Where given, the machine is held by its cables' lengths, each within this of what is commanded [m]. A path that is not
-  /// given in lengths commands those that the robot, exactly as typed, has along it.
+  /// If given, the machine is controlled by its cables' lengths, each of which is within this of the commanded length
+  /// [m]. A path that is not given in lengths commands those that the robot, exactly as typed, has along it.
   std::optional<std::array<DecimalText, kCables>> cable_length_m;
 };
 
@@ -72,16 +73,17 @@ struct Parameter {
 struct SpaceText {
   std::vector<Parameter> parameters;
   std::map<std::string, DecimalText> constants;
-  /// Indices of the parameters that are phi and theta themselves, where (phi, theta) ~ (phi + pi, -theta); no constraint
-  /// mentions them then.
+  /// Indices of the parameters that are phi and theta themselves, if (phi, theta) and (phi + pi, -theta) are the same
+  /// pose; no constraint mentions them then.
   std::optional<std::array<int, 2>> flip;
   /// px, py, pz [m], phi, theta, sigma [rad].
   std::array<ExpressionText, 6> pose;
-  /// C of the paper's (15): poses must make each of them 0. Fewer than the parameters, of full rank along a path.
+  /// C of the paper's (15), each of which must be 0. There are fewer than parameters, and C' has full rank along a
+  /// path.
   std::vector<ExpressionText> constraints;
 };
 
-/// Parameters that a space with constraints may have.
+/// The largest number of parameters of a space with constraints.
 inline constexpr int kMaxConstrainedParameters = 6;
 
 inline constexpr std::array<const char*, 6> kPoseNames = {"px", "py", "pz", "phi", "theta", "sigma"};
@@ -92,7 +94,8 @@ struct Problem {
   LoadText load;
   std::optional<TolerancesText> tolerances;
   SpaceText space;
-  /// Waypoints of the query: one constant expression a parameter (SI); none where a path is audited that something else made.
+  /// Waypoints of the query: one constant expression for each parameter (SI). There are none in an audit of a path from
+  /// elsewhere.
   std::vector<std::vector<ExpressionText>> query;
 };
 
@@ -100,15 +103,15 @@ struct Problem {
 [[nodiscard]] SpaceText coordinate_space();
 
 /// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, E symmetric and
-/// positive definite (exactly), expressions that parse, poses that plainly agree after a turn of a periodic
-/// parameter, a `flip` that is one, tolerances >= 0, and no or at least two waypoints with one finite value a parameter, within its range
-/// up to rounding. @throws FieldError
+/// positive definite (exactly), expressions that parse, poses that by their form agree after a turn of a periodic
+/// parameter, a correct `flip`, tolerances >= 0, and either no waypoints or at least two, with one finite value for
+/// each parameter, within its range up to rounding. @throws FieldError
 void validate(const Problem& problem);
 
 /// The `problem` object of a certificate.
 [[nodiscard]] nlohmann::json to_json(const Problem& problem);
-/// Inverse of to_json. @throws FieldError naming the key for anything missing, unknown, or of the wrong type, and
-/// whatever `validate` objects to.
+/// Inverse of to_json. @throws FieldError naming the key for anything missing, unknown, or of the wrong type, and for
+/// everything that validate() rejects.
 [[nodiscard]] Problem problem_from_json(const nlohmann::json& value);
 
 }  // namespace taut

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scalar concept: what the equations of kinematics/ may ask of a number.
+// The scalar concept: the operations that the equations of kinematics/ use.
 //
-// double, Interval (certify/arithmetic/interval.h), MpInterval (certify/arithmetic/mp_interval.h) and the centred forms over them all
-// model it. Functions are found by argument-dependent lookup; ScalarTraits makes constants.
+// It is modelled by double, Interval (certify/arithmetic/interval.h), MpInterval (certify/arithmetic/mp_interval.h) and
+// the forms over them. Functions are found by argument-dependent lookup; ScalarTraits makes constants.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace taut {
 template <class S>
 struct ScalarTraits;
 
-/// {sin x, cos x} at once.
+/// Sine and cosine of one argument.
 template <class S>
 struct SinCos {
   S sin;
@@ -29,10 +29,10 @@ struct ScalarTraits<double> {
   static double pi() { return 3.14159265358979323846; }
 };
 
-/// Bounds as doubles: of an enclosing scalar, below and above all its members.
+/// Bounds as doubles. For an enclosing scalar they lie below and above all its members.
 inline double lower_bound(double x) { return x; }
 inline double upper_bound(double x) { return x; }
-/// Three-valued comparisons have names: this one is true only if every member is positive.
+/// True only if every member is positive.
 inline bool certainly_positive(double x) { return x > 0; }
 inline double sqr(double x) { return x * x; }
 inline SinCos<double> sincos(double x) { return {std::sin(x), std::cos(x)}; }

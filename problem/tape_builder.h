@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the parser of expressions makes a tape: each distinct operation gets one instruction. Internal.
+// Builds the tape for the parser of expressions: each distinct operation gets one instruction. Internal.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ class TapeBuilder {
  public:
   TapeBuilder(const std::vector<std::string>& parameters, const std::map<std::string, DecimalText>& constants);
 
-  // Each returns the slot of its value, an earlier one where the same value was asked for before.
+  // Each returns the slot of its value; equal operations share one slot.
   // @throws InputError ("expected …", no position) for a tape that grows too long, a bad decimal, or an unknown name.
   int decimal(const std::string& text);
   int name(const std::string& name);
@@ -35,8 +35,8 @@ class TapeBuilder {
   std::map<std::tuple<Op, int, int>, int> slots_;
 };
 
-/// Appends `text` to the tape and returns its slot. @throws InputError with the column, the text seen there and what
-/// was expected.
+/// Appends `text` to the tape and returns the slot of its value. @throws InputError with the column, the text seen
+/// there and what was expected.
 int parse_expression(const ExpressionText& text, TapeBuilder& builder);
 
 /// "pi" and the functions' names, which no parameter or constant may take.

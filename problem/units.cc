@@ -23,7 +23,7 @@ const std::vector<Unit>& units() {
         {Dimension::kMass, "t", d("1e3")},        {Dimension::kAngle, "rad", d("1")},
         {Dimension::kAngle, "deg", d("1"), true},
     };
-    // Inches and feet are left out of moments: 1/0.0254 is no decimal, and E divides by the moment's unit.
+    // Moments have no units with inches or feet: E divides by the moment's unit, and 1/0.0254 is no decimal.
     std::vector<Unit> moments;
     for (const Unit& force : list) {
       for (const Unit& length : list) {
@@ -85,7 +85,7 @@ std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text) 
     const std::size_t size = unit.name.size();
     if (text.size() <= size || !text.ends_with(unit.name)) continue;
     if (!may_end_value(std::string_view(text).substr(0, text.size() - size))) continue;
-    // Behind an operator it is an operand: the parameter t of "1.5 + t" is no tonne.
+    // After an operator a name is an operand: t in "1.5 + t" is a parameter, not tonnes.
     const std::size_t before = text.find_last_not_of(" \t", text.size() - size - 1);
     if (before == std::string::npos || std::string_view("+-*/^(,").find(text[before]) != std::string_view::npos)
       continue;

@@ -23,22 +23,23 @@ struct Unit {
 
 /// "length", "force", …, as the keys of `units:`.
 [[nodiscard]] const char* dimension_name(Dimension dimension);
-/// The names of all its units, for messages: "m, mm, cm, …".
+/// The names of all units of this dimension, for messages: "m, mm, cm, …".
 [[nodiscard]] std::string unit_names(Dimension dimension);
 
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view name);
 /// m, N, N*m, kg, rad.
 [[nodiscard]] Unit si_unit(Dimension dimension);
 
-/// "34 deg" → {"34", degree}; the text itself and nothing where it doesn't end in a unit that follows a space, a closing
+/// "34 deg" → {"34", degree}; the text itself and nothing if it doesn't end in a unit that follows a space, a closing
 /// parenthesis or a number.
 [[nodiscard]] std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text);
 
-/// A decimal of that unit in SI: canonical text, or "(34)*pi/180" for degrees. @throws InputError
+/// Converts a decimal from `unit` to SI: canonical text, or "(34)*pi/180" for degrees. @throws InputError
 [[nodiscard]] std::string decimal_to_si(const std::string& text, const Unit& unit);
-/// An expression of that unit in SI: "(x)*0.001"; the text itself where the factor is one.
+/// Converts an expression from `unit` to SI: "(x)*0.001"; the text itself if the factor is one.
 [[nodiscard]] std::string expression_to_si(const std::string& text, const Unit& unit);
-/// An SI expression, a name or in parentheses, in that unit: "(1000*px)", "(px/0.0254)". @pre the unit is no degree.
+/// Converts an SI expression to `unit`: "(1000*px)", "(px/0.0254)". @pre the text is a name or in parentheses, and the
+/// unit is not degrees.
 [[nodiscard]] std::string expression_from_si(const std::string& text, const Unit& unit);
 
 }  // namespace taut

@@ -8,8 +8,8 @@ build=$root/build/release
 log=$root/build/release.log
 stamp=$build/.built # as old as the start of the last good build; holds the path of the tree that it was made from
 
-# Whether the programs are there and newer than all that they are made of. A few milliseconds: every start pays it.
-# Directories count too, so that a file added or removed is seen.
+# Whether the programs exist and are newer than everything that they are made of. It takes a few milliseconds at every
+# start. Directories count too, so that an added or removed file is noticed.
 is_current() {
   local built_from newer
   [[ -x $build/cli/taut && -x $build/checker/taut-check && -r $stamp ]] || return

@@ -8,8 +8,8 @@
     print(certificate.verdict, certificate.theorem)
     certificate.save("certificate.json")
 
-A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that
-was loaded has none until check() has proved it again.
+Every verdict comes from the independent checker: plan(), prove() and audit() run it before they return, and a
+certificate that was loaded has no verdict until check() has proved it again.
 
 Everything is in SI units and radians. Certificates are the same as those of the commands `taut plan` and `taut audit`,
 byte for byte. All work releases the interpreter and is stopped by Ctrl-C. docs/library.md describes the whole library.

@@ -10,7 +10,7 @@ namespace taut {
 
 namespace {
 
-/// "________" to write on, where there is nothing.
+/// The text, or "________" to write on if it is empty.
 Html or_blank(const std::string& text) {
   return text.empty() ? html("<span class=\"blank\"></span>") : html("<bdi>{}</bdi>", text);
 }
@@ -35,7 +35,7 @@ Html verdict(const Summary& s) {
   return html("<div class=\"verdict {}\">{}</div>\n", s.verdict, body);
 }
 
-/// Where the range lies between 0 and a little above the upper limit, with the limits drawn in.
+/// A drawing of the range on a scale from 0 to slightly above the upper limit, with the limits.
 Html bar(const Use& use) {
   constexpr double kWidth = 100;
   const double full = 1.06 * use.upper_limit;

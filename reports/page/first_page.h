@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's first page: all that whoever signs it has to know, on one sheet of A4 in usual cases.
+// The report's first page: everything that the person who signs it has to know, usually on one sheet of A4.
 #pragma once
 
 #include "reports/page/markup.h"

@@ -42,7 +42,7 @@ Html contents(const ReportContext& scene) {
   return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
 }
 
-/// Document numbers, revisions and dates go into a style sheet, and onto paper.
+/// Checks document numbers, revisions and dates, which are put into a style sheet and printed.
 void require_plain(const ReportOptions& options) {
   constexpr std::size_t kLongest = 40;
   const auto is_plain = [](char c) {
@@ -62,7 +62,8 @@ void require_plain(const ReportOptions& options) {
   require(options.date, "date");
 }
 
-/// What a style sheet says of the page's footer: the document's number, and the page's. @pre the number has no quote or backslash.
+/// The style sheet's part for the page's footer, with the document's number and the page number. @pre the document's
+/// number has no quote or backslash.
 std::string footer_style(const std::string& document) {
   return fmt::format(
       "@media print {{ @page {{ @bottom-left {{ content: \"{}\"; }} @bottom-right {{ content: \"Page \" counter(page) "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HTML that can't be broken by what it shows: text becomes markup by escaping only.
+// HTML that its content can't break: text becomes markup by escaping only.
 //
-// Certificates come from anywhere; a case may be called "<script>". So markup has a type of its own. It is made from
-// literal templates (fmt checks them at compile time), whose arguments are escaped unless they are markup already.
+// Certificates come from anywhere, and a case may be called "<script>". Therefore markup has a type of its own. It is
+// made from literal templates, which fmt checks at compile time. Arguments are escaped unless they are markup already.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ class Html {
   }
   [[nodiscard]] friend Html operator+(Html a, const Html& b) { return a += b; }
 
-  /// What is put in place of an argument: numbers as they are, markup as it is, text escaped.
+  /// The text that replaces an argument: numbers and markup unchanged, text escaped.
   template <class T>
   [[nodiscard]] static auto escaped(const T& value) {
     if constexpr (std::same_as<T, Html>) {
@@ -68,11 +68,11 @@ struct Column {
   bool number = false;  ///< set flush right, in figures of equal width
 };
 
-/// A table that scrolls sideways where it is wider than the page. Cells of `rows` in the order of `columns`.
+/// A table that scrolls sideways if it is wider than the page. The cells of each row are in the order of `columns`.
 [[nodiscard]] Html table(const Html& caption, const std::vector<Column>& columns,
                          const std::vector<std::vector<Html>>& rows);
 
-/// `body`, folded under `summary` where it is `long_`; printed in full either way.
+/// `body`, folded under `summary` if it is `long_`. On paper it is always shown in full.
 [[nodiscard]] Html folded(bool long_, const Html& summary, const Html& body);
 
 /// A section of the page, under a heading of the second level.

@@ -7,7 +7,7 @@
 
 namespace taut {
 
-/// UTF-8, what a script element contains. Opens with the licences of the libraries in it.
+/// The content of the script element, UTF-8. It begins with the licences of the libraries in it.
 [[nodiscard]] std::string_view page_script();
 /// Its SHA-256 in base64, for the page's Content-Security-Policy, which allows this script and no other.
 [[nodiscard]] std::string_view page_script_sha256();

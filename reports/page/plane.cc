@@ -16,7 +16,7 @@ constexpr std::size_t kMaxPolygons = 6000;  ///< drawn; more would only blacken 
 
 Span nothing() { return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}; }
 
-/// A copy of the plane on itself that leaves each pose what it is: turns of periodic parameters, and the flip.
+/// A map of the plane to itself that keeps every pose: turns of periodic parameters, and the flip.
 struct Image {
   std::array<double, 2> offset{};
   std::array<double, 2> sign = {1, 1};
@@ -50,7 +50,7 @@ std::vector<Image> images(const SpaceText& space) {
   return result;
 }
 
-/// What the picture shows of parameter j: the path, and all of a turn, a range, or half a turn of θ.
+/// The values of parameter j that are shown: the path's, and a full turn, the range, or half a turn of θ.
 Span window(const ReportContext& scene, std::size_t j) {
   const SpaceText& space = scene.view.problem.space;
   const Parameter& parameter = space.parameters[j];
@@ -81,7 +81,7 @@ Span window(const ReportContext& scene, std::size_t j) {
   return {path.lower - margin, path.upper + margin};
 }
 
-/// Fills in cells, and the pieces of det J = 0: marching squares on the cells' middles.
+/// Computes the cells, and the pieces of det J = 0 by marching squares on the cells' centres.
 void sample_grid(const Sampler& sampler, Plane& plane) {
   const Span x = plane.window[0];  // no structured binding: clang 14 can't capture those
   const Span y = plane.window[1];

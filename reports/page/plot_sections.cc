@@ -15,10 +15,10 @@ namespace taut {
 
 namespace {
 
-/// Where the script draws.
+/// The place where the script draws a plot.
 Html place(const char* name) { return html("<div data-plot=\"{}\"></div>\n", name); }
 
-/// Stands in for plots that no script draws.
+/// The text shown if no script draws the plots.
 Html unscripted() {
   return html(
       "<p class=\"note unscripted\">The plots are drawn by a script in this page, which does not run here. The tables "
@@ -26,7 +26,7 @@ Html unscripted() {
       "numbers.</p>\n");
 }
 
-/// What the marks on the plots along the path mean, where there are some.
+/// Explains the marks on the plots along the path, if there are any.
 Html marks_text(const CertificateView& view) {
   Html result;
   if (view.witness) result += html(" Dashed red: {}.", view.witness->to ? "the two witness poses" : "the witness pose");
@@ -42,7 +42,7 @@ bool has_bands(const ReportContext& scene) {
   return std::ranges::any_of(scene.ranges.segments, [](const auto& segment) { return !segment.empty(); });
 }
 
-/// What the bands are, where there are some.
+/// Explains the bands, if there are any.
 Html bands_text(const ReportContext& scene) {
   if (!has_bands(scene)) return html("No theorem stands behind this path, so that there are samples only.");
   return html(

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostBins = 1500;  ///< of boxes and of segments; finer than the pixels of a wide plot
 
-/// Nearest with so many digits. @pre x is finite
+/// The nearest number with `digits` digits. @pre x is finite
 double shortened(double x, int digits = 7) {
   const std::string text = fmt::format("{:.{}e}", x, digits - 1);
   std::from_chars(text.data(), text.data() + text.size(), x);  // leaves x where the result would be infinite
@@ -31,7 +31,7 @@ double shortened(double x, int digits = 7) {
 
 json number(double x) { return std::isfinite(x) ? json(shortened(x)) : json(); }
 
-/// Not above x, with seven digits; not below, where `up`.
+/// A number with seven digits that is not above x, or not below x if `up`.
 json outward(double x, bool up) {
   if (!std::isfinite(x)) return {};
   double result = shortened(x);
@@ -68,7 +68,7 @@ json robot(const Model<double>& model) {
           {"length", length}};
 }
 
-/// Columns, one entry a sample.
+/// Columns with one entry for each sample.
 json samples(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   std::vector<double> position, distance, turned, scale, sign;
@@ -131,7 +131,7 @@ json samples(const ReportContext& scene) {
           {"parameters", columns(parameters)}};
 }
 
-/// Some boxes in a row, and what tensions and lengths do on them.
+/// Consecutive boxes, and the ranges of tensions and lengths on them.
 struct Bin {
   double from = 0;
   double to = 0;
@@ -139,7 +139,8 @@ struct Bin {
   std::array<Range, kCables> length;
 };
 
-/// Ranges of boxes, those of the same kMostBins-th of the path united. Gaps thinner than that are not seen in a picture, and bridged.
+/// Ranges of boxes; those in the same one of kMostBins parts of the path are united. Thinner gaps would be invisible in
+/// a picture and are closed.
 std::vector<Bin> bins(const PathRanges& ranges) {
   std::vector<Bin> result;
   const auto segments = static_cast<double>(ranges.segments.size());
@@ -192,7 +193,7 @@ json bands(const std::vector<Bin>& bins) {
   return {{"from", from}, {"to", to}, {"tension", columns(&Bin::tension)}, {"length", columns(&Bin::length)}};
 }
 
-/// The least margins of segments, so many in a row together that there are at most kMostBins; null where nothing is proved.
+/// The least margins of groups of consecutive segments, at most kMostBins groups; null where nothing is proved.
 json margins(const std::vector<SegmentView>& segments) {
   const std::size_t together = (segments.size() + kMostBins - 1) / kMostBins;
   json result = {{"from", json::array()}, {"to", json::array()}};
@@ -220,7 +221,8 @@ json margins(const std::vector<SegmentView>& segments) {
   return result;
 }
 
-/// Where the path is not proved: {from, to, violated}. Those of one kind that a picture would not show apart are one.
+/// The stretches of the path that are not proved: {from, to, violated}. Stretches of one kind that a picture would not
+/// show apart are merged.
 json stretches(const CertificateView& view) {
   struct Stretch {
     double from = 0;
@@ -256,14 +258,14 @@ json witness(const CertificateView& view) {
           {"cable", view.witness->cable}};
 }
 
-/// Radius of the tube around the path in which the platform's origin may be [m]; null where no tolerance of it is stated.
+/// Radius of the tube around the path in which the platform's origin may be [m]; null if no such tolerance is stated.
 json tube_radius(const Problem& problem) {
   if (!problem.tolerances) return nullptr;
   const double radius = evaluate_constant<double>(problem.tolerances->position_m);
   return radius > 0 ? number(radius) : json();
 }
 
-/// Stated beside proved, of each tolerance whose limit the certificate tells.
+/// The stated and the proved value of each tolerance for which the certificate has a limit.
 json tolerances(const CertificateView& view) {
   json result = json::array();
   if (!view.problem.tolerances) return result;
@@ -304,7 +306,7 @@ json plane(const ReportContext& scene) {
     units.push_back(unit(space, j));
     window.push_back(numbers(std::array{plane->window[j].lower, plane->window[j].upper}));
   }
-  // Thousands of points, for a picture: four digits will do, and keep the page small.
+  // For thousands of points in a picture four digits suffice and keep the page small.
   const auto drawn = [&](double x) { return std::isfinite(x) ? json(shortened(x, 4)) : json(); };
   json singular = json::array();
   for (const auto& piece : plane->singular) {

@@ -30,7 +30,7 @@ struct View {
   [[nodiscard]] Point operator()(const Vector3<double>& p) const { return {right.dot(p), down.dot(p)}; }
 };
 
-/// The axis of the world that is most square to `v`; made square to it.
+/// The axis of the world that is most nearly perpendicular to `v`, made perpendicular to it.
 Vector3<double> square_to(const Vector3<double>& v) {
   Eigen::Index least = 0;
   v.cwiseAbs().minCoeff(&least);
@@ -63,7 +63,7 @@ Html arrow(const char* kind, const Point& from, const Point& to) {
          line(kind, to, to - head * along - 0.5 * head * across);
 }
 
-/// Names of points, those of one place together: "A1 A2".
+/// Names of points; coinciding points share one label: "A1 A2".
 std::vector<std::pair<Point, std::string>> names(const std::array<Point, kCables>& points, char letter) {
   std::vector<std::pair<Point, std::string>> result;
   for (std::size_t i = 0; i < kCables; ++i) {
@@ -79,7 +79,7 @@ std::vector<std::pair<Point, std::string>> names(const std::array<Point, kCables
   return result;
 }
 
-/// Lines between the points, each pair once, that lie on their outline: all pairs of distinct points, of few.
+/// Lines between all pairs of distinct points, each pair once.
 Html frame(const char* kind, const std::array<Point, kCables>& points) {
   Html result;
   for (std::size_t i = 0; i < kCables; ++i) {

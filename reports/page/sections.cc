@@ -163,8 +163,8 @@ Html space_tables(const Problem& problem) {
   return result;
 }
 
-/// Exact parameters and rounded pose of every `step`th waypoint and of the last: side by side, or one below the other where that is
-/// too wide.
+/// Exact parameters and rounded pose of every `step`th waypoint and of the last, side by side, or one below the other
+/// if that is too wide.
 Html waypoint_table(const ReportContext& scene, std::size_t step) {
   constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
   const Path& path = scene.view.path;
@@ -220,7 +220,7 @@ Html waypoint_table(const ReportContext& scene, std::size_t step) {
   return table(html("{}s: exact parameters and rounded poses", what), columns, rows);
 }
 
-/// How the path is on the constraints, and how far that takes it from the waypoints.
+/// How the path follows the constraints, and how far that takes it from the waypoints.
 Html on_constraints(const ReportContext& scene) {
   const std::vector<double>& tubes = scene.view.path.tubes;
   const double widest = tubes.empty() ? 0 : *std::max_element(tubes.begin(), tubes.end());
@@ -233,7 +233,7 @@ Html on_constraints(const ReportContext& scene) {
       widest);
 }
 
-/// What is printed of a segment, or of several in a row.
+/// The printed row of a segment, or of several consecutive ones.
 struct MarginRow {
   std::size_t first = 0, last = 0;  ///< segments
   std::size_t boxes = 0;
@@ -291,7 +291,7 @@ Html margin_table(const CertificateView& view, const std::string& caption, const
                cells);
 }
 
-/// The segments with the least margins: of each kind those that come first, in order along the path.
+/// The segments with the least margins of each kind, in order along the path.
 std::vector<MarginRow> least_segments(const CertificateView& view) {
   std::vector<std::size_t> all;
   for (std::size_t k = 0; k < view.segments.size(); ++k) {
@@ -309,7 +309,7 @@ std::vector<MarginRow> least_segments(const CertificateView& view) {
   return rows;
 }
 
-/// Canonical JSON is what Python writes with these arguments, as a certificate has no fractional number.
+/// With these arguments Python writes canonical JSON, because a certificate has no fractional numbers.
 constexpr const char* kDigestCommand = R"(python3 -c '
 import json, hashlib
 c = json.load(open("certificate.json")); c.pop("footer"); c.pop("signature", None)

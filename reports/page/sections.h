@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's sections behind its first page: what a certificate says, in full, in words and tables. Some are empty where there is
-// nothing to say.
+// The report's sections after its first page: the certificate's content in full, in words and tables. A section that
+// has nothing to say is empty.
 #pragma once
 
 #include "reports/page/markup.h"
@@ -12,15 +12,15 @@ namespace taut {
 [[nodiscard]] Html theorem(const CertificateView& view);
 [[nodiscard]] Html tolerances(const CertificateView& view);
 [[nodiscard]] Html assumptions(const Problem& problem);
-/// What the certificate is made from, with digests.
+/// The certificate's sources, with digests.
 [[nodiscard]] Html inputs(const CertificateView& view);
 /// Robot, load and space of poses.
 [[nodiscard]] Html robot(const ReportContext& scene);
 /// The path's waypoints.
 [[nodiscard]] Html path_section(const ReportContext& scene);
-/// Where an audited path is not proved.
+/// The stretches of an audited path that are not proved.
 [[nodiscard]] Html stretches(const ReportContext& scene);
-/// Proved margins of each segment; of a long path, of blocks of segments and of the segments with the least.
+/// Proved margins of each segment; for a long path, those of blocks of segments and of the segments with the least.
 [[nodiscard]] Html margins(const ReportContext& scene);
 /// How to check the certificate again.
 [[nodiscard]] Html recheck(const CertificateView& view);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The robot in a few poses, drawn once and for all: for paper, and for browsers that draw no moving picture. Floating point.
+// A still picture of the robot in a few poses, for paper and for browsers that draw no moving picture. It is computed
+// in floating point.
 #pragma once
 
 #include "reports/page/markup.h"
@@ -7,8 +8,8 @@
 
 namespace taut {
 
-/// The robot at the first and the last waypoint, and at the witness if there is one, seen from the side; nothing where there is no
-/// path.
+/// The robot at the first and the last waypoint, and at the witness if there is one, seen from the side; nothing if
+/// there is no path.
 [[nodiscard]] Html still_picture(const ReportContext& scene);
 
 }  // namespace taut

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's style sheet: light or dark by the reader's choice, and black on white in print. Colours of sets differ
-// in lightness as well as in hue, so that they can be told apart in grey and by colour-blind readers.
+// The report's style sheet: light or dark by the reader's choice, and black on white in print. Colours of the curves in
+// a plot differ in lightness as well as in hue, so that they can be distinguished in grey and by colour-blind readers.
 #pragma once
 
 namespace taut {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a move asks of each cable: the least and the greatest tension and length, and how close that comes to the limits.
+// The use of each cable in a move: the least and greatest tension and length, and how close they come to the limits.
 #pragma once
 
 #include <array>
@@ -10,30 +10,30 @@
 
 namespace taut {
 
-/// Of one quantity of one cable, over the move.
+/// The range of one quantity of one cable over the move.
 struct Use {
   Range range;             ///< [N] or [m]
   double lower_limit = 0;  ///< rounded to nearest; the certificate has it exactly
   double upper_limit = 0;  ///< likewise
-  double least_at = 0;     ///< where `range.lower` is; places count segments (PathSample::position)
-  double greatest_at = 0;  ///< where `range.upper` is
+  double least_at = 0;     ///< position of `range.lower`, counted in segments (PathSample::position)
+  double greatest_at = 0;  ///< position of `range.upper`
 
-  /// The greatest as a share of the upper limit, what engineers call utilisation [1]; and in percent. Never below what it is of the
-  /// exact limit.
+  /// Utilisation: the greatest value as a fraction of the upper limit [1], and in percent. Rounded up, so that it is
+  /// never below the utilisation with the exact limit.
   [[nodiscard]] double used() const { return not_below(range.upper / upper_limit); }
   [[nodiscard]] double used_percent() const { return not_below(100 * (range.upper / upper_limit)); }
 
  private:
-  /// Room for the roundings of the limit, the quotient, the product and this sum: 2^-53 of the value each.
+  /// Covers the roundings of the limit, the quotient, the product and this sum, each at most 2^-53 of the value.
   static double not_below(double x) { return x + 1e-15 * std::abs(x); }
 };
 
 struct CableUse {
   enum class Source {
-    kNone,         ///< nothing is known: there is no path, or not one regular pose in its samples
-    kSamples,      ///< floating-point samples: not proved
-    kProvedParts,  ///< proved, of those parts of the path that the certificate proves
-    kProved,       ///< proved, of the whole path
+    kNone,         ///< nothing is known: there is no path, or its samples contain no regular pose
+    kSamples,      ///< floating-point samples, which prove nothing
+    kProvedParts,  ///< proved for the parts of the path that the certificate proves
+    kProved,       ///< proved for the whole path
   };
   Source source = Source::kNone;
   std::array<Use, kCables> tension;
@@ -48,7 +48,7 @@ struct ClosestUse {
   bool is_upper = false;  ///< which limit
   double limit = 0;
   double value = 0;  ///< the end of the range next to the limit
-  double at = 0;     ///< place
+  double at = 0;     ///< position
 };
 [[nodiscard]] ClosestUse closest(const std::array<Use, kCables>& uses);
 

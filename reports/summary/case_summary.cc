@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
-/// Lengths as the case has them.
+/// Lengths in the case's unit.
 class LengthUnit {
  public:
   explicit LengthUnit(const Unit& unit) : unit_(unit.factor.is_power_of_ten() ? unit : *find_unit("mm")) {}
@@ -40,7 +40,7 @@ class LengthUnit {
   Unit unit_;
 };
 
-/// Rows of cells in columns that are as wide as they have to be; the first row is the head.
+/// A text table; each column is as wide as its widest cell, and the first row is the head.
 std::string columns(const std::vector<std::vector<std::string>>& rows) {
   const auto width = [](const std::string& text) {  // characters, not bytes
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -76,7 +76,7 @@ std::string robot_text(const RobotText& robot, const LengthUnit& length) {
   return "Robot (a in the world frame, b in the platform frame; limits are themselves excluded)\n" + columns(rows);
 }
 
-/// Directions and sizes of K's semi-axes, where forces and moments do not mix.
+/// Directions and sizes of K's semi-axes, if forces and moments are not coupled.
 std::string axes_text(const Model<double>& model) {
   const Matrix6<double>& e = model.ellipsoid;
   if (!e.topRightCorner<3, 3>().isZero(0)) return "  Its axes mix forces and moments: E is in --json.\n";

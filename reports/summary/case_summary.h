@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case was understood to say: robot, load, space, and each waypoint of its query with lengths, tensions and margins. Numbers of
-// the case are exact; what is computed from them is floating point, and no verdict: nothing here is proved.
+// A summary of a case as taut understands it: robot, load, space, and each waypoint of its query with lengths, tensions
+// and margins. The case's numbers are exact. Those computed from them are floating point and prove nothing.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct WaypointSummary {
       0;  ///< by how much K could grow before a tension reaches a limit; below 1, the waypoint is infeasible
 };
 
-/// By how much a waypoint keeps the limits of cable i, the nearer of the two; negative beyond one. Tensions with all loads in K.
+/// The distance of cable i from the nearer of its two limits, negative beyond one. Tensions include all loads in K.
 [[nodiscard]] double tension_margin(const Model<double>& model, const Statics<double>& statics,
                                     std::size_t i);                                                             ///< [N]
 [[nodiscard]] double length_margin(const Model<double>& model, const Statics<double>& statics, std::size_t i);  ///< [m]
@@ -35,9 +35,9 @@ struct CaseSummary {
   std::vector<WaypointSummary> waypoints;  ///< of the query
 };
 
-/// For people; lengths in the case's own unit.
+/// The summary as text for people; lengths are in the case's own unit.
 [[nodiscard]] std::string to_text(const CaseSummary& summary);
-/// For machines: `problem` exactly as a certificate has it (SI), and `waypoints` in floating point.
+/// The summary for programs: `problem` exactly as in a certificate (SI), and `waypoints` in floating point.
 [[nodiscard]] nlohmann::json to_json(const CaseSummary& summary);
 
 }  // namespace taut

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a report says that is not in the certificate: how the document is called, and what the independent checker found.
+// The content of a report that is not in the certificate: the document's name, and the independent checker's result.
 #pragma once
 
 #include <string>
 
 namespace taut {
 
-/// How the independent checker ended with the certificate. There is no report of a certificate that it rejects.
+/// The independent checker's result. There is no report of a certificate that it rejects.
 struct Recheck {
   enum class Result {
-    kUnchecked,  ///< it was not proved within the budget: nothing is known of what the certificate claims
-    kNoClaim,    ///< well formed, and claims nothing
+    kUnchecked,  ///< the check did not end within the budget: nothing is known about the certificate's claims
+    kNoClaim,    ///< the certificate is well formed and claims nothing
     kConfirmed,  ///< there is a theorem: the claim, "proved" or "refuted", was proved again
   };
   Result result = Result::kUnchecked;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a certificate's path and slice look like in floating point. For pictures: nothing here is proved.
+// Floating-point samples of a certificate's path, for pictures. Nothing here is proved.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ class Sampler {
   [[nodiscard]] Pose<double> pose(const std::vector<double>& parameters) const { return poses_.pose(parameters); }
   [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const { return poses_.pose(waypoint); }
   [[nodiscard]] PathSample at(const Path& path, double position) const;
-  /// About `budget` poses in order, among them both ends and, where the budget allows, every waypoint.
+  /// About `budget` poses in order, including both ends and, if the budget allows, every waypoint.
   [[nodiscard]] std::vector<PathSample> along(const Path& path, std::size_t budget) const;
 
  private:
@@ -37,7 +37,7 @@ class Sampler {
 /// λ = x + π half_turns.
 [[nodiscard]] std::vector<double> resolved(const Waypoint& waypoint);
 
-/// A quantity out of its limits, in a sample.
+/// A quantity of a sample that is outside its limits.
 struct SampledViolation {
   int cable = 0;  ///< 0…5
   bool is_length = false;
@@ -45,13 +45,13 @@ struct SampledViolation {
   double value = 0;       ///< [N, m]
   double position = 0;
 };
-/// The one that is furthest beyond its limit, in widths between limits. Singular samples have no tensions.
+/// The violation furthest beyond its limit, relative to the width between limits. Singular samples have no tensions.
 [[nodiscard]] std::optional<SampledViolation> worst_violation(const Model<double>& model,
                                                               const std::vector<PathSample>& samples);
-/// Positions at which det J has another sign than at the sample before.
+/// Positions of samples at which det J has another sign than at the sample before.
 [[nodiscard]] std::vector<double> sign_changes(const std::vector<PathSample>& samples);
 
-/// Which limits a pose keeps. A singular pose counts as a tension out of limits.
+/// Which limits a pose keeps. At a singular pose the tensions count as out of limits.
 enum class Feasibility { kInside, kTensionOut, kLengthOut, kBothOut };
 [[nodiscard]] Feasibility feasibility(const Model<double>& model, const Statics<double>& statics);
 

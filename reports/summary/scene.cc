@@ -49,7 +49,7 @@ Recheck recheck_of(const checker::CheckResult& checked) {
   return result;
 }
 
-/// What is left of a certificate that no theorem stands behind: problem, path and, where it claims nothing, why.
+/// The part of a certificate without a theorem that may be shown: problem, path and, if it claims nothing, the reason.
 CertificateView without_claims(CertificateView view, Recheck::Result result) {
   view.claim.clear();
   view.segments.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a report is made from: the certificate, and floating-point samples of what it is about.
+// Everything that a report is made from: the certificate, and floating-point samples of its path.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@
 namespace taut {
 
 struct ReportContext {
-  /// Of a certificate as the checker left it: with a verdict where it made a theorem.
-  /// @throws InputError where a report can't show what is in it. @pre the outcome is neither rejected nor malformed.
+  /// The context for a checked certificate; it has a verdict if the checker made a theorem.
+  /// @throws InputError if a report can't show the content. @pre the outcome is neither rejected nor malformed.
   explicit ReportContext(const checker::CheckResult& checked);
   /// Unless confirmed, all claims are taken out of the view.
   ReportContext(CertificateView certificate, Recheck checked);
@@ -25,16 +25,17 @@ struct ReportContext {
   CertificateView view;
   Sampler sampler;
   std::vector<PathSample> samples;  ///< along the whole path
-  Travel travel;                    ///< how far into the move a place is
-  /// Of the certificate's boxes, computed anew: proved where the certificate is right. Floating point has no part in them.
+  Travel travel;                    ///< the distance into the move at each position
+  /// Ranges on the certificate's boxes, enclosed anew by interval arithmetic. They are proved if the certificate is
+  /// right.
   PathRanges ranges;
-  /// Whether they are those of the whole path: the boxes are without gaps, and all of them were enclosed.
+  /// Whether these ranges cover the whole path: the boxes have no gaps, and all of them were enclosed.
   bool ranges_are_whole = false;
 };
 
-/// "rad", "m" or "": the unit of parameter j, where it can be told.
+/// The unit of parameter j, "rad" or "m", or "" if it is not known.
 [[nodiscard]] std::string unit(const SpaceText& space, std::size_t j);
-/// "[rad]"; nothing for "".
+/// The unit in brackets, "[rad]"; nothing for "".
 [[nodiscard]] std::string in_brackets(const std::string& unit);
 
 }  // namespace taut

@@ -36,8 +36,8 @@ std::string quantity(const DecimalText& value, bool length) {
   return length ? millimetres(value) + " mm" : plain(value) + " N";
 }
 
-/// A number of a witness, which has as many digits as its proof took: as many as it takes to tell it from the limit, in the direction
-/// that keeps the sentence true.
+/// A number of a witness, shortened to as many digits as it takes to distinguish it from the limit, and rounded in the
+/// direction that keeps the sentence true.
 std::string shortened(const WitnessView& witness, const DecimalText& value, bool up) {
   const double x = number(value);
   for (const int digits : {4, 6, 9, 12, 15}) {
@@ -100,8 +100,8 @@ std::string stretches_text(const CertificateView& view) {
   return text + "; outside of these the path is proved.";
 }
 
-/// How bad it gets elsewhere: a violation is proved where it begins, and there it is slight. Not where poses are only implied:
-/// samples of them may be of no pose of the motion.
+/// The worst violation among the samples: the proved one is where the violation begins, and slight there. Nothing for
+/// laws of implied poses, whose samples may not be poses of the motion.
 std::vector<std::string> sampled_details(const ReportContext& scene) {
   const CertificateView& view = scene.view;
   if (view.path.segments() == 0 || found_no_path(view) || view.path.interpolation == Interpolation::kCableLengths) {
@@ -236,7 +236,7 @@ std::string motion_text(const ReportContext& scene) {
   return text + fmt::format(". From {} to {}. Positions and angles here are rounded.", pose(0), pose(segments));
 }
 
-/// "10 N along (0, 0, 1)", or the components where there is more than one.
+/// "10 N along (0, 0, 1)", or the components if there are several.
 std::string vector_text(const std::array<double, 3>& v, const char* what, const char* unit) {
   constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
   const auto components = std::ranges::count_if(v, [](double x) { return x != 0; });
@@ -249,7 +249,8 @@ std::string vector_text(const std::array<double, 3>& v, const char* what, const 
   return fmt::format("a {} of ({:.6g}, {:.6g}, {:.6g}) {}", what, v[0], v[1], v[2], unit);
 }
 
-/// How far each component of a wrench in K is from w0 at most: sqrt((E^-1)_ii). The half axes, where E is diagonal.
+/// The largest distance of each component of a wrench in K from w0: sqrt((E^-1)_ii). If E is diagonal these are the
+/// semi-axes.
 std::string spread_text(const LoadText& load) {
   Eigen::Matrix<double, 6, 6> e;
   for (int i = 0; i < 6; ++i) {
@@ -464,7 +465,7 @@ std::vector<std::string> closest_text(const ReportContext& scene, const CableUse
 
 namespace {
 
-/// By what the verdict was proved.
+/// The program versions that proved the verdict.
 std::string proof_text(const CertificateView& view) {
   if (view.verdict == "unchecked") return "None that was checked.";
   if (view.verdict == "undecided") return "None: nothing is claimed.";

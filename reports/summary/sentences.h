@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a certificate says, in sentences that an engineer would sign. Plain text: the page, the text and the Markdown summaries
-// say the same words.
+// The sentences of a report about verdict, places and margins. They are plain text, so that the page, the text and the
+// Markdown summaries use the same words.
 #pragma once
 
 #include <string>
@@ -19,25 +19,25 @@ namespace taut {
 [[nodiscard]] std::string violation_text(const WitnessView& witness);
 [[nodiscard]] std::string violation_text(const PathWitness& witness);
 
-/// What follows from it: of a refuted one by how much, where and at which pose; of an undecided one the reason and where; of a
-/// proved one its reserves.
+/// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the reason
+/// and where; for a proved one its reserves.
 [[nodiscard]] std::vector<std::string> verdict_details(const ReportContext& scene);
 
-/// How close the move comes to limits of tension and of length: "Cable 3 comes closest to a limit of tension …". Nothing unless all of the move is
-/// proved.
+/// How close the move comes to limits of tension and of length: "Cable 3 comes closest to a limit of tension …".
+/// Nothing unless the whole move is proved.
 [[nodiscard]] std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use);
 
-/// What a statement is about, and the statement.
+/// A statement of the report and its subject.
 struct Statement {
   const char* key;    ///< for machines: "motion"
   const char* title;  ///< for people: "Motion"
   std::string text;
 };
 
-/// What the verdict is about: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and who checked it again.
+/// The verdict's scope: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and the check.
 [[nodiscard]] std::vector<Statement> statements(const ReportContext& scene);
 
-/// The centre load and by how much each component may differ from it: the semi-axes of K. Floating point.
+/// The centre load and by how much each component may differ from it, in floating point.
 [[nodiscard]] std::string load_text(const LoadText& load);
 /// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
 [[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances);

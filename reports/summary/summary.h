@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first page as data, and in the three forms that are not HTML: plain text, Markdown, JSON. All say the same.
+// The first page as data, and as plain text, Markdown and JSON. All have the same content.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,10 +14,10 @@ struct Summary {
   Summary(const ReportContext& scene, const ReportOptions& options);
 
   std::string document;  ///< its number
-  std::string revision;  ///< may be empty, as the date
+  std::string revision;  ///< may be empty, like the date
   std::string date;
-  std::string name;     ///< the case's, which nothing checks
-  std::string verdict;  ///< "proved" or "refuted", where the checker made a theorem; else "undecided" or "unchecked"
+  std::string name;     ///< of the case; nothing checks it
+  std::string verdict;  ///< "proved" or "refuted", if the checker made a theorem; else "undecided" or "unchecked"
   std::string headline;
   std::vector<std::string> details;
   std::vector<std::string> closest;
@@ -27,14 +27,14 @@ struct Summary {
   std::string problem_sha256, path_sha256, footer_sha256;
 };
 
-/// "TAUT-1A2B-3C4D-5E6F", from the certificate's own digest; nothing where that is no digest.
+/// "TAUT-1A2B-3C4D-5E6F", made from the certificate's own digest; nothing if that is no digest.
 [[nodiscard]] std::string document_number(const std::string& footer_sha256);
 
 /// Lines of plain text, without control characters, for logs.
 [[nodiscard]] std::string to_text(const Summary& summary);
-/// GitHub's Markdown; what the certificate says can't make markup of its own.
+/// GitHub's Markdown. Text from the certificate is escaped, so that it can't contain markup.
 [[nodiscard]] std::string to_markdown(const Summary& summary);
-/// docs/report.md has the keys.
+/// JSON with the keys of docs/report.md.
 [[nodiscard]] nlohmann::json to_json(const Summary& summary);
 
 }  // namespace taut

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far into the move a place of the path is: the way of the platform's origin, the angle that the platform has turned, time.
-// Floating point.
+// How far into the move a position on the path is: the distance travelled by the platform's origin, the angle that the
+// platform has turned by, and the time. It is computed in floating point.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,14 @@ namespace taut {
 
 class Travel {
  public:
-  /// Measured on a polygon with corners at all waypoints, and some between.
+  /// Measures along a polygon with corners at all waypoints and some points between.
   Travel(const Sampler& sampler, const Path& path);
 
-  /// Since the start, at a position counted in segments (PathSample::position).
+  /// The travel from the start to a position, which is counted in segments (PathSample::position).
   [[nodiscard]] double distance_m(double position) const { return at(distance_m_, position); }
   [[nodiscard]] double turned_rad(double position) const { return at(turned_rad_, position); }
-  /// By the path's times, uniform between waypoints; nothing where it has none, and on splines, which don't pass through theirs.
+  /// The time at a position, from the path's times, uniform between waypoints. Nothing if the path has none, or is a
+  /// spline, which does not pass through its control points.
   [[nodiscard]] std::optional<double> time_s(double position) const;
 
  private:

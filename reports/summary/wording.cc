@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
-/// What Decimal can't hold is absurd anyway.
+/// Numbers beyond the range of Decimal are refused; no physical quantity is that large or small.
 bool is_absurd(double x) {
   constexpr double kLargest = 1e290;
   const double size = std::abs(x);

@@ -11,17 +11,17 @@
 
 namespace taut {
 
-/// The same number, without exponent where it is readable.
+/// The same number, without an exponent if it is readable without.
 [[nodiscard]] std::string plain(const DecimalText& decimal);
-/// Exactly the same length, in millimetres.
+/// The same length in millimetres, exactly.
 [[nodiscard]] std::string millimetres(const DecimalText& metres);
-/// `digits` significant digits, rounded towards −∞ or +∞, without exponent where it is readable.
+/// `digits` significant digits, rounded towards −∞ or +∞, without an exponent if it is readable without.
 [[nodiscard]] std::string rounded_down(double x, int digits = 4);
 [[nodiscard]] std::string rounded_up(double x, int digits = 4);
 /// A length in millimetres, likewise.
 [[nodiscard]] std::string millimetres_down(double metres);
 [[nodiscard]] std::string millimetres_up(double metres);
-/// "0.2°" where it was typed in degrees, else "0.0035 rad": exactly the same angle.
+/// "0.2°" if the angle was typed in degrees, else "0.0035 rad"; exactly the same angle.
 [[nodiscard]] std::string angle_text(const ExpressionText& radians);
 /// "1 box", "2 boxes".
 [[nodiscard]] std::string plural(std::size_t count, const std::string& noun);
@@ -43,7 +43,8 @@ namespace taut {
 
 /// "4.2 m", "12 mm": rounded.
 [[nodiscard]] std::string distance_text(double metres);
-/// "4.2 m into the move (segment 17)": where the path's origin does not move, by the angle turned; with the time, if the path has any.
+/// "4.2 m into the move (segment 17)", or the angle turned if the platform's origin does not move; with the time, if
+/// the path has times.
 /// `position` counts segments: k + s is the point s of segment k.
 [[nodiscard]] std::string place_text(const ReportContext& scene, double position);
 

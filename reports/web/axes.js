@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the plots' horizontal axis counts: segments, metres, degrees or seconds into the move.
+// The quantity on the plots' horizontal axis: segments, metres, degrees or seconds into the move.
 import { between, locate } from "./data.js";
 import { degrees, text } from "./words.js";
 
-/// The axes that say something of this path, the best first.
+/// The axes that suit this path, the best first.
 export function axes(data) {
   const { position, distance, turned, time } = data.samples;
   const make = (name, label, words, values) => ({
@@ -23,7 +23,7 @@ export function axes(data) {
   ];
   const useful = all.filter(({ values }) => values.length > 1 && values[values.length - 1] > values[0]);
   if (useful.length === 0) return [all[3]];
-  // An axis on which the robot stands still for some of the move would hide that part: such ones come last.
+  // An axis on which the robot stands still for some of the move would hide that part, so such axes come last.
   return useful.filter((axis) => isSteady(axis.values)).concat(useful.filter((axis) => !isSteady(axis.values)));
 }
 

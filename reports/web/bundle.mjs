@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // bundle.mjs OUT.cc: bundles main.js and what it imports into one script, and writes it as a C++ source that defines
-// what reports/page/page_script.h declares. OUT.cc.d says what it was made from. The script opens with the licences of all
-// packages in it.
+// what reports/page/page_script.h declares. OUT.cc.d says what it was made from. The script opens with the licences of
+// all packages in it.
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -12,7 +12,7 @@ const out = resolve(process.argv[2]);
 const here = dirname(fileURLToPath(import.meta.url));
 const root = resolve(here, "../..");
 
-/// Bundled with `banner` in front, the files `read` for it, and those `used`: paths from the root.
+/// The script with `banner` in front, the files that were read for it, and those used in it, as paths from the root.
 async function bundled(banner) {
   const result = await build({
     absWorkingDir: root,
@@ -68,7 +68,7 @@ function notices(packages) {
   return `/*!\n${kOwnNotice}\nIt contains the following works.\n\n${body.replaceAll("*/", "* /")}\n*/`;
 }
 
-/// As adjacent raw string literals: one alone may be too long for some compilers.
+/// The text as adjacent raw string literals, because a single one may be too long for some compilers.
 function literal(text) {
   const pieces = text.match(/[^]{1,60000}/g) ?? [""];
   return pieces.map((piece) => `R"taut-js(${piece})taut-js"`).join("\n");
@@ -78,7 +78,7 @@ const { read, used } = await bundled("");
 const packages = [...new Set(used.map(packageOf).filter(Boolean))].sort();
 const { script } = await bundled(notices(packages));
 
-// What would end the page's script element early, or be read as something else than was hashed.
+// Text that would end the page's script element early, or that a browser would read differently from what was hashed.
 for (const forbidden of ["</script", "<!--", "<script", "\r", ")taut-js\""]) {
   if (script.toLowerCase().includes(forbidden)) throw new Error(`the bundle contains ${JSON.stringify(forbidden)}`);
 }

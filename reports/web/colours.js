@@ -10,7 +10,7 @@ export function onThemeChange(listener) {
   for (const query of ["(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", listener);
 }
 
-// From blue over grey to red (ColorBrewer's RdBu): told apart with any colour vision, darker towards both ends.
+// From blue over grey to red (ColorBrewer's RdBu): distinguishable with any colour vision, darker towards both ends.
 const STOPS = [
   [0, [33, 102, 172]],
   [0.25, [103, 169, 207]],
@@ -19,7 +19,7 @@ const STOPS = [
   [1, [178, 24, 43]],
 ];
 
-/// Of a tension at `share` of the way from its lower to its upper limit.
+/// The colour of a tension that is `share` of the way from its lower to its upper limit.
 export function tensionColour(share) {
   const x = Math.min(Math.max(Number.isFinite(share) ? share : 1, 0), 1);
   const k = Math.max(STOPS.findIndex(([stop]) => x <= stop), 1);

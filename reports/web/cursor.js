@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The place that all pictures show: one position along the path, shared by the plots and the robot.
+// The cursor: one position along the path, which all plots and the picture of the robot show.
 
 export class Cursor {
   #listeners = [];
@@ -10,7 +10,7 @@ export class Cursor {
     this.last = last;
   }
 
-  /// Undefined until someone has pointed anywhere.
+  /// Undefined until the reader points at a place.
   get position() {
     return this.#position;
   }

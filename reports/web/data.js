@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the certificate's report knows, as report_data.cc wrote it into the page. SI units and radians; columns of numbers, null
-// where there is none.
+// The report's data, as report_data.cc writes them into the page. Units are SI and radians. Columns are lists of
+// numbers, with null for missing ones.
 //
-//   verdict ("unchecked" where nobody knows: then nothing that the certificate claims is in here), segments, is_spline
-//   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of limits
-//   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3), distance, turned,
-//               time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0), tension_radius (6: v),
-//               wrench_scale, sign (of det J), parameters (2, where there is a plane)
+//   verdict     "unchecked" if it is not known; then none of the certificate's claims is in here
+//   segments, is_spline
+//   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of
+//               limits
+//   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3),
+//               distance, turned, time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0),
+//               tension_radius (6: v), wrench_scale, sign (of det J), parameters (2, if there is a plane)
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
-//   margins     proved, of so many segments together: from, to, tension_N, length_m, wrench_scale
-//   stretches   where the path is not proved: from, to, violated (else open)
+//   margins     proved, for groups of consecutive segments: from, to, tension_N, length_m, wrench_scale
+//   stretches   the parts of the path that are not proved: from, to, violated (else open)
 //   witness     position, to, kind, cable; or null
 //   tube_m      how far the platform's origin may be from the path; or null
 //   tolerances  name, unit, stated, proved (how far this one alone may grow)
-//   plane       of two parameters, or null: names, units, window, rows, columns, cells, singular, charts, all_charts, waypoints
+//   plane       of two parameters, or null: names, units, window, rows, columns, cells, singular, charts, all_charts,
+//               waypoints
 
 export function readData() {
   const data = JSON.parse(document.getElementById("data").textContent);
@@ -23,19 +26,19 @@ export function readData() {
 
 const finite = (x) => typeof x === "number" && Number.isFinite(x);
 
-/// Millimetres for machines of a table's or a room's size, metres for larger ones.
+/// The unit of lengths: millimetres for robots up to the size of a room, metres for larger ones.
 function lengthUnit({ robot }) {
   const sizes = [...robot.base.flat(), ...robot.length.map(([, upper]) => upper)].filter(finite).map(Math.abs);
   return Math.max(0, ...sizes) < 20 ? { name: "mm", factor: 1000 } : { name: "m", factor: 1 };
 }
 
-/// Whether all that a picture of the robot needs is there.
+/// Whether the data contain all that a picture of the robot needs.
 export function isDrawable({ robot, samples }) {
   const numbers = [robot.base, robot.platform, [robot.load_point], samples.p, samples.q].flat(2);
   return samples.position.length > 0 && numbers.every((x) => finite(x) && Math.abs(x) < 1e15);
 }
 
-/// Least and greatest of what is a number; nothing of none.
+/// The least and greatest of the finite numbers; nothing if there is none.
 export function extent(...lists) {
   let least = Infinity;
   let greatest = -Infinity;
@@ -49,7 +52,7 @@ export function extent(...lists) {
   return least <= greatest ? [least, greatest] : undefined;
 }
 
-/// Where `x` lies in a rising list: the index before it and how far towards the next.
+/// The place of `x` in an ascending list: the index before it and the fraction of the way to the next.
 export function locate(list, x) {
   let low = 0;
   let high = list.length - 1;
@@ -63,20 +66,20 @@ export function locate(list, x) {
   return [low, (x - list[low]) / (list[high] - list[low])];
 }
 
-/// Points along a way of which each is farther than `least` from the one before.
+/// The points of a curve, leaving out those within `least` of the point before.
 export function spaced(points, least) {
   const kept = [];
   for (const p of points) if (kept.length === 0 || p.distanceTo(kept[kept.length - 1]) > least) kept.push(p);
   return kept;
 }
 
-/// A column between its entries; NaN beside an entry that is none.
+/// A column interpolated between its entries; NaN next to a missing one.
 export function between(list, [k, t]) {
   const a = list[k] ?? NaN;
   return t === 0 ? a : a + t * ((list[k + 1] ?? NaN) - a);
 }
 
-/// What is proved at a position: "proved", "open", "violated", or "unknown" where nothing is said.
+/// The state at a position: "proved", "open", "violated", or "unknown" if nothing is claimed.
 export function status(data, position) {
   if (data.verdict === "unchecked") return "unknown";
   for (const { from, to, violated } of data.stretches) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the report's page runs in the reader's browser: it draws the plots and the robot into the places that the page has for
-// them. Without it the page has its words, its tables and a still picture of the robot.
+// The script that the report's page runs in the reader's browser. It draws the plots and the robot into the places that
+// the page has for them. Without it the page has its words, its tables and a still picture of the robot.
 import { axes as usefulAxes } from "./axes.js";
 import { onThemeChange, tensionColour } from "./colours.js";
 import { Cursor } from "./cursor.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The controls below the robot: play, scrub, step through segments; and what is at the cursor, in numbers.
+// The controls below the robot: play, scrub, step through segments; and the numbers at the cursor.
 import { between, locate, status } from "./data.js";
 import { decimalsFor, degrees, element, fixed, text } from "./words.js";
 
@@ -10,8 +10,8 @@ const STATUS = {
   unknown: "",
 };
 
-/// What playing goes by: seconds where the path has times, else how far the robot moves and turns, so that it neither races nor
-/// stands still.
+/// The clock of playing: seconds if the path has times, else how far the robot moves and turns, so that it neither
+/// races nor stands still.
 function pace(data) {
   const { position, time, distance, turned } = data.samples;
   if (time.length > 0) return { values: time, seconds: time[time.length - 1] - time[0] };
@@ -137,7 +137,7 @@ export class Player {
     this.cursor.position = share >= 1 ? this.cursor.last : between(this.data.samples.position, locate(values, value));
   }
 
-  /// To the end of a segment before or behind.
+  /// Steps to the next end of a segment, forward or backward.
   step(direction) {
     this.stop();
     const position = this.cursor.position ?? 0;

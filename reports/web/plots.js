@@ -8,7 +8,7 @@ const NARROW = { width: 340, height: 210 };
 const WIDE = { width: 520, height: 230 };
 const MARGINS = { marginLeft: 54, marginRight: 42, marginTop: 10, marginBottom: 34 };
 
-/// Limits and a little beyond; up to half of their width beyond where the data go there.
+/// The limits and slightly more; up to half of their width beyond if the data go there.
 function limitedDomain([lower, upper], data) {
   const width = upper - lower;
   const [least, greatest] = data ?? [lower, upper];
@@ -24,7 +24,7 @@ function paddedDomain(data) {
   return [least - pad, greatest + pad];
 }
 
-/// Corners of steps that are `lower` to `upper` from one end of each box to the other, with gaps where there are gaps.
+/// Corners of steps from `lower` to `upper` over each box, with gaps where the boxes have gaps.
 function steps(from, to, lower, upper, x) {
   const result = [];
   for (let k = 0; k < from.length; ++k) {
@@ -37,7 +37,7 @@ function steps(from, to, lower, upper, x) {
   return result;
 }
 
-/// Rows of a curve, broken where det J changes sign: tensions have a pole there.
+/// Rows of a curve, broken where det J changes sign, because tensions have a pole there.
 function curve({ samples }, axis, ...columns) {
   const rows = [];
   samples.position.forEach((position, k) => {
@@ -82,7 +82,8 @@ function beyondLimits([lower, upper], [bottom, top], [left, right], label) {
 
 /// A figure with its plot and a line that says what is at the cursor.
 class Panel {
-  /// draw: (axis) → marks; says: (where in the samples, position) → text at the cursor; rest: the text before there is one.
+  /// draw: (axis) → marks; says: (where in the samples, position) → text at the cursor; rest: the text without a
+  /// cursor.
   constructor({ title, keys, description, rest, size = NARROW, domain, label, log = false, draw, says }) {
     Object.assign(this, { rest, size, domain, label, log, draw, says, description });
     this.readout = element("span", { class: "readout" }, rest);
@@ -226,7 +227,7 @@ export function lengthPanels(data) {
   });
 }
 
-/// The least over all cables of what is left to the nearer limit, sampled.
+/// The least distance of any cable from its nearer limit, from samples.
 function leastReserve(data, low, high, limits) {
   return data.samples.position.map((_, k) => {
     let least = Infinity;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which tolerance bites: how much of what each alone could be is used up by what is stated.
+// The critical tolerances: the stated value of each as a fraction of what it alone could be.
 import * as Plot from "@observablehq/plot";
 import { atMost, degrees, element, text } from "./words.js";
 
@@ -13,7 +13,7 @@ const NAMES = {
   cable_length: "cable length",
 };
 
-/// `digits`: how a number is put into words.
+/// `digits`: the function that turns a number into text.
 function shown(x, unit, digits) {
   if (unit === "m") return `${digits(x * 1000)} mm`;
   if (unit === "rad") return `${digits(degrees(x))}°`;

@@ -45,7 +45,7 @@ const vector = ([x, y, z]) => new Vector3(x, y, z);
 /// A picture of the robot in `holder`; undefined where the browser has no WebGL.
 export function makeViewer(holder, data) {
   const canvas = document.createElement("canvas");
-  // Asked for here, so that a browser without it is not an error.
+  // The context is requested here, so that a browser without WebGL causes no error.
   const context = canvas.getContext("webgl2", { antialias: true, alpha: true });
   return context ? new Viewer(holder, data, canvas, context) : undefined;
 }
@@ -80,7 +80,8 @@ class Viewer {
     this.show(0);
   }
 
-  /// The load pulls down on the screen; what is ever shown fits a ball of radius 1 around the origin.
+  /// Turns and scales the world: the load pulls down on the screen, and everything shown fits a ball of radius 1 around
+  /// the origin.
   place() {
     const { robot, samples } = this.data;
     const force = vector(robot.force);
@@ -121,7 +122,7 @@ class Viewer {
       frame: new MeshLambertMaterial(),
       platform: new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.85 }),
       load: new MeshLambertMaterial(),
-      // In front of the platform, which it would be hidden in.
+      // Drawn in front of the platform, which would hide it.
       tube: new MeshBasicMaterial({ transparent: true, opacity: 0.45, depthWrite: false, depthTest: false }),
       ghost: new MeshBasicMaterial({ transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false, depthTest: false }),
       out: new MeshBasicMaterial(),
@@ -139,7 +140,7 @@ class Viewer {
     const rod = new CylinderGeometry(1, 1, 1, 10).translate(0, 0.5, 0);
     this.cables = robot.base.map(() => {
       const mesh = new Mesh(rod, new MeshLambertMaterial());
-      // Rings along a cable that is out of its limits: seen without colour, too.
+      // Rings mark a cable that is out of its limits, so that it can be recognised without colour.
       mesh.userData.rings = Array.from({ length: 7 }, () => new Mesh(rod, this.materials.out));
       this.world.add(mesh, ...mesh.userData.rings);
       return mesh;
@@ -200,7 +201,7 @@ class Viewer {
     }
   }
 
-  /// The way of the platform's origin, by what is proved of it; that of the load point, thin; the tube.
+  /// The path of the platform's origin, coloured by what is proved; that of the load point, thin; and the tube.
   paths() {
     const { samples, robot, tube_m: tube, stretches } = this.data;
     const places = [...new Set([...samples.position, ...stretches.flatMap((s) => [s.from, s.to])])].sort((a, b) => a - b);
@@ -214,7 +215,7 @@ class Viewer {
       const kept = points.filter((p, k) => k === 0 || p.distanceTo(points[k - 1]) > 1e-7 / this.scale);
       if (kept.length < 2) return;
       const geometry = new LineGeometry().setPositions(kept.flatMap((p) => [p.x, p.y, p.z]));
-      // In front of the platform, which would hide it.
+      // Drawn in front of the platform, which would hide it.
       const material = new LineMaterial({ linewidth: width, depthTest: false, transparent: true, dashed, dashSize: 0.02 / this.scale, gapSize: 0.015 / this.scale });
       const mesh = new Line2(geometry, material);
       mesh.computeLineDistances();
@@ -318,7 +319,7 @@ class Viewer {
     this.draw();
   }
 
-  /// By keys: angles [rad], and by how much nearer.
+  /// Moves the camera by keys: angles [rad], and the factor by which it comes nearer.
   orbit(azimuth, elevation, zoom = 1) {
     const offset = this.camera.position.clone().sub(this.controls.target);
     const distance = Math.min(Math.max(offset.length() * zoom, this.controls.minDistance), this.controls.maxDistance);
@@ -343,7 +344,7 @@ class Viewer {
     this.draw();
   }
 
-  /// At the next frame, once.
+  /// Draws once, at the next frame.
   draw() {
     if (this.pending || !this.camera) return;
     this.pending = true;
@@ -371,7 +372,7 @@ function span(mesh, a, b, thickness) {
   mesh.scale.set(thickness, Math.max(along.length(), 1e-12), thickness);
 }
 
-/// The convex hull of points in a plane, in order; undefined where they are in no plane, or fewer than three.
+/// The convex hull of points in a plane, in order; undefined if they are not in a plane, or fewer than three.
 function flatHull(points) {
   let normal = new Vector3();
   for (const a of points) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as text.
 
-/// Four significant digits, no exponent where it can be read without, a real minus sign.
+/// Four significant digits, no exponent if it is readable without, a real minus sign.
 export function text(x, digits = 4) {
   if (typeof x !== "number" || !Number.isFinite(x)) return "–";
   const size = Math.abs(x);
@@ -10,20 +10,21 @@ export function text(x, digits = 4) {
   return String(rounded).replace("-", "−");
 }
 
-/// With so many decimals that neighbours in a column don't jump: for what changes while one looks.
+/// A fixed number of decimals, so that a value that changes while one looks does not jump.
 export function fixed(x, decimals) {
   if (!Number.isFinite(x)) return "–";
   return (Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals).replace("-", "−");
 }
 
-/// As text() and fixed(), but never more than x, or never less: for what is proved, which must not look better than it is.
+/// As text() and fixed(), but never more than x, or never less, for proved values, which must not look better than they
+/// are.
 export const atMost = (x, digits = 3) => towards(x, -1, (y) => text(y, digits), 0.05 * Math.abs(x));
 export const atLeast = (x, digits = 3) => towards(x, 1, (y) => text(y, digits), 0.05 * Math.abs(x));
 export const fixedAtMost = (x, decimals) => towards(x, -1, (y) => fixed(y, decimals), 10 ** -decimals);
 export const fixedAtLeast = (x, decimals) => towards(x, 1, (y) => fixed(y, decimals), 10 ** -decimals);
 
-/// What `shown`, which rounds to nearest, makes of the number next to x in a direction, 1 or -1, for which it is not on the wrong side of
-/// x. `step`: of about the size of the last digit.
+/// Applies `shown`, which rounds to nearest, to a number next to x in a direction, 1 or -1, such that the result is not
+/// on the wrong side of x. `step` is about the size of the last digit.
 function towards(x, direction, shown, step) {
   let result = shown(x);
   for (let part = 0.001; part < 4 && direction * (Number(result.replace("−", "-")) - x) < 0; part *= 1.5) {

@@ -34,7 +34,8 @@ TEST(PathLength, OfALevelTurnOfPhiAloneIsZeroAtTheta0) {
 TEST(PathLength, OfAnEdgeOfInfiniteLengthComesToAnEnd) {
   const PoseSampler sampler(testing::robot1_slice());
   const PathLength length(sampler, Cost::kRotation, {coordinates({0, 0})});
-  // As a damaged atlas file may have it: its length in the parameters overflows. Under UBSan a conversion to int would show.
+  // As a damaged atlas file may have it: its length in the parameters overflows. Under UBSan a conversion to int would
+  // show.
   EXPECT_GE(length.along(coordinates({-1e308, 1e308}), coordinates({1e308, -1e308})), 0);
 }
 

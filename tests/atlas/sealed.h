@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forged atlas files with the right checksums, as one would make who means harm. What is known of the format here comes from
-// docs/atlas-file.md.
+// Forged atlas files with the right checksums, as one would make who means harm. What is known of the format here comes
+// from docs/atlas-file.md.
 #pragma once
 
 #define XXH_INLINE_ALL

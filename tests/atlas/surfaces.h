@@ -95,9 +95,9 @@ inline ImplicitSurface torus() {
           }};
 }
 
-/// 3 + 8 (x^4 + y^4 + z^4) = 8 (x^2 + y^2 + z^2), which is T(x) + T(y) + T(z) = 0 with Chebyshev's T(x) = 8x^4 - 8x^2 + 1.
-/// The critical points of the left side have each coordinate 0 (T = 1, a maximum) or ±1/sqrt 2 (T = -1, a minimum). Below
-/// zero lie 8 minima and 12 saddles of index 1 that join them as a cube's edges join its corners: the inside is a
+/// 3 + 8 (x^4 + y^4 + z^4) = 8 (x^2 + y^2 + z^2), which is T(x) + T(y) + T(z) = 0 with Chebyshev's T(x) = 8x^4 - 8x^2 +
+/// 1. The critical points of the left side have each coordinate 0 (T = 1, a maximum) or ±1/sqrt 2 (T = -1, a minimum).
+/// Below zero lie 8 minima and 12 saddles of index 1 that join them as a cube's edges join its corners: the inside is a
 /// connected handlebody with Euler characteristic 8 - 12 = -4, so its boundary is one surface of genus 5, with -8.
 inline ImplicitSurface chmutov() {
   return {
@@ -171,8 +171,8 @@ class FlatTorus : public Manifold {
 };
 
 /// The sphere by longitude phi and co-latitude theta of either sign, (phi, theta) ~ (phi + pi, -theta), as
-/// tilt-and-torsion angles name directions. Smooth at the poles, where the coordinates are not. With `cap` > 0, only the
-/// points within that angle of the pole theta = 0.
+/// tilt-and-torsion angles name directions. Smooth at the poles, where the coordinates are not. With `cap` > 0, only
+/// the points within that angle of the pole theta = 0.
 class PolarSphere : public Manifold {
  public:
   explicit PolarSphere(double cap = 0) : cap_(cap) {}
@@ -211,7 +211,8 @@ class PolarSphere : public Manifold {
   double cap_;
 };
 
-/// Points (phi, theta) of a flat cylinder with (phi, theta) ~ (phi + pi, -theta), theta in [-w, w]: an open Moebius strip.
+/// Points (phi, theta) of a flat cylinder with (phi, theta) ~ (phi + pi, -theta), theta in [-w, w]: an open Moebius
+/// strip.
 class MoebiusStrip : public Manifold {
  public:
   explicit MoebiusStrip(double half_width) : half_width_(half_width) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "atlas/topology.h"
+#include "tests/atlas/topology.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ using testing::coordinates;
 using testing::kPi;
 using testing::options;
 
-// Reference by another route: area of f = 0 from marching tetrahedra on a grid of [0, 1.2]^3, one of eight octants alike.
+// Reference by another route: area of f = 0 from marching tetrahedra on a grid of [0, 1.2]^3, one of eight octants
+// alike.
 double octant_area(const testing::ImplicitSurface& surface, int cells) {
   const double h = 1.2 / cells;
   const int corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An atlas file is refused, or the query is planned and proved all the same: a file only says where to look. Its header is sealed
-// again, so that what the tables hold is looked at.
+// An atlas file is refused, or the query is planned and proved as without it: a file only says where to look. Its
+// header is sealed again, so that what the tables hold is looked at.
 #include <unistd.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checker says something of every certificate, also of those whose counts and digests are right. Nothing is accepted that was not
-// among the seeds by another name: what the claims say is mutation_test.cc's to look at.
+// The checker gives a result for every certificate, also if its counts and digests are right. Nothing is accepted that
+// was not among the seeds by another name: what the claims say is mutation_test.cc's to look at.
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -15,7 +15,8 @@
 
 namespace {
 
-/// What the checker says. Not to the end of long proofs: what is read and what the first boxes are is what inputs differ in.
+/// The checker's result, within a small budget: inputs differ in how they are read and in the first boxes, so that long
+/// proofs need not be checked to the end.
 std::string said_of(const std::string& text) {
   using namespace taut::checker;
   constexpr std::chrono::milliseconds kMost{20};

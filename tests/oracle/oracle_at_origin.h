@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An oracle for statics by another route than the product's: straight from the paper's frame F1.
 //
-// J about the origin O with columns (u_i ; a_i × u_i); w0 and K carried from the load point to O by the wrench transform
-// X = [I 0; [r]× I]; J f = w solved by Gaussian elimination in MPFR at 200 bits, rounding to nearest. No force densities, no load
-// frame, no intervals, none of kinematics/. Errors are below 1e-40 for the poses of the tests.
+// J about the origin O with columns (u_i ; a_i × u_i); w0 and K carried from the load point to O by the wrench
+// transform X = [I 0; [r]× I]; J f = w solved by Gaussian elimination in MPFR at 200 bits, rounding to nearest. No
+// force densities, no load frame, no intervals, none of kinematics/. Errors are below 1e-40 for the poses of the tests.
 #pragma once
 
 #include <array>
@@ -116,7 +116,8 @@ inline OracleStatics statics(const Problem& problem, const Big6& pose) {
   result.transform[5][0] = -r[1];
   result.transform[5][1] = r[0];
 
-  // f0 = J^-1 X w0. v_ii² = (B^-1)_ii with B^-1 = J^-1 X E^-1 X^T J^-T: solve for the columns of X and use E^-1 by solving.
+  // f0 = J^-1 X w0. v_ii² = (B^-1)_ii with B^-1 = J^-1 X E^-1 X^T J^-T: solve for the columns of X and use E^-1 by
+  // solving.
   std::vector<Big6> columns(7);
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < 6; ++k) {

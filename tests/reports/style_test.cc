@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of the style sheet in which text is set, against WCAG 2: a contrast of at least 4.5 to 1, in each theme and on paper.
+// The style sheet's text colours must have a contrast of at least 4.5 to 1 (WCAG 2), in each theme and on paper.
 #include "reports/page/style.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tests hold enclosures against: a 300-bit MPFR number that models the scalar concept, and operands chosen to hurt.
+// The reference for tests of enclosures: a 300-bit MPFR number that models the scalar concept, and difficult operands.
 //
-// An enclosure's ends have at most 300 bits and rounding is monotone, so an exact value inside an enclosure stays inside
-// when it is rounded to 300 bits: a miss is a miss.
+// An enclosure's ends have at most 300 bits and rounding is monotone, so an exact value inside an enclosure stays
+// inside when it is rounded to 300 bits: a miss is a miss.
 #pragma once
 
 #include <algorithm>
@@ -70,8 +70,9 @@ struct Operand {
   [[nodiscard]] bool thin() const { return lower == upper; }
 };
 
-/// Points and intervals: zeros of both signs, subnormals, powers of two and their neighbours, multiples of pi/2 and of 1/64
-/// and theirs, any exponent, plain numbers; thin, a few ulps wide, narrow, or as wide as two such points are apart.
+/// Points and intervals: zeros of both signs, subnormals, powers of two and their neighbours, multiples of pi/2 and of
+/// 1/64 and theirs, any exponent, plain numbers; thin, a few ulps wide, narrow, or as wide as two such points are
+/// apart.
 class Operands {
  public:
   explicit Operands(std::uint64_t seed) : random_(seed) {}

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every operation of the interval arithmetics with what it must enclose: its exact range over a box of operands.
 //
-// The ranges come from MPFR alone, at kOracleBits, rounded down at the lower and up at the upper end: an enclosure whose ends
-// have fewer bits holds the range if and only if it holds that, so that no miss is too small to be seen. The operands are binary64,
-// and 2100 bits tell any of them from any multiple of a quarter turn.
+// The ranges come from MPFR alone, at kOracleBits, rounded down at the lower and up at the upper end. An enclosure
+// whose ends have fewer bits contains the range if and only if it contains the rounded one, so that no miss is too
+// small to be seen. The operands are binary64, and 2100 bits tell any of them from any multiple of a quarter turn.
 #pragma once
 
 #include <algorithm>
@@ -86,8 +86,8 @@ Range sinusoid(F f, const Operand& x, int phase_of_maximum) {
 
 }  // namespace oracle_detail
 
-/// kUlps bounds how far each end is beyond the exact one, in ulps of that. kMayGiveUp allows faults inside the domain. kUnit: most
-/// operands are to be taken from [−1, 1].
+/// kUlps bounds how far each end is beyond the exact one, in ulps of that. kMayGiveUp allows faults inside the domain.
+/// kUnit: most operands are to be taken from [−1, 1].
 struct Operation {
   static constexpr double kUlps = 1;
   static constexpr bool kMayGiveUp = false;
@@ -323,8 +323,8 @@ Operand random_operand(Operands& operands) {
   return {lower, upper};
 }
 
-/// Zeros of both signs, subnormals, the largest, edges of domains and their neighbours, what is next to multiples of a quarter
-/// turn, huge angles; as points, next to each other, and as wide as any two of them are apart.
+/// Zeros of both signs, subnormals, the largest, edges of domains and their neighbours, what is next to multiples of a
+/// quarter turn, huge angles; as points, next to each other, and as wide as any two of them are apart.
 inline const std::vector<Operand>& directed_operands() {
   static const std::vector<Operand> all = [] {
     using Limits = std::numeric_limits<double>;

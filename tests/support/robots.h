@@ -17,8 +17,8 @@ inline Problem robot1_slice() { return load_case(TAUT_SOURCE_DIR "/cases/robot1-
 /// Robot 2 on the sphere of (16): parameters alpha1, alpha2.
 inline Problem robot2_sphere() { return load_case(TAUT_SOURCE_DIR "/cases/robot2-sphere-q1-q2-q3.yaml").problem; }
 
-/// Robot 2 on the same sphere given by constraints: p is on it, and the platform normal to its radius. Parameters px, py, pz,
-/// phi, theta and, if free, sigma.
+/// Robot 2 on the same sphere given by constraints: p is on it, and the platform is normal to its radius. Parameters
+/// px, py, pz, phi, theta and, if free, sigma.
 inline Problem robot2_implicit_sphere(bool sigma_free) {
   Problem problem = robot2_sphere();
   problem.space = SpaceText{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "atlas/topology.h"
+#include "tests/atlas/topology.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -78,8 +78,8 @@ void drop(Rotation& rotation, int to) {
   rotation.erase(rotation.begin() + e);
 }
 
-// Charts that bound each other, within their balls. Frames must agree on that, but nearly tied ones may not; a claim of
-// one side only is no edge.
+// The edges between charts that bound each other within their balls. Both charts should say so; in near-ties only one
+// may, and then there is no edge.
 std::vector<Rotation> mutual_rotations(const Atlas& atlas) {
   std::vector<std::vector<Side>> polygons;
   std::set<std::pair<int, int>> claims;
@@ -106,7 +106,7 @@ std::vector<Rotation> mutual_rotations(const Atlas& atlas) {
   return rotations;
 }
 
-// Edges b-x that leave b into the triangle a b c, where b comes right before c around a; they cross the edge a-c.
+// Edges b-x from b into the triangle a b c, where b comes right before c around a; they cross the edge a-c.
 // `mirrored`: b's frame has the other orientation.
 std::vector<int> edges_into_triangle(const Rotation& b, int a, int c, bool mirrored) {
   std::vector<int> result;
@@ -117,8 +117,8 @@ std::vector<int> edges_into_triangle(const Rotation& b, int a, int c, bool mirro
   return result;
 }
 
-// Where four charts nearly share one corner, both pairs of opposite ones may claim to touch. The longer of two edges
-// that cross so goes; four charts are then two triangles again.
+// If four charts nearly share one corner, both pairs of opposite charts may claim to touch. Of two such crossing edges
+// the longer is dropped, which leaves two triangles.
 bool drop_one_crossing(const Atlas& atlas, std::vector<Rotation>& rotations, int a) {
   const auto length = [&](int i, int j) {
     return (atlas.chart(i).frame.point() - atlas.chart(j).frame.point()).squaredNorm();
