@@ -90,10 +90,10 @@ struct BoxEnclosure {
 };
 
 /// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
-/// @param parts  of deviations (tolerance.h)
+/// @param continuation_steps  of deviations (tolerance.h)
 template <class I>
 [[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
-                                          int parts = 1);
+                                          int continuation_steps = 1);
 
 /// What the prover concludes from one box with one scalar.
 struct BoxVerdict {
@@ -122,9 +122,9 @@ struct BoxVerdict {
 /// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins have to
 /// exceed c times half the range between the limits (in floating point; what is proved remains that they are positive).
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0, int parts = 1);
+                                   double clearance = 0, int continuation_steps = 1);
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0, int parts = 1);
+                                   double clearance = 0, int continuation_steps = 1);
 
 /// Whether on all of the box exactly one motion is proved to exist, with its parameters in their ranges.
 [[nodiscard]] bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box);

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 
 namespace taut {
 

@@ -5,10 +5,11 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 
 namespace taut {
 
@@ -59,7 +60,8 @@ void tighten_margins(const Prover& prover, const std::function<Segment(std::size
                      std::vector<SegmentProof>& segments);
 
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
-[[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {});
+[[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {},
+                                   const std::stop_token& stop = {});
 
 /// What refutes segment `index` of a path, as a statement about the path.
 [[nodiscard]] PathWitness path_witness(const Prover& prover, const Segment& segment, int index,
@@ -68,7 +70,7 @@ void tighten_margins(const Prover& prover, const std::function<Segment(std::size
 /// Proof attempt at one pose: nothing if the waypoint is wrench-feasible (proved), else the witness; `undecided` is set to a
 /// reason if neither could be proved.
 [[nodiscard]] std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
-                                                         Reason& undecided);
+                                                         Reason& undecided, const std::stop_token& stop = {});
 
 /// The binary64 nearest to the exact value of a constant expression (ties to even).
 /// @throws InputError if it is not finite or can't be told at 4096 bits.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 
 namespace taut {
 

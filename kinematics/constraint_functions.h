@@ -47,11 +47,11 @@ class ConstraintFunctions {
   [[nodiscard]] std::vector<double> parameters(const Segment& segment, double s) const;
 
  private:
-  struct Place {
-    Vector lambda;
-    Jacobian normals;
+  struct ReferencePoint {
+    Vector lambda;     ///< ℓ(s)
+    Jacobian normals;  ///< N(s)
   };
-  [[nodiscard]] Place place(const Segment& segment, double s) const;
+  [[nodiscard]] ReferencePoint reference_point(const Segment& segment, double s) const;
 
   int count_;
   int parameters_;

@@ -49,7 +49,7 @@ template <class S>
 
 /// How far inside.
 template <class S>
-[[nodiscard]] S room(const Model<S>& model, const S& quantity, MarginId margin) {
+[[nodiscard]] S slack(const Model<S>& model, const S& quantity, MarginId margin) {
   const auto i = static_cast<std::size_t>(margin.cable);
   switch (margin.kind) {
     case MarginKind::kTensionMin: return quantity - model.tension_lower[i];

@@ -56,21 +56,23 @@ void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
   }
 }
 
-PathLength::Place PathLength::place(const Coordinates& q) const { return place(sampler_.pose(span_of(q))); }
+PathLength::PlatformPose PathLength::platform_pose(const Coordinates& q) const {
+  return platform_pose(sampler_.pose(span_of(q)));
+}
 
-PathLength::Place PathLength::place(const Pose<double>& pose) const {
+PathLength::PlatformPose PathLength::platform_pose(const Pose<double>& pose) const {
   if (cost_ == Cost::kGreatCircle) return {pose.p_WP, {}};
   return {pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma)};
 }
 
-double PathLength::between(const Place& a, const Place& b) const {
+double PathLength::between(const PlatformPose& a, const PlatformPose& b) const {
   if (cost_ == Cost::kGreatCircle) return arc((a.p_WP - b.p_WP).norm(), sphere_radius_);
   return rotation_angle(a.r_WP, b.r_WP);
 }
 
 double PathLength::distance(const Coordinates& a, const Coordinates& b) const {
   if (cost_ == Cost::kParameters) return (b - a).norm();
-  return between(place(a), place(b));
+  return between(platform_pose(a), platform_pose(b));
 }
 
 double PathLength::along(const Coordinates& a, const Coordinates& b) const {
@@ -84,10 +86,10 @@ double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   double coarse = 0;
   double fine = 0;
   const EdgeMotion motion(sampler_, a, b);
-  Place even = place(motion.pose(0));
+  PlatformPose even = platform_pose(motion.pose(0));
   for (int k = 1; k < pieces; k += 2) {
-    const Place middle = place(motion.pose(static_cast<double>(k) / pieces));
-    const Place end = place(motion.pose(static_cast<double>(k + 1) / pieces));
+    const PlatformPose middle = platform_pose(motion.pose(static_cast<double>(k) / pieces));
+    const PlatformPose end = platform_pose(motion.pose(static_cast<double>(k + 1) / pieces));
     coarse += between(even, end);
     fine += between(even, middle) + between(middle, end);
     even = end;

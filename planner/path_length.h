@@ -28,13 +28,13 @@ class PathLength {
   [[nodiscard]] double distance(const Coordinates& a, const Coordinates& b) const;
 
  private:
-  struct Place {
+  struct PlatformPose {
     Vector3<double> p_WP;
     Matrix3<double> r_WP;
   };
-  [[nodiscard]] Place place(const Pose<double>& pose) const;
-  [[nodiscard]] Place place(const Coordinates& q) const;
-  [[nodiscard]] double between(const Place& a, const Place& b) const;
+  [[nodiscard]] PlatformPose platform_pose(const Pose<double>& pose) const;
+  [[nodiscard]] PlatformPose platform_pose(const Coordinates& q) const;
+  [[nodiscard]] double between(const PlatformPose& a, const PlatformPose& b) const;
   [[nodiscard]] Coordinates point_near(const Coordinates& centre, const Coordinates& away) const;
   void fit_sphere(const std::vector<Coordinates>& near);
 

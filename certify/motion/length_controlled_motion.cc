@@ -140,8 +140,8 @@ class LengthSystem {
     return result;
   }
 
-  [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, Place place) const {
-    const bool over_box = place == Place::kOverBox;
+  [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, EvaluationDomain domain) const {
+    const bool over_box = domain == EvaluationDomain::kOverBox;
     const Vector3<I> p = position(z, over_box ? &SlopeForm<I>::range : &SlopeForm<I>::at_mid);
     const Matrix3<I> local = local_turn(z);
     const Matrix3<I> r = times(local, over_box ? reference_.r_range : reference_.r_mid);

@@ -79,8 +79,8 @@ class ConstraintSystem {
     return result;
   }
 
-  [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, Place place) const {
-    const auto where = place == Place::kAtMid ? &SlopeForm<I>::at_mid : &SlopeForm<I>::range;
+  [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, EvaluationDomain domain) const {
+    const auto where = domain == EvaluationDomain::kAtMid ? &SlopeForm<I>::at_mid : &SlopeForm<I>::range;
     const auto lambda = at(y, where);
     std::array<J, kMaxConstrainedParameters> jets;
     for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));

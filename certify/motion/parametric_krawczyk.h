@@ -22,7 +22,7 @@
 namespace taut {
 
 /// Where equations are enclosed.
-enum class Place { kAtMid, kOverBox };
+enum class EvaluationDomain { kAtMid, kOverBox };
 
 template <std::size_t K, class I>
 struct EquationDerivatives {
@@ -33,7 +33,7 @@ struct EquationDerivatives {
 };
 
 /// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m), and
-/// EquationDerivatives<K, I> derivatives(const std::array<I, K>& y, Place)  for y in a box, at m or over T.
+/// EquationDerivatives<K, I> derivatives(const std::array<I, K>& y, EvaluationDomain)  for y in a box, at m or over T.
 template <std::size_t K, class I, class System>
 class ParametricKrawczyk {
  public:
@@ -110,7 +110,7 @@ class ParametricKrawczyk {
   /// Chooses A and ŷ: any choice is sound, a good one is near g_y^-1 and y(m).
   [[nodiscard]] bool start_newton() {
     centre_.fill(I(0.0));
-    const Square<I, K> g_y = system_.derivatives(centre_, Place::kAtMid).by_y;
+    const Square<I, K> g_y = system_.derivatives(centre_, EvaluationDomain::kAtMid).by_y;
     Eigen::Matrix<double, static_cast<int>(K), static_cast<int>(K)> mid;
     for (std::size_t i = 0; i < K; ++i) {
       for (std::size_t k = 0; k < K; ++k) {
@@ -165,7 +165,7 @@ class ParametricKrawczyk {
 
   /// (c) for a box Z that contains ŷ.
   [[nodiscard]] Step krawczyk(const Vector& box) const {
-    const EquationDerivatives<K, I> over = system_.derivatives(box, Place::kOverBox);
+    const EquationDerivatives<K, I> over = system_.derivatives(box, EvaluationDomain::kOverBox);
     Step step;
     step.rest = one_minus(times_a(over.by_y));
     step.drift = times_a(over.by_t);
@@ -190,7 +190,7 @@ class ParametricKrawczyk {
       box[i] = centre_[i] + I(-delta, delta);
       if (!(lower_bound(box[i]) > -radius_ && upper_bound(box[i]) < radius_)) return;
     }
-    const Square<I, K> rest = one_minus(times_a(system_.derivatives(box, Place::kAtMid).by_y));
+    const Square<I, K> rest = one_minus(times_a(system_.derivatives(box, EvaluationDomain::kAtMid).by_y));
     Vector image;
     for (std::size_t i = 0; i < K; ++i) {
       I step = I(0.0) - residual_[i];

@@ -34,7 +34,7 @@ struct ProposedDeviation {
 /// keeps a billionth off the tolerances. Nothing where it leads to a pose at which the margin stays positive.
 [[nodiscard]] std::optional<ProposedDeviation> worst_deviation(const TolerancesText& tolerances,
                                                                const Model<double>& model, const RigidPose& commanded,
-                                                               MarginId margin, bool held_by_lengths, double part);
+                                                               MarginId margin, bool length_controlled, double part);
 
 /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the pose (p, R)
 /// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (length_controlled_motion.h): a fault where that

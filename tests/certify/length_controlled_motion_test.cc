@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "certify/path_proof.h"
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/quaternion.h"
 #include "kinematics/statics.h"

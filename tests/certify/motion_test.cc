@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/constraint_functions.h"
 #include "tests/support/enclosing.h"
 #include "tests/support/linear_system.h"

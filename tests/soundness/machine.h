@@ -263,7 +263,7 @@ struct Tolerances {
   Six<S> a, b, length;
   S load_point, position, turn;
   Six<S> wrench;
-  bool held_by_lengths = false;
+  bool length_controlled = false;
 };
 
 template <class S>
@@ -279,7 +279,7 @@ Tolerances<S> make_tolerances(const Problem& problem) {
   t.load_point = number<S>(text.load_point_m);
   t.position = number<S>(text.position_m);
   t.turn = number<S>(text.orientation_rad);
-  t.held_by_lengths = text.cable_length_m.has_value();
+  t.length_controlled = text.cable_length_m.has_value();
   return t;
 }
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/constraint_functions.h"
 #include "tests/soundness/machine.h"
 
