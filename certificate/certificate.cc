@@ -277,7 +277,7 @@ PoseTube tube_from_json(const JsonCursor& tube) { return {binary64(tube.at("posi
 
 /// Of "k/m" with m a power of two, at most 2^52.
 double number_from_dyadic(const JsonCursor& field) {
-  constexpr std::uint64_t kMostContinuationSteps = std::uint64_t{1} << 52U;
+  constexpr std::uint64_t kMostParts = std::uint64_t{1} << 52U;
   const std::string& text = field.text();
   std::uint64_t k = 0;
   std::uint64_t m = 0;
@@ -285,7 +285,7 @@ double number_from_dyadic(const JsonCursor& field) {
   const auto [slash, no_k] = std::from_chars(text.data(), end, k);
   if (no_k == std::errc() && slash != end && *slash == '/') {
     const auto [last, no_m] = std::from_chars(slash + 1, end, m);
-    if (no_m == std::errc() && last == end && k < m && m <= kMostContinuationSteps && std::has_single_bit(m)) {
+    if (no_m == std::errc() && last == end && k < m && m <= kMostParts && std::has_single_bit(m)) {
       return static_cast<double>(k) / static_cast<double>(m);
     }
   }
