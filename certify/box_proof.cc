@@ -13,7 +13,7 @@
 
 namespace taut {
 
-// ---- Models ----------------------------------------------------------------------------------------------------------
+// ---- Models ---------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -71,7 +71,7 @@ void add_multiple(std::array<I, 6>& row, const Point& factor, const std::array<I
 
 }  // namespace
 
-// ---- The box ---------------------------------------------------------------------------------------------------------
+// ---- The box --------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -204,8 +204,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     for (std::size_t j = 0; j < 6; ++j) w[i][j] += second[i][j];
   }
 
-  // Columns x of C B: κ = C w0 first, then C L. P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is enclosed by A1
-  // times numbers x̂ near x, and |A1| times bounds of x − x̂.
+  // Columns x of C B: κ = C w0 first, then C L. P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is
+  // enclosed by A1 times numbers x̂ near x, and |A1| times bounds of x − x̂.
   constexpr std::size_t kColumns = 7;
   std::array<std::array<I, kColumns>, 6> x;
   std::array<std::array<I, kColumns>, 6> drift;  // A1 x̂
@@ -279,7 +279,7 @@ template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInter
 template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&, int);
 template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&, int);
 
-// ---- The verdict -----------------------------------------------------------------------------------------------------
+// ---- The verdict ----------------------------------------------------------------------------------------------------
 
 namespace {
 

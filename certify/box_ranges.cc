@@ -59,8 +59,8 @@ std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& se
   return ranges_of(problem.model, enclosure, box);
 }
 
-/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take
-/// for ever.
+/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims
+/// would take for ever.
 constexpr int kMostFailures = 2;
 
 /// Appends pieces that cover the box; nothing, and false, where that can't be had.

@@ -47,8 +47,8 @@ DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
   return weakest;
 }
 
-/// Of those margins, the ones that the worst deviation within this share of the tolerances breaks, or for which it can't
-/// be followed.
+/// Those of `margins` that the worst deviation within this share of the tolerances breaks, or for which it
+/// can't be followed.
 std::vector<DeviationSearch::Proposal> DeviationSearch::breaking(const RigidPose& pose,
                                                                  const std::vector<MarginId>& margins,
                                                                  double share) const {
@@ -109,9 +109,9 @@ std::optional<SegmentWitness> DeviationSearch::refute(const DyadicBox& box, Marg
   return witness;
 }
 
-/// For a worst deviation that can't be followed, as on the way to a singular pose. Some limit breaks before that pose is
-/// reached: the share of the tolerances is halved until no limit breaks, then bisected, and taken a little larger, so
-/// that the violation can be proved.
+/// For a worst deviation that can't be followed, as on the way to a singular pose. Some limit breaks before that pose
+/// is reached: the share of the tolerances is halved until no limit breaks, then bisected, and taken a little larger,
+/// so that the violation can be proved.
 std::optional<SegmentWitness> DeviationSearch::refute_by_smaller(const DyadicBox& box, const RigidPose& pose) const {
   constexpr double kLeast = 0x1p-20;
   constexpr int kBisections = 8;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Looks for a deviation within the tolerances that refutes a segment.
 //
-// Floating point proposes deviations (tolerance/deviation.h); one refutes only where the margin that it breaks is enclosed
-// and proved not to be positive.
+// Floating point proposes deviations (tolerance/deviation.h); one refutes only where the margin that it breaks is
+// enclosed and proved not to be positive.
 #pragma once
 
 #include <optional>

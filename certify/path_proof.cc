@@ -92,8 +92,8 @@ double stated(LeastOf bound, const Proof& proof) {
   return proof.wrench_scale - 1;
 }
 
-/// Raises the least margins of a proved path, by halving the boxes that state them: large boxes prove a path at little cost, but
-/// state less than there is. Stops where half of what a box's midpoint has is stated.
+/// Raises the least margins of a proved path, by halving the boxes that state them: large boxes prove a path at little
+/// cost, but state less than there is. Stops where half of what a box's midpoint has is stated.
 class Sharpener {
  public:
   Sharpener(const Prover& prover, const std::function<Segment(std::size_t)>& segment,

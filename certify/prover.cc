@@ -55,7 +55,8 @@ namespace {
 
 bool contains(const PoseTube& a, const PoseTube& b) { return b.position <= a.position && b.turn <= a.turn; }
 
-/// In order, and of two successive tubes one contains the other: else the pieces' motions may be of different assemblies.
+/// In order, and of two successive tubes one contains the other: else the pieces' motions may be of different
+/// assemblies.
 bool has_joined_pieces(const Segment& segment) {
   double last = 0;
   PoseTube tube = segment.pose_tube;

@@ -12,8 +12,8 @@ namespace {
 /// Factor by which the number of continuation steps grows when a step is too coarse (up to kMostContinuationSteps).
 constexpr int kMoreSteps = 4;
 
-/// A survey locates the ends of a violation to boxes of this depth; a thinner violation shows in the midpoint of a deeper
-/// box.
+/// A survey locates the ends of a violation to boxes of this depth; a thinner violation shows in the midpoint of a
+/// deeper box.
 constexpr int kResolutionDepth = 12;
 
 /// More bits than those of this rung show nothing about a Jacobian that is nearly singular.
@@ -127,7 +127,7 @@ std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
   return deviations_.refute(deviations_.weakest_box(last_verdict_.worst), last_verdict_.worst);
 }
 
-// ---- What to do with a box -------------------------------------------------------------------------------------------
+// ---- What to do with a box ------------------------------------------------------------------------------------------
 
 bool SegmentWalk::may_climb(const Task& task) const { return task.rung < ladder_.last() && !task.is_hopeless; }
 
@@ -241,8 +241,8 @@ bool SegmentWalk::is_proved_inside(const Task& task) {
 }
 
 /// For a margin that is next to 0: looks for the point of the box where it is least, which shows sooner than bisection
-/// what bisection would find. Only the ladder's verdicts make claims; should the search go wrong, the box climbs one rung
-/// as it would anyway.
+/// what bisection would find. Only the ladder's verdicts make claims; should the search go wrong, the box climbs one
+/// rung as it would anyway.
 SegmentWalk::Step SegmentWalk::locate_minimum(const Task& task, MarginId margin) {
   constexpr int kMostSteps = 24;  // on one rung; secants gain digits like 1, 1, 2, 3, 5
   const Step climb{Step::Kind::kClimb};
@@ -279,7 +279,7 @@ SegmentWalk::Step SegmentWalk::locate_minimum(const Task& task, MarginId margin)
           at(Undecided::kPrecision, margin, ": it is zero, or too close to it for " + bits + " bits to tell")};
 }
 
-// ---- Doing it --------------------------------------------------------------------------------------------------------
+// ---- Doing it -------------------------------------------------------------------------------------------------------
 
 void SegmentWalk::report(const Task& task, SurveyedBox::Kind kind, Step step) {
   survey_.boxes.push_back({task.box, kind, std::move(step.witness), std::move(step.reason)});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one loop that proves segments: it judges boxes from left to right, and splits them until each is decided.
 //
-// Each box is first judged in binary64 intervals; where the midpoint itself can't be told apart from its limit, it climbs
-// the ladder of precisions (precision_ladder.h). Before it climbs, a box looks for the point where the margin is least, by
-// secants: that point may refute, or show that no rung can tell. There are three verdicts, and "undecided" is not "unsafe".
+// Each box is first judged in binary64 intervals; where the midpoint itself can't be told apart from its limit, it
+// climbs the ladder of precisions (precision_ladder.h). Before it climbs, a box looks for the point where the margin is
+// least, by secants: that point may refute, or show that no rung can tell. There are three verdicts, and "undecided" is
+// not "unsafe".
 #pragma once
 
 #include <stop_token>

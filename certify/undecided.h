@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why something stayed undecided: each reason with the words that certificates and messages tell it in, and a short code that stays.
+// Why something stayed undecided: each reason with the words that certificates and messages tell it in, and a short
+// code that stays.
 #pragma once
 
 #include <array>
@@ -32,21 +33,22 @@ enum class Undecided {
 };
 inline constexpr std::size_t kUndecidedReasons = 17;
 
-/// The words for it, which may be followed by a place: "bisection depth reached at". Of a single pose, where others fit better: `at_pose`.
+/// The words for it, which may be followed by a place: "bisection depth reached at". For a single pose
+/// `at_pose`, where other words fit better.
 struct UndecidedWords {
   const char* words;
   const char* at_pose;
 };
 [[nodiscard]] UndecidedWords words(Undecided reason);
 
-/// Why something stayed undecided, as certificates and messages say it: the words for one of the reasons, with what stands before and
-/// behind them. It can't be made of anything else, so that every reason that is told has a code.
+/// Why something stayed undecided, as certificates and messages say it: the words for one of the reasons, with what
+/// stands before and behind them. It can't be made of anything else, so that every reason that is told has a code.
 class Reason {
  public:
   Reason() = default;  ///< None: empty.
   Reason(Undecided reason,
          std::string_view behind = {});  // NOLINT(google-explicit-constructor): is one, without a place
-  /// Of a single pose. @pre There are such words.
+  /// The reason in the words for a single pose. @pre There are such words.
   [[nodiscard]] static Reason at_pose(Undecided reason);
   [[nodiscard]] Reason preceded_by(std::string_view before) const;
 
@@ -58,7 +60,7 @@ class Reason {
   std::string text_;
 };
 
-/// "U3"
+/// The code of a reason, as "U3".
 [[nodiscard]] std::string code(Undecided reason);
 
 /// The reason that a text tells, in a message or in a certificate; nothing where it is none of ours.

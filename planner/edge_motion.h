@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The motion of an edge, in binary64: straight in the parameters or, in a space with constraints, what segment.h makes of that.
+// The motion of an edge, in binary64: straight in the parameters or, in a space with constraints, what segment.h makes
+// of that.
 #pragma once
 
 #include "atlas/manifold.h"
@@ -14,8 +15,8 @@ class EdgeMotion {
 
   /// At s from 0 to 1. With constraints: the pose on them; not-a-number where none is found.
   [[nodiscard]] Pose<double> pose(double s) const;
-  /// Whether a proof is likely to find one motion in a tube around the edge's line: not where the constraints bend so much
-  /// along the edge that Newton's matrix varies across the tube. True without constraints.
+  /// Whether a proof is likely to find one motion in a tube around the edge's line: not where the constraints bend so
+  /// much along the edge that Newton's matrix varies across the tube. True without constraints.
   [[nodiscard]] bool looks_single() const;
 
  private:

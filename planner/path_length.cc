@@ -77,8 +77,8 @@ double PathLength::distance(const Coordinates& a, const Coordinates& b) const {
 
 double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   if (cost_ == Cost::kParameters) return (b - a).norm();
-  // Sums over pieces fall short by the square of their length: Richardson's extrapolation of the sums over double pieces
-  // and over single ones. A double piece is at most this long in the parameters.
+  // Sums over pieces fall short by the square of their length: Richardson's extrapolation of the sums over double
+  // pieces and over single ones. A double piece is at most this long in the parameters.
   constexpr double kDoublePiece = 0.4;
   constexpr int kMostPieces = 1000;
   const double wanted = std::ceil((b - a).norm() / kDoublePiece);  // not finite where an atlas file says so

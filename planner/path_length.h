@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How long a motion is, by the cost that a case names, in binary64.
 //
-// A motion straight in the parameters curves in space, as does one on constraints: its length is that of its own curve, not the distance between its
-// ends. Distances are the heuristic of a search: no motion between two poses is shorter.
+// A motion straight in the parameters curves in space, as does one on constraints: its length is that of its own curve,
+// not the distance between its ends. Distances are the heuristic of a search: no motion between two poses is shorter.
 #pragma once
 
 #include <vector>

@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// ---- Waypoints and the planner's coordinates --------------------------------------------------------------------------
+// ---- Waypoints and the planner's coordinates ------------------------------------------------------------------------
 
 Coordinates to_coordinates(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<int>(x.size()));
@@ -43,7 +43,8 @@ Waypoint to_waypoint(const Coordinates& q, const PoseSampler& sampler) {
   return waypoint;
 }
 
-/// The same pose in the image `image`, exactly. Normals stay: constraints repeat with a turn, and mention no angle of a flip.
+/// The same pose in the image `image`, exactly. Normals stay: constraints repeat with a turn, and mention no angle of a
+/// flip.
 Waypoint apply(const Image& image, const std::optional<std::array<int, 2>>& flip, Waypoint waypoint) {
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
     const bool negated = image.flipped && flip && static_cast<std::size_t>((*flip)[1]) == j;
@@ -256,7 +257,8 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
                                                      Reason& reason) {
   const auto distance = [&](const Coordinates& a, const Coordinates& b) { return length_.distance(a, b); };
   SearchProblem search_problem;
-  // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search soon.
+  // Charts are close enough that the distance will do; and where only part of a pose counts, equal costs end a search
+  // soon.
   search_problem.cost = [&](const Coordinates& a, const Coordinates& b) {
     return (b - a).squaredNorm() > kLongEdge * kLongEdge ? length_.along(a, b) : length_.distance(a, b);
   };

@@ -2,12 +2,13 @@
 // One plan, end to end: atlas, search, path, proof.
 //
 // The search proposes and the prover decides. A path is sought on edges that look clear of limits at sampled poses
-// (planner/sampled_motion_validator.h), and proved as a whole. Should a proof fail, the path is sought again, this time on edges that are
-// each proved first, so that the search goes around those that are not. What comes back as a path is proved either way;
-// its proof is gathered, never inferred from the search.
+// (planner/sampled_motion_validator.h), and proved as a whole. Should a proof fail, the path is sought again, this time
+// on edges that are each proved first, so that the search goes around those that are not. What comes back as a path is
+// proved either way; its proof is gathered, never inferred from the search.
 //
-// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is pulled
-// taut on proved edges, and the shortest such path is the result. What the budget cuts short is the search for a shorter one.
+// A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is
+// pulled taut on proved edges, and the shortest such path is the result. What the budget cuts short is the search for a
+// shorter one.
 #pragma once
 
 #include <chrono>
@@ -68,8 +69,8 @@ class Planner {
   /// @throws InputError if the case has no model, or the file is refused (atlas/atlas_file.h).
   explicit Planner(const Case& the_case, const std::filesystem::path& atlas_file = {});
 
-  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again. Where a stored atlas leads
-  /// to no path, it is set aside and a new one begun: a poor file costs time, never the answer.
+  /// Plans through the query's waypoints in order. Charts made by an earlier call are used again. Where a stored atlas
+  /// leads to no path, it is set aside and a new one begun: a poor file costs time, never the answer.
   /// @throws InputError if the atlas file turns out to be damaged.
   [[nodiscard]] Plan plan(const Progress& progress, const std::stop_token& stop);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether an edge looks safe: poses sampled along it, in binary64. Thousands of times cheaper than a proof of an edge that
-// is not safe, and no proof: what passes has still to be proved.
+// Whether an edge looks safe: poses sampled along it, in binary64. Thousands of times cheaper than a proof of an edge
+// that is not safe, and no proof: what passes has still to be proved.
 #pragma once
 
 #include "atlas/manifold.h"

@@ -54,7 +54,8 @@ class Shortener {
     return problem_.edge_ok(a, b);
   }
 
-  /// Straight from a vertex to the farthest one that can be reached and is not farther that way, trying ever nearer ones.
+  /// Straight from a vertex to the farthest one that can be reached and is not farther that way, trying ever nearer
+  /// ones.
   void leave_out() {
     std::size_t from = 0;
     while (from + 2 < path_.size() && may_go_on()) {

@@ -3,9 +3,9 @@
 //
 // Alternates three moves on the vertices between start and goal, as long as they pay: a vertex is left out; a vertex is
 // moved towards where its neighbours want it; a long edge is divided, so that a path may follow a geodesic that is not
-// straight in the coordinates. What counts as long is halved from half the path down to a sixteenth: the path finds its way
-// as a whole first. A move is made only if it lowers the cost and every new edge is ok. So the result is never longer than
-// what came in, up to the error of `cost`, and its edges are as good as `edge_ok` says.
+// straight in the coordinates. What counts as long is halved from half the path down to a sixteenth: the path finds its
+// way as a whole first. A move is made only if it lowers the cost and every new edge is ok. So the result is never
+// longer than what came in, up to the error of `cost`, and its edges are as good as `edge_ok` says.
 #pragma once
 
 #include <functional>

@@ -30,8 +30,8 @@ struct SmoothPath {
   int segments_judged = 0;
 };
 
-/// A proved spline not longer than `straight` that passes through the waypoints `stops` (ascending indices, the first and the
-/// last among them), where the motion comes to rest; nothing if none was found. The motion is C² in s.
+/// A proved spline not longer than `straight` that passes through the waypoints `stops` (ascending indices, the first
+/// and the last among them), where the motion comes to rest; nothing if none was found. The motion is C² in s.
 [[nodiscard]] std::optional<SmoothPath> smooth(const Path& straight, const std::vector<std::size_t>& stops,
                                                const SmoothProblem& problem);
 

@@ -131,8 +131,8 @@ class ConstraintSystem {
   std::array<std::array<SlopeForm<I>, K>, kMaxConstrainedParameters> normal_;
 };
 
-/// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of anything
-/// else.
+/// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of
+/// anything else.
 bool has_normals(const Segment& segment, std::size_t count) {
   return std::ranges::all_of(segment.controls(), [&](const Waypoint* waypoint) {
     return waypoint->normals.size() == waypoint->x.size() * count &&

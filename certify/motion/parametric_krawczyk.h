@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parametric Krawczyk operator: the only zero y(t) in Y = [−r, r]^K of K equations g(y, t) = 0, for all t of a box T.
+// The parametric Krawczyk operator: the only zero y(t) in Y = [−r, r]^K of K equations g(y, t) = 0, for all t of a box
+// T.
 //
-// For T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If ρ < 1 there is at
-// most one zero in Y for every t in T; and exactly one, y(t), where Y contains the box                                  (a)
-//   ŷ ± w,   w = max_i (|A g(ŷ, m)|_i + |A g_t(Y, T)|_i |T|/2) / (1 − ρ),                                                (b)
+// For T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If ρ < 1 there
+// is at most one zero in Y for every t in T; and exactly one, y(t), where Y contains the
+// box                         (a)
+//   ŷ ± w,   w = max_i (|A g(ŷ, m)|_i + |A g_t(Y, T)|_i |T|/2) / (1 − ρ),                                           (b)
 // which then holds y(t). With any box Z around ŷ that holds it, in Y, the operator narrows it to
-//   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                              (c)
-// y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t, enclosed with the bound of neumann.h; at m alone a box of
-// the size of the residual encloses y(m) tightly. Proof: docs/theory.md, "A motion that is only implied".
+//   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                         (c)
+// y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t, enclosed with the bound of neumann.h; at m alone
+// a box of the size of the residual encloses y(m) tightly. Proof: docs/theory.md, "A motion that is only implied".
 #pragma once
 
 #include <Eigen/LU>
@@ -27,7 +29,8 @@ enum class EvaluationDomain { kAtMid, kOverBox };
 template <std::size_t K, class I>
 struct EquationDerivatives {
   Square<I, K> by_y;  ///< g_y: one row an equation
-  /// Of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend). Only over the box.
+  /// Slopes of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend). Only
+  /// over the box.
   std::array<I, K> by_t;
   std::array<I, K> bend;
 };

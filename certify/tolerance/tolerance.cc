@@ -100,7 +100,8 @@ Table<Upper> upper_product(const Square<Upper>& a, const Table<Upper>& b) {
   return c;
 }
 
-/// What depends linearly on the row y = (f, m) and on a vector of a cable, such as f + m × arm_i: for the rows of C, on T.
+/// What depends linearly on the row y = (f, m) and on a vector of a cable, such as f + m × arm_i: for the rows of C, on
+/// T.
 template <class I>
 struct Products {
   Table<I> of_c;
@@ -217,7 +218,8 @@ std::array<Upper, 3> cross_above(const std::array<Upper, 3>& a, const std::array
   return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
 }
 
-/// How far, on X, what is linear in y and in a vector that moves by `moved` is from that of C: with Y = S P C, |S P − I| <= q,
+/// How far, on X, what is linear in y and in a vector that moves by `moved` is from that of C: with Y = S P C, |S P −
+/// I| <= q,
 ///   y(τ) ∘ a(τ) = Σ_k (S P)_rk c_k ∘ a(0) + y_r(τ) ∘ (a(τ) − a(0)).
 template <class I>
 Table<UpperOf<I>> product_errors(const Products<I>& products, const Square<UpperOf<I>>& q,
@@ -396,8 +398,8 @@ class States {
   Errors<I> errors_;    ///< for the last guess
 };
 
-/// Bounds of how far a deviation changes |d_i|, wherever the platform is. Where lengths are controlled, the commanded pose
-/// has the lengths L_i + e_i, whatever leads to it, and tracking changes them further.
+/// Bounds of how far a deviation changes |d_i|, wherever the platform is. Where lengths are controlled, the commanded
+/// pose has the lengths L_i + e_i, whatever leads to it, and tracking changes them further.
 template <class I>
 std::array<UpperOf<I>, kCables> length_changes(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance) {
   using Upper = UpperOf<I>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Implied motions and splines against 200-bit samples: y(t) by Newton's method, on constraints that are written a second time.
+// Implied motions and splines against 200-bit samples: y(t) by Newton's method, on constraints that are written a
+// second time.
 #include "certify/motion/motion.h"
 
 #include <gtest/gtest.h>

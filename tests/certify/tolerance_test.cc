@@ -320,8 +320,8 @@ TEST(Tolerance, LengthsChangeByTheLesserOfTwoBounds) {
   EXPECT_EQ(Prover(problem).prove(segment).verdict, Verdict::kProved);
 }
 
-/// With more continuation steps, deviations are enclosed more tightly, and tolerances may be larger; what is proved with
-/// them holds all the same.
+/// With more continuation steps, deviations are enclosed more tightly, and tolerances may be larger; what is proved
+/// with them holds all the same.
 TEST(Tolerance, MoreContinuationStepsProveLargerOnes) {
   const DyadicBox whole{0, 0};
   const auto scaled = [](double factor) {
@@ -467,7 +467,8 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
   }
 }
 
-/// By a part in 1e30, which no floating point sees. (At the tolerance itself it is not certainly within; none is proposed there.)
+/// By a part in 1e30, which no floating point sees. (At the tolerance itself it is not certainly within; none is
+/// proposed there.)
 TEST(Tolerance, NothingIsKnownOfADeviationBeyondThem) {
   const PrecisionScope precision(128);
   const Problem problem = robot1_slice();

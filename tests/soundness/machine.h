@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The machine of the campaign: poses along every law and statics with every deviation, by a route of its own.
 //
-// J about the origin O with columns (u_i ; a_i × u_i), wrenches carried there from the load point, slerp of quaternions, Newton's
-// method on lengths: none of kinematics/, no force densities, no intervals. In double it searches, in 200-bit BigFloat it judges.
+// J about the origin O with columns (u_i ; a_i × u_i), wrenches carried there from the load point, slerp of
+// quaternions, Newton's method on lengths: none of kinematics/, no force densities, no intervals. In double it
+// searches, in 200-bit BigFloat it judges.
 #pragma once
 
 #include <array>
