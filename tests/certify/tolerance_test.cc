@@ -294,7 +294,7 @@ TEST(Tolerance, LengthsChangeByTheLesserOfTwoBounds) {
     const Vector3<double> reach = pose.q * model.p_PB[i];
     const Vector3<double> d = pose.p + reach - model.p_WA[i];
     const double first_order = kTurn * reach.cross(d.normalized()).norm();
-    proved[i] = upper_bound(MpInterval(box.disturbance->length[i]));
+    proved[i] = ProofScalarTraits<MpInterval>::to_double(box.disturbance->length[i]);
     EXPECT_GE(proved[i], first_order) << i;
     EXPECT_LE(proved[i], 1.05 * first_order) << i;
     EXPECT_LE(proved[i], kTurn * reach.norm() * (1 + 1e-12)) << i;
