@@ -6,7 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -137,7 +136,7 @@ class BatchProver {
 
   [[nodiscard]] std::string csv_header() const { return csv_.header(); }
 
-  void prove(Batch& batch) const {
+  void prove(Batch& batch, const std::stop_token& stop) const {
     const std::size_t first_waypoint = batch.first_segment;
     for (std::size_t i = batch.old_waypoints; i < batch.waypoints.size(); ++i) {
       const SourceWaypoint& waypoint = batch.waypoints[i];
@@ -145,15 +144,15 @@ class BatchProver {
       if (!waypoint.is_copy) batch.csv += csv_.row(first_waypoint + i, waypoint.waypoint, time_text(waypoint));
     }
     for (std::size_t i = 0; i < batch.segments.size(); ++i) {
-      batch.segments[i] = prove(batch, i);
+      batch.segments[i] = prove(batch, i, stop);
     }
   }
 
  private:
-  [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i) const {
+  [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i, const std::stop_token& stop) const {
     SegmentResult result;
     result.segment = prover_.prepared(batch.segment(law_, i));
-    result.survey = prover_.survey(result.segment);
+    result.survey = prover_.survey(result.segment, stop);
     const std::size_t number = batch.first_segment + i;
     for (SurveyedBox& box : result.survey.boxes) {
       if (box.kind != SurveyedBox::Kind::kProved) continue;
@@ -416,7 +415,7 @@ Audit audit(const Prover& prover, PathSource& source, CertificateStream& certifi
     return batch;
   };
   const auto prove = [&](BatchPointer batch) {
-    batch_prover.prove(*batch);
+    batch_prover.prove(*batch, stop);
     return batch;
   };
   const auto write = [&](const BatchPointer& batch) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/path_audit.h"
 
-#include <atomic>
 #include <utility>
 
 #include "app/tolerance_table.h"
@@ -44,10 +43,7 @@ PathAudit audit_path(PathSource& source, const PathAuditOptions& options, const 
                      const WriteText& csv, const AuditProgress& progress, const std::stop_token& stop) {
   ProofOptions proof_options;
   proof_options.max_bits = options.max_bits;
-  Prover prover(source.problem(), proof_options);
-  std::atomic<bool> interrupted = false;
-  prover.interrupt = &interrupted;
-  const std::stop_callback interrupt(stop, [&] { interrupted = true; });
+  const Prover prover(source.problem(), proof_options);
   CertificateStream stream(options.folder, source.problem(), source.law());
   PathAudit result;
   result.audit = audit(prover, source, stream, csv, progress, stop);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -141,23 +140,20 @@ nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits,
   require_on_constraints(path, audited);
   ProofOptions options;
   options.max_bits = max_bits;
-  Prover prover(audited, options);
-  std::atomic<bool> interrupted = false;
-  prover.interrupt = &interrupted;
-  const std::stop_callback on_stop(stop, [&] { interrupted = true; });
+  const Prover prover(audited, options);
   const std::size_t segments = path.segments();
   path.tubes.assign(audited.space.constraints.empty() ? 0 : segments, 0);
   path.pose_tubes.assign(law == Interpolation::kCableLengths ? segments : 0, {});
   path.inner_poses.assign(path.pose_tubes.size(), {});
   tbb::parallel_for(std::size_t{0}, segments, [&](std::size_t k) {
-    if (interrupted) return;
+    if (stop.stop_requested()) return;
     Segment prepared = prover.prepared(path.segment(k));
     if (!path.tubes.empty()) path.tubes[k] = prepared.tube;
     if (path.pose_tubes.empty()) return;
     path.pose_tubes[k] = prepared.pose_tube;
     path.inner_poses[k] = std::move(prepared.inner_poses);
   });
-  return make_certificate(audited, path, prove_path(prover, path), nullptr);
+  return make_certificate(audited, path, prove_path(prover, path, {}, stop), nullptr);
 }
 
 }  // namespace taut

@@ -205,8 +205,8 @@ class WrenchFeasibleManifold final : public Manifold {
     };
     for (std::size_t i = 0; i < kCables && clear; ++i) {
       const double half = 0.5 * (model_.length_upper[i] - model_.length_lower[i]);
-      const J room = (lengths[i] - model_.length_lower[i]) * (-lengths[i] + model_.length_upper[i]);
-      put_margin(room * (1.0 / (half * half)));
+      const J slack = (lengths[i] - model_.length_lower[i]) * (-lengths[i] + model_.length_upper[i]);
+      put_margin(slack * (1.0 / (half * half)));
     }
     for (std::size_t i = 0; i < kCables && clear; ++i) {
       const double half = 0.5 * (model_.tension_upper[i] - model_.tension_lower[i]);

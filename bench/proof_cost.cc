@@ -17,7 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
 #include "kinematics/statics.h"

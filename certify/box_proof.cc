@@ -13,7 +13,7 @@
 
 namespace taut {
 
-// ---- Models ----------------------------------------------------------------------------------------------------------
+// ---- Models ---------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -71,13 +71,13 @@ void add_multiple(std::array<I, 6>& row, const Point& factor, const std::array<I
 
 }  // namespace
 
-// ---- The box ---------------------------------------------------------------------------------------------------------
+// ---- The box --------------------------------------------------------------------------------------------------------
 
 namespace {
 
 template <class I>
-bool is_held_by_lengths(const ProofModel<I>& problem, const Segment& segment) {
-  return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->held_by_lengths);
+bool is_length_controlled(const ProofModel<I>& problem, const Segment& segment) {
+  return segment.law == Interpolation::kCableLengths || (problem.tolerance && problem.tolerance->length_controlled);
 }
 
 // One kind of margin each, from what is known over a box. A new kind of margin is a new one of these.
@@ -129,7 +129,8 @@ MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segmen
 }
 
 template <class I>
-BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, int parts) {
+BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
+                            int continuation_steps) {
   using Point = typename ProofScalarTraits<I>::Point;
   using Upper = UpperOf<I>;
   const Model<I>& model = problem.model;
@@ -203,8 +204,8 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     for (std::size_t j = 0; j < 6; ++j) w[i][j] += second[i][j];
   }
 
-  // Columns x of C B: κ = C w0 first, then C L. P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is enclosed by A1
-  // times numbers x̂ near x, and |A1| times bounds of x − x̂.
+  // Columns x of C B: κ = C w0 first, then C L. P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is
+  // enclosed by A1 times numbers x̂ near x, and |A1| times bounds of x − x̂.
   constexpr std::size_t kColumns = 7;
   std::array<std::array<I, kColumns>, 6> x;
   std::array<std::array<I, kColumns>, 6> drift;  // A1 x̂
@@ -260,10 +261,10 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   add_tension_margins(model, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
 
-  const bool held = is_held_by_lengths(problem, segment);
+  const bool held = is_length_controlled(problem, segment);
   result.disturbance =
       disturbance<I>({model, motion, geometry, result.length, result.density, result.tension_radius, root, c, q, held},
-                     *problem.tolerance, parts);
+                     *problem.tolerance, continuation_steps);
   if (!result.disturbance) return result;
   for (auto& margin : result.margins) {
     margin.disturbed = margin.disturbed + ProofScalarTraits<I>::symmetric(change_of(margin.id, *result.disturbance));
@@ -278,7 +279,7 @@ template MotionEnclosure<MpInterval> undisturbed_motion(const ProofModel<MpInter
 template BoxEnclosure<Interval> enclose_box(const ProofModel<Interval>&, const Segment&, const DyadicBox&, int);
 template BoxEnclosure<MpInterval> enclose_box(const ProofModel<MpInterval>&, const Segment&, const DyadicBox&, int);
 
-// ---- The verdict -----------------------------------------------------------------------------------------------------
+// ---- The verdict ----------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -309,10 +310,10 @@ MarginId weakest(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure)
 
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
-                 int parts) {
+                 int continuation_steps) {
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
-  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, parts);
+  const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, continuation_steps);
   BoxVerdict verdict;
   switch (enclosure.motion) {
     case Status::kSpansKnot: verdict.kind = Kind::kSpansKnot; return verdict;
@@ -386,17 +387,17 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
 }  // namespace
 
 BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance, int parts) {
+                     double clearance, int continuation_steps) {
   BoxVerdict verdict;
-  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, parts); }))
+  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, continuation_steps); }))
     verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
 
 BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance, int parts) {
+                     double clearance, int continuation_steps) {
   Faults<MpInterval>::clear();
-  BoxVerdict verdict = judge(problem, segment, box, clearance, parts);
+  BoxVerdict verdict = judge(problem, segment, box, clearance, continuation_steps);
   if (Faults<MpInterval>::raised()) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The heart: enclosures of lengths, tensions and margins over one box of one segment.
 //
-// Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any approximation of
-// D(m)^-1. With A0 = C D(m) and A1 ⊇ C S, S the slopes of D from m (slope_form.h), entry by entry
-//   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                       (a)
+// Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any
+// approximation of D(m)^-1. With A0 = C D(m) and A1 ⊇ C S, S the slopes of D from m (slope_form.h), entry by entry
+//   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                      (a)
 // If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
-//   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                                (b)
+//   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                               (b)
 // As D^-1 = P C, the force densities λ = P C w and the rows of Z = P C L have the slopes from m
-//   −P(t) (C S) P(m) C w,   −P(t) (C S) P(m) C L,   P(t) (C S) P(m) in A1 ± W,   W = |A1| Q0 + Q (|A1| + |A1| Q0),   (c)
-// where Q0 is (b) of N0 = |I − A0|: a bound of |P(m) − I|. Values at m from Q0, so centred forms of λ and Z, and of the tensions
-//   f0_i = d_i λ_i,  v_ii = d_i |Z_i|, and of the margins  f0_i − v_ii − f_lo, f_hi − f0_i − v_ii, d_i − d_lo, d_hi − d_i.
+//   −P(t) (C S) P(m) C w,   −P(t) (C S) P(m) C L,   P(t) (C S) P(m) in A1 ± W,   W = |A1| Q0 + Q (|A1| + |A1| Q0),  (c)
+// where Q0 is (b) of N0 = |I − A0|: a bound of |P(m) − I|. Values at m from Q0, so centred forms of λ and Z, and of the
+// tensions
+//   f0_i = d_i λ_i,  v_ii = d_i |Z_i|,
+// and of the margins  f0_i − v_ii − f_lo, f_hi − f0_i − v_ii, d_i − d_lo, d_hi − d_i.
 // Proof of each step: docs/theory.md, "A box".
 #pragma once
 
@@ -84,16 +86,16 @@ struct BoxEnclosure {
   std::array<SlopeForm<I>, kCables> low, high;       ///< f0_i − v_ii, f0_i + v_ii [N]
   I offset;                                          ///< contains t − m for all t in T
   MarginList<I> margins;                             ///< those of lengths, and where regular those of tensions
-  /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of T, and for
-  /// every deviation the commanded pose is proved to exist, and J to be non-singular.
+  /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of
+  /// T, and for every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<DeviationBounds<I>> disturbance;
 };
 
 /// Void if a fault was raised. For Interval: only under run_upward(); for MpInterval, see Faults<MpInterval>.
-/// @param parts  of deviations (tolerance.h)
+/// @param continuation_steps  of deviations (tolerance.h)
 template <class I>
 [[nodiscard]] BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
-                                          int parts = 1);
+                                          int continuation_steps = 1);
 
 /// What the prover concludes from one box with one scalar.
 struct BoxVerdict {
@@ -119,18 +121,19 @@ struct BoxVerdict {
   double wrench_scale = 0;
 };
 
-/// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins have to
-/// exceed c times half the range between the limits (in floating point; what is proved remains that they are positive).
+/// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins
+/// have to exceed c times half the range between the limits (in floating point; what is proved remains that they are
+/// positive).
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0, int parts = 1);
+                                   double clearance = 0, int continuation_steps = 1);
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0, int parts = 1);
+                                   double clearance = 0, int continuation_steps = 1);
 
 /// Whether on all of the box exactly one motion is proved to exist, with its parameters in their ranges.
 [[nodiscard]] bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box);
 
-/// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell, or where the motion
-/// is not known.
+/// Sign of det D at the point s of the segment, proved: −1, +1, or 0 where this precision does not tell, or where the
+/// motion is not known.
 [[nodiscard]] int determinant_sign(const ProofModel<MpInterval>& problem, const Segment& segment, const Dyadic& s);
 
 extern template MotionEnclosure<Interval> undisturbed_motion(const ProofModel<Interval>&, const Segment&,

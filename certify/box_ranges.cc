@@ -47,20 +47,20 @@ BoxRanges ranges_of(const Model<I>& model, const BoxEnclosure<I>& enclosure, con
   return ranges;
 }
 
-/// With as many parts of deviations as it takes to show what was proved.
+/// With as many continuation steps as it takes to show what was proved.
 template <class I>
 std::optional<BoxRanges> enclose(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box) {
   BoxEnclosure<I> enclosure = enclose_box(problem, segment, box);
   if (problem.tolerance && !(is_known(problem, enclosure) && enclosure.margins.are_positive())) {
-    BoxEnclosure<I> tighter = enclose_box(problem, segment, box, kMostParts);
+    BoxEnclosure<I> tighter = enclose_box(problem, segment, box, kMostContinuationSteps);
     if (is_known(problem, tighter)) enclosure = std::move(tighter);
   }
   if (!is_known(problem, enclosure)) return std::nullopt;
   return ranges_of(problem.model, enclosure, box);
 }
 
-/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims would take
-/// for ever.
+/// Where not even a box's half or quarter can be enclosed, smaller ones are not tried: what a false certificate claims
+/// would take for ever.
 constexpr int kMostFailures = 2;
 
 /// Appends pieces that cover the box; nothing, and false, where that can't be had.

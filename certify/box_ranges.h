@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What tensions and lengths do over boxes of a path, in numbers: for reports. Margins say whether limits are kept; these say
-// what is between them.
+// What tensions and lengths do over boxes of a path, in numbers: for reports. Margins say whether limits are kept;
+// these say what is between them.
 //
-// Claim.  Over a box, at every pose of it, for every load in K and every deviation within the tolerances, the tension of cable i
-// is in tension[i] and its length in length[i]. Enclosed as a proof encloses them (box_proof.h), rounded outward. No part of a
-// certificate: computed anew, from the path and the problem alone.
+// Claim.  Over a box, at every pose of it, for every load in K and every deviation within the tolerances, the tension
+// of cable i is in tension[i] and its length in length[i]. Enclosed as a proof encloses them (box_proof.h), rounded
+// outward. No part of a certificate: computed anew, from the path and the problem alone.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 
 namespace taut {
 
@@ -29,8 +29,8 @@ struct BoxRanges {
   DyadicBox box;
   std::array<Range, kCables> tension;  ///< from f0_i − v_i to f0_i + v_i [N]
   std::array<Range, kCables> length;   ///< d_i [m]
-  /// About how much wider these are than what they enclose, as a share of the width between limits; it falls with the square
-  /// of the box's width. Floating point: for deciding whether to halve the box.
+  /// About how much wider these are than what they enclose, as a share of the width between limits; it falls with the
+  /// square of the box's width. Floating point: for deciding whether to halve the box.
   double excess = 0;
 };
 
@@ -45,8 +45,8 @@ struct RangeOptions {
   /// Boxes are halved until their excess is below this, at most so often. Half a percent is about a pixel of a plot.
   double excess = 0.005;
   int most_halvings = 5;
-  /// Boxes that binary64 can't enclose are tried with more bits, the first so many along the path. A right certificate has few; of
-  /// a wrong one, all might be such, at tens of milliseconds each.
+  /// Boxes that binary64 can't enclose are tried with more bits, the first so many along the path. A right certificate
+  /// has few such boxes; in a wrong one, all might be such, at tens of milliseconds each.
   std::size_t most_hard = 1000;
 };
 
@@ -55,8 +55,9 @@ struct PathRanges {
   std::size_t missing = 0;  ///< boxes that were not enclosed: it failed, or there were too many that are hard
 };
 
-/// Of the boxes of each segment. On all cores; a piece takes what it takes to judge a box, and a box that is false has seven in
-/// binary64 and two in more bits. The result depends on no thread.
+/// Encloses the ranges over the boxes of each segment, on all cores. A piece costs what judging a box costs; a box
+/// whose claim is false has seven pieces in binary64 and two in more bits. The result does not depend on the number of
+/// threads.
 /// @param boxes  of the first segments of the path, or of all.
 [[nodiscard]] PathRanges path_ranges(const Prover& prover, const Path& path,
                                      const std::vector<std::vector<DyadicBox>>& boxes,

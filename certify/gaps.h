@@ -13,12 +13,13 @@ namespace taut {
 /// A maximal run of boxes that are not proved: outside of [begin, end], next to it, the segment is proved or ends.
 struct Gap {
   Dyadic begin, end;
-  /// Inner ends, which may be the same: the first and the last place in it where a violation is proved; none of an open gap.
+  /// Inner ends: the first and the last place in the gap where a violation is proved. They may be the same place; an
+  /// open gap has none.
   std::optional<SegmentWitness> first, last;
   Reason reason;  ///< only of an open gap: of its first box
 };
 
-/// In order along the segment.
+/// The gaps of a survey, in order along the segment.
 [[nodiscard]] std::vector<Gap> gaps(const SegmentSurvey& survey);
 
 }  // namespace taut

@@ -53,9 +53,10 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
 }
 
 /// Of waypoint `index`: refute_waypoint() on a segment that stays there.
-std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, Reason& undecided) {
+std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, Reason& undecided,
+                                       const std::stop_token& stop) {
   const DyadicBox whole;
-  const SegmentProof proof = prover.prove(still);
+  const SegmentProof proof = prover.prove(still, 0, stop);
   if (proof.verdict == Verdict::kProved) return std::nullopt;
   if (!prover.is_admissible(still)) {
     undecided = Reason::at_pose(Undecided::kWaypointRange);
@@ -91,8 +92,8 @@ double stated(LeastOf bound, const Proof& proof) {
   return proof.wrench_scale - 1;
 }
 
-/// Raises the least margins of a proved path, by halving the boxes that state them: large boxes prove a path at little cost, but
-/// state less than there is. Stops where half of what a box's midpoint has is stated.
+/// Raises the least margins of a proved path, by halving the boxes that state them: large boxes prove a path at little
+/// cost, but state less than there is. Stops where half of what a box's midpoint has is stated.
 class Sharpener {
  public:
   Sharpener(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
@@ -178,10 +179,10 @@ void tighten_margins(const Prover& prover, const std::function<Segment(std::size
   for (const LeastOf bound : {LeastOf::kTension, LeastOf::kScale, LeastOf::kLength}) sharpener.raise(bound);
 }
 
-PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known) {
+PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop) {
   PathProof result;
   if (path.segments() == 0) {
-    if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason);
+    if (path.waypoints.size() == 1) result.witness = refute_pose(prover, path.segment(0), 0, result.reason, stop);
     if (result.witness) result.verdict = Verdict::kRefuted;
     if (result.reason.empty()) result.reason = Undecided::kNoSegment;
     return result;
@@ -189,7 +190,7 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
   result.segments.resize(path.segments());
   tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
     const SegmentProof* earlier = known ? known(path.segment(k)) : nullptr;
-    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k));
+    result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k), 0, stop);
   });
   if (std::ranges::all_of(result.segments, [](const auto& x) { return x.verdict == Verdict::kProved; })) {
     tighten_margins(
@@ -234,9 +235,9 @@ PathWitness path_witness(const Prover& prover, const Segment& segment, int index
   return result;
 }
 
-std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
-                                           Reason& undecided) {
-  return refute_pose(prover, prover.segment(waypoint, waypoint), index, undecided);
+std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index, Reason& undecided,
+                                           const std::stop_token& stop) {
+  return refute_pose(prover, prover.segment(waypoint, waypoint), index, undecided, stop);
 }
 
 double nearest_binary64(const ExpressionText& expression) {

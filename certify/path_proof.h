@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Proves a path segment by segment, on all cores, and gathers the margins of the whole. Boxes that state the path's least margins
-// are then halved, up to 64 times, until half of what there is is stated.
+// Proves a path segment by segment, on all cores, and gathers the margins of the whole. Boxes that state the path's
+// least margins are then halved, up to 64 times, until half of what there is is stated.
 #pragma once
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 
 namespace taut {
 
@@ -52,23 +53,24 @@ struct PathProof {
 /// The proof of a segment if it was made before, else null: so that a planner's proofs are not made twice.
 using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
 
-/// Raises the least margins of a proved path, as said above.
+/// Raises the least margins of a proved path by halving the boxes that state them.
 /// @param segment   number k of the path, ready to be proved about
 /// @param segments  their proofs, all "proved"; boxes and margins are replaced
 void tighten_margins(const Prover& prover, const std::function<Segment(std::size_t k)>& segment,
                      std::vector<SegmentProof>& segments);
 
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
-[[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {});
+[[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {},
+                                   const std::stop_token& stop = {});
 
 /// What refutes segment `index` of a path, as a statement about the path.
 [[nodiscard]] PathWitness path_witness(const Prover& prover, const Segment& segment, int index,
                                        const SegmentWitness& witness);
 
-/// Proof attempt at one pose: nothing if the waypoint is wrench-feasible (proved), else the witness; `undecided` is set to a
-/// reason if neither could be proved.
+/// Tries to prove or refute one pose. Returns the witness if it is refuted, else nothing; `undecided` is set to a
+/// reason if it could not be proved either.
 [[nodiscard]] std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
-                                                         Reason& undecided);
+                                                         Reason& undecided, const std::stop_token& stop = {});
 
 /// The binary64 nearest to the exact value of a constant expression (ties to even).
 /// @throws InputError if it is not finite or can't be told at 4096 bits.

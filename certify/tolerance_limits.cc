@@ -124,13 +124,13 @@ long grow(const Growing& growing, const Path& path, const std::stop_token& stop)
   const auto proves = [&](long n, const Segment& segment) {
     if (stop.stop_requested()) return false;
     const Prover prover(growing.at(n), kTrial);
-    return prover.prove(prover.prepared(segment)).verdict == Verdict::kProved;
+    return prover.prove(prover.prepared(segment), 0, stop).verdict == Verdict::kProved;
   };
   long best = kMostGrowth;
   std::unique_ptr<Prover> at_best;
   for (std::size_t k = 0; k < path.segments() && best > growing.start(); ++k) {
     const Segment segment = path.segment(k);
-    if (at_best && at_best->prove(at_best->prepared(segment)).verdict == Verdict::kProved) continue;
+    if (at_best && at_best->prove(at_best->prepared(segment), 0, stop).verdict == Verdict::kProved) continue;
     long proved = growing.start();
     long next = std::max<long>(2 * proved, kStated);
     while (next < best && proves(next, segment)) {

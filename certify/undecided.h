@@ -60,7 +60,7 @@ class Reason {
   std::string text_;
 };
 
-/// "U3"
+/// The code of a reason, as "U3".
 [[nodiscard]] std::string code(Undecided reason);
 
 /// The reason that the text of a message or certificate states; nothing if it is none of these.

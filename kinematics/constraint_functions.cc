@@ -99,8 +99,8 @@ std::optional<ConstraintFunctions::Vector> ConstraintFunctions::nearest(const Ve
   return lambda + n * *y;
 }
 
-ConstraintFunctions::Place ConstraintFunctions::place(const Segment& segment, double s) const {
-  Place result{Vector(parameters_), Jacobian(parameters_, count_)};
+ConstraintFunctions::ReferencePoint ConstraintFunctions::reference_point(const Segment& segment, double s) const {
+  ReferencePoint result{Vector(parameters_), Jacobian(parameters_, count_)};
   for (int j = 0; j < parameters_; ++j) {
     const auto row = static_cast<std::size_t>(j);
     result.lambda[j] = coordinate_polynomial<double>(segment, row).at(s);
@@ -113,14 +113,14 @@ ConstraintFunctions::Place ConstraintFunctions::place(const Segment& segment, do
 }
 
 std::optional<double> ConstraintFunctions::deviation(const Segment& segment, double s) const {
-  const Place at = place(segment, s);
+  const ReferencePoint at = reference_point(segment, s);
   const std::optional<Vector> y = project(at.lambda, at.normals);
   if (!y) return std::nullopt;
   return y->lpNorm<Eigen::Infinity>();
 }
 
 std::vector<double> ConstraintFunctions::parameters(const Segment& segment, double s) const {
-  Place at = place(segment, s);
+  ReferencePoint at = reference_point(segment, s);
   if (const std::optional<Vector> y = project(at.lambda, at.normals)) at.lambda += at.normals * *y;
   return {at.lambda.data(), at.lambda.data() + at.lambda.size()};
 }

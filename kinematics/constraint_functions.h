@@ -38,7 +38,8 @@ class ConstraintFunctions {
 
   /// y with C(λ + N y) = 0, by Newton's method from y = 0; none where it does not converge.
   [[nodiscard]] std::optional<Vector> project(const Vector& lambda, const Jacobian& normals) const;
-  /// The point on the constraints that λ's own normals lead to; none where the rank is not full or Newton's method fails.
+  /// The point on the constraints that λ's own normals lead to; none where the rank is not full or Newton's method
+  /// fails.
   [[nodiscard]] std::optional<Vector> nearest(const Vector& lambda) const;
 
   /// max |y_i| of the motion (segment.h) at s; none where there is none.
@@ -47,22 +48,23 @@ class ConstraintFunctions {
   [[nodiscard]] std::vector<double> parameters(const Segment& segment, double s) const;
 
  private:
-  struct Place {
-    Vector lambda;
-    Jacobian normals;
+  struct ReferencePoint {
+    Vector lambda;     ///< ℓ(s)
+    Jacobian normals;  ///< N(s)
   };
-  [[nodiscard]] Place place(const Segment& segment, double s) const;
+  [[nodiscard]] ReferencePoint reference_point(const Segment& segment, double s) const;
 
   int count_;
   int parameters_;
   Evaluator<Jet<double, kMaxConstrainedParameters>> jets_;
 };
 
-/// How far a waypoint may be off the constraints: a path goes through what it projects to. Angles [rad] and lengths over the
-/// mean |b_i| count alike, so this is 1.3 mm for a platform of 130 mm.
+/// How far a waypoint may be off the constraints: a path goes through what it projects to. Angles [rad] and lengths
+/// over the mean |b_i| count alike, so this is 1.3 mm for a platform of 130 mm.
 inline constexpr double kWaypointTolerance = 0.01;
 
-/// Checks that the query's waypoints lie on the constraints, if there are any, and that the constraints have full rank there.
+/// Checks that the query's waypoints lie on the constraints, if there are any, and that the constraints have full rank
+/// there.
 /// @throws FieldError saying how far off, in `length_unit`, or which rank
 void require_query_on_constraints(const Problem& problem, const Unit& length_unit);
 

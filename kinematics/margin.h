@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Margins: what a claim is a conjunction of.
 //
-// A margin is a function of the pose that must be positive. The prover knows no particular ones: it walks the list that comes
-// with a box's enclosure (MarginList in box_proof.h). More kinds (clearance between bodies, inertial wrenches) are more
-// functions that add to it, and what deviations change of them.
+// A margin is a function of the pose that must be positive. The prover knows no particular ones: it walks the list that
+// comes with a box's enclosure (MarginList in box_proof.h). More kinds (clearance between bodies, inertial wrenches)
+// are more functions that add to it, and what deviations change of them.
 #pragma once
 
 #include <array>
@@ -47,9 +47,9 @@ template <class S>
   return statics.length[i];
 }
 
-/// How far inside.
+/// The distance from the quantity that `margin` limits to its limit; negative beyond the limit.
 template <class S>
-[[nodiscard]] S room(const Model<S>& model, const S& quantity, MarginId margin) {
+[[nodiscard]] S slack(const Model<S>& model, const S& quantity, MarginId margin) {
   const auto i = static_cast<std::size_t>(margin.cable);
   switch (margin.kind) {
     case MarginKind::kTensionMin: return quantity - model.tension_lower[i];

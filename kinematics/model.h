@@ -48,8 +48,8 @@ struct Model {
   double characteristic_length = 0;    ///< mean |b_i| [m], scales lengths against angles in searches
 };
 
-/// E^-1 = L L^T from E = M M^T (Cholesky), L = M^-T. For an enclosing scalar, positive diagonal enclosures prove that E is
-/// positive definite. @throws InputError where a pivot is not positive.
+/// E^-1 = L L^T from E = M M^T (Cholesky), L = M^-T. For an enclosing scalar, positive diagonal enclosures prove that E
+/// is positive definite. @throws InputError where a pivot is not positive.
 template <class S>
 [[nodiscard]] Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid, bool is_diagonal = false);
 

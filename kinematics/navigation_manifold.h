@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The navigation manifold M of the paper: F(x) = 0 over 90 variables, as a graph over the pose.
 //
-// x = (p, τ, d_1…d_6, d, f0, v_1…v_6, g, s, t), 3 + 3 + 18 + 6 + 6 + 36 + 6 + 6 + 6 = 90 numbers, subject to 84 equations:
+// x = (p, τ, d_1…d_6, d, f0, v_1…v_6, g, s, t), 3 + 3 + 18 + 6 + 6 + 36 + 6 + 6 + 6 = 90 numbers, subject to 84
+// equations:
 //
 //   d_i = p + R(τ) b_i − a_i                                                     18                               (1)
 //   d_i² = |d_i|²                                                                 6                               (2)
@@ -16,7 +17,8 @@
 // the slack variables; with these each slack is 1 at mid-range. x(q) and dx/dq are closed form:
 //   Y = D^-1,  B^-1 = diag(d) Y E^-1 Y^T diag(d),  v_i = B^-1 e_i / sqrt((B^-1)_ii),  Y' = −Y D' Y.
 //
-// Planning uses the part of x that its metric needs (atlas/wrench_feasible_manifold.h); F(x) is here to be tested against.
+// Planning uses the part of x that its metric needs (atlas/wrench_feasible_manifold.h); F(x) is here to be tested
+// against.
 #pragma once
 
 #include <Eigen/Core>

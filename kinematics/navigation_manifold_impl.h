@@ -87,8 +87,8 @@ bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTa
 
     const S half_length = (model.length_upper[n] - model.length_lower[n]) * S(0.5);
     const S half_tension = (model.tension_upper[n] - model.tension_lower[n]) * S(0.5);
-    const J room = (lengths[n] - model.length_lower[n]) * (-lengths[n] + model.length_upper[n]);
-    put(Layout::kLengthSlack + i, J(half_length * half_length) / room);
+    const J slack = (lengths[n] - model.length_lower[n]) * (-lengths[n] + model.length_upper[n]);
+    put(Layout::kLengthSlack + i, J(half_length * half_length) / slack);
     put(Layout::kLowSlack + i, J(half_tension) / (tension - tension_radius - model.tension_lower[n]));
     put(Layout::kHighSlack + i, J(half_tension) / (-(tension + tension_radius) + model.tension_upper[n]));
   }

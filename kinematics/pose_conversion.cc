@@ -41,8 +41,8 @@ Matrix6<double> jacobian_of_lengths(const Model<double>& model, const RigidPose&
   return jacobian;
 }
 
-/// Newton's method; nothing unless it converges to the last digits, and well from its second step on: then hardly to another pose
-/// than the one to which `pose` leads.
+/// Newton's method; nothing unless it converges to the last digits, and well from its second step on: then hardly to
+/// another pose than the one to which `pose` leads.
 std::optional<RigidPose> newton(const Model<double>& model, const Lengths& target, RigidPose pose) {
   constexpr int kMaxIterations = 24;
   constexpr double kConverged = 1e-13;       // of the lengths; what rounding leaves is less

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Poses from one form to another, in floating point: angles, quaternions, cable lengths.
 //
-// For waypoints that are given in one form and joined in another. What comes out is rounded to binary64, and it is those waypoints
-// that a proof is about.
+// For waypoints that are given in one form and joined in another. What comes out is rounded to binary64, and it is
+// those waypoints that a proof is about.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -30,17 +30,18 @@ struct TiltAndTorsion {
   [[nodiscard]] double value(std::size_t i) const;
 };
 
-/// Those of R(q) that are next to `previous`: by whole turns of phi and sigma, and of (phi, theta) and (phi + π, −theta) the nearer
-/// one. Without `previous`: theta in [0, π]. phi is kept where theta = 0, sigma where theta = π.
+/// Those of R(q) that are next to `previous`: by whole turns of phi and sigma, and of (phi, theta) and (phi + π,
+/// −theta) the nearer one. Without `previous`: theta in [0, π]. phi is kept where theta = 0, sigma where theta = π.
 [[nodiscard]] TiltAndTorsion tilt_and_torsion(const Eigen::Quaterniond& q,
                                               const std::optional<TiltAndTorsion>& previous);
 
 /// |p + R b_i − a_i| [m]
 [[nodiscard]] std::array<double, kCables> cable_lengths(const Model<double>& model, const RigidPose& pose);
 
-/// The pose with those lengths that is reached from `start` as its lengths change to them at constant rates, in floating point, in
-/// steps short enough for Newton's method to contract well from the first: a good guess, and no proof, that it is the way's next
-/// pose. Nothing where that fails, as where the way ends at a singular pose. q is followed, too: it is −q after a whole turn.
+/// The pose with those lengths that is reached from `start` as its lengths change to them at constant rates, in
+/// floating point, in steps short enough for Newton's method to contract well from the first: a good guess, and no
+/// proof, that it is the way's next pose. Nothing where that fails, as where the way ends at a singular pose. q is
+/// followed, too: it is −q after a whole turn.
 [[nodiscard]] std::optional<RigidPose> pose_of_lengths(const Model<double>& model,
                                                        const std::array<double, kCables>& lengths,
                                                        const RigidPose& start);

@@ -26,8 +26,8 @@ class PoseSampler {
   /// Only in a space with constraints.
   [[nodiscard]] const std::optional<ConstraintFunctions>& constraints() const { return constraints_; }
 
-  /// Parameters of the motion (segment.h) at s: on the constraints, where the space has some and Newton's method finds them. Under a
-  /// law with poses px … sigma; of cable lengths, the pose that Newton's method finds from the reference.
+  /// Parameters of the motion (segment.h) at s: on the constraints, where the space has some and Newton's method finds
+  /// them. Under a law with poses px … sigma; of cable lengths, the pose that Newton's method finds from the reference.
   [[nodiscard]] std::vector<double> parameters(const Segment& segment, double s) const;
 
   [[nodiscard]] Pose<double> pose(std::span<const double> parameters) const { return evaluate_pose(pose_, parameters); }
@@ -37,9 +37,9 @@ class PoseSampler {
   }
   /// Of the motion under any law: where lengths are straight, the pose that has them (the reference, if none is found).
   [[nodiscard]] RigidPose rigid_pose(const Segment& segment, double s) const;
-  /// How far the pose on the constraints at a segment's begin, or its end, is beyond those of the control points that matter there
-  /// (one of a straight segment, three of a spline's): the largest difference of a coordinate, positions over the
-  /// platform's size (mean |b_i|), or angle [rad]. 0 without constraints, and where no pose on them is found.
+  /// How far the pose on the constraints at a segment's begin, or its end, is beyond those of the control points that
+  /// matter there (one of a straight segment, three of a spline's): the largest difference of a coordinate, positions
+  /// over the platform's size (mean |b_i|), or angle [rad]. 0 without constraints, and where no pose on them is found.
   [[nodiscard]] double distance_to_constraints(const Segment& segment, bool at_end) const;
 
   [[nodiscard]] Statics<double> statics(const RigidPose& pose) const {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rotations from quaternions of any length but 0.
 //
-// R(q) = M(q) / |q|^2 with q = (x, y, z, w), w the scalar part, and M the matrix of quadratic forms below. R(q) is a rotation
-// whatever the length of q, so binary64 quaternions are exact orientations. docs/theory.md, "Motions between poses".
+// R(q) = M(q) / |q|^2 with q = (x, y, z, w), w the scalar part, and M the matrix of quadratic forms below. R(q) is a
+// rotation whatever the length of q, so binary64 quaternions are exact orientations. docs/theory.md, "Motions between
+// poses".
 #pragma once
 
 #include "kinematics/model.h"

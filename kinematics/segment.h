@@ -2,28 +2,30 @@
 // Paths: exact waypoints and the law that joins them.
 //
 // Two laws run through the parameters of the problem's space. Waypoint k is the parameter vector λ_k with
-// λ_kj = x_kj + π half_turns_kj: binary64 numbers and integers, so that a pose reached the other way round a periodic angle is
-// still exactly the pose that was asked for. A segment is a curve ℓ(s), s in [0, 1], polynomial in s with the waypoints as
-// control points:
+// λ_kj = x_kj + π half_turns_kj: binary64 numbers and integers, so that a pose reached the other way round a periodic
+// angle is still exactly the pose that was asked for. A segment is a curve ℓ(s), s in [0, 1], polynomial in s with the
+// waypoints as control points:
 //   straight           ℓ(s) = (1−s) λ_0 + s λ_1
 //   cubic B-spline     ℓ(s) = ((1−s)^3 λ_0 + (3s^3−6s^2+4) λ_1 + (−3s^3+3s^2+3s+1) λ_2 + s^3 λ_3) / 6
 // Successive segments share all but one control point; a spline of them has a continuous second derivative and passes
 // through a control point that stands three times in a row.
 //
 // Without constraints the motion is γ(s) = pose(ℓ(s)). With k constraints C(λ) = 0 (SpaceText::constraints) ℓ is not on
-// them: the motion is γ(s) = pose(ℓ(s) + N(s) y(s)), where N(s) mixes the waypoints' normals as ℓ mixes the waypoints, and
-// y(s) is the only zero of C(ℓ(s) + N(s) y) with |y_i| <= `tube` for all i. That there is exactly one is for the proof to show.
+// them: the motion is γ(s) = pose(ℓ(s) + N(s) y(s)), where N(s) mixes the waypoints' normals as ℓ mixes the waypoints,
+// and y(s) is the only zero of C(ℓ(s) + N(s) y) with |y_i| <= `tube` for all i. That there is exactly one is for the
+// proof to show.
 //
-// Two laws know nothing of the space: their waypoints are poses (p, q) with R = R(q), the rotation of the quaternion q, which may
-// have any length but 0: R(q) = matrix polynomial of q over |q|^2 (quaternion.h).
-//   geodesic           p(s) = (1−s) p_0 + s p_1,  R(s) = R_0 exp(s log(R_0^T R_1)): at constant rate about one axis, by an
-//                      angle below π
-//   cable lengths      the commanded lengths L(s) = (1−s) L_0 + s L_1 [m]; the pose is implied by |d_i| = L_i(s). It is sought
-//                      around a reference, which runs straight in p and q from waypoint to waypoint through the inner poses
-//                      (s_j, p_j, q_j): between two of them, t = (s − s_j)/(s_{j+1} − s_j),
-//                        p_ref(s) = (1−t) p_j + t p_{j+1},  R_ref(s) = R((1−t) q_j + t q_{j+1}), that quaternion never 0,
-//                        p = p_ref + r_p z_p,  R = R(r_u z_u, 1) R_ref,  z in [−1, 1]^6,  (r_p [m], r_u) the piece's tube,
-//                      with the only z that has the lengths; again, that there is exactly one is for the proof to show
+// Two laws know nothing of the space: their waypoints are poses (p, q) with R = R(q), the rotation of the quaternion q,
+// which may have any length but 0: R(q) = matrix polynomial of q over |q|^2 (quaternion.h).
+//   geodesic           p(s) = (1−s) p_0 + s p_1,  R(s) = R_0 exp(s log(R_0^T R_1)): at constant rate about one
+//                      axis, by an angle below π
+//   cable lengths      the commanded lengths L(s) = (1−s) L_0 + s L_1 [m]; the pose is implied by |d_i| = L_i(s). It is
+//                      sought around a reference, which runs straight in p and q from waypoint to waypoint through the
+//                      inner poses (s_j, p_j, q_j): between two of them, t = (s − s_j)/(s_{j+1} − s_j),
+//                        p_ref(s) = (1−t) p_j + t p_{j+1},  R_ref(s) = R((1−t) q_j + t q_{j+1}),
+//                        p = p_ref + r_p z_p,  R = R(r_u z_u, 1) R_ref,  z in [−1, 1]^6,
+//                      where the quaternion of R_ref is never 0, (r_p [m], r_u) is the piece's tube, and z is the only
+//                      one that has the lengths; again, that there is exactly one is for the proof to show
 #pragma once
 
 #include <algorithm>
@@ -38,7 +40,8 @@
 namespace taut {
 
 struct Waypoint {
-  /// One a parameter [m, rad], finite. Geodesic: px, py, pz [m], qx, qy, qz, qw. Cable lengths: these, then L_1…L_6 [m].
+  /// One a parameter [m, rad], finite. Geodesic: px, py, pz [m], qx, qy, qz, qw. Cable lengths: these, then L_1…L_6
+  /// [m].
   std::vector<double> x;
   std::vector<int> half_turns;  ///< one a parameter; non-zero only where it is periodic
   /// N by rows, one row a parameter and one column a constraint; empty in a space without constraints.

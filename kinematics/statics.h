@@ -3,8 +3,8 @@
 //
 //   Y = D^-1,  f0_i = d_i (Y w0)_i,  v_ii = d_i |y_i L|,  E^-1 = L L^T,  y_i the i-th row of Y                (4)–(6)
 //
-// A pose is wrench-feasible when f0_i ± v_ii lies inside (f_lo, f_hi) and d_i inside (d_lo, d_hi) for all six cables. For
-// an enclosing scalar everything returned is an enclosure; where the inverse does not exist (or can't be enclosed)
+// A pose is wrench-feasible when f0_i ± v_ii lies inside (f_lo, f_hi) and d_i inside (d_lo, d_hi) for all six cables.
+// For an enclosing scalar everything returned is an enclosure; where the inverse does not exist (or can't be enclosed)
 // the result is not `regular`. Segments are proved by certify/box_proof.h, which is tighter over a range of poses.
 #pragma once
 
@@ -32,7 +32,8 @@ template <class S>
   return statics(model, pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma));
 }
 
-/// Wrench scale: the factor by which the semi-axes of K may grow, min over i of (f0_i − f_lo)/v_ii and (f_hi − f0_i)/v_ii.
+/// Wrench scale: the factor by which the semi-axes of K may grow, min over i of (f0_i − f_lo)/v_ii and (f_hi −
+/// f0_i)/v_ii.
 [[nodiscard]] double wrench_scale_approx(const Model<double>& model, const Statics<double>& statics);
 
 }  // namespace taut

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -167,10 +166,10 @@ class Planner::Edges {
 
   [[nodiscard]] bool looks_clear(const Coordinates& a, const Coordinates& b) const { return looks_clear_(a, b); }
 
-  bool ok(const Coordinates& a, const Coordinates& b) {
+  bool ok(const Coordinates& a, const Coordinates& b, const std::stop_token& stop) {
     ++checked_;
     const bool accepted =
-        looks_clear(a, b) && (prover_ == nullptr || proved(to_waypoint(a, sampler_), to_waypoint(b, sampler_)));
+        looks_clear(a, b) && (prover_ == nullptr || proved(to_waypoint(a, sampler_), to_waypoint(b, sampler_), stop));
     if (!accepted) ++rejected_;
     return accepted;
   }
@@ -191,11 +190,11 @@ class Planner::Edges {
   [[nodiscard]] int rejected() const { return rejected_; }
 
  private:
-  bool proved(const Waypoint& a, const Waypoint& b) {
+  bool proved(const Waypoint& a, const Waypoint& b, const std::stop_token& stop) {
     const auto [it, is_new] = proofs_.try_emplace({a.x, b.x});
     if (is_new) {
       const auto start = Clock::now();
-      it->second = prover_->prove(a, b);
+      it->second = prover_->prove(a, b, 0, stop);
       proving_seconds_ += seconds_since(start);
     }
     return it->second.verdict == Verdict::kProved;
@@ -233,11 +232,11 @@ Planner::Planner(const Case& the_case, const std::filesystem::path& atlas_file)
 std::string Planner::atlas_bytes() const { return AtlasFile::bytes_of(*atlas_, atlas_key(case_), chart_clearance_); }
 
 /// The answer if a waypoint of the query is infeasible or undecided.
-std::optional<Plan> Planner::judge_query() const {
+std::optional<Plan> Planner::judge_query(const std::stop_token& stop) const {
   for (std::size_t k = 0; k < query_.size(); ++k) {
     Plan answer;
     Reason undecided;
-    answer.proof.witness = refute_waypoint(prover_, query_[k], 0, undecided);
+    answer.proof.witness = refute_waypoint(prover_, query_[k], 0, undecided, stop);
     if (answer.proof.witness) {
       answer.path.waypoints = {query_[k]};
       answer.refuted_waypoint = k;
@@ -266,7 +265,9 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
   };
   search_problem.straight_to_goal = true;
   search_problem.heuristic = distance;
-  search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return edges.ok(a, b); };
+  search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) {
+    return edges.ok(a, b, search_problem.stop);
+  };
   search_problem.edge_likely = [&](const Coordinates& a, const Coordinates& b) { return edges.looks_clear(a, b); };
   if (progress) {
     search_problem.progress = [&](const SearchProgress& p) { progress({p.charts, edges.checked()}); };
@@ -280,11 +281,9 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
     search_problem.goal = to_coordinates(query_[leg + 1]);
     TimeBudget budget(seconds_for_leg(leg), stop);
     search_problem.stop = budget.token();
-    std::atomic<bool>* const interrupt = std::exchange(prover_.interrupt, &budget.over());
     const Leg best = find_leg(search_problem, edges, statistics);
-    prover_.interrupt = interrupt;
     if (best.found.status != SearchStatus::kFound) {
-      const bool ran_out = best.found.status == SearchStatus::kChartLimit || budget.over();
+      const bool ran_out = best.found.status == SearchStatus::kChartLimit || search_problem.stop.stop_requested();
       statistics.budget_spent = ran_out && !stop.stop_requested();
       reason = stop.stop_requested() ? Undecided::kInterrupted : no_path_reason(best.found, leg);
       return std::nullopt;
@@ -379,13 +378,9 @@ Reason Planner::no_path_reason(const SearchResult& result, std::size_t leg) cons
 }
 
 Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
-  std::atomic<bool> interrupted = false;
-  const std::stop_callback on_stop(stop, [&] { interrupted = true; });
-  prover_.interrupt = &interrupted;
-
   const auto start = begin_ = Clock::now();
   Plan result;
-  if (auto answer = judge_query()) {
+  if (auto answer = judge_query(stop)) {
     result = std::move(*answer);
     if (result.proof.verdict == Verdict::kUndecided && stop.stop_requested())
       result.proof.reason = Undecided::kInterrupted;
@@ -400,7 +395,6 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
       seek_and_prove(progress, stop, result);
     }
   }
-  prover_.interrupt = nullptr;
   set_tubes(result.path, prover_);
   PlanStatistics& statistics = result.statistics;
   statistics.charts = atlas_->size();
@@ -446,7 +440,8 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   const auto start = Clock::now();
   result.path = std::move(found->path);
   set_tubes(result.path, prover_);
-  result.proof = prove_path(prover_, result.path, [&](const Segment& segment) { return edges.find(segment); });
+  result.proof = prove_path(
+      prover_, result.path, [&](const Segment& segment) { return edges.find(segment); }, stop);
   statistics.prove_seconds += seconds_since(start);
   if (result.proof.verdict != Verdict::kProved) return false;
   if (case_.planner.smoothing == Smoothing::kSpline) round_corners(found->stops, stop, result);

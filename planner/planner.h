@@ -89,7 +89,7 @@ class Planner {
   class Edges;
   struct Leg;
 
-  [[nodiscard]] std::optional<Plan> judge_query() const;
+  [[nodiscard]] std::optional<Plan> judge_query(const std::stop_token& stop) const;
   void seek_and_prove(const Progress& progress, const std::stop_token& stop, Plan& result);
   [[nodiscard]] bool is_anytime() const;
   bool try_plan(const Prover* edge_prover, const Progress& progress, const std::stop_token& stop, Plan& result);
@@ -107,7 +107,7 @@ class Planner {
   [[nodiscard]] Reason no_path_reason(const SearchResult& result, std::size_t leg) const;
 
   const Case& case_;
-  Prover prover_;
+  const Prover prover_;
   PoseSampler sampler_;
   std::vector<Waypoint> query_;
   PathLength length_;

@@ -61,7 +61,7 @@ class Smoother {
     judged_ += static_cast<int>(fresh.size());
     tbb::parallel_for(std::size_t{0}, fresh.size(), [&](std::size_t i) {
       const Segment segment = path_.segment(fresh[i]);
-      proofs_.at(key_of(segment)) = problem_.prover.prove(segment, problem_.clearance);
+      proofs_.at(key_of(segment)) = problem_.prover.prove(segment, problem_.clearance, problem_.stop);
     });
   }
 
@@ -88,8 +88,9 @@ class Smoother {
 
   std::optional<SmoothPath> finish(double length) {
     SmoothPath result{path_, {}, length, judged_};
-    result.proof =
-        prove_path(problem_.prover, result.path, [&](const Segment& segment) { return &proofs_.at(key_of(segment)); });
+    result.proof = prove_path(
+        problem_.prover, result.path, [&](const Segment& segment) { return &proofs_.at(key_of(segment)); },
+        problem_.stop);
     if (result.proof.verdict != Verdict::kProved) return std::nullopt;
     return result;
   }

@@ -2,7 +2,6 @@
 // A limit on time as a stop token, so that everything that can be interrupted can be given a deadline.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -29,14 +28,9 @@ class TimeBudget {
   ~TimeBudget() = default;
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
-  /// The same as a flag.
-  [[nodiscard]] std::atomic<bool>& over() { return over_; }
 
  private:
-  void end() {
-    source_.request_stop();
-    over_ = true;
-  }
+  void end() { source_.request_stop(); }
   void wait(double seconds, const std::stop_token& finished) {
     constexpr double kLongest = 1e9;  // more overflows the clock
     const auto limit = std::chrono::duration<double>(std::fmin(seconds, kLongest));
@@ -47,7 +41,6 @@ class TimeBudget {
     if (!finished.stop_requested()) end();
   }
 
-  std::atomic<bool> over_ = false;
   std::stop_source source_;
   std::stop_callback<std::function<void()>> on_parent_;
   std::jthread timer_;  // last: joins before the rest goes

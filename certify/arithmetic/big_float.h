@@ -33,8 +33,8 @@ class PrecisionScope {
   mpfr_prec_t saved_;
 };
 
-/// Numbers of up to kInPlaceBits live where they are declared: allocations took a third of the soundness campaign's time. Longer
-/// ones live on the heap.
+/// Numbers of up to kInPlaceBits live where they are declared: allocations took a third of the soundness campaign's
+/// time. Longer ones live on the heap.
 class BigFloat {
  public:
   static constexpr mpfr_prec_t kInPlaceBits = 256;

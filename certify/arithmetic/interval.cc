@@ -46,12 +46,12 @@ void require_sine(Interval x) {
   if (!(x.lower() >= -1 && x.upper() <= 1)) Faults<Interval>::raise();
 }
 
-// ---- Sine and cosine -------------------------------------------------------------------------------------------------
+// ---- Sine and cosine ------------------------------------------------------------------------------------------------
 //
-// For |x| <= kTableEnd: x = k/32 + r with an integer k and |r| <= 1/64 + tiny. r is an interval: just below x = 1/64, where
-// rounding upward makes k = 1, it is no binary64 number; elsewhere it is exact (Sterbenz).
-// The table holds enclosures of sin(k/32), cos(k/32), one binary64 ulp wide, from MPFR. For |r| <= 1 the Taylor
-// series alternate with falling terms, so with z = r^2
+// For |x| <= kTableEnd: x = k/32 + r with an integer k and |r| <= 1/64 + tiny. r is an interval: just below x = 1/64,
+// where rounding upward makes k = 1, it is no binary64 number; elsewhere it is exact (Sterbenz). The table holds
+// enclosures of sin(k/32), cos(k/32), one binary64 ulp wide, from MPFR. For |r| <= 1 the Taylor series alternate with
+// falling terms, so with z = r^2
 //   sin r in r (1 − z/6 (1 − z/20 (1 − [0,1] z/42))),   cos r in 1 − z/2 (1 − z/12 (1 − z/30 (1 − [0,1] z/56))).
 
 constexpr int kStepsPerRadian = 32;

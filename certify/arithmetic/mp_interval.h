@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The multiprecision enclosing scalar: Boost.Interval over MPFR with every rounding directed.
 //
-// MpfrRounding is the rounding policy: each elementary operation, square root and transcendental is MPFR's own, correctly
-// rounded in the direction asked. Boost's own transcendental policies call libm and do not enclose; they are not used.
-// The policy also serves binary64 (BoostInterval<double>), where it is the slow twin that tests hold Interval against.
+// MpfrRounding is the rounding policy: each elementary operation, square root and transcendental is MPFR's own,
+// correctly rounded in the direction asked. Boost's own transcendental policies call libm and do not enclose; they are
+// not used. The policy also serves binary64 (BoostInterval<double>), where it is the slow twin that tests hold Interval
+// against.
 #pragma once
 
 #include <mpfr.h>
@@ -136,8 +137,8 @@ struct Faults<BoostInterval<double>> : MpfrFaults<double> {};
 // The scalar concept for Boost's intervals; in their namespace so that argument-dependent lookup finds it.
 namespace boost::numeric {
 
-// Boost's own quotient and root are silent where they leave their domain: 0 / [−1, 1] = 0, sqrt([−1, 4]) = [0, 2]. These are
-// more specialised, hence preferred, and raise a fault there.
+// Boost's own quotient and root are silent where they leave their domain: 0 / [−1, 1] = 0, sqrt([−1, 4]) = [0, 2].
+// These are more specialised, hence preferred, and raise a fault there.
 template <class T>
 [[nodiscard]] taut::BoostInterval<T> operator/(const taut::BoostInterval<T>& x, const taut::BoostInterval<T>& y) {
   using I = taut::BoostInterval<T>;

@@ -6,8 +6,9 @@
 // m the midpoint of T, and every operation keeps that. So x(t) is in at_mid + slope (t − m): second-order tight, while
 // `range` alone is first-order. tighten() intersects the two.
 //
-// `slope` is not an enclosure of x' over T, though any such will do for it (mean value theorem): slopes from m are about half as
-// wide, and between two other points of T the quotient of differences may lie outside. Rules: docs/theory.md, "Centred forms".
+// `slope` is not an enclosure of x' over T, though any such will do for it (mean value theorem): slopes from m are
+// about half as wide, and between two other points of T the quotient of differences may lie outside. Rules:
+// docs/theory.md, "Centred forms".
 //
 // The prover evaluates pose, rotation and force densities on this scalar; a clearance between bodies or any other
 // quantity of the pose would be evaluated on it just the same.

@@ -34,7 +34,7 @@ Matrix3<I> times(const Matrix3<I>& a, const Matrix3<I>& b) {
   return result;
 }
 
-// ---- The reference ---------------------------------------------------------------------------------------------------
+// ---- The reference --------------------------------------------------------------------------------------------------
 
 /// The symmetric bilinear form of which M of quaternion.h is the quadratic one.
 template <class I>
@@ -91,8 +91,8 @@ std::optional<Reference<I>> enclose_reference(const Segment& segment, const I& r
   const Quaternion<I> q = {x[3].at_mid, x[4].at_mid, x[5].at_mid, x[6].at_mid};
   const Quaternion<I> q_slope = {x[3].slope, x[4].slope, x[5].slope, x[6].slope};
 
-  // With R = M(q)/|q|^2, h = t − m, n1 = 2 q·q', n2 = |q'|^2: R(t) − R(m) = h (S1 + h B)/|q(t)|^2, S1 = 2 M(q, q') − n1 R(m) and
-  // B = M(q', q') − n2 R(m); and 1/|q(t)|^2 = 1/|q(m)|^2 − h (n1 + h n2)/(|q(m)|^2 |q(t)|^2).
+  // With R = M(q)/|q|^2, h = t − m, n1 = 2 q·q', n2 = |q'|^2: R(t) − R(m) = h (S1 + h B)/|q(t)|^2, S1 = 2 M(q, q') − n1
+  // R(m) and B = M(q', q') − n2 R(m); and 1/|q(t)|^2 = 1/|q(m)|^2 − h (n1 + h n2)/(|q(m)|^2 |q(t)|^2).
   const I scale_mid = reciprocal(I(sqr(q.x) + sqr(q.y) + sqr(q.z) + sqr(q.w)));
   const I scale = reciprocal(I(sqr(x[3].range) + sqr(x[4].range) + sqr(x[5].range) + sqr(x[6].range)));
   const I half_n1 = inner(q, q_slope);
@@ -116,7 +116,7 @@ std::optional<Reference<I>> enclose_reference(const Segment& segment, const I& r
   return result;
 }
 
-// ---- The equations ---------------------------------------------------------------------------------------------------
+// ---- The equations --------------------------------------------------------------------------------------------------
 
 /// g of the header.
 template <class I>
@@ -140,8 +140,8 @@ class LengthSystem {
     return result;
   }
 
-  [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, Place place) const {
-    const bool over_box = place == Place::kOverBox;
+  [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, EvaluationDomain domain) const {
+    const bool over_box = domain == EvaluationDomain::kOverBox;
     const Vector3<I> p = position(z, over_box ? &SlopeForm<I>::range : &SlopeForm<I>::at_mid);
     const Matrix3<I> local = local_turn(z);
     const Matrix3<I> r = times(local, over_box ? reference_.r_range : reference_.r_mid);
@@ -323,8 +323,8 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
     }
     return only_pose(machine, still(here, tube), lengths);
   };
-  // In steps of 2^-h of the way, as large as can be proved. Towards singular poses both tests ask for narrower tubes, and
-  // smaller steps for narrower ones yet, so that is where they are sought.
+  // In steps of 2^-h of the way, as large as can be proved. Towards singular poses both tests ask for narrower tubes,
+  // and smaller steps for narrower ones yet, so that is where they are sought.
   constexpr int kMostHalvings = 6;  // the checker goes further down, so that it should follow where this does
   constexpr int kTubes = 8;
   constexpr int kMoreTubes = 4;  // for each halving

@@ -79,8 +79,8 @@ class ConstraintSystem {
     return result;
   }
 
-  [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, Place place) const {
-    const auto where = place == Place::kAtMid ? &SlopeForm<I>::at_mid : &SlopeForm<I>::range;
+  [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, EvaluationDomain domain) const {
+    const auto where = domain == EvaluationDomain::kAtMid ? &SlopeForm<I>::at_mid : &SlopeForm<I>::range;
     const auto lambda = at(y, where);
     std::array<J, kMaxConstrainedParameters> jets;
     for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));
@@ -131,8 +131,8 @@ class ConstraintSystem {
   std::array<std::array<SlopeForm<I>, K>, kMaxConstrainedParameters> normal_;
 };
 
-/// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of anything
-/// else.
+/// Whether each control point has a finite entry of N for each of `count` constraints: intervals must not be made of
+/// anything else.
 bool has_normals(const Segment& segment, std::size_t count) {
   return std::ranges::all_of(segment.controls(), [&](const Waypoint* waypoint) {
     return waypoint->normals.size() == waypoint->x.size() * count &&

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the platform is during a box of a segment: enclosures of the motion γ, whatever law joins the waypoints.
 //
-// Without constraints γ(t) = pose(ℓ(t)) (kinematics/segment.h), a function of the waypoints. With constraints C(λ) = 0 the
-// motion is only implied: γ(t) = pose(ℓ(t) + N(t) y(t)) with y(t) the only zero of g(y, t) = C(ℓ(t) + N(t) y) in the tube
-// Y = [−r, r]^k, by the Krawczyk operator of parametric_krawczyk.h. A geodesic has p and R directly; under
-// the law of cable lengths length_controlled_motion.h finds them. In every case p and R are centred forms over T.
-// Proofs: docs/theory.md, "A motion that is only implied", "Motions between poses".
+// Without constraints γ(t) = pose(ℓ(t)) (kinematics/segment.h), a function of the waypoints. With constraints C(λ) = 0
+// the motion is only implied: γ(t) = pose(ℓ(t) + N(t) y(t)) with y(t) the only zero of g(y, t) = C(ℓ(t) + N(t) y) in
+// the tube Y = [−r, r]^k, by the Krawczyk operator of parametric_krawczyk.h. A geodesic has p and R directly; under the
+// law of cable lengths length_controlled_motion.h finds them. In every case p and R are centred forms over T. Proofs:
+// docs/theory.md, "A motion that is only implied", "Motions between poses".
 #pragma once
 
 #include <array>

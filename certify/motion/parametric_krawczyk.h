@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parametric Krawczyk operator: the only zero y(t) in Y = [−r, r]^K of K equations g(y, t) = 0, for all t of a box T.
+// The parametric Krawczyk operator: the only zero y(t) in Y = [−r, r]^K of K equations g(y, t) = 0, for all t of a box
+// T.
 //
-// For T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If ρ < 1 there is at
-// most one zero in Y for every t in T; and exactly one, y(t), where Y contains the box                                  (a)
-//   ŷ ± w,   w = max_i (|A g(ŷ, m)|_i + |A g_t(Y, T)|_i |T|/2) / (1 − ρ),                                                (b)
+// For T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If ρ < 1 there
+// is at most one zero in Y for every t in T; and exactly one, y(t), where Y contains the
+// box                         (a)
+//   ŷ ± w,   w = max_i (|A g(ŷ, m)|_i + |A g_t(Y, T)|_i |T|/2) / (1 − ρ),                                           (b)
 // which then holds y(t). With any box Z around ŷ that holds it, in Y, the operator narrows it to
-//   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                              (c)
-// y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t, enclosed with the bound of neumann.h; at m alone a box of
-// the size of the residual encloses y(m) tightly. Proof: docs/theory.md, "A motion that is only implied".
+//   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                         (c)
+// y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t, enclosed with the bound of neumann.h; at m alone
+// a box of the size of the residual encloses y(m) tightly. Proof: docs/theory.md, "A motion that is only implied".
 #pragma once
 
 #include <Eigen/LU>
@@ -22,18 +24,19 @@
 namespace taut {
 
 /// Where equations are enclosed.
-enum class Place { kAtMid, kOverBox };
+enum class EvaluationDomain { kAtMid, kOverBox };
 
 template <std::size_t K, class I>
 struct EquationDerivatives {
   Square<I, K> by_y;  ///< g_y: one row an equation
-  /// Of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend). Only over the box.
+  /// Slopes of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend). Only
+  /// over the box.
   std::array<I, K> by_t;
   std::array<I, K> bend;
 };
 
 /// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m), and
-/// EquationDerivatives<K, I> derivatives(const std::array<I, K>& y, Place)  for y in a box, at m or over T.
+/// EquationDerivatives<K, I> derivatives(const std::array<I, K>& y, EvaluationDomain)  for y in a box, at m or over T.
 template <std::size_t K, class I, class System>
 class ParametricKrawczyk {
  public:
@@ -110,7 +113,7 @@ class ParametricKrawczyk {
   /// Chooses A and ŷ: any choice is sound, a good one is near g_y^-1 and y(m).
   [[nodiscard]] bool start_newton() {
     centre_.fill(I(0.0));
-    const Square<I, K> g_y = system_.derivatives(centre_, Place::kAtMid).by_y;
+    const Square<I, K> g_y = system_.derivatives(centre_, EvaluationDomain::kAtMid).by_y;
     Eigen::Matrix<double, static_cast<int>(K), static_cast<int>(K)> mid;
     for (std::size_t i = 0; i < K; ++i) {
       for (std::size_t k = 0; k < K; ++k) {
@@ -165,7 +168,7 @@ class ParametricKrawczyk {
 
   /// (c) for a box Z that contains ŷ.
   [[nodiscard]] Step krawczyk(const Vector& box) const {
-    const EquationDerivatives<K, I> over = system_.derivatives(box, Place::kOverBox);
+    const EquationDerivatives<K, I> over = system_.derivatives(box, EvaluationDomain::kOverBox);
     Step step;
     step.rest = one_minus(times_a(over.by_y));
     step.drift = times_a(over.by_t);
@@ -190,7 +193,7 @@ class ParametricKrawczyk {
       box[i] = centre_[i] + I(-delta, delta);
       if (!(lower_bound(box[i]) > -radius_ && upper_bound(box[i]) < radius_)) return;
     }
-    const Square<I, K> rest = one_minus(times_a(system_.derivatives(box, Place::kAtMid).by_y));
+    const Square<I, K> rest = one_minus(times_a(system_.derivatives(box, EvaluationDomain::kAtMid).by_y));
     Vector image;
     for (std::size_t i = 0; i < K; ++i) {
       I step = I(0.0) - residual_[i];

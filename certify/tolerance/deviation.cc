@@ -39,9 +39,9 @@ struct Machine {
 double margin_value(Machine machine, MarginId id) {
   Model<double>& model = machine.model;
   for (std::size_t i = 0; i < kCables; ++i) model.p_MB[i] = model.p_PB[i] - model.p_PM;
-  return room(model,
-              limited_quantity(statics(model, machine.pose.p, Matrix3<double>(machine.pose.q.toRotationMatrix())), id),
-              id);
+  return slack(model,
+               limited_quantity(statics(model, machine.pose.p, Matrix3<double>(machine.pose.q.toRotationMatrix())), id),
+               id);
 }
 
 using Move = std::function<void(Machine&, const Vector3<double>&)>;
@@ -78,10 +78,10 @@ Vector3<MpInterval> vector(const std::array<DecimalText, 3>& text) {
 }  // namespace
 
 std::optional<ProposedDeviation> worst_deviation(const TolerancesText& tolerances, const Model<double>& model,
-                                                 const RigidPose& commanded, MarginId margin, bool held_by_lengths,
+                                                 const RigidPose& commanded, MarginId margin, bool length_controlled,
                                                  double part) {
   Machine machine{model, commanded};
-  if (held_by_lengths) machine.held = cable_lengths(model, commanded);
+  if (length_controlled) machine.held = cable_lengths(model, commanded);
   const double step = 1e-6 * model.characteristic_length;
   constexpr double kAngleStep = 1e-6;
   Machine worst = machine;
@@ -103,7 +103,7 @@ std::optional<ProposedDeviation> worst_deviation(const TolerancesText& tolerance
           m.follow();
         }));
   }
-  if (held_by_lengths) {
+  if (length_controlled) {
     result.cable_lengths_m.emplace().fill("0");
     for (std::size_t i = 0; tolerances.cable_length_m && i < kCables; ++i) {
       // Along the first axis, which stands for the length.

@@ -30,15 +30,15 @@ struct ProposedDeviation {
   bool leads_to_pose = false;  ///< else floating point can't follow it
 };
 
-/// The one within a `part` of the `tolerances` that brings a margin down furthest, to first order, in floating point. It
-/// keeps a billionth off the tolerances. Nothing where it leads to a pose at which the margin stays positive.
+/// The one within a `part` of the `tolerances` that brings a margin down furthest, to first order, in floating point.
+/// It keeps a billionth off the tolerances. Nothing where it leads to a pose at which the margin stays positive.
 [[nodiscard]] std::optional<ProposedDeviation> worst_deviation(const TolerancesText& tolerances,
                                                                const Model<double>& model, const RigidPose& commanded,
-                                                               MarginId margin, bool held_by_lengths, double part);
+                                                               MarginId margin, bool length_controlled, double part);
 
-/// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the pose (p, R)
-/// that is commanded undisturbed; one that is held by lengths, from where its deviation leads (length_controlled_motion.h): a fault where that
-/// is not proved. Void if a fault is raised. At working_precision().
+/// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) for the machine that deviates from `model` and from the
+/// pose (p, R) that is commanded undisturbed; one that is held by lengths, from where its deviation leads
+/// (length_controlled_motion.h): a fault where that is not proved. Void if a fault is raised. At working_precision().
 [[nodiscard]] MpInterval deviated_quantity(const Model<MpInterval>& model, const TolerancesText& tolerances,
                                            const Vector3<MpInterval>& p_WP, const Matrix3<MpInterval>& r_WP,
                                            const Deviation& deviation, MarginId margin);

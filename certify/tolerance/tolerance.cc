@@ -100,7 +100,8 @@ Table<Upper> upper_product(const Square<Upper>& a, const Table<Upper>& b) {
   return c;
 }
 
-/// What depends linearly on the row y = (f, m) and on a vector of a cable, such as f + m × arm_i: for the rows of C, on T.
+/// What depends linearly on the row y = (f, m) and on a vector of a cable, such as f + m × arm_i: for the rows of C, on
+/// T.
 template <class I>
 struct Products {
   Table<I> of_c;
@@ -125,17 +126,17 @@ template <class I>
 struct Origin {
   using Upper = UpperOf<I>;
   std::array<Vector3<I>, kCables> d, reach, arm;
-  Vector3<I> load_point;                            ///< R p_m
-  Square<I> c;                                      ///< C, points
-  Square<Upper> c_magnitude, q;                     ///< Y = P C, |P − I| <= q
-  Products<I> h, twist;                             ///< f + m × arm_i; d_i × m
-  Products<I> swing, sweep;                         ///< m × arm_i, m × R b_i; only if held by lengths
-  std::array<I, kCables> length, density, spread;   ///< |d_i|, λ_i, |Z_i|
-  Square<I> gram;                                   ///< Z_r·Z_i
-  std::array<Upper, kCables> reach_size, arm_size;  ///< |b_i|, |b_i − p_m| of every deviation
-  Upper load_point_size;                            ///< |p_m|, likewise
-  std::array<Upper, kCables> pull;                  ///< >= |ρ_i|: 0 unless held by lengths
-  bool held_by_lengths;
+  Vector3<I> load_point;                                   ///< R p_m
+  Square<I> c;                                             ///< C, points
+  Square<Upper> c_magnitude, q;                            ///< Y = P C, |P − I| <= q
+  Products<I> h, twist;                                    ///< f + m × arm_i; d_i × m
+  Products<I> swing, sweep;                                ///< m × arm_i, m × R b_i; only if held by lengths
+  std::array<I, kCables> length, density, tension_radius;  ///< |d_i|, λ_i, |Z_i|
+  Square<I> gram;                                          ///< Z_r·Z_i
+  std::array<Upper, kCables> reach_size, arm_size;         ///< |b_i|, |b_i − p_m| of every deviation
+  Upper load_point_size;                                   ///< |p_m|, likewise
+  std::array<Upper, kCables> pull;                         ///< >= |ρ_i|: 0 unless held by lengths
+  bool length_controlled;
 };
 
 /// How far what Products has may be from that of C, on X.
@@ -150,12 +151,13 @@ struct Errors {
 template <class I>
 struct OnAll {
   std::array<Vector3<I>, kCables> d;                           ///< d_i
+  std::array<Vector3<I>, kCables> reach;                       ///< R b_i
   std::array<Vector3<I>, kCables> arm;                         ///< R (b_i − p_m)
   Vector3<I> load_point;                                       ///< R p_m
   std::array<Vector3<I>, kCables> force, moment;               ///< the rows of D^-1: y_r^f, y_r^m
   std::array<std::array<Vector3<I>, kCables>, kCables> h;      ///< h_ri = y_r^f + y_r^m × arm_i
   std::array<std::array<Vector3<I>, kCables>, kCables> twist;  ///< d_i × y_r^m
-  std::array<I, kCables> length, density, spread;              ///< |d_i|, λ_i, V_i
+  std::array<I, kCables> length, density, tension_radius;      ///< |d_i|, λ_i, V_i
   std::array<I, kCables> load_rate;                            ///< y_r·ŵ
   Square<I> gram;                                              ///< Z_r·Z_i
 };
@@ -165,7 +167,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
   using Upper = UpperOf<I>;
   const Model<I>& model = box.model;
   Origin<I> origin;
-  origin.held_by_lengths = box.held_by_lengths;
+  origin.length_controlled = box.length_controlled;
   origin.q = box.q;
   for (std::size_t i = 0; i < kCables; ++i) {
     origin.d[i] = ranges(box.geometry.p_AB_W[i]);
@@ -173,11 +175,11 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
     origin.arm[i] = rotated_range(box.motion.r_WP, model.p_MB[i]);
     origin.length[i] = box.length[i].range;
     origin.density[i] = box.density[i].range;
-    origin.spread[i] = box.spread[i].range;
+    origin.tension_radius[i] = box.tension_radius[i].range;
     origin.reach_size[i] = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
     origin.arm_size[i] = norm_above(model.p_MB[i]) + tolerance.platform_anchor[i] + tolerance.load_point;
     origin.pull[i] = Upper(0.0);
-    if (!box.held_by_lengths) continue;
+    if (!box.length_controlled) continue;
     const Upper commanded = above(box.length[i].range) + tolerance.cable_length[i];
     origin.pull[i] = commanded * (tolerance.cable_length[i] + tolerance.base_anchor[i] + tolerance.platform_anchor[i]);
   }
@@ -193,7 +195,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
       const std::array<I, 3> twist = cross_exact<I>({y[3], y[4], y[5]}, origin.d[i]);
       origin.h.set(r, i, {origin.c[r][0] + swing[0], origin.c[r][1] + swing[1], origin.c[r][2] + swing[2]});
       origin.twist.set(r, i, {-twist[0], -twist[1], -twist[2]});
-      if (!box.held_by_lengths) continue;
+      if (!box.length_controlled) continue;
       origin.swing.set(r, i, swing);
       origin.sweep.set(r, i, cross_exact<I>({y[3], y[4], y[5]}, origin.reach[i]));
     }
@@ -202,7 +204,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
       for (std::size_t k = 0; k < 6; ++k) sum = sum + box.root[r][k] * box.root[i][k];
       origin.gram[r][i] = origin.gram[i][r] = sum;
     }
-    origin.gram[r][r] = sqr(origin.spread[r]);
+    origin.gram[r][r] = sqr(origin.tension_radius[r]);
   }
   const Vector3<I> load_point = model.p_PB[0] - model.p_MB[0];
   origin.load_point = rotated_range(box.motion.r_WP, load_point);
@@ -216,7 +218,8 @@ std::array<Upper, 3> cross_above(const std::array<Upper, 3>& a, const std::array
   return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
 }
 
-/// How far, on X, what is linear in y and in a vector that moves by `moved` is from that of C: with Y = S P C, |S P − I| <= q,
+/// How far, on X, what is linear in y and in a vector that moves by `moved` is from that of C: with Y = S P C, |S P −
+/// I| <= q,
 ///   y(τ) ∘ a(τ) = Σ_k (S P)_rk c_k ∘ a(0) + y_r(τ) ∘ (a(τ) − a(0)).
 template <class I>
 Table<UpperOf<I>> product_errors(const Products<I>& products, const Square<UpperOf<I>>& q,
@@ -247,7 +250,7 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
   Upper spin(0.0);  // >= |Ω_c|
   for (std::size_t r = 0; r < kCables; ++r) {
     for (std::size_t n = 0; n < 3; ++n) moment[r][n] = origin.c_magnitude[r][3 + n] + errors.y[r][3 + n];
-    if (origin.held_by_lengths) spin += origin.pull[r] * norm_above<I>(moment[r]);
+    if (origin.length_controlled) spin += origin.pull[r] * norm_above<I>(moment[r]);
   }
   errors.h = product_errors(origin.h, q, moment, guess.arm);
   errors.twist = product_errors(origin.twist, q, moment, guess.d);
@@ -260,7 +263,7 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
     rate.arm[i].fill(turn * origin.arm_size[i] + tolerance.platform_anchor[i] + tolerance.load_point);
     rate.d[i].fill(reach_rate + tolerance.position + tolerance.base_anchor[i]);
   }
-  if (origin.held_by_lengths) {
+  if (origin.length_controlled) {
     const Table<Upper> swing = product_errors(origin.swing, q, moment, guess.arm);
     const Table<Upper> sweep = product_errors(origin.sweep, q, moment, guess.reach);
     for (std::size_t j = 0; j < kCables; ++j) {
@@ -340,8 +343,8 @@ class States {
                                                  const std::array<Upper, kCables>& length_change) const {
     OnAll<I> x;
     x.load_point = widened<I>(origin_.load_point, guess_.load_point);
-    std::array<Upper, kCables> spread;  // >= |Z_r| at τ = 0
-    for (std::size_t r = 0; r < kCables; ++r) spread[r] = above(origin_.spread[r]);
+    std::array<Upper, kCables> tension_radius;  // >= |Z_r| at τ = 0
+    for (std::size_t r = 0; r < kCables; ++r) tension_radius[r] = above(origin_.tension_radius[r]);
     std::array<Upper, kCables> root_moved;  // >= |Z_r(τ) − Z_r(0)|, as Z(τ) = S Z(0)
     for (std::size_t r = 0; r < kCables; ++r) {
       const auto entry = [&](std::size_t j) {
@@ -351,6 +354,7 @@ class States {
         return widened<I>(Vector3<I>(of_c[0], of_c[1], of_c[2]), error);
       };
       x.d[r] = widened<I>(origin_.d[r], guess_.d[r]);
+      x.reach[r] = widened<I>(origin_.reach[r], guess_.reach[r]);
       x.arm[r] = widened<I>(origin_.arm[r], guess_.arm[r]);
       x.force[r] = {entry(0), entry(1), entry(2)};
       x.moment[r] = {entry(3), entry(4), entry(5)};
@@ -368,16 +372,17 @@ class States {
       root_moved[r] = Upper(0.0);
       for (std::size_t k = 0; k < kCables; ++k) {
         density_moved += guess_.s[r][k] * above(origin_.density[k]);
-        root_moved[r] += guess_.s[r][k] * spread[k];
+        root_moved[r] += guess_.s[r][k] * tension_radius[k];
       }
       x.density[r] = origin_.density[r] + ProofScalarTraits<I>::symmetric(density_moved);
-      x.spread[r] = origin_.spread[r] + ProofScalarTraits<I>::symmetric(root_moved[r]);
-      if (!certainly_positive(x.spread[r])) return std::nullopt;
+      x.tension_radius[r] = origin_.tension_radius[r] + ProofScalarTraits<I>::symmetric(root_moved[r]);
+      if (!certainly_positive(x.tension_radius[r])) return std::nullopt;
       x.length[r] = origin_.length[r] + ProofScalarTraits<I>::symmetric(until * length_change[r]);
     }
     for (std::size_t r = 0; r < kCables; ++r) {
       for (std::size_t i = 0; i < r; ++i) {
-        const Upper moved = root_moved[r] * spread[i] + spread[r] * root_moved[i] + root_moved[r] * root_moved[i];
+        const Upper moved =
+            root_moved[r] * tension_radius[i] + tension_radius[r] * root_moved[i] + root_moved[r] * root_moved[i];
         x.gram[r][i] = x.gram[i][r] = origin_.gram[r][i] + ProofScalarTraits<I>::symmetric(moved);
       }
     }
@@ -392,6 +397,31 @@ class States {
   Change<Upper> rate_;  ///< the last
   Errors<I> errors_;    ///< for the last guess
 };
+
+/// Bounds of how far a deviation changes |d_i|, wherever the platform is. Where lengths are controlled, the commanded
+/// pose has the lengths L_i + e_i, whatever leads to it, and tracking changes them further.
+template <class I>
+std::array<UpperOf<I>, kCables> length_changes(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance) {
+  using Upper = UpperOf<I>;
+  std::array<Upper, kCables> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Upper reach = norm_above(box.model.p_PB[i]) + tolerance.platform_anchor[i];
+    const Upper own =
+        box.length_controlled ? tolerance.cable_length[i] : tolerance.base_anchor[i] + tolerance.platform_anchor[i];
+    result[i] = tolerance.position + tolerance.orientation * reach + own;
+  }
+  return result;
+}
+
+/// A bound on X of the rate of |d_i|, where lengths are not controlled. A turn at the rate ω changes |d_i| at the rate
+/// u_i·(ω × R b_i) = ω·(R b_i × u_i), |ω| <= ε, and |R b_i × u_i| <= |b_i|: the lesser of the two bounds counts.
+template <class I>
+UpperOf<I> length_rate(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t i) {
+  const Vector3<I> direction = scaled(I(reciprocal(x.length[i])), x.d[i]);  // u_i
+  const UpperOf<I> across = norm_above(Vector3<I>(cross(x.reach[i], direction)));
+  const UpperOf<I>& lever = across < origin.reach_size[i] ? across : origin.reach_size[i];
+  return tolerance.position + tolerance.orientation * lever + tolerance.base_anchor[i] + tolerance.platform_anchor[i];
+}
 
 /// (t) for the tension bounds φ_r = λ_r ∓ V_r of cable r; `moved` of each cable i is arm_i × (h_ri + d_i × y_r^m).
 template <class I>
@@ -423,7 +453,7 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   Upper bound = tolerance.load_point * norm_above(by_load_point) + above(I(length * x.load_rate[r])) +
                 tolerance.position * by_position_size + tolerance.orientation * by_turn_size;
   for (std::size_t i = 0; i < kCables; ++i) {
-    if (origin.held_by_lengths) {
+    if (origin.length_controlled) {
       // c_ri; T turns Ω_c, and R_c p_m to R p_m.
       const I turned = ProofScalarTraits<I>::symmetric(tolerance.orientation * norm_above(x.moment[i]) *
                                                        (by_turn_size + origin.load_point_size * by_position_size));
@@ -444,12 +474,12 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
 template <class I>
 std::array<UpperOf<I>, 2> tension_rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x,
                                         std::size_t r) {
-  const I inverse = reciprocal(x.spread[r]);
+  const I inverse = reciprocal(x.tension_radius[r]);
   std::array<I, kCables> low;   // κ_ri of λ − V
   std::array<I, kCables> high;  // of λ + V
   std::array<Vector3<I>, kCables> moved;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const I share = i == r ? x.spread[r] : I(x.gram[r][i] * inverse);  // Z_r·Z_i / V_r
+    const I share = i == r ? x.tension_radius[r] : I(x.gram[r][i] * inverse);  // Z_r·Z_i / V_r
     low[i] = x.density[i] - share;
     high[i] = x.density[i] + share;
     moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
@@ -474,36 +504,34 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
   model.load_point = decimal(text.load_point_m);
   model.position = decimal(text.position_m);
   model.orientation = above(evaluate_constant<I>(text.orientation_rad));
-  model.held_by_lengths = text.cable_length_m.has_value();
+  model.length_controlled = text.cable_length_m.has_value();
   return model;
 }
 
 template <class I>
 std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, const ToleranceModel<I>& tolerance,
-                                              int parts) {
+                                              int continuation_steps) {
   using Upper = UpperOf<I>;
-  const Model<I>& model = box.model;
-  DeviationBounds<I> result;
+  const std::array<Upper, kCables> farthest = length_changes(box, tolerance);
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Upper reach = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
-    const Upper held =
-        box.held_by_lengths ? tolerance.cable_length[i] : tolerance.base_anchor[i] + tolerance.platform_anchor[i];
-    result.length[i] = tolerance.position + tolerance.orientation * reach + held;
-    if (!certainly_positive(I(box.length[i].range + ProofScalarTraits<I>::symmetric(result.length[i]))))
-      return std::nullopt;
+    const I length = box.length[i].range + ProofScalarTraits<I>::symmetric(farthest[i]);
+    if (!certainly_positive(length)) return std::nullopt;
   }
   const Origin<I> origin = make_origin(box, tolerance);
   States<I> states(origin, tolerance);
-  const double share = 1.0 / parts;
-  for (int part = 1; part <= parts; ++part) {
+  DeviationBounds<I> result;
+  const double share = 1.0 / continuation_steps;
+  for (int step = 1; step <= continuation_steps; ++step) {
     if (!states.advance(share)) return std::nullopt;
-    const std::optional<OnAll<I>> x = states.enclosed(Upper(share * part), result.length);
+    const std::optional<OnAll<I>> x = states.enclosed(Upper(share * step), farthest);
     if (!x) return std::nullopt;
     for (std::size_t r = 0; r < kCables; ++r) {
+      if (!box.length_controlled) result.length[r] += Upper(share) * length_rate(origin, tolerance, *x, r);
       const std::array<Upper, 2> rate = tension_rates(origin, tolerance, *x, r);
       for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rate[side];
     }
   }
+  if (box.length_controlled) result.length = farthest;
   return result;
 }
 

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What deviations within the tolerances can do to a box: how far lengths and tensions change.
 //
-// A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking error. It is
-// scaled by τ from 0 to 1; where the machine is held by lengths, its commanded pose follows. The way is taken in n parts. Up to
-// the end of one, bounds of how far things move are guessed, which makes a set X of states; if everything that moves at rates as
-// on X gets no farther than was guessed, no deviation leads out of X. Changes are kept as |d_i' − d_i|, |arm_i' − arm_i| … by
-// coordinates, and as |S − I| <= Q of S = D'^-1 D, where
-//   |S'| <= B (I + Q),   B_ri >= |y_r·D_i'| on X.                                                                       (i)
-// That proves D non-singular, and that the commanded pose exists. Then the rates of tensions are bounded, Euclidean norms:
+// A deviation (docs/theory.md, "Tolerances") is a choice of anchors, load point, load, length errors and tracking
+// error. It is scaled by τ from 0 to 1; where lengths are controlled, the commanded pose follows. The way from 0 to 1
+// is taken in n continuation steps. Up to the end of a step, bounds of how far things move are guessed, which makes a
+// set X of states; if everything that moves at rates as on X gets no farther than was guessed, no deviation leads out
+// of X. Changes are kept as |d_i' − d_i|, |arm_i' − arm_i| … by coordinates, and as |S − I| <= Q of S = D'^-1 D, where
+//   |S'| <= B (I + Q),   B_ri >= |y_r·D_i'| on X.                                                                   (i)
+// That proves D non-singular, and that the commanded pose exists. Then the rates of tensions are bounded, Euclidean
+// norms:
 //   |F_r'| <= Σ_i (δ_a,i |A_ri + c_ri d_i| + δ_b,i (|B_ri − c_ri d_i| + ε |c_ri d_i|) + δ_L,i |d_i| |c_ri|)
-//             + δ_m |M_r| + ℓ_r |y_r·ŵ| + δ_p |P_r| + ε |W_r|.                                                         (t)
-// So what is undisturbed, widened by the mean of (t) over the parts, holds for every deviation.
+//             + δ_m |M_r| + ℓ_r |y_r·ŵ| + δ_p |P_r| + ε |W_r|.                                                      (t)
+// and those of lengths, where these are not controlled, by δ_p + ε min(|R b_i × u_i|, |b_i|) + δ_a,i + δ_b,i.
+// Undisturbed quantities, widened by the means of these rates over the steps, enclose those of every deviation.
 #pragma once
 
 #include <array>
@@ -32,7 +34,7 @@ struct ToleranceModel {
   Upper load_point, position;                                             ///< [m]
   Upper orientation;                                                      ///< ε [rad]
   Vector6<I> wrench;                                                      ///< ŵ [N, N m]
-  bool held_by_lengths = false;  ///< whatever the law; under that of cable lengths all machines are
+  bool length_controlled = false;  ///< under any law; under that of cable lengths all machines are
 };
 
 /// Nothing where the problem states no tolerances. At working_precision(); for Interval under run_upward().
@@ -55,21 +57,22 @@ struct UndisturbedBox {
   const Model<I>& model;
   const MotionEnclosure<I>& motion;
   const CableGeometry<SlopeForm<I>>& geometry;
-  const std::array<SlopeForm<I>, kCables>&length, &density, &spread;  ///< d_i, λ_i, |Z_i|
-  const Square<I>& root;                                              ///< rows Z_i of D^-1 L, over T
-  const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
-  const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
-  bool held_by_lengths;
+  const std::array<SlopeForm<I>, kCables>&length, &density, &tension_radius;  ///< d_i, λ_i, |Z_i|
+  const Square<I>& root;                                                      ///< rows Z_i of D^-1 L, over T
+  const Matrix6<typename ProofScalarTraits<I>::Point>& c;                     ///< C
+  const Square<UpperOf<I>>& q;                                                ///< D^-1 = P C on T, |P − I| <= Q
+  bool length_controlled;
 };
 
-/// Where one part is too coarse, so many are taken at most.
-inline constexpr int kMostParts = 16;
+/// The largest number of continuation steps.
+inline constexpr int kMostContinuationSteps = 16;
 
-/// Nothing unless all commanded poses are proved to exist, and D to be non-singular, on X. For Interval: only under run_upward().
-/// @param parts  of the way from τ = 0 to 1, a power of two: more are tighter, and hold for larger tolerances
+/// Nothing unless all commanded poses are proved to exist, and D to be non-singular, on X. For Interval: only under
+/// run_upward().
+/// @param continuation_steps  from τ = 0 to 1, a power of two: more are tighter, and hold for larger tolerances
 template <class I>
 [[nodiscard]] std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box,
-                                                            const ToleranceModel<I>& tolerance, int parts);
+                                                            const ToleranceModel<I>& tolerance, int continuation_steps);
 
 extern template std::optional<ToleranceModel<Interval>> make_tolerance_model(const Problem&);
 extern template std::optional<ToleranceModel<MpInterval>> make_tolerance_model(const Problem&);

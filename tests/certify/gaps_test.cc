@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/prover.h"
 #include "tests/support/segments.h"
 
 namespace taut::testing {

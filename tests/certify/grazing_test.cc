@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Segments that come so close to a limit that no sampling and no fixed precision tells, on either side of it.
 //
-// The extremum of a quantity along a segment is found by another route, in 1200 bits and without intervals; the limit is put next
-// to it as a long decimal.
+// The extremum of a quantity along a segment is found by another route, in 1200 bits and without intervals; the limit
+// is put next to it as a long decimal.
 #include <gtest/gtest.h>
 
 #include <algorithm>

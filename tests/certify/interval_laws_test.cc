@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of the prover's interval arithmetics, in the way of the tests of IEEE 1788 (ITF1788): a result contains the exact
-// range, found by MPFR alone to 2100 bits (tests/support/interval_operations.h); it is at most a few ulps beyond it at
-// either end; and it is a fault wherever some member of the operands is outside of the domain or the range overflows. Those
-// of the checker's balls: tests/checker/ball_test.cc.
+// Laws of the prover's interval arithmetics, in the way of the tests of IEEE 1788 (ITF1788): a result contains the
+// exact range, found by MPFR alone to 2100 bits (tests/support/interval_operations.h); it is at most a few ulps beyond
+// it at either end; and it is a fault wherever some member of the operands is outside of the domain or the range
+// overflows. Those of the checker's balls: tests/checker/ball_test.cc.
 //
 // There are no empty and no unbounded intervals here: where IEEE 1788 has them, these raise a fault.
 //
@@ -101,8 +101,8 @@ TYPED_TEST(IntervalLaws, OperationsEncloseTheirRange) {
   for_each_operation([&]<class Op>() { this->template expect_enclosures<Op>(); });
 }
 
-// The oracle is right: points of a box have their values in the range, as MPFR rounds them to nearest; and ranges that can be
-// told by hand are those.
+// The oracle is right: points of a box have their values in the range, as MPFR rounds them to nearest; and ranges that
+// can be told by hand are those.
 TEST(IntervalOracle, HoldsTheValuesOfMembers) {
   Operands operands(7);
   const PrecisionScope precision(kOracleBits);

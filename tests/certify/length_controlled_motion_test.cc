@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "certify/path_proof.h"
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/quaternion.h"
 #include "kinematics/statics.h"
@@ -274,8 +274,8 @@ TEST(HeldMotion, ADeviationPastASingularPoseIsNotFollowed) {
   EXPECT_GT(tried, 3);
 }
 
-/// The base turns by half a turn, each anchor by a straight way: half-way all are on one line, and the machine is singular. At the
-/// end it is regular again, and at the pose at which it began.
+/// The base turns by half a turn, each anchor by a straight way: half-way all are on one line, and the machine is
+/// singular. At the end it is regular again, and at the pose at which it began.
 TEST(HeldMotion, ADeviationThroughASingularMachineIsNotFollowed) {
   const RigidPose from = Deviating::in_slice(-2.3, 1.6);
   for (const double part : {0.001, 1.0}) {
@@ -289,8 +289,9 @@ TEST(HeldMotion, ADeviationThroughASingularMachineIsNotFollowed) {
   }
 }
 
-/// Ways on which no length changes and the machine is regular at both ends, and singular half-way: so that it takes the anchors
-/// in between to see it. Pulled up to above the platform, which hangs level, base anchors pass its plane; and so on.
+/// Ways on which no length changes and the machine is regular at both ends, and singular half-way: so that it takes the
+/// anchors in between to see it. Pulled up to above the platform, which hangs level, base anchors pass its plane; and
+/// so on.
 TEST(HeldMotion, AnchorsOnTheWayCount) {
   const RigidPose level = rigid_pose({{0, 0, 0.35}, 0, 0, 34 * std::acos(-1.0) / 180});
   for (const auto& [moves_base, moves_platform, by] :

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Implied motions and splines against 200-bit samples: y(t) by Newton's method, on constraints that are written a second time.
+// Implied motions and splines against 200-bit samples: y(t) by Newton's method, on constraints that are written a
+// second time.
 #include "certify/motion/motion.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/constraint_functions.h"
 #include "tests/support/enclosing.h"
 #include "tests/support/linear_system.h"

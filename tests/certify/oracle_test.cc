@@ -194,7 +194,7 @@ TEST_F(PrintedOracle, AgreesWithTheOracleAtTheOrigin) {
   }
 }
 
-// ---- Random robots and full ellipsoids -------------------------------------------------------------------------------
+// ---- Random robots and full ellipsoids ------------------------------------------------------------------------------
 
 DecimalText random_decimal(Operands& operands, double lower, double upper, int digits = 4) {
   char text[32];

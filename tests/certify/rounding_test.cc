@@ -190,8 +190,8 @@ TEST(Rounding, BoostsOwnCosineDoesNotEncloseAndOursDoes) {
   EXPECT_EQ(our_misses, 0);
 }
 
-// g++ 12.2 with -frounding-math corrupts static constexpr arrays of double made from literals of long double (boostorg/math
-// issue 1133). Arrays from literals of double, the only kind in certify/, are what they say.
+// g++ 12.2 with -frounding-math corrupts static constexpr arrays of double made from literals of long double
+// (boostorg/math issue 1133). Arrays from literals of double, the only kind in certify/, are what they say.
 TEST(Rounding, ConstantArraysOfDoublesAreWhatTheySay) {
   static constexpr double kArray[] = {0.1, 0.2, 0x1.5555555555555p-3, 3.14159265358979323846, 1.0 / 3.0};
   const char* const texts[] = {"0.1", "0.2", "0x1.5555555555555p-3", "3.14159265358979323846"};

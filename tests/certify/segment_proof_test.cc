@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "certify/segment_proof.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/input_error.h"
+#include "certify/prover.h"
 #include "tests/oracle/oracle_at_origin.h"
 #include "tests/support/robots.h"
 
@@ -163,10 +162,10 @@ TEST(Prover, RefutesASingularSegmentByAChangeOfSign) {
 }
 
 TEST(Prover, AnInterruptedProofIsUndecided) {
-  Prover prover(robot1_slice());
-  std::atomic<bool> stop = true;
-  prover.interrupt = &stop;
-  const SegmentProof proof = prover.prove(kStart, kNearStart);
+  const Prover prover(robot1_slice());
+  std::stop_source stop;
+  stop.request_stop();
+  const SegmentProof proof = prover.prove(kStart, kNearStart, 0, stop.get_token());
   EXPECT_EQ(proof.verdict, Verdict::kUndecided);
   EXPECT_EQ(proof.reason.text(), "interrupted");
 }

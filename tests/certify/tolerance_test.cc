@@ -268,8 +268,61 @@ TEST(Tolerance, ABoundIsReachedToFirstOrderByTheWorstDeviation) {
       kSize * by_platform_held);
 }
 
-/// Deviations in parts are enclosed more tightly, and tolerances may be larger; what is proved with them holds all the same.
-TEST(Tolerance, MorePartsProveLargerOnes) {
+/// A turn by ε changes |d_i| by no more than ε |b_i|, and to first order by ε |R b_i × u_i|: whatever is less.
+TEST(Tolerance, LengthsChangeByTheLesserOfTwoBounds) {
+  constexpr double kTurn = 1e-3;
+  Problem problem = robot1_slice();
+  problem.tolerances.emplace().orientation_rad = "0.001";
+  const Waypoint waypoint = at({0.5, 0.2});
+  const Segment segment = Segment::straight(waypoint, waypoint);
+  const PoseSampler sampler(problem);
+  const RigidPose pose = sampler.rigid_pose(segment, 0);
+  const Model<double>& model = sampler.model();
+
+  const PrecisionScope precision(128);
+  const ProofModel<MpInterval> proof_model = make_mp_proof_model(problem);
+  Faults<MpInterval>::clear();
+  const BoxEnclosure<MpInterval> box = enclose_box(proof_model, segment, DyadicBox{});
+  ASSERT_FALSE(Faults<MpInterval>::raised());
+  ASSERT_TRUE(box.disturbance);
+
+  std::size_t steepest = 0;  // the cable whose two bounds differ most
+  double least_ratio = 1;
+  std::array<double, kCables> proved{};
+  const std::array<double, kCables> lengths = cable_lengths(model, pose);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vector3<double> reach = pose.q * model.p_PB[i];
+    const Vector3<double> d = pose.p + reach - model.p_WA[i];
+    const double first_order = kTurn * reach.cross(d.normalized()).norm();
+    proved[i] = ProofScalarTraits<MpInterval>::to_double(box.disturbance->length[i]);
+    EXPECT_GE(proved[i], first_order) << i;
+    EXPECT_LE(proved[i], 1.05 * first_order) << i;
+    EXPECT_LE(proved[i], kTurn * reach.norm() * (1 + 1e-12)) << i;
+    const double ratio = proved[i] / (kTurn * reach.norm());
+    if (ratio < least_ratio) {
+      least_ratio = ratio;
+      steepest = i;
+    }
+  }
+  EXPECT_LT(least_ratio, 0.9) << "no cable for which the second bound is the lesser one";
+
+  std::mt19937 random(3);
+  for (int k = 0; k < 2000; ++k) {
+    const Deviated deviated = random_deviation(problem, random);
+    const std::array<double, kCables> now = cable_lengths(deviated.model, deviated_pose(problem, deviated, pose));
+    for (std::size_t i = 0; i < kCables; ++i) EXPECT_LE(std::abs(now[i] - lengths[i]), proved[i]) << i;
+  }
+
+  // A limit that the first bound would reach, and the second does not.
+  const double far = kTurn * model.p_PB[steepest].norm();
+  ASSERT_GT(far, proved[steepest]);
+  problem.robot.length_m[steepest].lower = fmt::format("{:.12f}", lengths[steepest] - 0.5 * (far + proved[steepest]));
+  EXPECT_EQ(Prover(problem).prove(segment).verdict, Verdict::kProved);
+}
+
+/// With more continuation steps, deviations are enclosed more tightly, and tolerances may be larger; what is proved
+/// with them holds all the same.
+TEST(Tolerance, MoreContinuationStepsProveLargerOnes) {
   const DyadicBox whole{0, 0};
   const auto scaled = [](double factor) {
     Problem problem = robot1_slice();
@@ -287,19 +340,19 @@ TEST(Tolerance, MorePartsProveLargerOnes) {
   const Segment segment = Prover(scaled(1)).segment(a, b);
   double largest = 0;
   BoxVerdict verdict;
-  for (const int parts : {1, 4, kMostParts}) {
+  for (const int steps : {1, 4, kMostContinuationSteps}) {
     double proved = 0;
     for (double factor = 1; factor < 100; factor *= 1.05) {
-      const BoxVerdict here = judge_box(make_proof_model(scaled(factor)), segment, whole, 0, parts);
+      const BoxVerdict here = judge_box(make_proof_model(scaled(factor)), segment, whole, 0, steps);
       if (here.kind != BoxVerdict::Kind::kProved) break;
       proved = factor;
       verdict = here;
     }
-    EXPECT_GT(proved, 1.05 * largest) << parts;
+    EXPECT_GT(proved, 1.05 * largest) << steps;
     largest = proved;
   }
   const Problem problem = scaled(largest);
-  // Where the platform hardly moves, narrower boxes would not do; more parts do.
+  // Where the platform hardly moves, narrower boxes would not do; more steps do.
   EXPECT_EQ(Prover(problem).prove(segment).boxes.size(), 1U);
   const PoseSampler sampler(problem);
   std::mt19937 random(11);
@@ -414,7 +467,8 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
   }
 }
 
-/// By a part in 1e30, which no floating point sees. (At the tolerance itself it is not certainly within; none is proposed there.)
+/// By a part in 1e30, which no floating point sees. (At the tolerance itself it is not certainly within; none is
+/// proposed there.)
 TEST(Tolerance, NothingIsKnownOfADeviationBeyondThem) {
   const PrecisionScope precision(128);
   const Problem problem = robot1_slice();

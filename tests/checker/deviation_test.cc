@@ -45,7 +45,7 @@ template <class S>
 std::optional<StaticsAt<S>> deviating(const campaign::Machine<S>& machine, const campaign::Tolerances<S>& within,
                                       RigidPose<S> pose, const Deviation& by) {
   const campaign::Machine<S> deviant = campaign::deviate(machine, within, by);
-  if (within.held_by_lengths) {
+  if (within.length_controlled) {
     const campaign::Six<S> commanded = campaign::lengths(machine, pose);
     constexpr int kSteps = 4;  // along the way to the deviation, so that no other assembly is found
     for (int step = 1; step <= kSteps; ++step) {

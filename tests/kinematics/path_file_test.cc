@@ -61,7 +61,7 @@ void expect_rejected(const std::string& text, const std::string& message, const 
   EXPECT_THAT([&] { (void)read(text, space, name); }, ThrowsMessage<InputError>(HasSubstr(message))) << text;
 }
 
-// --- What is read ------------------------------------------------------------------------------------------------------
+// --- What is read ----------------------------------------------------------------------------------------------------
 
 TEST(PathFile, ReadsTheCasesParametersInAnyOrderAndUnit) {
   const Read path = read("theta[deg], t[ms] ,phi [rad]\n# a comment\n\n90,0,1e-1\r\n  +45 ,2.5, -.5 \n");
@@ -158,7 +158,7 @@ TEST(PathFile, DropsRepeatedRowsWhereAllowed) {
   EXPECT_EQ(path.rows[0].time_s->text(), "0");
 }
 
-// --- What is not -------------------------------------------------------------------------------------------------------
+// --- What is not -----------------------------------------------------------------------------------------------------
 
 TEST(PathFile, NamesLineColumnAndWhatWasSeen) {
   const std::string header = "phi[rad],theta[deg]\n";
@@ -260,7 +260,7 @@ TEST(PathFile, FilesThatAreNone) {
               ThrowsMessage<InputError>(AllOf(HasSubstr("/nowhere/x.csv"), HasSubstr("No such file"))));
 }
 
-// --- Laws --------------------------------------------------------------------------------------------------------------
+// --- Laws ------------------------------------------------------------------------------------------------------------
 
 class Random {
  public:
@@ -376,7 +376,7 @@ TEST(PathFile, ReadsFilesRowByRow) {
   std::filesystem::remove(path);
 }
 
-// --- Summary -----------------------------------------------------------------------------------------------------------
+// --- Summary ---------------------------------------------------------------------------------------------------------
 
 TEST(PathSummary, ShowsWhatWasRead) {
   const Problem problem = testing::robot1_slice();

@@ -61,7 +61,8 @@ TEST(Invert, RefusesEnclosuresThatHoldASingularMatrix) {
   EXPECT_FALSE(invert(m, inverse, determinant));
 }
 
-/// Cables of length 2 along the axes: x, y, z through the origin, x through (0,1,0), y through (0,0,1), z through (1,0,0).
+/// Cables of length 2 along the axes: x, y, z through the origin, x through (0,1,0), y through (0,0,1), z through
+/// (1,0,0).
 Model<double> axes_robot() {
   Model<double> model;
   const Vector3<double> ends[6] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};

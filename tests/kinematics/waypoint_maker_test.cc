@@ -118,7 +118,7 @@ TEST(PoseConversion, LengthsDoNotLeadAcrossASingularPose) {
   for (const Way& way : ways) EXPECT_FALSE(pose_of_lengths(sampler.model(), way.lengths, way.start));
 }
 
-// --- Waypoints ---------------------------------------------------------------------------------------------------------
+// --- Waypoints -------------------------------------------------------------------------------------------------------
 
 std::vector<Waypoint> waypoints(const std::string& text, std::optional<Interpolation> law, const Problem& problem) {
   PathFile file(std::make_unique<std::istringstream>(text), "p.txt", problem.space);

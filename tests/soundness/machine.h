@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The machine of the campaign: poses along every law and statics with every deviation, by a route of its own.
 //
-// J about the origin O with columns (u_i ; a_i × u_i), wrenches carried there from the load point, slerp of quaternions, Newton's
-// method on lengths: none of kinematics/, no force densities, no intervals. In double it searches, in 200-bit BigFloat it judges.
+// J about the origin O with columns (u_i ; a_i × u_i), wrenches carried there from the load point, slerp of
+// quaternions, Newton's method on lengths: none of kinematics/, no force densities, no intervals. In double it
+// searches, in 200-bit BigFloat it judges.
 #pragma once
 
 #include <array>
@@ -263,7 +264,7 @@ struct Tolerances {
   Six<S> a, b, length;
   S load_point, position, turn;
   Six<S> wrench;
-  bool held_by_lengths = false;
+  bool length_controlled = false;
 };
 
 template <class S>
@@ -279,7 +280,7 @@ Tolerances<S> make_tolerances(const Problem& problem) {
   t.load_point = number<S>(text.load_point_m);
   t.position = number<S>(text.position_m);
   t.turn = number<S>(text.orientation_rad);
-  t.held_by_lengths = text.cable_length_m.has_value();
+  t.length_controlled = text.cable_length_m.has_value();
   return t;
 }
 

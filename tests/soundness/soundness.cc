@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The soundness campaign: random robots, segments of every law and tolerances, half of them with a hidden violation, against a
-// 200-bit oracle (machine.h, trial.h).
+// The soundness campaign: random robots, segments of every law and tolerances, half of them with a hidden violation,
+// against a 200-bit oracle (machine.h, trial.h).
 //
-// For each trial one quantity (f0 − v, f0 + v or d of one cable) is followed along the segment to its extremum s*, and with
-// tolerances to the worst deviation x* that a local search finds there. Its limit is set, as an exact decimal of 45 digits, a
-// distance δ from the oracle's value at (s*, x*): inside, a violation that may be as narrow as √δ, which no sampling sees, or
-// outside. Then
+// For each trial one quantity (f0 − v, f0 + v or d of one cable) is followed along the segment to its extremum s*, and
+// with tolerances to the worst deviation x* that a local search finds there. Its limit is set, as an exact decimal of
+// 45 digits, a distance δ from the oracle's value at (s*, x*): inside, a violation that may be as narrow as √δ, which
+// no sampling sees, or outside. Then
 //   - a segment that is violated there must never be "proved";
 //   - a "refuted" must stand up to the oracle at its witness;
-//   - a "proved" must agree with the oracle at s*, at random points with random deviations, and where a search from there finds
-//     the worst ones; what is close in floating point is looked at in 200 bits. The determinant must keep its sign. Where the
-//     machine is held by lengths along the path, there must be one pose in the tube, from wherever in it Newton's method is
-//     started.
-// Of every 16 seeds (--surveys) one is looked at more closely. Segments along which det J changes its sign get limits that nothing
-// reaches: they must never be "proved", and at the two points of a witness the oracle must see the two signs. Others are surveyed,
-// as an audit does: proved boxes and violations are held to the oracle.
-// Any breach is printed with its seed, and the program exits with 1. δ runs over the decades from 1e-13 to 1 of the range.
+//   - a "proved" must agree with the oracle at s*, at random points with random deviations, and where a search from
+//     there finds the worst ones; what is close in floating point is looked at in 200 bits. The determinant must keep
+//     its sign. Where lengths are controlled along the path, there must be one pose in the tube, from wherever in it
+//     Newton's method is started.
+// Of every 16 seeds (--surveys) one is looked at more closely. Segments along which det J changes its sign get limits
+// that nothing reaches: they must never be "proved", and at the two points of a witness the oracle must see the two
+// signs. Others are surveyed, as an audit does: proved boxes and violations are held to the oracle. Any breach is
+// printed with its seed, and the program exits with 1. δ runs over the decades from 1e-13 to 1 of the range.
 //
-// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--surveys N] [--threads N] [--budget SECONDS]
+// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--surveys N] [--threads N] [--budget
+// SECONDS]
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -50,7 +51,7 @@ DecimalText decimal(const BigFloat& x) {
 }
 DecimalText decimal(double x) { return fmt::format("{:.6e}", x); }
 
-// ---- Quantities and their limits -------------------------------------------------------------------------------------
+// ---- Quantities and their limits ------------------------------------------------------------------------------------
 
 bool is_upper(MarginKind kind) { return kind == MarginKind::kTensionMax || kind == MarginKind::kLengthMax; }
 bool is_tension(MarginKind kind) { return kind == MarginKind::kTensionMin || kind == MarginKind::kTensionMax; }
@@ -101,7 +102,7 @@ struct LimitsOf {
   std::array<std::array<S, kCables>, 4> value;
 };
 
-// ---- Deviations ------------------------------------------------------------------------------------------------------
+// ---- Deviations -----------------------------------------------------------------------------------------------------
 
 constexpr double kWithin = 1 - 1e-12;  ///< so that rounding leaves no ball
 
@@ -153,7 +154,7 @@ Deviation worst_deviation(const Deviation& x, F value) {
   return worst;
 }
 
-// ---- Tables ----------------------------------------------------------------------------------------------------------
+// ---- Tables ---------------------------------------------------------------------------------------------------------
 
 constexpr int kDecades = 13;      // δ/range in [1e-13, 1]
 constexpr int kLeastEffect = -8;  // δ/effect in [1e-8, 1e5], and beyond
@@ -170,8 +171,8 @@ struct Counts {
 };
 
 struct Tally {
-  /// δ/range exactly on a path, and by lengths; δ/effect with tolerances that are mild, and with others; δ/range by lengths
-  /// with a bad reference, and with a lost row.
+  /// δ/range exactly on a path, and by lengths; δ/effect with tolerances that are mild, and with others; δ/range by
+  /// lengths with a bad reference, and with a lost row.
   std::array<Decades, 6> decades;
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
   Count wrong{0}, looked_at{0}, violated_elsewhere{0};
@@ -181,7 +182,7 @@ struct Tally {
   Count kernel_proofs{0}, kernel_confirmed{0};  ///< proofs that it was given, and those for which it found boxes
 };
 
-// ---- A trial ---------------------------------------------------------------------------------------------------------
+// ---- A trial --------------------------------------------------------------------------------------------------------
 
 struct Options {
   long count = 2000;
@@ -617,8 +618,8 @@ class Judge {
     return largest;
   }
 
-  /// Whether some deviation leads to a violation of any limit, or to a singular pose, as floating point sees it: the trial is
-  /// not what it was made for.
+  /// Whether some deviation leads to a violation of any limit, or to a singular pose, as floating point sees it: the
+  /// trial is not what it was made for.
   bool is_violated_elsewhere() {
     for (const double s : {best_s_, uniform(random_, 0, 1)}) {
       for (const MarginKind kind : kKinds) {
@@ -704,7 +705,7 @@ class Judge {
   std::array<double, 2> length_{HUGE_VAL, -HUGE_VAL};
 };
 
-// ---- The campaign ----------------------------------------------------------------------------------------------------
+// ---- The campaign ---------------------------------------------------------------------------------------------------
 
 /// @param unit   what δ is measured in; the first row's δ is 10^least of it
 /// @returns the share decided of clear trials with δ from 10^from of it

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 find_package(CLI11 REQUIRED)
 add_executable(soundness soundness/soundness.cc soundness/trial.cc)
-target_link_libraries(soundness PRIVATE taut_common taut_case taut_certificate taut_certify CLI11::CLI11 fmt::fmt TBB::tbb)
+target_link_libraries(soundness
+  PRIVATE taut_common taut_case taut_certificate taut_certify CLI11::CLI11 fmt::fmt TBB::tbb)
 target_compile_definitions(soundness PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 add_test(NAME soundness.campaign COMMAND soundness 3000)
 set_tests_properties(soundness.campaign PROPERTIES LABELS "laws" TIMEOUT 300)

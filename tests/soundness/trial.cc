@@ -50,10 +50,10 @@ const auto six_coordinates = []<class S>(const std::vector<S>& q) {
   return Six<S>{q[0], q[1], q[2], q[3], q[4], q[5]};
 };
 
-// ---- Robots ----------------------------------------------------------------------------------------------------------
+// ---- Robots ---------------------------------------------------------------------------------------------------------
 
-/// Millimetres to kilometres, millinewtons to meganewtons; one in eight nearly flat, one in eight with a platform that is
-/// nearly the base on a smaller scale, which is singular wherever both are level.
+/// Millimetres to kilometres, millinewtons to meganewtons; one in eight nearly flat, one in eight with a platform that
+/// is nearly the base on a smaller scale, which is singular wherever both are level.
 Problem random_robot(Random& random, double& size) {
   static const Problem like = testing::free_flying(testing::robot1_slice());
   Problem problem = like;
@@ -99,9 +99,10 @@ Problem random_robot(Random& random, double& size) {
   return problem;
 }
 
-// ---- Spaces ----------------------------------------------------------------------------------------------------------
+// ---- Spaces ---------------------------------------------------------------------------------------------------------
 
-/// Robot 2 with its z axis through a fixed point, given by three constraints on five parameters (the paper's (16), implicitly).
+/// Robot 2 with its z axis through a fixed point, given by three constraints on five parameters (the paper's (16),
+/// implicitly).
 Problem implicit_sphere() {
   Problem problem = testing::robot2_sphere();
   problem.space = SpaceText{};
@@ -215,7 +216,7 @@ void choose_space(Trial& trial, Random& random, bool constrained) {
   trial.size = 0.3;
 }
 
-// ---- Laws between poses ----------------------------------------------------------------------------------------------
+// ---- Laws between poses ---------------------------------------------------------------------------------------------
 
 Quaternion<double> product(const Quaternion<double>& a, const Quaternion<double>& b) {
   const Vec<double> u{a[0], a[1], a[2]};
@@ -241,7 +242,8 @@ void choose_poses(Trial& trial, Random& random) {
   const Vec<double> vertical{0, 0, 1};
   Quaternion<double> turned = product(about({-std::sin(q[3]), std::cos(q[3]), 0}, q[4]), about(vertical, q[5]));
   std::vector<double> x = {q[0], q[1], q[2]};
-  // Positions step by a tenth of the robot. Poses held by lengths are known to be single for steps of its hundredth only.
+  // Positions step by a tenth of the robot. Poses held by lengths are known to be single for steps of its hundredth
+  // only.
   const double usual = trial.law == Law::kGeodesic ? 1 : std::pow(10.0, uniform(random, -3, 0));
   const double step = one_in(random, 8) ? std::pow(10.0, uniform(random, -12, 0)) : usual;
   const auto random_length = [&] {
@@ -286,7 +288,7 @@ void choose_lengths(Trial& trial, Random& random) {
   }
 }
 
-// ---- Tolerances ------------------------------------------------------------------------------------------------------
+// ---- Tolerances -----------------------------------------------------------------------------------------------------
 
 void choose_tolerances(Trial& trial, Random& random) {
   if (trial.tolerances == ToleranceKind::kNone) return;
@@ -321,7 +323,7 @@ void choose_tolerances(Trial& trial, Random& random) {
   }
 }
 
-// ---- Motion ----------------------------------------------------------------------------------------------------------
+// ---- Motion ---------------------------------------------------------------------------------------------------------
 
 /// The segment's mix at s of what `value` reads from the control points.
 template <class F>

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "certify/segment_proof.h"
+#include "certify/prover.h"
 #include "kinematics/constraint_functions.h"
 #include "tests/soundness/machine.h"
 
@@ -50,7 +50,8 @@ struct Trial {
   std::vector<InnerPose> inner_poses;
   /// Under the law of cable lengths: made to mislead, not proposed as an audit does.
   bool has_bad_reference = false;
-  /// Under the law of cable lengths: the way to the second row's lengths ends at a singular pose, so that no motion leads there.
+  /// Under the law of cable lengths: the way to the second row's lengths ends at a singular pose, so that no motion
+  /// leads there.
   bool has_lost_row = false;
   std::optional<OracleConstraints> constraints;
   /// The pose's six coordinates, of the parameters.

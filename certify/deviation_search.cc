@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/deviation_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace taut {
+namespace {
+
+/// The rung at which deviations are examined: each continuation step costs digits.
+std::size_t rung_of(const PrecisionLadder& ladder) {
+  constexpr std::size_t kWanted = 2;
+  return std::min(kWanted, ladder.last());
+}
+
+}  // namespace
+
+std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& segment, const DyadicBox& box,
+                                          MarginId margin, const Deviation& deviation) {
+  const std::size_t rung = rung_of(prover.ladder());
+  const PrecisionScope precision(prover.ladder().bits(rung));
+  const ProofModel<MpInterval>& model = prover.ladder().multiprecision(rung);
+  Faults<MpInterval>::clear();
+  const auto mid = enclose<MpInterval>(box.mid());
+  const MotionEnclosure<MpInterval> commanded = undisturbed_motion(model, segment, {mid, mid}, MpInterval(0.0));
+  if (commanded.status != MotionEnclosure<MpInterval>::Status::kKnown) return std::nullopt;
+  const auto at_mid = [](const SlopeForm<MpInterval>& x) { return x.at_mid; };
+  MpInterval quantity = deviated_quantity(model.model, *prover.problem().tolerances, commanded.p_WP.unaryExpr(at_mid),
+                                          commanded.r_WP.unaryExpr(at_mid), deviation, margin);
+  if (Faults<MpInterval>::raised()) return std::nullopt;
+  return quantity;
+}
+
+DyadicBox DeviationSearch::weakest_box(MarginId margin) const {
+  const PoseSampler& sampler = prover_.sampler();
+  DyadicBox weakest;
+  double least = std::numeric_limits<double>::infinity();
+  for (DyadicBox box{0, prover_.options().tolerance_depth}; box.upper() <= Dyadic{1, 0}; ++box.k) {
+    const Statics<double> statics = sampler.statics(sampler.rigid_pose(segment_, box.mid().approx()));
+    const double here = slack(sampler.model(), limited_quantity(statics, margin), margin);
+    if (statics.regular && here < least) {
+      least = here;
+      weakest = box;
+    }
+  }
+  return weakest;
+}
+
+/// Those of `margins` that the worst deviation within this share of the tolerances breaks, or for which it
+/// can't be followed.
+std::vector<DeviationSearch::Proposal> DeviationSearch::breaking(const RigidPose& pose,
+                                                                 const std::vector<MarginId>& margins,
+                                                                 double share) const {
+  std::vector<Proposal> result;
+  for (const MarginId margin : margins) {
+    auto worst = worst_deviation(*prover_.problem().tolerances, prover_.sampler().model(), pose, margin,
+                                 prover_.is_length_controlled(segment_.law), share);
+    if (worst) result.emplace_back(margin, *std::move(worst));
+  }
+  return result;
+}
+
+DeviationSearch::Outcome DeviationSearch::attempt(const DyadicBox& box, const Proposal& proposal) const {
+  const auto& [margin, proposed] = proposal;
+  if (!proposed.leads_to_pose) return Outcome::kNotFollowed;
+  const std::optional<MpInterval> quantity = deviated_at_mid(prover_, segment_, box, margin, proposed.deviation);
+  if (!quantity) return Outcome::kNotFollowed;
+  const PrecisionLadder& ladder = prover_.ladder();
+  const std::size_t rung = rung_of(ladder);
+  const PrecisionScope precision(ladder.bits(rung));
+  const MpInterval left = slack(ladder.multiprecision(rung).model, *quantity, margin);
+  return certainly_nonpositive(left) ? Outcome::kRefutes : Outcome::kHarmless;
+}
+
+namespace {
+
+std::vector<MarginId> every_margin() {
+  constexpr auto kAll = all_margins();
+  return {kAll.begin(), kAll.end()};
+}
+
+SegmentWitness witness_of(const DyadicBox& box, MarginId margin, const Deviation& deviation) {
+  return {false, margin, box, std::make_shared<const Deviation>(deviation)};
+}
+
+}  // namespace
+
+std::optional<SegmentWitness> DeviationSearch::refute(const DyadicBox& box, MarginId margin) {
+  if (has_failed_) return std::nullopt;
+  const RigidPose pose = prover_.sampler().rigid_pose(segment_, box.mid().approx());
+  std::vector<Proposal> proposals = breaking(pose, {margin}, 1);
+  if (proposals.empty()) {
+    // `margin` is the weakest one undisturbed, but others may be more sensitive. They cost more, so they are tried only
+    // where this is first asked, and at the segment's end.
+    const bool is_last = box.upper() == Dyadic{1, 0};
+    if (std::exchange(all_margins_tried_, true) && !is_last) return std::nullopt;
+    proposals = breaking(pose, every_margin(), 1);
+    if (proposals.empty()) return std::nullopt;
+  }
+  const auto& [broken, proposed] = proposals.front();
+  switch (attempt(box, proposals.front())) {
+    case Outcome::kRefutes: return witness_of(box, broken, proposed.deviation);
+    case Outcome::kHarmless: return std::nullopt;
+    case Outcome::kNotFollowed: break;
+  }
+  std::optional<SegmentWitness> witness = refute_by_smaller(box, pose);
+  if (!witness) has_failed_ = true;
+  return witness;
+}
+
+/// For a worst deviation that can't be followed, as on the way to a singular pose. Some limit breaks before that pose
+/// is reached: the share of the tolerances is halved until no limit breaks, then bisected, and taken a little larger,
+/// so that the violation can be proved.
+std::optional<SegmentWitness> DeviationSearch::refute_by_smaller(const DyadicBox& box, const RigidPose& pose) const {
+  constexpr double kLeast = 0x1p-20;
+  constexpr int kBisections = 8;
+  constexpr double kMore = 1 + 0x1p-5;
+  constexpr int kAttempts = 2;  // following a deviation by proof takes long
+  std::vector<MarginId> margins = every_margin();
+  const auto breaks = [&](double share) {
+    std::vector<Proposal> found = breaking(pose, margins, share);
+    if (found.empty()) return false;
+    margins.clear();
+    for (const Proposal& proposal : found) margins.push_back(proposal.first);
+    return true;
+  };
+  double most = 1;
+  while (most > kLeast && breaks(0.5 * most)) most *= 0.5;
+  double none = 0.5 * most;
+  for (int k = 0; k < kBisections; ++k) {
+    const double share = 0.5 * (none + most);
+    (breaks(share) ? most : none) = share;
+  }
+  int attempts = 0;
+  for (const Proposal& proposal : breaking(pose, margins, std::min(1.0, kMore * most))) {
+    const auto& [broken, proposed] = proposal;
+    if (!proposed.leads_to_pose || attempts == kAttempts) continue;
+    ++attempts;
+    if (attempt(box, proposal) == Outcome::kRefutes) return witness_of(box, broken, proposed.deviation);
+  }
+  return std::nullopt;
+}
+
+}  // namespace taut

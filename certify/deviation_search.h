@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Looks for a deviation within the tolerances that refutes a segment.
+//
+// Floating point proposes deviations (tolerance/deviation.h); one refutes only where the margin that it breaks is
+// enclosed and proved not to be positive.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "certify/prover.h"
+
+namespace taut {
+
+/// The search along one segment; remembers what failed. Refers to the prover and the segment, which outlive it.
+class DeviationSearch {
+ public:
+  DeviationSearch(const Prover& prover, const Segment& segment) : prover_(prover), segment_(segment) {}
+
+  /// A deviation that breaks `margin` at the midpoint of a box, proved; a smaller one that breaks any margin, where the
+  /// worst (to first order) can't be followed. Nothing if the worst breaks none.
+  [[nodiscard]] std::optional<SegmentWitness> refute(const DyadicBox& box, MarginId margin);
+
+  /// The box of tolerance_depth in whose middle an undisturbed `margin` is least, in floating point.
+  [[nodiscard]] DyadicBox weakest_box(MarginId margin) const;
+
+ private:
+  /// A margin, and the deviation that is to break it.
+  using Proposal = std::pair<MarginId, ProposedDeviation>;
+  enum class Outcome { kRefutes, kHarmless, kNotFollowed };
+
+  [[nodiscard]] std::vector<Proposal> breaking(const RigidPose& pose, const std::vector<MarginId>& margins,
+                                               double share) const;
+  [[nodiscard]] Outcome attempt(const DyadicBox& box, const Proposal& proposal) const;
+  [[nodiscard]] std::optional<SegmentWitness> refute_by_smaller(const DyadicBox& box, const RigidPose& pose) const;
+
+  const Prover& prover_;
+  const Segment& segment_;
+  bool all_margins_tried_ = false;
+  bool has_failed_ = false;  ///< none was found that can be followed to where it refutes: not sought again
+};
+
+/// Prover::quantity_at_mid() of a machine that deviates; nothing where that is not proved.
+[[nodiscard]] std::optional<MpInterval> deviated_at_mid(const Prover& prover, const Segment& segment,
+                                                        const DyadicBox& box, MarginId margin,
+                                                        const Deviation& deviation);
+
+}  // namespace taut

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/precision_ladder.h"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+std::vector<mpfr_prec_t> bits_of_rungs(mpfr_prec_t max_bits) {
+  constexpr mpfr_prec_t kFirst = 128;
+  std::vector<mpfr_prec_t> bits = {kFirst};
+  while (bits.back() < max_bits) bits.push_back(std::min(2 * bits.back(), max_bits));
+  return bits;
+}
+
+}  // namespace
+
+PrecisionLadder::PrecisionLadder(const Problem& problem, mpfr_prec_t max_bits)
+    : problem_(problem), fast_(make_proof_model(problem)), bits_(bits_of_rungs(max_bits)), fine_(bits_.size()) {}
+
+int PrecisionLadder::deepest(std::size_t rung) const {
+  constexpr int kBinary64Depth = 48;
+  return rung == 0 ? kBinary64Depth : static_cast<int>(std::min<mpfr_prec_t>(bits(rung), DyadicBox::kMaxDepth));
+}
+
+const ProofModel<MpInterval>& PrecisionLadder::multiprecision(std::size_t rung) const {
+  Rung& fine = fine_.at(rung - 1);
+  std::call_once(fine.made, [&] {
+    const PrecisionScope precision(bits(rung));
+    fine.model.emplace(make_mp_proof_model(problem_));
+  });
+  return *fine.model;
+}
+
+BoxVerdict PrecisionLadder::judge(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
+                                  int continuation_steps) const {
+  if (rung == 0) return judge_box(fast_, segment, box, clearance, continuation_steps);
+  const PrecisionScope precision(bits(rung));
+  return judge_box(multiprecision(rung), segment, box, clearance, continuation_steps);
+}
+
+}  // namespace taut

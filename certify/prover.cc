@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/prover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "certify/reference_path.h"
+#include "certify/segment_walk.h"
+
+namespace taut {
+
+Prover::Prover(const Problem& problem, ProofOptions options)
+    : problem_(problem), options_(options), ladder_(problem, options.max_bits) {
+  if (!problem.space.constraints.empty()) constraints_.emplace(problem);
+}
+
+const PoseSampler& Prover::sampler() const {
+  std::call_once(sampler_made_, [&] { sampler_.emplace(problem_); });
+  return *sampler_;
+}
+
+Segment Prover::segment(const Waypoint& a, const Waypoint& b) const { return prepared(Segment::straight(a, b)); }
+
+Segment Prover::prepared(Segment segment) const {
+  if (constraints_ && !has_poses(segment.law)) segment.tube = suitable_tube(segment);
+  if (segment.law == Interpolation::kCableLengths && is_admissible(segment)) {
+    propose_reference(model(), sampler().model(), segment);
+  }
+  return segment;
+}
+
+bool Prover::is_length_controlled(Interpolation law) const {
+  return law == Interpolation::kCableLengths || (problem_.tolerances && problem_.tolerances->cable_length_m);
+}
+
+double Prover::suitable_tube(const Segment& segment) const {
+  constexpr int kSamples = 8;  // intervals of s
+  // Times the largest |y| seen. Between ends on the constraints y is about a parabola, for which (b) of motion.h needs
+  // 1 + 2/(1 − ρ); a narrower tube would cost boxes.
+  constexpr double kFactor = 4.0;
+  constexpr double kLeast = 0x1p-30;
+  double largest = 0;
+  for (int k = 0; k <= kSamples; ++k) {
+    const std::optional<double> deviation = constraints_->deviation(segment, static_cast<double>(k) / kSamples);
+    if (!deviation) return kLeast;
+    largest = std::max(largest, *deviation);
+  }
+  return std::max(kFactor * largest, kLeast);
+}
+
+namespace {
+
+bool contains(const PoseTube& a, const PoseTube& b) { return b.position <= a.position && b.turn <= a.turn; }
+
+/// In order, and of two successive tubes one contains the other: else the pieces' motions may be of different
+/// assemblies.
+bool has_joined_pieces(const Segment& segment) {
+  double last = 0;
+  PoseTube tube = segment.pose_tube;
+  for (const InnerPose& inner : segment.inner_poses) {
+    const bool is_number = std::ranges::all_of(inner.x, [](double x) { return std::isfinite(x); });
+    if (!(last < inner.s && inner.s < 1) || !is_number) return false;
+    if (!contains(tube, inner.tube) && !contains(inner.tube, tube)) return false;
+    last = inner.s;
+    tube = inner.tube;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool Prover::is_admissible(const Segment& segment) const {
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  return std::ranges::all_of(segment.controls(),
+                             [&](const Waypoint* waypoint) {
+                               if (!has_poses(segment.law)) return certainly_in_ranges(*waypoint);
+                               return waypoint->x.size() == pose_numbers(segment.law) &&
+                                      std::ranges::all_of(waypoint->x, is_finite);
+                             }) &&
+         has_joined_pieces(segment);
+}
+
+bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
+  const auto& ranges = model().motion.ranges;
+  if (waypoint.x.size() != ranges.size() || waypoint.half_turns.size() != ranges.size()) return false;
+  for (std::size_t j = 0; j < ranges.size(); ++j) {
+    const double x = waypoint.x[j];
+    if (!std::isfinite(x) || !(ranges[j][0] <= x && x <= ranges[j][1])) return false;
+    if (waypoint.half_turns[j] != 0 && problem_.space.parameters[j].kind != ParameterKind::kPeriodic) return false;
+  }
+  return true;
+}
+
+BoxVerdict Prover::judge(const Segment& segment, const DyadicBox& box) const {
+  BoxVerdict verdict;
+  for (const int continuation_steps : {1, kMostContinuationSteps}) {
+    for (std::size_t rung = 0; rung <= ladder_.last(); ++rung) {
+      verdict = ladder_.judge(rung, segment, box, 0, continuation_steps);
+      if (verdict.kind == BoxVerdict::Kind::kProved || verdict.kind == BoxVerdict::Kind::kRefuted) return verdict;
+    }
+    if (!problem_.tolerances) break;
+  }
+  return verdict;
+}
+
+namespace {
+
+/// The survey of a segment that is not admissible.
+SegmentSurvey open_survey(Interpolation law) {
+  SegmentSurvey survey;
+  survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
+  const Reason reason = has_poses(law) ? Undecided::kNoMotion : Undecided::kWaypointRange;
+  survey.boxes.push_back({{}, SurveyedBox::Kind::kOpen, {}, reason});
+  return survey;
+}
+
+/// What a walk to the first failure says; undecided unless all boxes are proved, or one has a witness.
+SegmentProof to_proof(SegmentSurvey survey) {
+  SegmentProof proof;
+  proof.tension_N = survey.tension_N;
+  proof.length_m = survey.length_m;
+  proof.wrench_scale = survey.wrench_scale;
+  proof.boxes_judged = survey.boxes_judged;
+  proof.boxes_multiprecision = survey.boxes_multiprecision;
+  proof.verdict = Verdict::kProved;
+  for (SurveyedBox& box : survey.boxes) {
+    if (box.kind == SurveyedBox::Kind::kProved) {
+      proof.boxes.push_back(std::move(box.box));
+    } else if (box.witness) {
+      proof.verdict = Verdict::kRefuted;
+      proof.witness = std::move(box.witness);
+    } else {
+      proof.verdict = Verdict::kUndecided;
+      proof.open_box = std::move(box.box);
+      proof.reason = std::move(box.reason);
+    }
+  }
+  return proof;
+}
+
+}  // namespace
+
+SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop) const {
+  if (!is_admissible(segment)) return to_proof(open_survey(segment.law));
+  SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop);
+  SegmentProof proof = to_proof(walk.run());
+  if (proof.verdict != Verdict::kUndecided) return proof;
+  proof.witness = walk.refute_elsewhere();
+  if (proof.witness) {
+    proof.verdict = Verdict::kRefuted;
+    proof.open_box = {};
+    proof.reason = {};
+  }
+  return proof;
+}
+
+SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop) const {
+  if (!is_admissible(segment)) return open_survey(segment.law);
+  return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop).run();
+}
+
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
+                                   const Deviation& deviation) const {
+  std::optional<MpInterval> quantity = deviated_at_mid(*this, segment, box, margin, deviation);
+  if (!quantity) throw std::logic_error("a deviation has no enclosure");
+  return *std::move(quantity);
+}
+
+MpInterval Prover::quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin) const {
+  const auto n = static_cast<std::size_t>(margin.cable);
+  std::optional<MpInterval> quantity;
+  for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
+    const PrecisionScope precision(ladder_.bits(rung));
+    const ProofModel<MpInterval>& model = ladder_.multiprecision(rung);
+    Faults<MpInterval>::clear();
+    const BoxEnclosure<MpInterval> enclosure = enclose_box(model, segment, box);
+    const bool is_known = std::ranges::any_of(enclosure.margins, [&](const auto& x) { return x.id == margin; });
+    if (Faults<MpInterval>::raised() || !is_known) continue;
+    switch (margin.kind) {
+      case MarginKind::kTensionMin: quantity = enclosure.low[n].at_mid; break;
+      case MarginKind::kTensionMax: quantity = enclosure.high[n].at_mid; break;
+      case MarginKind::kLengthMin:
+      case MarginKind::kLengthMax: quantity = enclosure.length[n].at_mid; break;
+    }
+    if (certainly_nonpositive(slack(model.model, *quantity, margin))) break;
+  }
+  if (!quantity) throw std::logic_error("a refuted midpoint has no enclosure");
+  return *quantity;
+}
+
+}  // namespace taut

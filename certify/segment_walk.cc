@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/segment_walk.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace taut {
+namespace {
+
+/// Factor by which the number of continuation steps grows when a step is too coarse (up to kMostContinuationSteps).
+constexpr int kMoreSteps = 4;
+
+/// A survey locates the ends of a violation to boxes of this depth; a thinner violation shows in the midpoint of a
+/// deeper box.
+constexpr int kResolutionDepth = 12;
+
+/// More bits than those of this rung show nothing about a Jacobian that is nearly singular.
+constexpr std::size_t kSingularRung = 3;
+
+bool is_fine(const DyadicBox& box) { return box.depth >= kResolutionDepth; }
+
+Undecided reason_of(BoxVerdict::Kind kind) {
+  switch (kind) {
+    case BoxVerdict::Kind::kFault: return Undecided::kUndefined;
+    case BoxVerdict::Kind::kNoMotion: return Undecided::kNoMotion;
+    default: return Undecided::kSingular;
+  }
+}
+
+/// For a reason whose words end with "at".
+Reason at(Undecided reason, MarginId margin, std::string_view detail = {}) {
+  std::string place = std::string(" margin ") + name(margin.kind) + " of cable " + std::to_string(margin.cable + 1);
+  return {reason, place.append(detail)};
+}
+
+/// The form of one margin over a box, at the working precision. Void if a fault is raised.
+std::optional<SlopeForm<MpInterval>> margin_over(const ProofModel<MpInterval>& model, const Segment& segment,
+                                                 const DyadicBox& box, MarginId id) {
+  const BoxEnclosure<MpInterval> enclosure = enclose_box(model, segment, box);
+  for (const auto& margin : enclosure.margins) {
+    if (margin.id == id) return margin.value;
+  }
+  return std::nullopt;
+}
+
+BigFloat middle(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.lower(), x.upper()); }
+
+/// 2^-depth
+BigFloat resolution_at(int depth) {
+  return BigFloat::apply_rounded(MPFR_RNDN,
+                                 [depth](mpfr_ptr x, mpfr_rnd_t mode) { mpfr_set_ui_2exp(x, 1, -depth, mode); });
+}
+
+/// The box of `depth` within `box` that is nearest to s.
+DyadicBox box_around(const BigFloat& s, const DyadicBox& box, int depth) {
+  const int finer = depth - box.depth;
+  DyadicBox result{Dyadic::nearest(s, depth).k, depth};
+  result.k = std::clamp<boost::multiprecision::cpp_int>(result.k, box.k << finer, ((box.k + 1) << finer) - 1);
+  return result;
+}
+
+/// A secant method for the zero of a margin's slope in a box. It proves nothing.
+class SlopeSecants {
+ public:
+  /// At the working precision; begins in the middle of the box, and goes on from where it was at the last precision.
+  void use_precision(const DyadicBox& box) {
+    lower_ = enclose<MpInterval>(box.lower()).lower();
+    upper_ = enclose<MpInterval>(box.upper()).upper();
+    if (!s_) s_ = middle(enclose<MpInterval>(box.mid()));
+  }
+
+  [[nodiscard]] const BigFloat& s() const { return *s_; }
+
+  /// Moves on from s(), where the slope is `slope`. @returns whether s() has moved by more than `resolution`.
+  bool advance(const BigFloat& slope, const BigFloat& resolution) {
+    const BigFloat at = *s_;
+    if (!earlier_) {
+      const BigFloat quarter = (upper_ - lower_) / BigFloat(4.0);
+      s_ = slope > BigFloat(0.0) ? at - quarter : at + quarter;
+    } else {
+      const BigFloat bend = slope - slope_earlier_;
+      const BigFloat moved = at - *earlier_;
+      if (!(abs(bend) > BigFloat(0.0)) || !(abs(moved) > BigFloat(0.0))) return false;
+      s_ = at - slope * moved / bend;
+    }
+    if (!(*s_ > lower_)) s_ = lower_;
+    if (!(*s_ < upper_)) s_ = upper_;
+    earlier_ = at;
+    slope_earlier_ = slope;
+    return abs(*s_ - at) > resolution;
+  }
+
+ private:
+  BigFloat lower_, upper_;
+  std::optional<BigFloat> s_, earlier_;
+  BigFloat slope_earlier_;
+};
+
+}  // namespace
+
+SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double clearance, Extent extent,
+                         const std::stop_token& stop)
+    : prover_(prover),
+      ladder_(prover.ladder()),
+      segment_(segment),
+      clearance_(clearance),
+      extent_(extent),
+      stop_(stop),
+      deviations_(prover, segment) {
+  survey_.tension_N = survey_.length_m = survey_.wrench_scale = std::numeric_limits<double>::infinity();
+}
+
+SegmentSurvey SegmentWalk::run() {
+  while (!open_.empty() && !is_over_) {
+    const Task task = std::move(open_.back());
+    open_.pop_back();
+    take(task, examine(task));
+  }
+  return std::move(survey_);
+}
+
+std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
+  // A witness behind an inner pose is about the path only if what leads there is proved.
+  if (last_verdict_.kind != BoxVerdict::Kind::kTolerance || !segment_.inner_poses.empty()) return std::nullopt;
+  return deviations_.refute(deviations_.weakest_box(last_verdict_.worst), last_verdict_.worst);
+}
+
+// ---- What to do with a box ------------------------------------------------------------------------------------------
+
+bool SegmentWalk::may_climb(const Task& task) const { return task.rung < ladder_.last() && !task.is_hopeless; }
+
+SegmentWalk::Step SegmentWalk::examine(const Task& task) {
+  using Kind = BoxVerdict::Kind;
+  const ProofOptions& options = prover_.options();
+  if (survey_.boxes_judged >= options.max_boxes || survey_.boxes_multiprecision >= options.max_multiprecision_boxes) {
+    return {Step::Kind::kStop, {}, {}, Undecided::kBoxBudget};
+  }
+  if (stop_.stop_requested()) return {Step::Kind::kStop, {}, {}, Undecided::kInterrupted};
+  ++survey_.boxes_judged;
+  if (task.rung > 0) ++survey_.boxes_multiprecision;
+  const BoxVerdict verdict = ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps);
+  switch (verdict.kind) {
+    case Kind::kProved: return {Step::Kind::kProved, verdict};
+    case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};
+    case Kind::kTooClose: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kClearance};
+    case Kind::kOutOfRange: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kParameterRange};
+    case Kind::kSplit:
+    case Kind::kPrecision: return examine_split(task, verdict);
+    case Kind::kTolerance: return examine_deviations(task, verdict);
+    case Kind::kSpansKnot:
+    case Kind::kNoMotion: return examine_motion(task, verdict);
+    case Kind::kNearSingular:
+    case Kind::kFault: break;
+  }
+  return examine_singular(task, verdict);
+}
+
+SegmentWalk::Step SegmentWalk::examine_split(const Task& task, const BoxVerdict& verdict) {
+  const bool is_imprecise = verdict.kind == BoxVerdict::Kind::kPrecision;
+  if (!is_imprecise && task.box.depth < ladder_.deepest(task.rung)) return {Step::Kind::kSplit, verdict};
+  if (may_climb(task)) return locate_minimum(task, verdict.worst);
+  return {Step::Kind::kGiveUp,
+          verdict,
+          {},
+          is_imprecise ? at(Undecided::kPrecision, verdict.worst, ": it vanishes or nearly so")
+                       : at(Undecided::kDepth, verdict.worst)};
+}
+
+SegmentWalk::Step SegmentWalk::examine_deviations(const Task& task, const BoxVerdict& verdict) {
+  const Step refine{Step::Kind::kRefine, verdict};
+  const bool steps_are_few = task.continuation_steps < kMostContinuationSteps;
+  if (task.continuation_steps == 1) return refine;
+  if (task.box.depth < prover_.options().tolerance_depth) {
+    return steps_are_few && !is_proved_inside(task) ? refine : Step{Step::Kind::kSplit, verdict};
+  }
+  const Step give_up{Step::Kind::kGiveUp, verdict, {}, at(Undecided::kTolerances, verdict.worst)};
+  // Once a deviation refutes the segment, only its last box is searched again: a survey states the first and the last
+  // violation of a stretch, and each search is costly.
+  if (deviation_refutes_ && task.box.upper() != Dyadic{1, 0}) return give_up;
+  if (auto witness = deviations_.refute(task.box, verdict.worst)) {
+    deviation_refutes_ = true;
+    return {Step::Kind::kRefuted, verdict, std::move(witness)};
+  }
+  return steps_are_few ? refine : give_up;
+}
+
+SegmentWalk::Step SegmentWalk::examine_motion(const Task& task, const BoxVerdict& verdict) {
+  constexpr int kHastyDepth = 5;  // where all means failed once on the segment, they are not tried again
+  const Step give_up{Step::Kind::kGiveUp, verdict, {}, Undecided::kNoMotion};
+  if (verdict.kind == BoxVerdict::Kind::kSpansKnot) {
+    if (task.box.depth < DyadicBox::kMaxDepth) return {Step::Kind::kSplit, verdict};
+    return give_up;  // no box ends at the inner pose
+  }
+  // The tube does not shrink with the box, so smaller boxes seldom succeed where this one fails.
+  const int depth = motion_given_up_ ? kHastyDepth : prover_.options().motion_depth;
+  if (task.box.depth < depth) return {Step::Kind::kSplit, verdict};
+  if (may_climb(task) && task.rung < kSingularRung && !motion_given_up_) return {Step::Kind::kClimb, verdict};
+  motion_given_up_ = true;
+  return give_up;
+}
+
+SegmentWalk::Step SegmentWalk::examine_singular(const Task& task, const BoxVerdict& verdict) {
+  // A segment all along which the robot is singular (or the pose undefined) would use up the budget; after this many
+  // open boxes, large ones are given up.
+  constexpr int kMostOpen = 256;
+  constexpr int kHastyDepth = 8;
+  const int singular_depth = prover_.options().singular_depth;
+  const Step give_up{Step::Kind::kGiveUp, verdict, {}, reason_of(verdict.kind)};
+  const Step split{Step::Kind::kSplit, verdict};
+  if (singular_open_ > kMostOpen && task.box.depth >= kHastyDepth) return give_up;
+  if (task.box.depth < singular_depth) return split;
+  if (verdict.kind == BoxVerdict::Kind::kNearSingular && task.box.depth == singular_depth && task.rung == 0 &&
+      is_singular_between_ends(task.box)) {
+    return {Step::Kind::kRefuted, verdict, SegmentWitness{true, {}, task.box}};
+  }
+  if (may_climb(task) && task.rung < kSingularRung) return {Step::Kind::kClimb, verdict};
+  if (task.box.depth < 2 * singular_depth && !task.is_hopeless) return split;
+  return give_up;
+}
+
+bool SegmentWalk::is_singular_between_ends(const DyadicBox& box) const {
+  for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
+    const PrecisionScope precision(ladder_.bits(rung));
+    const ProofModel<MpInterval>& model = ladder_.multiprecision(rung);
+    const int lower = determinant_sign(model, segment_, box.lower());
+    const int upper = determinant_sign(model, segment_, box.upper());
+    if (lower != 0 && upper != 0) return lower != upper && is_motion_known(model, segment_, box);
+  }
+  return false;
+}
+
+/// Whether a much narrower box in the middle would be proved with as many continuation steps.
+bool SegmentWalk::is_proved_inside(const Task& task) {
+  constexpr int kNarrower = 10;  // halvings
+  const DyadicBox narrow{(task.box.k << kNarrower) + (1 << (kNarrower - 1)), task.box.depth + kNarrower};
+  ++survey_.boxes_judged;
+  const BoxVerdict verdict = ladder_.judge(task.rung, segment_, narrow, clearance_, task.continuation_steps);
+  return verdict.kind == BoxVerdict::Kind::kProved;
+}
+
+/// For a margin that is next to 0: looks for the point of the box where it is least, which shows sooner than bisection
+/// what bisection would find. Only the ladder's verdicts make claims; should the search go wrong, the box climbs one
+/// rung as it would anyway.
+SegmentWalk::Step SegmentWalk::locate_minimum(const Task& task, MarginId margin) {
+  constexpr int kMostSteps = 24;  // on one rung; secants gain digits like 1, 1, 2, 3, 5
+  const Step climb{Step::Kind::kClimb};
+  SlopeSecants secants;
+  for (std::size_t rung = task.rung + 1; rung <= ladder_.last(); ++rung) {
+    const PrecisionScope precision(ladder_.bits(rung));
+    const int depth = ladder_.deepest(rung);
+    if (depth <= task.box.depth) return climb;
+    const BigFloat resolution = resolution_at(depth);
+    secants.use_precision(task.box);
+    bool is_positive = false;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const DyadicBox point = box_around(secants.s(), task.box, depth);
+      ++survey_.boxes_judged;
+      ++survey_.boxes_multiprecision;
+      const BoxVerdict verdict = ladder_.judge(rung, segment_, point, clearance_, task.continuation_steps);
+      if (verdict.kind == BoxVerdict::Kind::kRefuted) {
+        return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, point}};
+      }
+      Faults<MpInterval>::clear();
+      const auto value = margin_over(ladder_.multiprecision(rung), segment_, point, margin);
+      if (!value || Faults<MpInterval>::raised()) return climb;
+      const BigFloat slope = middle(value->slope);
+      // It stays positive as far from s as the least point may be.
+      is_positive = value->at_mid.lower() > abs(slope) * resolution;
+      if (!secants.advance(slope, resolution)) break;
+    }
+    if (is_positive) return climb;
+  }
+  const std::string bits = std::to_string(ladder_.bits(ladder_.last()));
+  return {Step::Kind::kGiveUp,
+          {},
+          {},
+          at(Undecided::kPrecision, margin, ": it is zero, or too close to it for " + bits + " bits to tell")};
+}
+
+// ---- Doing it -------------------------------------------------------------------------------------------------------
+
+void SegmentWalk::report(const Task& task, SurveyedBox::Kind kind, Step step) {
+  survey_.boxes.push_back({task.box, kind, std::move(step.witness), std::move(step.reason)});
+  last_verdict_ = step.verdict;
+  if (extent_ == Extent::kToFirstFailure && kind != SurveyedBox::Kind::kProved) is_over_ = true;
+}
+
+void SegmentWalk::split(const Task& task, std::size_t rung) {
+  open_.push_back({task.box.right(), rung, task.is_hopeless});
+  open_.push_back({task.box.left(), rung, task.is_hopeless});  // judged first
+}
+
+bool SegmentWalk::follows_violation() const {
+  if (survey_.boxes.empty()) return false;
+  const SurveyedBox::Kind kind = survey_.boxes.back().kind;
+  return kind != SurveyedBox::Kind::kProved && kind != SurveyedBox::Kind::kOpen;
+}
+
+void SegmentWalk::take(const Task& task, Step step) {
+  using Kind = SurveyedBox::Kind;
+  // Tensions grow towards a singular pose. Where they are violated already, it is not worth locating precisely.
+  if (is_fine(task.box) && step.verdict.kind == BoxVerdict::Kind::kNearSingular && step.kind != Step::Kind::kRefuted &&
+      follows_violation()) {
+    if (is_singular_between_ends(task.box)) {
+      step.witness = SegmentWitness{true, {}, task.box};
+      report(task, Kind::kSingular, std::move(step));
+    } else {
+      step.reason = reason_of(step.verdict.kind);
+      report(task, Kind::kOpen, std::move(step));
+    }
+    return;
+  }
+  switch (step.kind) {
+    case Step::Kind::kProved:
+      survey_.tension_N = std::min(survey_.tension_N, step.verdict.tension_N);
+      survey_.length_m = std::min(survey_.length_m, step.verdict.length_m);
+      survey_.wrench_scale = std::min(survey_.wrench_scale, step.verdict.wrench_scale);
+      report(task, Kind::kProved, std::move(step));
+      break;
+    case Step::Kind::kRefuted: take_refuted(task, std::move(step)); break;
+    case Step::Kind::kSplit: split(task, task.rung); break;
+    case Step::Kind::kClimb: open_.push_back({task.box, task.rung + 1, task.is_hopeless}); break;
+    case Step::Kind::kRefine:
+      open_.push_back(task);
+      open_.back().continuation_steps *= kMoreSteps;
+      break;
+    case Step::Kind::kGiveUp: take_given_up(task, std::move(step)); break;
+    case Step::Kind::kStop: report(task, Kind::kOpen, std::move(step)); break;
+  }
+}
+
+void SegmentWalk::take_refuted(const Task& task, Step step) {
+  using Kind = SurveyedBox::Kind;
+  if (step.witness->singular) {
+    report(task, Kind::kSingular, std::move(step));
+  } else if (step.verdict.throughout && step.witness->box == task.box) {
+    report(task, Kind::kViolated, std::move(step));
+  } else if (is_fine(task.box) || step.witness->deviation || extent_ == Extent::kToFirstFailure) {
+    report(task, Kind::kViolatedInside, std::move(step));
+  } else {
+    split(task, 0);
+  }
+}
+
+void SegmentWalk::take_given_up(const Task& task, Step step) {
+  using Kind = BoxVerdict::Kind;
+  const Kind kind = step.verdict.kind;
+  if (kind == Kind::kNearSingular || kind == Kind::kFault) ++singular_open_;
+  if (is_fine(task.box) || kind == Kind::kTolerance || kind == Kind::kNoMotion || extent_ == Extent::kToFirstFailure) {
+    report(task, SurveyedBox::Kind::kOpen, std::move(step));
+    return;
+  }
+  // There may be violations next to what can't be decided, but climbing the ladder will not help.
+  Task hopeless = task;
+  hopeless.is_hopeless = true;
+  split(hopeless, 0);
+}
+
+}  // namespace taut

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one loop that proves segments: it judges boxes from left to right, and splits them until each is decided.
+//
+// Each box is first judged in binary64 intervals; where the midpoint itself can't be told apart from its limit, it
+// climbs the ladder of precisions (precision_ladder.h). Before it climbs, a box looks for the point where the margin is
+// least, by secants: that point may refute, or show that no rung can tell. There are three verdicts, and "undecided" is
+// not "unsafe".
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "certify/deviation_search.h"
+#include "certify/prover.h"
+
+namespace taut {
+
+/// One walk along one segment. Refers to the prover, the segment and the stop token, which outlive it.
+class SegmentWalk {
+ public:
+  enum class Extent {
+    kWhole,          ///< until the boxes cover the segment
+    kToFirstFailure  ///< or until a box is reported that is not proved; it is the last of the boxes then
+  };
+
+  /// @pre prover.is_admissible(segment)
+  SegmentWalk(const Prover& prover, const Segment& segment, double clearance, Extent extent,
+              const std::stop_token& stop);
+
+  /// The boxes of the segment, in order, as far as the extent goes.
+  [[nodiscard]] SegmentSurvey run();
+
+  /// After run(): where the last box was given up because of deviations, what one of them breaks elsewhere on the
+  /// segment, if that is found.
+  [[nodiscard]] std::optional<SegmentWitness> refute_elsewhere();
+
+ private:
+  /// A box that is still to be judged, and how.
+  struct Task {
+    DyadicBox box;
+    std::size_t rung = 0;        ///< of the ladder; 0: binary64
+    bool is_hopeless = false;    ///< no higher rung is worth trying
+    int continuation_steps = 1;  ///< of deviations (tolerance.h)
+  };
+  /// What to do with a box.
+  struct Step {
+    enum class Kind {
+      kProved,
+      kRefuted,  ///< by `witness`
+      kSplit,    ///< into halves, on the same rung
+      kClimb,    ///< judge the same box on the next rung
+      kRefine,   ///< judge the same box again, with more continuation steps
+      kGiveUp,   ///< leave this box open, for `reason`
+      kStop,     ///< leave all the rest open, for `reason`
+    };
+    Kind kind;
+    BoxVerdict verdict = {};
+    std::optional<SegmentWitness> witness = {};
+    Reason reason = {};
+  };
+
+  [[nodiscard]] Step examine(const Task& task);
+  [[nodiscard]] Step examine_split(const Task& task, const BoxVerdict& verdict);
+  [[nodiscard]] Step examine_deviations(const Task& task, const BoxVerdict& verdict);
+  [[nodiscard]] Step examine_motion(const Task& task, const BoxVerdict& verdict);
+  [[nodiscard]] Step examine_singular(const Task& task, const BoxVerdict& verdict);
+  [[nodiscard]] Step locate_minimum(const Task& task, MarginId margin);
+  [[nodiscard]] bool is_proved_inside(const Task& task);
+  [[nodiscard]] bool is_singular_between_ends(const DyadicBox& box) const;
+  [[nodiscard]] bool may_climb(const Task& task) const;
+  [[nodiscard]] bool follows_violation() const;
+
+  void take(const Task& task, Step step);
+  void take_refuted(const Task& task, Step step);
+  void take_given_up(const Task& task, Step step);
+  void report(const Task& task, SurveyedBox::Kind kind, Step step);
+  void split(const Task& task, std::size_t rung);
+
+  const Prover& prover_;
+  const PrecisionLadder& ladder_;
+  const Segment& segment_;
+  double clearance_;
+  Extent extent_;
+  const std::stop_token& stop_;
+  DeviationSearch deviations_;
+  SegmentSurvey survey_;
+  std::vector<Task> open_ = {Task{}};
+  bool is_over_ = false;
+  BoxVerdict last_verdict_;
+  bool motion_given_up_ = false;  ///< somewhere on the segment, with all means
+  int singular_open_ = 0;         ///< boxes next to singular poses, or with an undefined pose, that all means left open
+  bool deviation_refutes_ = false;  ///< one was found that refutes the segment
+};
+
+}  // namespace taut
