@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "certificate/certificate_view.h"
+#include "certificate/certificate.h"
 #include "certify/box_ranges.h"
 #include "checker/check.h"
+#include "reports/summary/illustration.h"
 #include "reports/summary/report_options.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/travel.h"
@@ -15,22 +16,31 @@
 namespace taut {
 
 struct ReportContext {
-  /// Of a certificate as the checker left it: with a verdict where it made a theorem.
+  /// From what the checker said of a certificate: with a verdict where it made a theorem.
   /// @throws InputError where a report can't show what is in it. @pre the outcome is neither rejected nor malformed.
   explicit ReportContext(const checker::CheckResult& checked);
-  /// Unless confirmed, all claims are taken out of the view.
-  ReportContext(CertificateView certificate, Recheck checked);
+  /// Unless confirmed, all claims are taken out of the certificate.
+  ReportContext(Certificate stated, Recheck checked);
 
   Recheck recheck;
-  CertificateView view;
+  Certificate certificate;
+  std::string verdict;  ///< "proved" or "refuted" where the checker confirmed that, else "undecided" or "unchecked"
+  Illustration illustration;
+  std::vector<std::vector<DyadicBox>> boxes;  ///< of each segment
   Sampler sampler;
   std::vector<PathSample> samples;  ///< along the whole path
   Travel travel;                    ///< how far into the move a place is
-  /// Of the certificate's boxes, computed anew: proved where the certificate is right. Floating point has no part in them.
+  /// Enclosures over the certificate's boxes, computed anew without floating point: proved where the certificate is
+  /// right.
   PathRanges ranges;
-  /// Whether they are those of the whole path: the boxes are without gaps, and all of them were enclosed.
+  /// Whether they are those of the whole path: the boxes leave no gaps, and all of them were enclosed.
   bool ranges_are_whole = false;
 };
+
+/// Whether a planner found no path: then the certificate's path is the query's waypoints alone.
+[[nodiscard]] bool found_no_path(const Certificate& certificate);
+/// A point of the path as a number that counts segments: k + s is the point s of segment k.
+[[nodiscard]] double position(const PathPoint& point);
 
 /// "rad", "m" or "": the unit of parameter j, where it can be told.
 [[nodiscard]] std::string unit(const SpaceText& space, std::size_t j);

@@ -12,9 +12,10 @@
 #include <memory>
 #include <string>
 
-#include "certificate/elaborate.h"
+#include "certificate/implied_motion.h"
 #include "checker/format/reader.h"
 #include "checker/format/writer.h"
+#include "checker/kernel/box_proof.h"
 #include "checker/kernel/motion.h"
 
 namespace taut {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/explain.h"
+#include "cli/explain_command.h"
 
 #include <fmt/format.h>
 
@@ -157,23 +157,23 @@ Explanation explained(Undecided reason) {
   return {};
 }
 
-Explanation explained(InputKind kind) {
+Explanation explained(ErrorCode code) {
   const auto entry = [&](const char* title, const char* meaning, const char* causes, const char* remedy,
                          const char* example) {
-    return Explanation{code(kind), title, meaning, causes, remedy, example};
+    return Explanation{text(code), title, meaning, causes, remedy, example};
   };
-  switch (kind) {
-    case InputKind::kUse:
+  switch (code) {
+    case ErrorCode::kUse:
       return entry("The command line", "An option or argument is not what the command takes; nothing was done.",
                    "A misspelt option; two that exclude each other; a value of another kind.",
                    "taut COMMAND --help lists what there is.", "--bits: Value 12 not in range 128 to 1048576 [E1]");
-    case InputKind::kFile:
+    case ErrorCode::kFile:
       return entry(
           "A file can't be read or written", "The system refused; it says why.",
           "A wrong name, a folder without write permission, a full disk.",
           "Correct the name or the folder. Files are written whole or not at all: what was there before still is.",
           "taut: crane.yaml: could not read: No such file or directory [E2]");
-    case InputKind::kCase:
+    case ErrorCode::kCase:
       return entry(
           "The case is wrong",
           "The case file can't be used: the message names line and field, what was seen and what was "
@@ -183,14 +183,14 @@ Explanation explained(InputKind kind) {
           "docs/case-format.md has every key; taut show prints what was understood; taut init writes a case that is "
           "right.",
           "taut: crane.yaml:38:9: load.mass: got 'NaN', expected a decimal number such as 0.05 or 1e-4 [E3]");
-    case InputKind::kPath:
+    case ErrorCode::kPath:
       return entry(
           "The path file is wrong", "The path to be audited can't be read, or does not fit the case.",
           "A column without a unit or with an unknown name; a row with a missing number; a repeated pose; lengths "
           "whose first row is not at the start pose.",
           "docs/audits.md lists the forms of files. --allow-repeats drops repeated rows.",
           "taut: path.csv:2: theta: got 'x', expected a decimal number such as 0.05 or 1e-4 [E4]");
-    case InputKind::kCertificate:
+    case ErrorCode::kCertificate:
       return entry(
           "No certificate, or not this one",
           "The file is no certificate, was altered or cut after it was written, or is of another version of the "
@@ -200,25 +200,25 @@ Explanation explained(InputKind kind) {
           "the taut which made it.",
           "taut: certificate.json: version: got 2, expected 3: only the taut that made it can make its report, or "
           "one of that time [E5]");
-    case InputKind::kAtlas:
+    case ErrorCode::kAtlas:
       return entry(
           "The atlas file is refused", "The file belongs to another robot, load, space or planner, or is damaged.",
           "The case was changed since the atlas was saved.",
           "Save it again: taut plan CASE --save-atlas FILE. docs/atlas-file.md says what a file belongs to.",
           "taut: robot1.atlas: the atlas is of another problem: its robot, load or space is not the case's [E6]");
-    case InputKind::kKey:
+    case ErrorCode::kKey:
       return entry("The key can't sign", "The file of --sign holds no unencrypted Ed25519 private key in PEM.",
                    "A public key; an RSA key; a key with a passphrase.",
                    "openssl genpkey -algorithm ed25519 -out key.pem",
                    "taut: key.pem: got a private key of type RSA, expected an unencrypted Ed25519 private key in PEM "
                    "(openssl genpkey -algorithm ed25519) [E7]");
-    case InputKind::kBrowser:
+    case ErrorCode::kBrowser:
       return entry("There is no browser to print with",
                    "taut report --pdf prints the page by a Chromium that you have, and found none.",
                    "None is installed, or TAUT_BROWSER names a program that isn't there.",
                    "Install Debian's package chromium, set TAUT_BROWSER, or print report.html from any browser.",
                    "taut: --pdf: found no browser (chromium, …), expected Chromium: … [E8]");
-    case InputKind::kRegress:
+    case ErrorCode::kRegress:
       return entry("The folder of cases can't be used", "There are no cases in it, or the baseline is no baseline.",
                    "A wrong folder; a baseline that was edited.",
                    "docs/regress.md. --update writes the baseline afresh.",
@@ -259,7 +259,7 @@ const std::vector<Explanation>& explanations() {
   static const std::vector<Explanation> all = [] {
     std::vector<Explanation> result;
     for (std::size_t k = 0; k < kUndecidedReasons; ++k) result.push_back(explained(static_cast<Undecided>(k)));
-    for (std::size_t k = 0; k < kInputKinds; ++k) result.push_back(explained(static_cast<InputKind>(k)));
+    for (std::size_t k = 0; k < kErrorCodes; ++k) result.push_back(explained(static_cast<ErrorCode>(k)));
     result.push_back({kInternalCode, "taut failed",
                       "An error of taut itself: a promise that its code makes was broken. Nothing was "
                       "claimed.",
@@ -299,8 +299,8 @@ int run_explain(const ExplainArguments& arguments) {
   for (char& c : wanted) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   const auto found = std::ranges::find(explanations(), wanted, &Explanation::code);
   if (found == explanations().end()) {
-    throw InputErrorOfKind(InputKind::kUse, fmt::format("CODE: got '{}', expected one of those that taut explain lists",
-                                                        excerpt(arguments.code)));
+    throw InputError(ErrorCode::kUse, fmt::format("CODE: got '{}', expected one of those that taut explain lists",
+                                                  excerpt(arguments.code)));
   }
   fmt::print("{}", to_text(*found));
   return kProvedExit;
