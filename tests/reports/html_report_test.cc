@@ -371,6 +371,8 @@ TEST(HtmlReport, StaysSmallForLongPathsAndLargeAtlases) {
   for (int k = 2; k < 50; ++k) {
     certificate["path"]["waypoints"].push_back(waypoint);
     certificate["segments"].push_back(segment);
+    certificate["segments"].back()["from"] = k;
+    certificate["segments"].back()["to"] = k + 1;
   }
   const nlohmann::json chart = certificate["illustration"]["charts"][0];
   for (int k = 0; k < 500; ++k) certificate["illustration"]["charts"].push_back(chart);
