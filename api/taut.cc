@@ -13,16 +13,16 @@
 #include <mutex>
 #include <new>
 
-#include "app/path_audit.h"
-#include "app/planned_case.h"
-#include "app/proved_path.h"
+#include "app/audit.h"
+#include "app/plan.h"
+#include "app/prove.h"
 #include "app/recheck.h"
+#include "app/report.h"
 #include "base/files.h"
-#include "base/input_kind.h"
+#include "base/input_error.h"
 #include "case/case_file.h"
-#include "certificate/certificate.h"
-#include "certificate/certificate_file.h"
-#include "certificate/certificate_view.h"
+#include "certificate/certificate_reader.h"
+#include "certificate/certificate_writer.h"
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
@@ -31,7 +31,6 @@
 #include "checker/kernel/errors.h"
 #include "kinematics/pose_conversion.h"
 #include "path_io/path_csv.h"
-#include "reports/page/html_report.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
 #include "reports/summary/samples.h"
@@ -46,22 +45,25 @@ struct Case::Content {
 struct Theorem::Content {
   checker::Theorem theorem;
   std::string claim;
-  std::optional<MarginsView> margins;
-  std::optional<WitnessView> witness;
+  std::optional<taut::Margins> margins;
+  std::optional<PathWitness> witness;
 };
 
 struct TheoremMaker {
   static Theorem make(const checker::Theorem& theorem) {
-    CertificateView view = read_certificate(theorem.certificate());
+    const taut::Certificate certificate = read_certificate(theorem.certificate());
+    std::optional<PathWitness> witness;
+    if (certificate.witness) witness = certificate.witness->violation;
     return Theorem(std::make_shared<const Theorem::Content>(
-        Theorem::Content{theorem, std::move(view.claim), std::move(view.margins), std::move(view.witness)}));
+        Theorem::Content{theorem, certificate.claim, certificate.margins, std::move(witness)}));
   }
 };
 
 struct Certificate::Content {
   std::string text;
   checker::CheckResult checked;  ///< of this text
-  CertificateView view;
+  taut::Certificate stated;      ///< without segments
+  std::size_t boxes = 0;
   std::optional<Theorem> theorem;
 };
 
@@ -129,28 +131,27 @@ class ProgressBridge {
   std::stop_callback<std::function<void()>> on_stop_;
 };
 
-[[noreturn]] void throw_outside(const taut::InputError& error, InputKind kind) {
+[[noreturn]] void throw_outside(const taut::InputError& error, ErrorCode code) {
   const InputPlace& place = error.place();
-  throw InputError(error.what(), place.file, place.line, place.field, code(kind));
+  throw InputError(error.what(), place.file, place.line, place.field, text(code));
 }
 
-/// Calls `work` in a floating-point environment and with threads of its own, and turns taut's exceptions into those of the interface.
-/// @param kind  of input that is wrong, where an error does not say
+/// Calls `work` in a floating-point environment and with threads of its own, and turns taut's exceptions into those of
+/// the interface.
+/// @param code  of wrong input, where an error has none
 template <class Work>
-auto within(InputKind kind, const Work& work) {
+auto within(ErrorCode code, const Work& work) {
   const DefaultFloatingPoint environment;
   thread_local const MpfrConstants constants;
   try {
     tbb::task_arena threads;  // begins with this thread's environment, whatever that of the caller's own tasks is
     return threads.execute(work);
-  } catch (const taut::InputErrorOfKind& error) {
-    throw_outside(error, error.kind());
   } catch (const taut::InputError& error) {
-    throw_outside(error, kind);
+    throw_outside(error, error.code().value_or(code));
   } catch (const std::filesystem::filesystem_error& error) {
-    throw_outside(taut::InputError(error.what()), InputKind::kFile);
+    throw_outside(taut::InputError(error.what()), ErrorCode::kFile);
   } catch (const checker::Malformed& error) {  // of keys
-    throw_outside(taut::InputError(error.what()), InputKind::kKey);
+    throw_outside(taut::InputError(error.what()), ErrorCode::kKey);
   } catch (const checker::Interrupted& error) {
     throw Interrupted(error.what());
   } catch (const taut::UntrustworthyMachine& error) {
@@ -168,8 +169,8 @@ auto within(InputKind kind, const Work& work) {
 
 /// The same, for what proves: on a machine that rounds as told.
 template <class Work>
-auto prove_within(InputKind kind, const Work& work) {
-  return within(kind, [&] {
+auto prove_within(ErrorCode code, const Work& work) {
+  return within(code, [&] {
     test_rounding_once();
     return work();
   });
@@ -212,6 +213,16 @@ taut::Path inner(const Path& path) {
   return result;
 }
 
+ReportForm inner(ReportFormat format) {
+  switch (format) {
+    case ReportFormat::kHtml: break;
+    case ReportFormat::kText: return ReportForm::kText;
+    case ReportFormat::kMarkdown: return ReportForm::kMarkdown;
+    case ReportFormat::kJson: return ReportForm::kJson;
+  }
+  return ReportForm::kPage;
+}
+
 std::string code_of(const std::string& reason) {
   const std::optional<Undecided> known = undecided_reason(reason);
   return known ? code(*known) : "";
@@ -220,26 +231,27 @@ std::string code_of(const std::string& reason) {
 double below(const std::string& decimal) { return ScalarTraits<Interval>::from_decimal(decimal).lower(); }
 double above(const std::string& decimal) { return ScalarTraits<Interval>::from_decimal(decimal).upper(); }
 
-Place outer(const PathPointView& point) {
+Place outer(const PathPoint& point) {
   Place place;
   place.index = static_cast<std::size_t>(point.index);
-  if (point.s) place.s = point.position - point.index;
+  if (point.on_segment) place.s = point.s.approx();
   return place;
 }
 
-Witness outer(const WitnessView& witness) {
+Witness outer(const PathWitness& witness) {
   Witness result;
-  result.kind = witness.kind;
   result.at = outer(witness.at);
-  if (witness.to) {
-    result.to = outer(*witness.to);
+  if (witness.singular) {
+    result.kind = "singular";
+    result.to = outer(witness.to);
     return result;
   }
-  result.cable = witness.cable;
+  result.kind = name(witness.margin.kind);
+  result.cable = witness.margin.cable + 1;
   result.value_lower = below(witness.value_lower);
   result.value_upper = above(witness.value_upper);
   result.limit = ScalarTraits<double>::from_decimal(witness.limit);
-  result.deviates = witness.deviates;
+  result.deviates = witness.deviation != nullptr;
   return result;
 }
 
@@ -252,16 +264,18 @@ std::array<std::array<double, 2>, 6> outer(const std::array<Limits, kCables>& li
   return result;
 }
 
-/// Of what the checker has read.
+/// A certificate that the checker has read.
 Certificate certificate_of(std::string text, checker::CheckResult checked) {
-  CertificateView view = read_certificate(*checked.certificate);
+  taut::Certificate stated = read_certificate(*checked.certificate);
+  const std::size_t boxes = count_boxes(stated);
+  stated.segments = {};  // nobody asks for them, and they are long
   std::optional<Theorem> theorem;
   if (checked.theorem) theorem = TheoremMaker::make(*checked.theorem);
   return Certificate(std::make_shared<const Certificate::Content>(
-      Certificate::Content{std::move(text), std::move(checked), std::move(view), std::move(theorem)}));
+      Certificate::Content{std::move(text), std::move(checked), std::move(stated), boxes, std::move(theorem)}));
 }
 
-/// Of a certificate that was just made.
+/// A certificate that was just made, once the checker has confirmed it.
 Certificate checked_certificate(std::string text, double max_seconds, const std::stop_token& stop) {
   checker::CheckResult checked = recheck(text, max_seconds, stop);
   require_confirmed(checked);
@@ -318,13 +332,13 @@ InternalError::~InternalError() = default;
 Case::Case(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Case Case::load(const std::string& file) {
-  return within(InputKind::kCase, [&] {
+  return within(ErrorCode::kCase, [&] {
     return Case(std::make_shared<const Content>(Content{load_case(file), file}));
   });
 }
 
 Case Case::parse(const std::string& yaml, const std::string& name) {
-  return within(InputKind::kCase, [&] {
+  return within(ErrorCode::kCase, [&] {
     return Case(std::make_shared<const Content>(Content{parse_case(yaml, name), name}));
   });
 }
@@ -341,25 +355,25 @@ std::vector<std::string> Case::parameters() const {
 std::size_t Case::query_waypoints() const { return content_->the_case.problem.query.size(); }
 
 std::array<std::array<double, 2>, 6> Case::tension_limits_N() const {
-  return within(InputKind::kCase, [&] { return outer(content_->the_case.problem.robot.tension_N); });
+  return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.tension_N); });
 }
 
 std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
-  return within(InputKind::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
+  return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
 }
 
 std::string Case::summary() const {
-  return within(InputKind::kCase, [&] { return to_text(CaseSummary(content_->the_case)); });
+  return within(ErrorCode::kCase, [&] { return to_text(CaseSummary(content_->the_case)); });
 }
 
 std::string Case::summary_json() const {
-  return within(InputKind::kCase, [&] {
+  return within(ErrorCode::kCase, [&] {
     return to_json(CaseSummary(content_->the_case)).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
   });
 }
 
 std::string Case::drawing_svg() const {
-  return within(InputKind::kCase, [&] { return robot_drawing(CaseSummary(content_->the_case)); });
+  return within(ErrorCode::kCase, [&] { return robot_drawing(CaseSummary(content_->the_case)); });
 }
 
 // --- Certificates ----------------------------------------------------------------------------------------------------
@@ -367,12 +381,12 @@ std::string Case::drawing_svg() const {
 Certificate::Certificate(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Certificate Certificate::load(const std::string& file) {
-  return parse(within(InputKind::kCertificate, [&] { return read_whole(file); }), file);
+  return parse(within(ErrorCode::kCertificate, [&] { return read_whole(file); }), file);
 }
 
 Certificate Certificate::parse(const std::string& text, const std::string& name) {
-  return within(InputKind::kCertificate, [&] {
-    return taut::reading(InputKind::kCertificate, name, [&] {
+  return within(ErrorCode::kCertificate, [&] {
+    return taut::with_error_code(ErrorCode::kCertificate, name, [&] {
       checker::CheckResult unchecked;
       unchecked.outcome = checker::Outcome::kUnchecked;
       unchecked.message = "it was loaded";
@@ -384,7 +398,7 @@ Certificate Certificate::parse(const std::string& text, const std::string& name)
 }
 
 void Certificate::save(const std::string& file) const {
-  within(InputKind::kCertificate, [&] { write_whole({{file, content_->text}}); });
+  within(ErrorCode::kCertificate, [&] { write_whole({{file, content_->text}}); });
 }
 
 const std::string& Certificate::text() const { return content_->text; }
@@ -393,10 +407,10 @@ std::optional<Theorem> Certificate::theorem() const { return content_->theorem; 
 
 Verdict Certificate::verdict() const {
   if (content_->theorem) return content_->theorem->verdict();
-  return content_->view.verdict == "undecided" ? Verdict::kUndecided : Verdict::kUnchecked;
+  return content_->stated.verdict == taut::Verdict::kUndecided ? Verdict::kUndecided : Verdict::kUnchecked;
 }
 
-const std::string& Certificate::case_name() const { return content_->view.problem.name; }
+const std::string& Certificate::case_name() const { return content_->stated.problem.name; }
 
 Theorem::Theorem(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
@@ -409,27 +423,29 @@ const std::string& Theorem::claim() const { return content_->claim; }
 const std::string& Theorem::certificate_sha256() const { return content_->theorem.sha256(); }
 
 std::optional<Margins> Theorem::margins() const {
-  const std::optional<MarginsView>& margins = content_->margins;
+  const std::optional<taut::Margins>& margins = content_->margins;
   if (!margins) return std::nullopt;
-  return within(InputKind::kCertificate, [&] {
+  return within(ErrorCode::kCertificate, [&] {
     return Margins{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale)};
   });
 }
 
 std::optional<Witness> Theorem::witness() const {
   if (!content_->witness) return std::nullopt;
-  return within(InputKind::kCertificate, [&] { return outer(*content_->witness); });
+  return within(ErrorCode::kCertificate, [&] { return outer(*content_->witness); });
 }
 
 std::vector<Stretch> Certificate::stretches() const {
-  return within(InputKind::kCertificate, [&] {
+  return within(ErrorCode::kCertificate, [&] {
     std::vector<Stretch> result;
     if (verdict() == Verdict::kUnchecked) return result;
-    for (const StretchView& stretch : content_->view.stretches) {
+    for (const taut::Stretch& stretch : content_->stated.stretches) {
       Stretch& copy = result.emplace_back();
       copy.begin = outer(stretch.begin);
       copy.end = outer(stretch.end);
-      if (stretch.first) copy.violations = {outer(*stretch.first), outer(*stretch.last)};
+      if (const auto& found = stretch.violations) {
+        copy.violations = {outer(found->first.violation), outer(found->second.violation)};
+      }
       copy.reason = stretch.reason;
       copy.reason_code = code_of(stretch.reason);
     }
@@ -439,13 +455,13 @@ std::vector<Stretch> Certificate::stretches() const {
 
 const std::string& Certificate::reason() const {
   static const std::string none;
-  return content_->view.undecided ? content_->view.undecided->reason : none;
+  return content_->stated.undecided ? content_->stated.undecided->reason : none;
 }
 
 std::string Certificate::reason_code() const { return code_of(reason()); }
 
 Path Certificate::path() const {
-  const taut::Path& path = content_->view.path;
+  const taut::Path& path = content_->stated.path;
   Path result;
   result.interpolation = outer(path.interpolation);
   for (const taut::Waypoint& waypoint : path.waypoints) result.waypoints.push_back({waypoint.x, waypoint.half_turns});
@@ -454,18 +470,19 @@ Path Certificate::path() const {
 }
 
 std::string Certificate::path_csv() const {
-  return within(InputKind::kCertificate,
-                [&] { return taut::path_csv(content_->view.problem, content_->view.path, content_->checked.sha256); });
+  return within(ErrorCode::kCertificate, [&] {
+    return taut::path_csv(content_->stated.problem, content_->stated.path, content_->checked.sha256);
+  });
 }
 
-std::size_t Certificate::segments() const { return content_->view.path.segments(); }
-std::size_t Certificate::boxes() const { return content_->view.boxes; }
+std::size_t Certificate::segments() const { return content_->stated.path.segments(); }
+std::size_t Certificate::boxes() const { return content_->boxes; }
 
 std::vector<Sample> Certificate::samples(std::size_t about) const {
-  return within(InputKind::kCertificate, [&] {
-    const Sampler sampler(content_->view.problem);
+  return within(ErrorCode::kCertificate, [&] {
+    const Sampler sampler(content_->stated.problem);
     std::vector<Sample> result;
-    for (const PathSample& sample : sampler.along(content_->view.path, about)) {
+    for (const PathSample& sample : sampler.along(content_->stated.path, about)) {
       Sample& copy = result.emplace_back();
       copy.position = sample.position;
       const RigidPose pose = rigid_pose(sample.pose);
@@ -486,7 +503,7 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
 
 Certificate plan(const Case& the_case, const PlanOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
-  Certificate result = prove_within(InputKind::kCase, [&] {
+  Certificate result = prove_within(ErrorCode::kCase, [&] {
     taut::Case planned = the_case.content().the_case;
     try {
       require_plannable(planned);
@@ -518,14 +535,14 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
 }
 
 Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options) {
-  return prove_within(InputKind::kPath, [&] {
+  return prove_within(ErrorCode::kPath, [&] {
     require_seconds(options.max_check_seconds, "max_check_seconds");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    nlohmann::json certificate =
+    const taut::Certificate certificate =
         prove_waypoints(the_case.content().the_case.problem, inner(path), options.max_bits, options.stop);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
-    if (key) key->sign(certificate);
-    return checked_certificate(certificate_text(certificate), options.max_check_seconds, options.stop);
+    return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
+                               options.stop);
   });
 }
 
@@ -543,14 +560,14 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     PathSource source(content.the_case.problem, request.path, request.law, {request.allow_repeats});
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
-    const PathAudit audited = audit_path(
+    const Audit audited = audit_path(
         source, {options.max_bits, temporary_folder(), key ? &*key : nullptr},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
-    if (audited.audit.interrupted) throw Interrupted("interrupted");
+    if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());
   };
   try {
-    return prove_within(InputKind::kPath, work);
+    return prove_within(ErrorCode::kPath, work);
   } catch (const Interrupted&) {
     relay.rethrow();
     throw;
@@ -564,7 +581,7 @@ Certificate audit(const Case& the_case, const std::string& path_file, const Audi
 }
 
 Certificate audit(const Case& the_case, const Table& table, const AuditOptions& options, const std::string& name) {
-  return audit_input(the_case, PathInput(name, within(InputKind::kPath, [&] { return text_of(table); })), options);
+  return audit_input(the_case, PathInput(name, within(ErrorCode::kPath, [&] { return text_of(table); })), options);
 }
 
 Certificate audit(const Case& the_case, const AuditOptions& options) {
@@ -572,7 +589,7 @@ Certificate audit(const Case& the_case, const AuditOptions& options) {
 }
 
 CheckResult check(const std::string& certificate_text, const CheckOptions& options) {
-  return within(InputKind::kUse, [&] {
+  return within(ErrorCode::kUse, [&] {
     std::vector<std::string> trusted;
     for (const std::string& pem : options.trusted_keys_pem) {
       trusted.push_back(checker::read_public_key(pem, "trusted_keys_pem"));
@@ -612,7 +629,7 @@ CheckResult check(const Certificate& certificate, const CheckOptions& options) {
 }
 
 std::string report(const Certificate& certificate, const ReportOptions& options) {
-  return prove_within(InputKind::kCertificate, [&]() -> std::string {
+  return prove_within(ErrorCode::kCertificate, [&]() -> std::string {
     require_seconds(options.max_check_seconds, "max_check_seconds");
     const taut::ReportOptions request{options.document, options.revision,
                                       options.date.empty() ? report_date() : options.date};
@@ -623,14 +640,7 @@ std::string report(const Certificate& certificate, const ReportOptions& options)
     if (checked.certificate == nullptr || checked.outcome == checker::Outcome::kRejected) {
       throw taut::InputError(fmt::format("certificate: {}. No report is made of it.", sentence(checked)));
     }
-    switch (options.format) {
-      case ReportFormat::kHtml: break;
-      case ReportFormat::kText: return text_summary(checked, request);
-      case ReportFormat::kMarkdown: return markdown_summary(checked, request);
-      case ReportFormat::kJson:
-        return json_summary(checked, request).dump(1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
-    }
-    return html_report(checked, request);
+    return make_report(checked, request, inner(options.format));
   });
 }
 

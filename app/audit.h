@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One audit: every segment of a path that something else made, proved or not, and where not.
+// Audits a path that something else made: proves every segment of it or says where it is not proved, and writes the
+// certificate.
 //
-// Waypoints are read, segments are proved on all cores, and what comes out is written, all at once and in batches: memory does
-// not grow with the path.
+// Waypoints are read, segments are proved on all cores, and what comes out is written, all at once and in batches, so
+// that memory does not grow with the path.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -14,26 +16,49 @@
 #include <vector>
 
 #include "app/path_source.h"
-#include "certificate/certificate_stream.h"
-#include "certify/path_proof.h"
+#include "case/case_file.h"
+#include "certificate/certificate_writer.h"
+#include "certificate/signature.h"
+#include "certify/tolerance_limits.h"
 
 namespace taut {
 
-/// A place on the path, and where that is in the file.
-struct AuditPlace {
-  std::size_t segment = 0;
-  Dyadic s;
-  std::size_t line_before = 0, line_behind = 0;  ///< of the file, see PathSource::place_name(); equal at a waypoint
+/// For longer paths it is not tried how far tolerances could grow, which takes some tens of proofs of the whole path
+/// and all of it in memory; nor is a report made of them unless somebody asks for one.
+inline constexpr std::size_t kMostReported = 5'000;
+
+/// The laws that may be asked for, by their names.
+[[nodiscard]] const std::map<std::string, Interpolation>& audit_laws();
+
+/// Which path is audited, and how it is read.
+struct AuditRequest {
+  PathInput path = std::string();    ///< without a name: that of the case
+  std::optional<Interpolation> law;  ///< nothing: as the file suggests
+  bool allow_repeats = false;
+};
+
+/// Completes a request that names no path by what the case's own `audit` says.
+/// @param case_path  the case's file
+/// @throws InputError where the case has none.
+[[nodiscard]] AuditRequest resolved(AuditRequest request, const Case& the_case, const std::string& case_path);
+
+struct AuditOptions {
+  long max_bits = 4096;             ///< the greatest precision of the prover
+  std::filesystem::path folder;     ///< for temporary files
+  const SigningKey* key = nullptr;  ///< null: the certificate is not signed
+};
+
+/// Where in a path file a point of the path is.
+struct FilePlace {
+  std::size_t line_before = 0, line_behind = 0;  ///< see PathSource::place_name(); equal at a waypoint
   std::optional<double> time_s;                  ///< if the file has times, interpolated between them
 };
 
-/// A piece of the path that was not proved.
-struct AuditStretch {
-  AuditPlace begin, end;                                     ///< outside of them the path is proved
-  std::optional<std::pair<PathWitness, PathWitness>> inner;  ///< the first and the last proved violation in it
-  std::pair<nlohmann::json, nlohmann::json> inner_json;      ///< these, as the certificate states them
-  std::optional<std::pair<AuditPlace, AuditPlace>> inner_places;
-  Reason reason;  ///< of a stretch without violations: why it is open
+/// A stretch, and where its points are in the file.
+struct AuditedStretch {
+  Stretch stretch;
+  FilePlace begin, end;
+  FilePlace first, last;  ///< of the violations, if there are any
 };
 
 struct Audit {
@@ -41,29 +66,28 @@ struct Audit {
   static constexpr std::size_t kMaxListed = 1000;
 
   Verdict verdict = Verdict::kUndecided;
-  bool interrupted = false;  ///< then nothing else is meant
+  bool interrupted = false;  ///< then nothing else is meant, and what was written is of no use
   std::size_t segments = 0;
   std::size_t boxes = 0;
   long boxes_judged = 0;
-  std::optional<Margins> margins;       ///< of the whole path; only if proved
-  std::size_t stretches_violated = 0;   ///< with a proved violation
-  std::size_t stretches_open = 0;       ///< without
-  std::vector<AuditStretch> stretches;  ///< the first of them
+  std::optional<Margins> margins;                  ///< of the whole path; only if proved
+  std::size_t stretches_violated = 0;              ///< with a proved violation
+  std::size_t stretches_open = 0;                  ///< without
+  std::vector<AuditedStretch> stretches;           ///< the first of them
+  std::vector<ToleranceLimit> tolerance_limits{};  ///< where the path is proved and the case states tolerances
   double seconds = 0;
 };
 
 /// Receives a file, piece by piece.
-using WriteText = CertificateStream::Write;
+using WriteText = CertificateWriter::Write;
 using AuditProgress = std::function<void(std::size_t segments_done)>;
 
-/// Audits all of `source`; what was written is of no use if it was interrupted.
-/// @param certificate  takes the path and its segments, and still has to be finished
-/// @param csv          takes all of path.csv
+/// Audits all of `source`.
+/// @param source       at its first waypoint
+/// @param certificate  takes the text of certificate.json
+/// @param csv          takes the text of path.csv
 /// @throws InputError as PathSource::next(), and where a file can't be written.
-[[nodiscard]] Audit audit(const Prover& prover, PathSource& source, CertificateStream& certificate,
-                          const WriteText& csv, const AuditProgress& progress, const std::stop_token& stop);
-
-/// What a certificate's `undecided` says; null unless the audit is undecided.
-[[nodiscard]] nlohmann::json undecided_json(const Audit& audit);
+[[nodiscard]] Audit audit_path(PathSource& source, const AuditOptions& options, const WriteText& certificate,
+                               const WriteText& csv, const AuditProgress& progress, const std::stop_token& stop);
 
 }  // namespace taut

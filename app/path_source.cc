@@ -12,16 +12,15 @@
 #include <utility>
 
 #include "base/files.h"
-#include "base/input_kind.h"
+#include "base/input_error.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
-#include "certificate/certificate.h"
-#include "certificate/certificate_file.h"
+#include "certificate/certificate_reader.h"
 
 namespace taut {
 namespace {
 
-/// What the readers of path files ask of rows, of a certificate's waypoints.
+/// Checks a certificate's waypoints as the readers of path files check rows.
 void require_poses(const Path& path, const std::string& file) {
   if (!has_poses(path.interpolation)) return;
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
@@ -151,7 +150,7 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   const bool has_space = certificate.contains("path") && certificate.contains("problem") &&
                          certificate["problem"].is_object() && certificate["problem"].contains("space");
   if (!has_space) throw InputError(path_ + ": got no problem and no path, expected a certificate", {path_});
-  certificate_ = reading(InputKind::kPath, path_, [&] { return path_from_json(certificate["path"]); });
+  certificate_ = with_error_code(ErrorCode::kPath, path_, [&] { return read_path(certificate["path"]); });
   require_poses(*certificate_, path_);
   law_ = certificate_->interpolation;
   if (law && *law != law_) {
@@ -302,8 +301,6 @@ std::string PathSource::remarks() const {
   return text;
 }
 
-nlohmann::json PathSource::source() const {
-  return {{"file", excerpt(std::filesystem::path(path_).filename().string())}, {"sha256", sha256_}};
-}
+PathOrigin PathSource::source() const { return {excerpt(std::filesystem::path(path_).filename().string()), sha256_}; }
 
 }  // namespace taut

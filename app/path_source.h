@@ -4,13 +4,13 @@
 
 #include <cstddef>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/sha256.h"
+#include "certificate/certificate.h"
 #include "kinematics/segment.h"
 #include "path_io/path_file.h"
 #include "path_io/path_summary.h"
@@ -37,7 +37,8 @@ struct SourceWaypoint {
 
 class PathSource {
  public:
-  /// Reads all of the file once, so that whatever is wrong with it is said at once, and stands before its first waypoint.
+  /// Reads all of the file once, so that whatever is wrong with it is said at once, and stands before its first
+  /// waypoint.
   /// @param law  how to join the waypoints; nothing for the file's usual way.
   /// @throws InputError
   PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law, PathFileOptions options);
@@ -45,10 +46,10 @@ class PathSource {
   PathSource(const PathSource&) = delete;
   PathSource& operator=(const PathSource&) = delete;
 
-  /// All of it once more, as a path. @throws InputError where the file changed meanwhile.
+  /// Reads the whole path once more. @throws InputError where the file changed meanwhile.
   [[nodiscard]] Path whole_path() const;
 
-  /// Without a query; in the case's space, or that of all poses.
+  /// The case's problem without its query, in the case's space or in the space of all poses.
   [[nodiscard]] const Problem& problem() const { return problem_; }
   [[nodiscard]] Interpolation law() const { return law_; }
   [[nodiscard]] std::size_t waypoints() const { return waypoints_; }  ///< with the copy of a single one
@@ -63,10 +64,10 @@ class PathSource {
 
   /// Lines of text: what was read, how it is joined, and what that means.
   [[nodiscard]] std::string description() const;
-  /// Of cable lengths, once all waypoints were read: what is odd about the poses that they imply; may be empty.
+  /// What is odd about the poses that cable lengths imply, once all waypoints were read; may be empty.
   [[nodiscard]] std::string remarks() const;
   /// A certificate's `source`.
-  [[nodiscard]] nlohmann::json source() const;
+  [[nodiscard]] PathOrigin source() const;
 
  private:
   [[nodiscard]] PathFile open_file() const;

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/recheck.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <charconv>
-#include <chrono>
-#include <cstdlib>
-#include <ctime>
 #include <stdexcept>
-
-#include "base/input_kind.h"
 
 namespace taut {
 namespace {
@@ -78,20 +71,6 @@ void require_confirmed(const checker::CheckResult& checked) {
     throw std::logic_error(
         fmt::format("a certificate was made that {} rejects, and nothing was written: {}", kChecker, checked.message));
   }
-}
-
-std::string report_date() {
-  std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr && *epoch != '\0') {
-    const std::string_view text = epoch;
-    constexpr std::time_t kLatest = 253402300799;  // the end of the year 9999
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
-    if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kLatest) {
-      throw InputErrorOfKind(InputKind::kUse,
-                             fmt::format("SOURCE_DATE_EPOCH: got '{}', expected seconds since 1970", text));
-    }
-  }
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
 }
 
 }  // namespace taut

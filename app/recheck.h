@@ -16,7 +16,7 @@ inline constexpr double kCheckSeconds = 300;
 /// The longest certificate that `taut audit` has checked: the checker takes some fifteen times as much memory.
 inline constexpr std::uintmax_t kMostCheckedBytes = std::uintmax_t{128} << 20U;
 
-/// What the checker says of a certificate's bytes. Stopped, it is unchecked.
+/// What the checker says of a certificate's bytes: "unchecked" if it is asked to stop.
 /// @param max_seconds  the budget; 0: the certificate is read, and unchecked where it claims anything.
 [[nodiscard]] checker::CheckResult recheck(const std::string& bytes, double max_seconds, const std::stop_token& stop);
 
@@ -32,11 +32,8 @@ inline constexpr std::uintmax_t kMostCheckedBytes = std::uintmax_t{128} << 20U;
 /// result, checker and message, as in a summary.
 [[nodiscard]] nlohmann::json to_json(const checker::CheckResult& checked);
 
-/// Of a certificate that this program has just written: prover and checker disagree about nothing, or one of them has a bug.
+/// For a certificate that this program has just written: if the checker rejects it, prover or checker has a bug.
 /// @throws std::logic_error where the checker rejects it.
 void require_confirmed(const checker::CheckResult& checked);
-
-/// "2024-02-29": today in UTC, or the day of SOURCE_DATE_EPOCH where that is set. @throws InputError where that is no number.
-[[nodiscard]] std::string report_date();
 
 }  // namespace taut

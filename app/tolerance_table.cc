@@ -18,7 +18,7 @@ const char* unit(ToleranceKind kind) {
   }
 }
 
-/// For people: millimetres and degrees.
+/// The units that people read: millimetres and degrees.
 struct Shown {
   const char* unit;
   double factor;  ///< from SI

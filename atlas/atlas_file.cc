@@ -13,7 +13,6 @@
 
 #include "atlas/bytes.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 
 namespace taut {
 namespace {
@@ -159,7 +158,7 @@ AtlasFile::AtlasFile(std::filesystem::path path, const AtlasKey& key) : path_(st
 }
 
 void AtlasFile::refuse(const std::string& why) const {
-  throw InputErrorOfKind(InputKind::kAtlas, fmt::format("{}: {}", path_.string(), why), {path_.string()});
+  throw InputError(ErrorCode::kAtlas, fmt::format("{}: {}", path_.string(), why), {path_.string()});
 }
 
 void AtlasFile::fail_at(int chart, const std::string& what) const {
@@ -177,15 +176,14 @@ AtlasFile::Header AtlasFile::read_header() const {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path_, error)) {
     if (!error) refuse("got something that is no regular file, expected an atlas file");
-    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path_.string(), error.message()),
-                           {path_.string()});
+    throw InputError(ErrorCode::kFile, fmt::format("{}: could not read: {}", path_.string(), error.message()),
+                     {path_.string()});
   }
   file_.rdbuf()->pubsetbuf(nullptr, 0);
   file_.open(path_, std::ios::binary);
   if (!file_) {
-    throw InputErrorOfKind(InputKind::kFile,
-                           fmt::format("{}: could not read: {}", path_.string(), std::strerror(errno)),
-                           {path_.string()});
+    throw InputError(ErrorCode::kFile, fmt::format("{}: could not read: {}", path_.string(), std::strerror(errno)),
+                     {path_.string()});
   }
   const std::uintmax_t size = std::filesystem::file_size(path_, error);
   Header header{};

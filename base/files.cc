@@ -16,15 +16,13 @@
 #include <utility>
 
 #include "base/input_error.h"
-#include "base/input_kind.h"
 
 namespace taut {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* action, int error) {
-  throw InputErrorOfKind(InputKind::kFile,
-                         fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)),
-                         {path.string()});
+  throw InputError(ErrorCode::kFile, fmt::format("{}: could not {}: {}", path.string(), action, std::strerror(error)),
+                   {path.string()});
 }
 
 /// The status of `path`. If the system can't tell, because a link leads to itself or a name is too long, `action`
@@ -198,17 +196,17 @@ void require_another(const std::filesystem::path& written, const std::filesystem
   const bool is_there = std::filesystem::equivalent(written, read, ignored);
   const std::filesystem::path name = std::filesystem::weakly_canonical(written, ignored);
   if (!is_there && (ignored || name != std::filesystem::weakly_canonical(read, ignored))) return;
-  throw InputErrorOfKind(InputKind::kUse,
-                         fmt::format("{}: got the file that is read, expected another to be written", written.string()),
-                         {written.string()});
+  throw InputError(ErrorCode::kUse,
+                   fmt::format("{}: got the file that is read, expected another to be written", written.string()),
+                   {written.string()});
 }
 
 std::string read_whole(const std::filesystem::path& path, std::size_t max_bytes) {
   const std::filesystem::file_status status = status_of(path, "read");
   if (std::filesystem::is_directory(status)) fail(path, "read", EISDIR);
   if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
-    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: got a device, expected a file", path.string()),
-                           {path.string()});
+    throw InputError(ErrorCode::kFile, fmt::format("{}: got a device, expected a file", path.string()),
+                     {path.string()});
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
@@ -218,10 +216,9 @@ std::string read_whole(const std::filesystem::path& path, std::size_t max_bytes)
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
     content.append(piece.data(), static_cast<std::size_t>(file.gcount()));
     if (content.size() > max_bytes) {
-      throw InputErrorOfKind(
-          InputKind::kFile,
-          fmt::format("{}: got more than {} bytes, expected a smaller file", path.string(), max_bytes),
-          {path.string()});
+      throw InputError(ErrorCode::kFile,
+                       fmt::format("{}: got more than {} bytes, expected a smaller file", path.string(), max_bytes),
+                       {path.string()});
     }
   }
   if (file.bad()) fail(path, "read", errno != 0 ? errno : EIO);
@@ -232,10 +229,10 @@ void make_directories(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path, error)) {
-    throw InputErrorOfKind(InputKind::kFile,
-                           fmt::format("{}: could not make the directory: {}", path.string(),
-                                       error ? error.message() : "a file is in the way"),
-                           {path.string()});
+    throw InputError(ErrorCode::kFile,
+                     fmt::format("{}: could not make the directory: {}", path.string(),
+                                 error ? error.message() : "a file is in the way"),
+                     {path.string()});
   }
 }
 
@@ -244,8 +241,8 @@ std::filesystem::path temporary_folder() {
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
   if (error) {
     const char* const chosen = std::getenv("TMPDIR");
-    throw InputErrorOfKind(InputKind::kFile, fmt::format("TMPDIR: got '{}', expected a folder for temporary files",
-                                                         chosen != nullptr ? chosen : "nothing, and no /tmp"));
+    throw InputError(ErrorCode::kFile, fmt::format("TMPDIR: got '{}', expected a folder for temporary files",
+                                                   chosen != nullptr ? chosen : "nothing, and no /tmp"));
   }
   return folder;
 }

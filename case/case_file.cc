@@ -19,7 +19,6 @@
 #include <utility>
 
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
@@ -872,7 +871,7 @@ Case load(const std::string& path, const CaseCheck& check) {
   std::string text(kMaxFileBytes + 1, '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && !file.eof()) {
     const char* reason = errno != 0 ? std::strerror(errno) : "no reason is known";
-    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path, reason), {path});
+    throw InputError(ErrorCode::kFile, fmt::format("{}: could not read: {}", path, reason), {path});
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parse(text, path, check);
@@ -881,11 +880,11 @@ Case load(const std::string& path, const CaseCheck& check) {
 }  // namespace
 
 Case parse_case(const std::string& text, const std::string& name, const CaseCheck& check) {
-  return reading(InputKind::kCase, [&] { return parse(text, name, check); });
+  return with_error_code(ErrorCode::kCase, [&] { return parse(text, name, check); });
 }
 
 Case load_case(const std::string& path, const CaseCheck& check) {
-  return reading(InputKind::kCase, [&] { return load(path, check); });
+  return with_error_code(ErrorCode::kCase, [&] { return load(path, check); });
 }
 
 }  // namespace taut

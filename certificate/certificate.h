@@ -1,44 +1,98 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes certificates (docs/certificate-format.md): the theorem, its exact inputs, and the boxes that prove it.
+// A certificate (docs/certificate-format.md) as taut holds it: what is claimed, about which path of which machine, and
+// how the checker's kernel proves it. elaborate.h fills it, certificate_writer.h writes it, certificate_reader.h reads
+// it back. It is no verdict: only the checker can make a theorem of it (checker/theorem.h).
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "certificate/elaborate.h"
+#include "certify/path_proof.h"
+#include "checker/format/witness.h"
+#include "checker/kernel/statement.h"
 
 namespace taut {
 
-/// Of the format that is written.
+/// Version of the format that is written and read.
 inline constexpr int kCertificateVersion = 4;
+/// The most half turns that a waypoint may state, either way.
+inline constexpr int kMostHalfTurns = 1'000'000;
 
-/// "-0x1.2666666666666p+1": reads back bit for bit.
-[[nodiscard]] std::string hex_float(double x);
+/// The program that wrote a certificate; free text.
+struct Generator {
+  std::string name;
+  std::string version;
+};
 
-/// The whole certificate, footer included. `illustration` is floating-point data for pictures and proves nothing.
-[[nodiscard]] nlohmann::json make_certificate(const Problem& problem, const Path& path, const PathProof& proof,
-                                              nlohmann::json illustration);
+/// What is proved of one segment.
+struct CertificateSegment {
+  std::vector<checker::Box> boxes;  ///< in order; each is proved by the kernel at one go
+  std::optional<Margins> margins;   ///< kept by all boxes; absent where there is no box
+};
 
-// Its parts.
-[[nodiscard]] const char* name(Verdict verdict);      ///< "proved", …
-[[nodiscard]] const char* claim_of(Verdict verdict);  ///< the theorem, in words
+/// A proved violation, and how the kernel proves it. Segments are counted from the path's beginning.
+struct Witness {
+  PathWitness violation;                      ///< what is violated, where and by how much
+  checker::Box at_box;                        ///< the pose at `violation.at`
+  checker::Box to_box;                        ///< the pose at `violation.to`; only if singular
+  std::vector<checker::MotionBox> motion;     ///< boxes over which only the motion is shown
+  std::vector<checker::InnerPose> way_poses;  ///< how a deviation is followed as it grows; none if it leads nowhere
+  std::vector<checker::Box> way_boxes;        ///< likewise
+};
+
+/// A part of an audited path that is not proved. Next to it, the path is proved or ends.
+struct Stretch {
+  PathPoint begin, end;
+  std::optional<std::pair<Witness, Witness>> violations;  ///< the first and the last proved one; none if it is open
+  std::string reason;                                     ///< why it is open; empty where there are violations
+};
+
+/// What was left open by a proof that came to no verdict.
+struct OpenPart {
+  std::string reason;
+  std::optional<int> segment;                      ///< absent where no segment was tried
+  std::optional<std::pair<Dyadic, Dyadic>> box{};  ///< of that segment
+};
+
+/// Where an audited path came from; free text.
+struct PathOrigin {
+  std::string file;
+  std::string sha256;
+};
+
+struct Certificate {
+  Verdict verdict = Verdict::kUndecided;
+  Problem problem;
+  Path path;
+  std::vector<CertificateSegment> segments;  ///< one a segment of the path; none where nothing is proved of any
+  std::optional<Margins> margins;            ///< the least along the path; only if proved
+  std::optional<Witness> witness;            ///< only if refuted
+  std::optional<OpenPart> undecided;         ///< only if undecided
+  std::vector<Stretch> stretches;            ///< of an audit that is not proved
+  std::optional<PathOrigin> source;          ///< of an audit
+  nlohmann::json illustration;               ///< floating-point data for pictures; proves nothing
+  // These are as a file states them; the writer takes none of them from here.
+  Generator generator;
+  std::string claim;
+  std::string problem_sha256, path_sha256, footer_sha256;
+};
+
+/// The boxes of all segments.
+[[nodiscard]] std::size_t count_boxes(const Certificate& certificate);
+/// Those boxes that are of the form [k/2^d, (k+1)/2^d]; taut writes no others.
+[[nodiscard]] std::vector<DyadicBox> dyadic_boxes(std::span<const checker::Box> boxes);
+/// `x` as the kernel has numbers.
+[[nodiscard]] mpq_class to_rational(const Dyadic& x);
+
+/// "proved", "refuted" or "undecided".
+[[nodiscard]] const char* name(Verdict verdict);
+/// "straight-in-parameters" and so on.
 [[nodiscard]] const char* interpolation_name(Interpolation law);
-[[nodiscard]] nlohmann::json generator_json();
-[[nodiscard]] nlohmann::json to_json(const Margins& margins);
-[[nodiscard]] nlohmann::json to_json(const PathPoint& place);
-/// @param segment  what the kernel was asked about as segment 0
-[[nodiscard]] nlohmann::json to_json(const PathWitness& found, const KernelWitness& kernel, std::size_t segment);
-/// A segment with its boxes; `from` and `to` are its first and last control point.
-[[nodiscard]] nlohmann::json to_json(const KernelSegment& segment, std::size_t from, std::size_t to,
-                                     bool has_tolerances);
-
-/// An entry of `path.pose_tubes`.
-[[nodiscard]] nlohmann::json pose_tube_json(const PoseTube& tube, std::span<const InnerPose> inner_poses);
-
-inline constexpr int kMostHalfTurns = 1'000'000;  ///< of a waypoint in a certificate, either way
-
-/// A certificate's `path`. @throws InputError for anything malformed.
-[[nodiscard]] Path path_from_json(const nlohmann::json& path);
+/// "-0x1.2666666666666p+1": a binary64 that reads back bit for bit.
+[[nodiscard]] std::string hex_float(double x);
 
 }  // namespace taut

@@ -3,40 +3,31 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <limits>
 
+#include "certificate/implied_motion.h"
 #include "certify/arithmetic/rounding.h"
 #include "checker/format/cursor.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
 #include "checker/near_waypoints.h"
-#include "kinematics/pose_conversion.h"
+#include "checker/witness.h"
 
 namespace taut {
 namespace {
 
 using checker::Ball;
-using checker::MeanValueForm;
 
 constexpr std::array<int, 7> kBits = {64, 128, 256, 512, 1024, 2048, 4096};
 constexpr int kMostAttempts = 20'000;  ///< of one search
 constexpr int kMostHalvings = 900;     ///< of [0, 1]: a dyadic's denominator is at most 2^1000
 
 double lower_bound(const Ball& x) { return arf_get_d(arb_midref(lowest(x).get()), ARF_RND_FLOOR); }
-double approx(const Ball& x) { return arf_get_d(arb_midref(x.get()), ARF_RND_NEAR); }
-double largest(const Ball& x) { return arf_get_d(arb_midref(magnitude(x).get()), ARF_RND_CEIL); }
 
-/// Not below x, with few digits.
-double short_above(double x) {
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);
-  return std::ldexp(std::ceil(mantissa * 64) / 64, exponent);
-}
+// ---- Into the kernel's types ----------------------------------------------------------------------------------------
 
 mpq_class exact(const DecimalText& text) { return checker::parse_decimal(text).value(); }
 
@@ -57,7 +48,7 @@ checker::Law to_kernel(Interpolation law) {
   return checker::Law::kCableLengths;
 }
 
-/// A path of this one segment.
+/// A path that is this one segment.
 checker::Path to_kernel(const Segment& segment, bool has_constraints) {
   checker::Path path;
   path.law = to_kernel(segment.law);
@@ -89,104 +80,85 @@ checker::WitnessDeviation to_kernel(const Deviation& deviation) {
   return result;
 }
 
-// ---- Where implied motions are ---------------------------------------------------------------------------------------
-
-/// Newton's method at u = 0, from y; nothing where it fails.
-std::optional<std::vector<double>> newton(const checker::Equations& equations, std::vector<double> y) {
-  constexpr int kMostSteps = 25;
-  double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
-    checker::Vector6<Ball> at;
-    checker::Vector6<MeanValueForm> curve;
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      at[i] = Ball(y[i]);
-      curve[i] = MeanValueForm(at[i]);
-    }
-    checker::Matrix6<Ball> G = equations.jacobian(at);
-    for (std::size_t i = y.size(); i < 6; ++i) G[i][i] = Ball(1);
-    const checker::Vector6<MeanValueForm> moved = multiply(approximate_inverse(G), equations.residual(curve));
-    double size = 0;
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      const double by = approx(moved[i].at);
-      y[i] -= by;
-      size = std::max(size, std::abs(by));
-    }
-    if (!(size < 1e3)) return std::nullopt;
-    if (size == 0 || (size < 1e-9 && size > last / 2)) return y;  // what is left is rounding
-    last = size;
+checker::WitnessKind to_kernel(const PathWitness& found) {
+  if (found.singular) return checker::WitnessKind::kSingular;
+  switch (found.margin.kind) {
+    case MarginKind::kTensionMin: return checker::WitnessKind::kTensionMin;
+    case MarginKind::kTensionMax: return checker::WitnessKind::kTensionMax;
+    case MarginKind::kLengthMin: return checker::WitnessKind::kLengthMin;
+    case MarginKind::kLengthMax: break;
   }
-  return last < 1e-9 ? std::optional(y) : std::nullopt;
+  return checker::WitnessKind::kLengthMax;
 }
 
-using EquationsOver = std::function<std::unique_ptr<checker::Equations>(const checker::Box&)>;
-
-/// Where the zero is over a box: close to a straight line in u, within a radius that should do.
-std::optional<checker::NearZero> near_zero(const EquationsOver& equations_over, const checker::Box& box) {
-  const auto zero_at = [&](const mpq_class& s, const std::optional<std::vector<double>>& start) {
-    checker::Box place = box;
-    place.begin = place.end = s;
-    const auto equations = equations_over(place);
-    return newton(*equations, start ? *start : std::vector<double>(equations->unknowns(), 0.0));
-  };
-  const auto middle = zero_at((box.begin + box.end) / 2, std::nullopt);
-  if (!middle) return std::nullopt;
-  checker::NearZero near;
-  near.at = *middle;
-  near.slope.assign(middle->size(), 0.0);
-  for (int bits = 64; bits < box.bits; bits *= 2) ++near.narrowings;
-  if (box.begin < box.end) {
-    const auto first = zero_at(box.begin, middle);
-    const auto last = zero_at(box.end, middle);
-    if (!first || !last) return std::nullopt;
-    for (std::size_t i = 0; i < near.at.size(); ++i) {
-      near.slope[i] = ((*last)[i] - (*first)[i]) / 2;
-      near.at[i] = ((*middle)[i] + ((*first)[i] + (*last)[i]) / 2) / 2;
-    }
+/// The statement of a violation, as of segment 0.
+checker::Witness statement(const PathWitness& found) {
+  // On a segment, or at its beginning.
+  const auto point = [](const PathPoint& at) { return at.on_segment ? to_rational(at.s) : mpq_class(0); };
+  checker::Witness result;
+  result.kind = to_kernel(found);
+  result.at = {0, point(found.at)};
+  if (found.singular) {
+    result.to = {0, point(found.to)};
+    return result;
   }
-  const auto equations = equations_over(box);
-  checker::Vector6<MeanValueForm> curve;
-  checker::Vector6<Ball> range;
-  for (std::size_t i = 0; i < near.at.size(); ++i) {
-    curve[i] = {Ball(near.at[i]), Ball(near.slope[i])};
-    range[i] = curve[i].range();
-  }
-  const checker::Contraction contraction(*equations, range);
-  const checker::Vector6<MeanValueForm> off = multiply(contraction.A, equations->residual(curve));
-  double farthest = 0;
-  for (std::size_t i = 0; i < near.at.size(); ++i) farthest = std::max(farthest, largest(off[i].range()));
-  constexpr double kRoom = 2.5;
-  near.radius = short_above(std::max(kRoom * farthest, 0x1p-1000));
-  return near;
-}
-
-}  // namespace
-
-std::optional<checker::NearZero> find_motion(const checker::Machine& machine, const checker::Problem& problem,
-                                             const checker::Path& path, std::size_t k, const checker::Box& box) {
-  const auto equations = [&](const checker::Box& over) { return motion_equations(machine, problem, path, k, over); };
-  try {
-    const checker::WorkingPrecision precision(box.bits);
-    return near_zero(equations, box);
-  } catch (const checker::Undefined&) {
-    return std::nullopt;
-  }
-}
-
-mpq_class to_rational(const Dyadic& x) {
-  mpq_class result(mpz_class(x.k.str()), mpz_class(1) << static_cast<unsigned long>(x.depth));
-  result.canonicalize();
+  result.cable = static_cast<std::size_t>(found.margin.cable);
+  if (found.deviation) result.deviation = to_kernel(*found.deviation);
   return result;
 }
 
-/// Looks for boxes of one segment.
+checker::Problem to_kernel(const Problem& problem) {
+  const nlohmann::json json = to_json(problem);
+  return checker::read_problem(checker::Cursor(json, "problem"));
+}
+
+// ---- Witnesses ------------------------------------------------------------------------------------------------------
+
+/// Decimals that enclose x, with as many digits as it takes for `is_enough`; nothing where none do.
+template <class IsEnough>
+std::optional<std::pair<DecimalText, DecimalText>> decimals(const Ball& x, const IsEnough& is_enough) {
+  constexpr int kFewestDigits = 17;
+  constexpr int kMostDigits = 600;
+  const auto print = [](const Ball& end, int digits, mpfr_rnd_t rounding) {
+    const PrecisionScope precision(std::max<mpfr_prec_t>(arf_bits(arb_midref(end.get())), 64));
+    BigFloat number;
+    arf_get_mpfr(number.get(), arb_midref(end.get()), MPFR_RNDN);  // exact
+    return number.to_decimal(digits, rounding);
+  };
+  const Ball low = lowest(x);
+  const Ball high = highest(x);
+  for (int digits = kFewestDigits; digits <= kMostDigits; digits *= 2) {
+    DecimalText below = print(low, digits, MPFR_RNDD);
+    DecimalText above = print(high, digits, MPFR_RNDU);
+    if (is_enough(exact(below), exact(above))) return {{std::move(below), std::move(above)}};
+  }
+  return std::nullopt;
+}
+
+/// The exact value of what a witness is about, widened a little: the checker sees the segment as a part of the path and
+/// rounds otherwise.
+Ball with_slack_for_rounding(const Ball& value, int bits) {
+  const Ball rounding = Ball::make([bits](arb_ptr r) {
+    arb_set_ui(r, 1);
+    arb_mul_2exp_si(r, r, 12 - bits);
+  });
+  return plus_minus(value, rounding * magnitude(value));
+}
+
+/// The segment on which a witness is; that of a waypoint begins there.
+std::size_t segment_of(const PathWitness& witness) { return static_cast<std::size_t>(witness.at.index); }
+
+}  // namespace
+
+// ---- Searches on one segment ----------------------------------------------------------------------------------------
+
+/// Looks for boxes and witnesses of one segment.
 class Elaborator::Search {
  public:
   Search(const Elaborator& elaborator, const Segment& segment)
       : elaborator_(elaborator), path_(to_kernel(segment, !elaborator.problem_.constraints.empty())) {}
 
-  [[nodiscard]] const checker::Path& path() const { return path_; }
-
-  /// Proves [begin, end] into `out`.
+  /// Appends boxes that tile [begin, end] and that the kernel proves; false where it does not prove some part.
   bool prove(const mpq_class& begin, const mpq_class& end, std::vector<KernelBox>& out) {
     return cover(begin, end, [&](const checker::Box& box) {
       const std::optional<KernelBox> proved = attempt(box);
@@ -195,6 +167,7 @@ class Elaborator::Search {
     });
   }
 
+  /// Appends boxes that tile [begin, end] and over which the kernel shows the motion; false where it does not.
   bool show_motion(const mpq_class& begin, const mpq_class& end, checker::Ranges ranges,
                    std::vector<checker::Box>& out) {
     return cover(begin, end, [&](checker::Box box) {
@@ -212,7 +185,7 @@ class Elaborator::Search {
     });
   }
 
-  /// The kernel's proof of one box at one go, positive.
+  /// What the kernel proves of one box at one go; nothing where it does not prove that all margins are positive.
   std::optional<KernelBox> attempt(checker::Box box) {
     ++attempts_;
     if (!place_motion(box)) return std::nullopt;
@@ -234,75 +207,171 @@ class Elaborator::Search {
     return std::nullopt;
   }
 
-  /// Where the motion is, if it is implied.
+  std::optional<Witness> singular(const PathWitness& found) {
+    checker::Witness witness = statement(found);
+    const bool changes_sign = at_some_precision([&](int bits) {
+      if (!place_pose(witness.at.s, bits, witness.at_box) || !place_pose(witness.to.s, bits, witness.to_box)) {
+        return false;
+      }
+      const checker::Machine& machine = elaborator_.machine(bits);
+      const checker::WorkingPrecision precision(bits);
+      return certainly_negative(determinant_at(machine, elaborator_.problem_, path_, witness.at, witness.at_box) *
+                                determinant_at(machine, elaborator_.problem_, path_, witness.to, witness.to_box));
+    });
+    if (!changes_sign) return std::nullopt;
+    std::vector<checker::Box> between;
+    if (!show_motion(witness.at.s, witness.to.s, checker::Ranges::kRequired, between)) return std::nullopt;
+    Witness result{found, witness.at_box, witness.to_box, {}, {}, {}};
+    for (checker::Box& box : between) result.motion.push_back({segment_of(found), std::move(box)});
+    return result;
+  }
+
+  std::optional<Witness> violation(const PathWitness& found) {
+    checker::Witness witness = statement(found);
+    Witness result{found, {}, {}, {}, {}, {}};
+    const bool is_violated = at_some_precision([&](int bits) {
+      const checker::Machine& machine = elaborator_.machine(bits);
+      if (!place_pose(witness.at.s, bits, witness.at_box)) return false;
+      const checker::WorkingPrecision precision(bits);
+      if (!place_deviation(witness, bits)) return false;
+      const auto value =
+          violating_value(witnessed_quantity(machine, elaborator_.problem_, path_, witness), found, bits);
+      if (value) std::tie(result.violation.value_lower, result.violation.value_upper) = *value;
+      return value.has_value();
+    });
+    if (!is_violated) return std::nullopt;
+    result.at_box = witness.at_box;
+    if (witness.deviation) {
+      result.way_poses = witness.deviation->poses;
+      result.way_boxes = witness.deviation->boxes;
+    }
+    return result;
+  }
+
+ private:
+  /// A part of the segment that is still to be covered, and how the kernel is asked about it.
+  struct Task {
+    mpq_class begin, end;
+    std::size_t rung = 0;  ///< of kBits
+    int parts = 1;
+    int halvings = 0;  ///< since the last change of rung or parts
+
+    [[nodiscard]] checker::Box box() const {
+      checker::Box result;
+      result.begin = begin;
+      result.end = end;
+      result.bits = kBits[rung];
+      result.parts = parts;
+      return result;
+    }
+  };
+  static constexpr int kMostWayParts = 64;
+
+  template <class Attempt>
+  static bool at_some_precision(const Attempt& attempt) {
+    for (const int bits : kBits) {
+      try {
+        if (attempt(bits)) return true;
+      } catch (const checker::Undefined&) {
+        continue;
+      }
+    }
+    return false;
+  }
+
+  /// Finds where the motion is, if it is implied.
   bool place_motion(checker::Box& box) {
     if (!elaborator_.is_implied_) return true;
     box.near = find_motion(elaborator_.machine(box.bits), elaborator_.problem_, path_, 0, box);
     return box.near.has_value();
   }
 
- private:
-  struct Task {
-    mpq_class begin, end;
-    std::size_t rung = 0;
-    int parts = 1;
-    int halvings = 0;
-  };
+  bool place_pose(const mpq_class& s, int bits, checker::Box& box) {
+    box = {};
+    box.begin = box.end = s;
+    box.bits = bits;
+    return place_motion(box);
+  }
 
+  /// Finds the way of a witness's deviation, if it has one that leads anywhere.
+  bool place_deviation(checker::Witness& witness, int bits) {
+    if (!witness.deviation || !witness.deviation->cable_lengths || !witness.deviation->leads_away()) return true;
+    const checker::Machine& machine = elaborator_.machine(bits);
+    const checker::Geometry stated = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
+    return find_way(machine, stated, elaborator_.approx_, *witness.deviation, bits);
+  }
+
+  /// Decimals that enclose what the checker will find and that violate the limit; nothing where none do.
+  static std::optional<std::pair<DecimalText, DecimalText>> violating_value(const Ball& value, const PathWitness& found,
+                                                                            int bits) {
+    const bool is_lower = found.margin.kind == MarginKind::kTensionMin || found.margin.kind == MarginKind::kLengthMin;
+    const mpq_class limit = exact(found.limit);
+    return decimals(with_slack_for_rounding(value, bits), [&](const mpq_class& below, const mpq_class& above) {
+      return is_lower ? above <= limit : below >= limit;
+    });
+  }
+
+  /// Tiles [begin, end] with boxes for which `succeeds`; false where that is given up.
   template <class Try>
   bool cover(const mpq_class& begin, const mpq_class& end, const Try& succeeds) {
-    constexpr int kMostWayParts = 64;
-    constexpr int kPatience = 4;
-    const bool has_tolerances = elaborator_.has_tolerances();
-    std::vector<Task> open;
-    mpq_class at = begin;
-    if (!path_.inner_poses.empty()) {  // no box reaches across one
-      for (const checker::InnerPose& inner : path_.inner_poses[0]) {
-        if (inner.s <= at || inner.s >= end) continue;
-        open.push_back({at, inner.s});
-        at = inner.s;
-      }
-    }
-    open.push_back({at, end});
-    std::ranges::reverse(open);
+    std::vector<Task> open = tasks(begin, end);
     attempts_ = 0;
     while (!open.empty()) {
       if (++attempts_ > kMostAttempts) return false;
-      Task task = open.back();
+      const Task task = std::move(open.back());
       open.pop_back();
-      const auto box = [&](const mpq_class& from, const mpq_class& to) {
-        checker::Box result;
-        result.begin = from;
-        result.end = to;
-        result.bits = kBits[task.rung];
-        result.parts = task.parts;
-        return result;
-      };
-      if (succeeds(box(task.begin, task.end))) continue;
-      const mpq_class middle = (task.begin + task.end) / 2;
-      // Where halving has not helped a few times it may be rounding, or what deviations take, that stands in the way.
-      if (task.halvings >= kPatience) {
-        const Task before = task;
-        task.halvings = 0;
-        if (has_tolerances && task.parts < kMostWayParts) task.parts *= 4;
-        if (task.rung + 1 < kBits.size()) ++task.rung;
-        if (succeeds(box(task.begin, task.end))) continue;
-        if (!has_tolerances) task = before;
-      }
-      if (task.begin < task.end && task.halvings < kMostHalvings && succeeds(box(middle, middle))) {
-        ++task.halvings;
-        open.push_back({middle, task.end, task.rung, task.parts, task.halvings});
-        open.push_back({task.begin, middle, task.rung, task.parts, task.halvings});
-      } else if (has_tolerances && task.parts < kMostWayParts) {
-        task.parts *= 4;
-        open.push_back(task);
-      } else if (task.rung + 1 < kBits.size()) {
-        ++task.rung;
-        open.push_back(task);
-      } else {
-        return false;
+      if (!succeeds(task.box()) && !try_otherwise(task, succeeds, open)) return false;
+    }
+    return true;
+  }
+
+  /// The parts of [begin, end] between inner poses, which no box may contain between its ends; the first one comes
+  /// last.
+  [[nodiscard]] std::vector<Task> tasks(const mpq_class& begin, const mpq_class& end) const {
+    std::vector<Task> result;
+    mpq_class at = begin;
+    if (!path_.inner_poses.empty()) {
+      for (const checker::InnerPose& inner : path_.inner_poses[0]) {
+        if (inner.s <= at || inner.s >= end) continue;
+        result.push_back({at, inner.s});
+        at = inner.s;
       }
     }
+    result.push_back({at, end});
+    std::ranges::reverse(result);
+    return result;
+  }
+
+  /// After a box has failed: halves it, or asks with more parts or bits. What is left to do is appended to `open`.
+  template <class Try>
+  bool try_otherwise(Task task, const Try& succeeds, std::vector<Task>& open) {
+    constexpr int kPatience = 4;
+    const bool has_tolerances = elaborator_.has_tolerances();
+    // If halving has not helped a few times, rounding or the loss to deviations may be in the way.
+    if (task.halvings >= kPatience) {
+      const Task before = task;
+      task.halvings = 0;
+      if (has_tolerances && task.parts < kMostWayParts) task.parts *= 4;
+      if (task.rung + 1 < kBits.size()) ++task.rung;
+      if (succeeds(task.box())) return true;
+      if (!has_tolerances) task = before;
+    }
+    const mpq_class middle = (task.begin + task.end) / 2;
+    if (task.begin < task.end && task.halvings < kMostHalvings &&
+        succeeds(Task{middle, middle, task.rung, task.parts}.box())) {
+      ++task.halvings;
+      open.push_back({middle, task.end, task.rung, task.parts, task.halvings});
+      open.push_back({task.begin, middle, task.rung, task.parts, task.halvings});
+      return true;
+    }
+    if (has_tolerances && task.parts < kMostWayParts) {
+      task.parts *= 4;
+    } else if (task.rung + 1 < kBits.size()) {
+      ++task.rung;
+    } else {
+      return false;
+    }
+    open.push_back(std::move(task));
     return true;
   }
 
@@ -312,14 +381,67 @@ class Elaborator::Search {
   int attempts_ = 0;
 };
 
-namespace {
+/// Halves boxes of a path that state its least margins.
+class Elaborator::Tightener {
+ public:
+  using Bound = double (*)(const KernelBox&);
 
-checker::Problem to_kernel(const Problem& problem) {
-  const nlohmann::json json = to_json(problem);
-  return checker::read_problem(checker::Cursor(json, "problem"));
-}
+  Tightener(const Elaborator& elaborator, const std::function<Segment(std::size_t k)>& segment,
+            std::vector<std::vector<KernelBox>>& boxes)
+      : elaborator_(elaborator), segment_(segment), boxes_(boxes) {}
 
-}  // namespace
+  void raise(Bound bound) {
+    constexpr int kMostSplits = 64;
+    double found = std::numeric_limits<double>::infinity();  // the least at midpoints
+    while (splits_ < kMostSplits && split_worst(bound, found)) ++splits_;
+  }
+
+ private:
+  using Boxes = std::vector<KernelBox>;
+
+  [[nodiscard]] static Boxes::iterator worst_of(Boxes& boxes, Bound bound) {
+    return std::ranges::min_element(boxes, {}, bound);
+  }
+
+  /// The segment with the worst box; null where none has boxes.
+  [[nodiscard]] Boxes* worst_segment(Bound bound) {
+    const auto is_worse = [&](Boxes& a, Boxes& b) {
+      if (a.empty() || b.empty()) return !a.empty();
+      return bound(*worst_of(a, bound)) < bound(*worst_of(b, bound));
+    };
+    const auto worst = std::ranges::min_element(boxes_, is_worse);
+    return worst == boxes_.end() || worst->empty() ? nullptr : &*worst;
+  }
+
+  /// False where the worst box states enough, or can't be halved.
+  bool split_worst(Bound bound, double& found) {
+    constexpr double kEnough = 0.5;
+    Boxes* const boxes = worst_segment(bound);
+    if (boxes == nullptr) return false;
+    const auto worst = worst_of(*boxes, bound);
+    Search search(elaborator_, segment_(static_cast<std::size_t>(boxes - boxes_.data())));
+    checker::Box point = worst->box;
+    point.begin = point.end = (worst->box.begin + worst->box.end) / 2;
+    const std::optional<KernelBox> there = search.attempt(point);
+    if (!there) return false;
+    found = std::min(found, bound(*there));
+    if (!(bound(*worst) < kEnough * found)) return false;
+    Boxes halves;
+    if (!search.prove(worst->box.begin, point.begin, halves) || !search.prove(point.begin, worst->box.end, halves)) {
+      return false;
+    }
+    const auto after = boxes->erase(worst);
+    boxes->insert(after, halves.begin(), halves.end());
+    return true;
+  }
+
+  const Elaborator& elaborator_;
+  const std::function<Segment(std::size_t k)>& segment_;
+  std::vector<Boxes>& boxes_;
+  int splits_ = 0;
+};
+
+// ---- Elaborator -----------------------------------------------------------------------------------------------------
 
 Elaborator::Elaborator(const Problem& problem, Interpolation law)
     : problem_(to_kernel(problem)), law_(law), approx_(make_model<double>(problem)) {
@@ -368,287 +490,44 @@ std::optional<std::vector<checker::Box>> Elaborator::motion(const Segment& segme
 
 void Elaborator::tighten(const std::function<Segment(std::size_t k)>& segment,
                          std::vector<std::vector<KernelBox>>& boxes) const {
-  constexpr int kMostSplits = 64;
-  constexpr double kEnough = 0.5;
-  int splits = 0;
-  using Bound = double (*)(const KernelBox&);
-  for (const Bound bound : {Bound([](const KernelBox& x) { return x.tension_N; }),
-                            Bound([](const KernelBox& x) { return x.wrench_scale - 1; }),
-                            Bound([](const KernelBox& x) { return x.length_m; })}) {
-    const auto less = [&](const KernelBox& a, const KernelBox& b) { return bound(a) < bound(b); };
-    double found = std::numeric_limits<double>::infinity();  // at midpoints
-    while (splits < kMostSplits) {
-      const auto worst_of = [&](const std::vector<KernelBox>& x) { return std::ranges::min_element(x, less); };
-      const auto segment_less = [&](const auto& a, const auto& b) {
-        if (a.empty() || b.empty()) return !a.empty();
-        return less(*worst_of(a), *worst_of(b));
-      };
-      const auto least = std::ranges::min_element(boxes, segment_less);
-      if (least == boxes.end() || least->empty()) return;
-      const auto worst = least->begin() + (worst_of(*least) - least->begin());
-      Search search(*this, segment(static_cast<std::size_t>(least - boxes.begin())));
-      checker::Box point = worst->box;
-      point.begin = point.end = (worst->box.begin + worst->box.end) / 2;
-      const std::optional<KernelBox> there = search.attempt(point);
-      if (!there) break;
-      found = std::min(found, bound(*there));
-      if (!(bound(*worst) < kEnough * found)) break;
-      std::vector<KernelBox> halves;
-      if (!search.prove(worst->box.begin, point.begin, halves) || !search.prove(point.begin, worst->box.end, halves)) {
-        break;
-      }
-      ++splits;
-      const auto after = least->erase(worst);
-      least->insert(after, halves.begin(), halves.end());
-    }
-  }
+  Tightener tightener(*this, segment, boxes);
+  tightener.raise([](const KernelBox& x) { return x.tension_N; });
+  tightener.raise([](const KernelBox& x) { return x.wrench_scale - 1; });
+  tightener.raise([](const KernelBox& x) { return x.length_m; });
 }
 
-namespace {
-
-/// Decimals that enclose x, with as many digits as it takes for `is_enough`; nothing where none do.
-template <class IsEnough>
-std::optional<std::pair<DecimalText, DecimalText>> decimals(const Ball& x, const IsEnough& is_enough) {
-  constexpr int kFewestDigits = 17;
-  constexpr int kMostDigits = 600;
-  const auto print = [](const Ball& end, int digits, mpfr_rnd_t rounding) {
-    const PrecisionScope precision(std::max<mpfr_prec_t>(arf_bits(arb_midref(end.get())), 64));
-    BigFloat number;
-    arf_get_mpfr(number.get(), arb_midref(end.get()), MPFR_RNDN);  // exact
-    return number.to_decimal(digits, rounding);
-  };
-  const Ball low = lowest(x);
-  const Ball high = highest(x);
-  for (int digits = kFewestDigits; digits <= kMostDigits; digits *= 2) {
-    DecimalText below = print(low, digits, MPFR_RNDD);
-    DecimalText above = print(high, digits, MPFR_RNDU);
-    if (is_enough(exact(below), exact(above))) return {{std::move(below), std::move(above)}};
-  }
-  return std::nullopt;
-}
-
-RigidPose rigid_pose(const checker::Frame& frame) {
-  RigidPose result;
-  Eigen::Matrix3d R;
-  for (int i = 0; i < 3; ++i) {
-    result.p(i) = approx(frame.p[static_cast<std::size_t>(i)].at);
-    for (int j = 0; j < 3; ++j) {
-      R(i, j) = approx(frame.R[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].at);
-    }
-  }
-  result.q = Eigen::Quaterniond(R).normalized();
-  return result;
-}
-
-/// Follows a deviation as it grows, by floating point and the kernel in turn.
-class Way {
- public:
-  Way(const checker::Machine& machine, const checker::Geometry& stated, Model<double> model,
-      checker::WitnessDeviation& by, int bits)
-      : machine_(machine), stated_(stated), model_(std::move(model)), by_(by), bits_(bits) {}
-
-  /// Fills in poses and boxes.
-  bool follow() {
-    constexpr int kMostStepHalvings = 8;
-    RigidPose here = rigid_pose(stated_.pose);
-    by_.poses = {inner_pose(0, here)};
-    by_.boxes.clear();
-    mpq_class tau = 0;
-    int halvings = 0;
-    while (tau < 1) {
-      mpq_class next = tau + mpq_class(1, 1 << halvings);
-      if (next > 1) next = 1;
-      const std::optional<RigidPose> there = pose_at(next, here);
-      if (there && show(tau, next, *there)) {
-        tau = next;
-        here = *there;
-      } else if (++halvings > kMostStepHalvings) {
-        return false;
-      }
-    }
-    return show_end();
-  }
-
- private:
-  static checker::InnerPose inner_pose(const mpq_class& tau, const RigidPose& pose) {
-    return {tau, {pose.p(0), pose.p(1), pose.p(2), pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()}, {}};
-  }
-
-  std::optional<RigidPose> pose_at(const mpq_class& tau, const RigidPose& start) const {
-    Model<double> model = model_;
-    std::array<double, kCables> lengths{};
-    const double part = tau.get_d();
-    for (std::size_t i = 0; i < kCables; ++i) {
-      lengths[i] = approx(stated_.length[i].at) + part * (*by_.cable_lengths)[i].get_d();
-      for (std::size_t c = 0; c < 3; ++c) {
-        model.p_WA[i](static_cast<Eigen::Index>(c)) += part * by_.base_anchors[i][c].get_d();
-        model.p_PB[i](static_cast<Eigen::Index>(c)) += part * by_.platform_anchors[i][c].get_d();
-      }
-    }
-    std::optional<RigidPose> result = pose_of_lengths(model, lengths, start);
-    if (result && result->q.dot(start.q) < 0) result->q.coeffs() = -result->q.coeffs();
-    return result;
-  }
-
-  /// One box from tau to `next`, in the widest tube of some in which the kernel finds exactly one pose.
-  bool show(const mpq_class& tau, const mpq_class& next, const RigidPose& there) {
-    constexpr int kNarrowest = 34;
-    by_.poses.push_back(inner_pose(next, there));
-    for (int k = 3; k < kNarrowest; k += 2) {
-      checker::PoseTube& tube = by_.poses[by_.poses.size() - 2].tube;
-      tube.turn = std::ldexp(1.0, -k);
-      tube.position = short_above(model_.characteristic_length) * tube.turn;
-      if (add_box(tau, next)) return true;
-    }
-    by_.poses.pop_back();
-    return false;
-  }
-
-  /// At tau = 1 alone, where the pose is known best.
-  bool show_end() {
-    by_.poses.back().tube = by_.poses[by_.poses.size() - 2].tube;
-    return add_box(1, 1);
-  }
-
-  bool add_box(const mpq_class& begin, const mpq_class& end) {
-    checker::Box box;
-    box.begin = begin;
-    box.end = end;
-    box.bits = bits_;
-    const auto equations = [&](const checker::Box& over) {
-      return motion_equations(growing_deviation(machine_, stated_, by_, over));
-    };
-    try {
-      box.near = near_zero(equations, box);
-      if (!box.near) return false;
-      (void)forward_kinematics(growing_deviation(machine_, stated_, by_, box), *box.near);
-    } catch (const checker::Undefined&) {
-      return false;
-    }
-    by_.boxes.push_back(std::move(box));
-    return true;
-  }
-
-  const checker::Machine& machine_;
-  const checker::Geometry& stated_;
-  Model<double> model_;
-  checker::WitnessDeviation& by_;
-  int bits_;
-};
-
-}  // namespace
-
-bool find_way(const checker::Machine& machine, const checker::Geometry& stated, const Model<double>& model,
-              checker::WitnessDeviation& deviation, int bits) {
-  return Way(machine, stated, model, deviation, bits).follow();
-}
-
-namespace {
-
-checker::WitnessKind to_kernel(const PathWitness& found) {
-  if (found.singular) return checker::WitnessKind::kSingular;
-  switch (found.margin.kind) {
-    case MarginKind::kTensionMin: return checker::WitnessKind::kTensionMin;
-    case MarginKind::kTensionMax: return checker::WitnessKind::kTensionMax;
-    case MarginKind::kLengthMin: return checker::WitnessKind::kLengthMin;
-    case MarginKind::kLengthMax: break;
-  }
-  return checker::WitnessKind::kLengthMax;
-}
-
-}  // namespace
-
-std::optional<KernelWitness> Elaborator::witness(const Segment& segment, const PathWitness& found) const {
+std::optional<Witness> Elaborator::witness(const Segment& segment, const PathWitness& found) const {
   Search search(*this, segment);
-  KernelWitness result;
-  checker::Witness& witness = result.witness;
-  witness.kind = to_kernel(found);
-  // On a segment, or at one of its ends: a waypoint is s = 0 of the segment that is given.
-  const auto place = [](const PathPoint& point) { return point.on_segment ? to_rational(point.s) : mpq_class(0); };
-  witness.at = {0, place(found.at)};
-  for (const int bits : kBits) {
-    const auto placed = [&](const mpq_class& s) {
-      checker::Box box;
-      box.begin = box.end = s;
-      box.bits = bits;
-      return search.place_motion(box) ? std::optional(box) : std::nullopt;
-    };
-    try {
-      const checker::Machine& machine = this->machine(bits);
-      const std::optional<checker::Box> at_box = placed(witness.at.s);
-      if (!at_box) continue;
-      witness.at_box = *at_box;
-      const checker::WorkingPrecision precision(bits);
-      if (found.singular) {
-        witness.to = {0, place(found.to)};
-        const std::optional<checker::Box> to_box = placed(witness.to.s);
-        if (!to_box) continue;
-        witness.to_box = *to_box;
-        const Ball product = determinant_at(machine, problem_, search.path(), witness.at, witness.at_box) *
-                             determinant_at(machine, problem_, search.path(), witness.to, witness.to_box);
-        if (!certainly_negative(product)) continue;
-        std::vector<checker::Box> between;
-        if (!search.show_motion(witness.at.s, witness.to.s, checker::Ranges::kRequired, between)) return std::nullopt;
-        for (checker::Box& box : between) witness.motion.push_back({0, std::move(box)});
-        return result;
-      }
-      witness.cable = static_cast<std::size_t>(found.margin.cable);
-      if (found.deviation) {
-        witness.deviation = to_kernel(*found.deviation);
-        if (witness.deviation->leads_away()) {
-          const checker::Geometry stated = commanded_geometry(machine, problem_, search.path(), 0, witness.at_box);
-          if (!find_way(machine, stated, approx_, *witness.deviation, bits)) continue;
-        }
-      }
-      // With some room for rounding: the checker sees the segment as a part of the path.
-      const Ball exact_value = witnessed_quantity(machine, problem_, search.path(), witness);
-      const Ball rounding = Ball::make([bits](arb_ptr r) {
-        arb_set_ui(r, 1);
-        arb_mul_2exp_si(r, r, 12 - bits);
-      });
-      const Ball seen = plus_minus(exact_value, rounding * magnitude(exact_value));
-      const bool is_lower =
-          witness.kind == checker::WitnessKind::kTensionMin || witness.kind == checker::WitnessKind::kLengthMin;
-      const mpq_class limit = exact(found.limit);
-      const auto value = decimals(seen, [&](const mpq_class& below, const mpq_class& above) {
-        return is_lower ? above <= limit : below >= limit;
-      });
-      if (!value) continue;
-      std::tie(result.value_lower, result.value_upper) = *value;
-      witness.value_lower = exact(result.value_lower);
-      witness.value_upper = exact(result.value_upper);
-      return result;
-    } catch (const checker::Undefined&) {
-      continue;
-    }
-  }
-  return std::nullopt;
+  return found.singular ? search.singular(found) : search.violation(found);
 }
 
-KernelSegment make_segment(std::vector<KernelBox> boxes) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  double tension_N = kNone;
-  double length_m = kNone;
-  double wrench_scale = kNone;
+// ---- Certificates ---------------------------------------------------------------------------------------------------
+
+void LeastBounds::add(std::span<const KernelBox> boxes) {
   for (const KernelBox& box : boxes) {
     tension_N = std::min(tension_N, box.tension_N);
     length_m = std::min(length_m, box.length_m);
     wrench_scale = std::min(wrench_scale, box.wrench_scale);
   }
-  return {std::move(boxes), tension_N == kNone ? Margins{} : margins_below(tension_N, length_m, wrench_scale)};
 }
 
-std::size_t segment_of(const PathWitness& witness) { return static_cast<std::size_t>(witness.at.index); }
+Margins LeastBounds::margins() const { return margins_below(tension_N, length_m, wrench_scale); }
 
-namespace {
-
-KernelProof not_confirmed() {
-  KernelProof result;
-  result.reason = Undecided::kKernel;
+CertificateSegment make_segment(std::vector<KernelBox> boxes) {
+  CertificateSegment result;
+  if (boxes.empty()) return result;
+  LeastBounds least;
+  least.add(boxes);
+  result.margins = least.margins();
+  for (KernelBox& box : boxes) result.boxes.push_back(std::move(box.box));
   return result;
 }
 
-KernelProof confirmed_proof(const Elaborator& elaborator, const Path& path, const PathProof& proof) {
+namespace {
+
+/// Fills in segments and margins; false where the kernel does not prove some box.
+bool confirm_proof(const Elaborator& elaborator, const PathProof& proof, Certificate& certificate) {
+  const Path& path = certificate.path;
   std::vector<std::vector<KernelBox>> boxes(proof.segments.size());
   std::atomic<bool> is_confirmed = true;
   tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t k) {
@@ -656,52 +535,65 @@ KernelProof confirmed_proof(const Elaborator& elaborator, const Path& path, cons
     if (!found) is_confirmed = false;
     if (found) boxes[k] = std::move(*found);
   });
-  if (!is_confirmed) return not_confirmed();
+  if (!is_confirmed) return false;
   elaborator.tighten([&](std::size_t k) { return path.segment(k); }, boxes);
-  KernelProof result;
-  result.verdict = Verdict::kProved;
-  std::vector<KernelBox> all;
+  LeastBounds least;
   for (std::vector<KernelBox>& of_segment : boxes) {
-    all.insert(all.end(), of_segment.begin(), of_segment.end());
-    result.segments.push_back(make_segment(std::move(of_segment)));
+    least.add(of_segment);
+    certificate.segments.push_back(make_segment(std::move(of_segment)));
   }
-  result.margins = make_segment(std::move(all)).margins;
-  return result;
+  certificate.margins = least.margins();
+  return true;
 }
 
-/// The witness, and the motion from the path's beginning to it where the motion is implied.
-KernelProof confirmed_refutation(const Elaborator& elaborator, const Path& path, const PathWitness& witness) {
-  const std::size_t last = segment_of(witness);
+/// Fills in the witness and, where the motion is implied, the motion from the path's beginning to it; false where the
+/// kernel does not prove them.
+bool confirm_refutation(const Elaborator& elaborator, const PathWitness& found, Certificate& certificate) {
+  const Path& path = certificate.path;
   const bool is_still = path.segments() == 0;
-  const Segment segment = path.segment(is_still ? 0 : last);
-  KernelProof result;
-  result.witness = elaborator.witness(segment, witness);
-  if (!result.witness) return not_confirmed();
-  result.verdict = Verdict::kRefuted;
-  if (!elaborator.is_implied() || is_still) return result;
-  std::vector<checker::MotionBox>& motion = result.witness->witness.motion;
+  const std::size_t last = segment_of(found);
+  std::optional<Witness> witness = elaborator.witness(path.segment(is_still ? 0 : last), found);
+  if (!witness) return false;
   const Dyadic begin{0, 0};
-  const Dyadic at = witness.at.on_segment ? witness.at.s : begin;
-  for (std::size_t k = 0; k <= last; ++k) {
+  const Dyadic at = found.at.on_segment ? found.at.s : begin;
+  for (std::size_t k = 0; elaborator.is_implied() && !is_still && k <= last; ++k) {
     std::optional<std::vector<checker::Box>> boxes =
         elaborator.motion(path.segment(k), begin, k < last ? Dyadic{1, 0} : at);
-    if (!boxes) return not_confirmed();
-    // The kernel's witness counts segments from that of the witness: see to_json().
-    for (checker::Box& box : *boxes) motion.push_back({k - last, std::move(box)});
+    if (!boxes) return false;
+    for (checker::Box& box : *boxes) witness->motion.push_back({k, std::move(box)});
+  }
+  certificate.witness = std::move(*witness);
+  return true;
+}
+
+OpenPart open_part(const PathProof& proof) {
+  OpenPart result{proof.reason.text(), {}, {}};
+  if (proof.open_segment >= 0) {
+    const DyadicBox& box = proof.segments[static_cast<std::size_t>(proof.open_segment)].open_box;
+    result.segment = proof.open_segment;
+    result.box = {box.lower(), box.upper()};
   }
   return result;
 }
 
 }  // namespace
 
-KernelProof confirmed(const Problem& problem, const Path& path, const PathProof& proof) {
-  if (proof.verdict != Verdict::kUndecided) {
-    const Elaborator elaborator(problem, path.interpolation);
-    return proof.verdict == Verdict::kProved ? confirmed_proof(elaborator, path, proof)
-                                             : confirmed_refutation(elaborator, path, *proof.witness);
+Certificate elaborate(const Problem& problem, Path path, const PathProof& proof) {
+  Certificate result;
+  result.problem = problem;
+  result.path = std::move(path);
+  if (proof.verdict == Verdict::kUndecided) {
+    result.undecided = open_part(proof);
+    return result;
   }
-  KernelProof result;
-  result.reason = proof.reason;
+  const Elaborator elaborator(problem, result.path.interpolation);
+  const bool is_confirmed = proof.verdict == Verdict::kProved ? confirm_proof(elaborator, proof, result)
+                                                              : confirm_refutation(elaborator, *proof.witness, result);
+  if (is_confirmed) {
+    result.verdict = proof.verdict;
+  } else {
+    result.undecided = OpenPart{Reason(Undecided::kKernel).text(), {}, {}};
+  }
   return result;
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds how the checker's kernel proves what the prover has proved: boxes, precisions, places of implied motions, ways of
-// deviations, and the margins that the kernel confirms.
+// Finds how the checker's kernel proves what the prover has proved: boxes, precisions, where implied motions are, how
+// deviations are followed, and the margins that the kernel confirms.
 //
-// A certificate leaves the checker nothing to search, so whatever has to be searched is searched here, by running the same
-// kernel on what is about to be written. Nothing here is trusted: the checker proves each statement again. What the kernel
-// can't be led to prove is left out, and the verdict with it.
+// A certificate leaves the checker nothing to search, so whatever has to be searched is searched here, by running the
+// same kernel on what is about to be written. Nothing here is trusted: the checker proves each statement again. What
+// the kernel cannot be led to prove is left out, and the verdict with it.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,9 +16,9 @@
 #include <span>
 #include <vector>
 
+#include "certificate/certificate.h"
 #include "certify/path_proof.h"
 #include "checker/kernel/box_proof.h"
-#include "checker/witness.h"
 
 namespace taut {
 
@@ -29,18 +30,19 @@ struct KernelBox {
   double wrench_scale = 0;
 };
 
-/// Boxes of one segment, and the margins that all of them keep, as decimals rounded down.
-struct KernelSegment {
-  std::vector<KernelBox> boxes;
-  Margins margins;
-};
-[[nodiscard]] KernelSegment make_segment(std::vector<KernelBox> boxes);
+/// The least of the bounds of some boxes.
+struct LeastBounds {
+  double tension_N = std::numeric_limits<double>::infinity();
+  double length_m = std::numeric_limits<double>::infinity();
+  double wrench_scale = std::numeric_limits<double>::infinity();
 
-/// A witness as the checker will confirm it.
-struct KernelWitness {
-  checker::Witness witness;
-  DecimalText value_lower, value_upper;  ///< of the quantity, unless singular
+  void add(std::span<const KernelBox> boxes);
+  /// The bounds as decimals, rounded down. @pre some box was added
+  [[nodiscard]] Margins margins() const;
 };
+
+/// A segment with these boxes and the least margins that they keep.
+[[nodiscard]] CertificateSegment make_segment(std::vector<KernelBox> boxes);
 
 /// Thread-safe.
 class Elaborator {
@@ -48,26 +50,27 @@ class Elaborator {
   /// @throws InputError if the problem can't be enclosed.
   Elaborator(const Problem& problem, Interpolation law);
 
-  /// Boxes that tile the given ones, in order; nothing where some part is not proved by the kernel.
+  /// Boxes that tile the given ones, in order; nothing where the kernel does not prove some part of them.
   [[nodiscard]] std::optional<std::vector<KernelBox>> boxes(const Segment& segment,
                                                             std::span<const DyadicBox> proved) const;
 
-  /// What the kernel proves of one box at one go, with the deviations' ways in so many parts; nothing where it does not
-  /// prove that all margins are positive, nor of a box that reaches across an inner pose.
+  /// What the kernel proves of one box at one go, with the ways of deviations in so many parts. Nothing where it does
+  /// not prove that all margins are positive, nor of a box that contains an inner pose between its ends.
   [[nodiscard]] std::optional<KernelBox> one_box(const Segment& segment, const DyadicBox& box, int bits,
                                                  int parts) const;
 
-  /// Halves boxes of a proved path that state its least margins, up to 64 times, until half of what there is next to their
-  /// midpoints is stated.
+  /// Raises the margins that the boxes of a proved path state: halves the boxes that state the least ones, up to 64
+  /// times, until each least margin is at least half of what the kernel finds at the midpoint of its box.
   void tighten(const std::function<Segment(std::size_t k)>& segment, std::vector<std::vector<KernelBox>>& boxes) const;
 
-  /// Boxes of [begin, end] over which the kernel shows the motion; nothing where it does not.
+  /// Boxes that tile [begin, end], over each of which the kernel shows the motion; nothing where it does not.
   [[nodiscard]] std::optional<std::vector<checker::Box>> motion(const Segment& segment, const Dyadic& begin,
                                                                 const Dyadic& end) const;
 
-  /// @param segment  the one of `at` (and `to`), as of which the kernel is asked; `motion` is left to the caller, but for that
-  /// between the places of a singular witness.
-  [[nodiscard]] std::optional<KernelWitness> witness(const Segment& segment, const PathWitness& found) const;
+  /// The witness as the kernel proves it, with the values that it encloses; nothing where it does not. The motion from
+  /// the path's beginning to the witness is left to the caller; a singular witness has that between its two places.
+  /// @param segment  the one on which the witness is; a waypoint is the beginning of the segment
+  [[nodiscard]] std::optional<Witness> witness(const Segment& segment, const PathWitness& found) const;
 
   /// Whether poses are implied by constraints or lengths.
   [[nodiscard]] bool is_implied() const { return is_implied_; }
@@ -75,6 +78,7 @@ class Elaborator {
 
  private:
   class Search;
+  class Tightener;
   [[nodiscard]] const checker::Machine& machine(int bits) const;
 
   checker::Problem problem_;
@@ -85,32 +89,8 @@ class Elaborator {
   mutable std::map<int, std::unique_ptr<checker::Machine>> machines_;
 };
 
-/// A path's proof as the kernel confirms it.
-struct KernelProof {
-  Verdict verdict = Verdict::kUndecided;
-  std::vector<KernelSegment> segments;   ///< only if proved
-  Margins margins;                       ///< the least along the path; only if proved
-  std::optional<KernelWitness> witness;  ///< only if refuted: as of the segment of the path's witness
-  Reason reason;                         ///< only if undecided
-};
-/// Undecided, too, where the prover has a verdict that the kernel can't be led to confirm.
-[[nodiscard]] KernelProof confirmed(const Problem& problem, const Path& path, const PathProof& proof);
-
-/// The segment on which a witness is; that of a waypoint begins there.
-[[nodiscard]] std::size_t segment_of(const PathWitness& witness);
-
-/// Where the implied motion of a box of segment k is, at the precision of the box; nothing where it is not found. It
-/// need not be what the kernel can prove.
-/// @pre `machine` is of the precision of the box
-[[nodiscard]] std::optional<checker::NearZero> find_motion(const checker::Machine& machine,
-                                                           const checker::Problem& problem, const checker::Path& path,
-                                                           std::size_t k, const checker::Box& box);
-/// Fills in poses and boxes of the way that a deviation leads from `stated`; false where the kernel can't be led to its end.
-/// @param model  the machine as the problem states it
-[[nodiscard]] bool find_way(const checker::Machine& machine, const checker::Geometry& stated,
-                            const Model<double>& model, checker::WitnessDeviation& deviation, int bits);
-
-/// The certificate's numbers for a Dyadic.
-[[nodiscard]] mpq_class to_rational(const Dyadic& x);
+/// The certificate of a path's proof. It is undecided, too, where the prover has a verdict that the kernel cannot be
+/// led to confirm.
+[[nodiscard]] Certificate elaborate(const Problem& problem, Path path, const PathProof& proof);
 
 }  // namespace taut

@@ -11,9 +11,6 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
-#include "base/input_kind.h"
-#include "base/sha256.h"
-#include "certificate/certificate.h"
 
 namespace taut {
 namespace {
@@ -26,7 +23,7 @@ std::string hex(std::span<const unsigned char> bytes) {
   return digits;
 }
 
-/// For a file that was encrypted: there is no passphrase.
+/// Tells OpenSSL that there is no passphrase, and notes that the file was encrypted.
 int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* was_asked) {
   *static_cast<bool*>(was_asked) = true;
   return -1;
@@ -63,8 +60,8 @@ SigningKey::SigningKey(std::string pem, const std::string& name) {
   }
   OPENSSL_cleanse(pem.data(), pem.size());
   if (!seen.empty()) {
-    throw InputErrorOfKind(
-        InputKind::kKey,
+    throw InputError(
+        ErrorCode::kKey,
         fmt::format(
             "{}: got {}, expected an unencrypted Ed25519 private key in PEM (openssl genpkey -algorithm ed25519)", name,
             seen),
@@ -92,10 +89,6 @@ nlohmann::json SigningKey::signature(const std::string& digest) const {
     throw std::runtime_error("OpenSSL could not sign");
   }
   return {{"algorithm", "Ed25519"}, {"public_key", public_key()}, {"value", hex(value)}};
-}
-
-void SigningKey::sign(nlohmann::json& certificate) const {
-  certificate["signature"] = signature(certificate.at("footer").at("sha256").get<std::string>());
 }
 
 }  // namespace taut

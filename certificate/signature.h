@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signatures of certificates (docs/certificate-format.md, "signature"): who vouches for a file. They prove nothing about the robot.
+// Signatures of certificates (docs/certificate-format.md, "signature"): who vouches for a file. They prove nothing
+// about the robot.
 //
 // Ed25519 as OpenSSL does it; keys are PEM as `openssl genpkey -algorithm ed25519` writes them.
 #pragma once
@@ -23,11 +24,9 @@ class SigningKey {
   /// The 32 bytes of the public half, as 64 lower-case hex digits.
   [[nodiscard]] std::string public_key() const;
 
-  /// The object `signature` of a certificate. @param digest  sha256() of the certificate without that key, footer included.
+  /// The object `signature` of a certificate.
+  /// @param digest  `footer.sha256`
   [[nodiscard]] nlohmann::json signature(const std::string& digest) const;
-
-  /// Gives a whole certificate its signature, in place of any that it has.
-  void sign(nlohmann::json& certificate) const;
 
  private:
   struct Free {

@@ -7,8 +7,9 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "app/path_audit.h"
+#include "app/audit.h"
 #include "app/recheck.h"
+#include "app/report.h"
 #include "app/tolerance_table.h"
 #include "base/files.h"
 #include "base/sanitize.h"
@@ -17,7 +18,6 @@
 #include "certify/undecided.h"
 #include "cli/console.h"
 #include "cli/report_command.h"
-#include "reports/page/html_report.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
@@ -27,22 +27,27 @@ constexpr std::size_t kShownStretches = 20;
 
 // --- What is said --------------------------------------------------------------------------------------------------
 
-std::string text(const AuditPlace& place, const char* place_name) {
+std::string text(const PathPoint& point, const FilePlace& place, const char* place_name) {
   const std::string where = place.line_before == place.line_behind
                                 ? fmt::format("{} {}", place_name, place.line_before)
                                 : fmt::format("{}s {}-{}", place_name, place.line_before, place.line_behind);
   const std::string time = place.time_s ? fmt::format(", t = {:.6g} s", *place.time_s) : "";
-  return fmt::format("segment {} at s = {:.6g} ({}{})", place.segment, place.s.approx(), where, time);
+  return fmt::format("segment {} at s = {:.6g} ({}{})", point.index, point.s.approx(), where, time);
 }
 
-std::string text(const AuditStretch& stretch, const char* place_name) {
-  std::string lines =
-      fmt::format("  from {}\n    to {}\n", text(stretch.begin, place_name), text(stretch.end, place_name));
-  if (!stretch.inner) return lines + fmt::format("    open: {}\n", with_code(stretch.reason.text()));
-  lines += fmt::format("    violated from {}: {}\n", text(stretch.inner_places->first, place_name),
-                       violation_text(stretch.inner->first));
-  return lines + fmt::format("              to {}: {}\n", text(stretch.inner_places->second, place_name),
-                             violation_text(stretch.inner->second));
+/// The last point of a violation, which may reach from one point to another.
+const PathPoint& end_of(const PathWitness& violation) { return violation.singular ? violation.to : violation.at; }
+
+std::string text(const AuditedStretch& audited, const char* place_name) {
+  const Stretch& stretch = audited.stretch;
+  std::string lines = fmt::format("  from {}\n    to {}\n", text(stretch.begin, audited.begin, place_name),
+                                  text(stretch.end, audited.end, place_name));
+  if (!stretch.violations) return lines + fmt::format("    open: {}\n", with_code(stretch.reason));
+  const PathWitness& first = stretch.violations->first.violation;
+  const PathWitness& last = stretch.violations->second.violation;
+  lines += fmt::format("    violated from {}: {}\n", text(first.at, audited.first, place_name), violation_text(first));
+  return lines +
+         fmt::format("              to {}: {}\n", text(end_of(last), audited.last, place_name), violation_text(last));
 }
 
 std::string counted(std::size_t n, std::string_view what) {
@@ -97,29 +102,37 @@ void print(const Audit& audit, const PathSource& source, const checker::CheckRes
              static_cast<double>(audit.segments) / audit.seconds);
 }
 
-nlohmann::json place_json(const AuditPlace& place, const char* place_name) {
-  return {{"segment", place.segment},
-          {"s", place.s.text()},
+nlohmann::json place_json(const PathPoint& point, const FilePlace& place, const char* place_name) {
+  return {{"segment", point.index},
+          {"s", point.s.text()},
           {std::string(place_name) + "s", {place.line_before, place.line_behind}},
           {"t", place.time_s ? nlohmann::json(*place.time_s) : nlohmann::json()}};
 }
 
+/// A violation without its proof.
+nlohmann::json violation_json(const Witness& witness) {
+  nlohmann::json result = to_json(witness);
+  for (const char* of_proof : {"motion", "proof", "at_proof", "to_proof"}) result.erase(of_proof);
+  return result;
+}
+
 nlohmann::json stretches_json(const Audit& audit, const PathSource& source) {
+  const char* const place_name = source.place_name();
   nlohmann::json stretches = nlohmann::json::array();
-  for (const AuditStretch& stretch : audit.stretches) {
-    const char* place_name = source.place_name();
+  for (const AuditedStretch& audited : audit.stretches) {
+    const Stretch& stretch = audited.stretch;
     nlohmann::json inner;
-    if (stretch.inner) {
-      const auto end = [&](const AuditPlace& place, nlohmann::json violation) {
-        for (const char* of_proof : {"motion", "proof", "at_proof", "to_proof"}) violation.erase(of_proof);
-        return nlohmann::json{{"at", place_json(place, place_name)}, {"witness", std::move(violation)}};
-      };
-      inner = {end(stretch.inner_places->first, stretch.inner_json.first),
-               end(stretch.inner_places->second, stretch.inner_json.second)};
+    if (stretch.violations) {
+      const auto& [first, last] = *stretch.violations;
+      inner = {
+          {{"at", place_json(first.violation.at, audited.first, place_name)}, {"witness", violation_json(first)}},
+          {{"at", place_json(end_of(last.violation), audited.last, place_name)}, {"witness", violation_json(last)}}};
     }
-    stretches.push_back({{"outer", {place_json(stretch.begin, place_name), place_json(stretch.end, place_name)}},
-                         {"inner", inner},
-                         {"reason", stretch.inner ? nlohmann::json() : nlohmann::json(stretch.reason.text())}});
+    stretches.push_back(
+        {{"outer",
+          {place_json(stretch.begin, audited.begin, place_name), place_json(stretch.end, audited.end, place_name)}},
+         {"inner", inner},
+         {"reason", stretch.violations ? nlohmann::json() : nlohmann::json(stretch.reason)}});
   }
   return stretches;
 }
@@ -192,7 +205,7 @@ int run_audit(const AuditArguments& arguments) {
     }
   }
   const Interruption interruption;  // before there is a file that a signal could leave behind
-  PathAudit audited;
+  Audit result;
   NewFile certificate(out / "certificate.json");
   NewFile csv(out / "path.csv");
   Sha256 digest;  // of the certificate
@@ -206,7 +219,7 @@ int run_audit(const AuditArguments& arguments) {
         return progress_text(done, source.segments(), spent.count());
       });
     };
-    audited = audit_path(
+    result = audit_path(
         source, {arguments.bits, out, key ? &*key : nullptr},
         [&](std::string_view text) {
           digest.update(text);
@@ -215,7 +228,6 @@ int run_audit(const AuditArguments& arguments) {
         },
         [&](std::string_view text) { csv.write(text); }, progress, interruption.token());
   }
-  const Audit& result = audited.audit;
   if (result.interrupted) {
     complain("interrupted: nothing was written");
     return kUndecidedExit;
@@ -232,7 +244,7 @@ int run_audit(const AuditArguments& arguments) {
   std::optional<NewFile> report;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {
     report.emplace(report_path);
-    report->write(html_report(checked, {"", "", date}));
+    report->write(make_report(checked, {"", "", date}, ReportForm::kPage));
     report->finish();
     files.push_back(&*report);
   }
@@ -242,7 +254,7 @@ int run_audit(const AuditArguments& arguments) {
   rename_into_place(files, remove_first);
 
   const bool is_proved = exit_code(checked) == kProvedExit;
-  const std::vector<ToleranceLimit> limits = is_proved ? audited.tolerance_limits : std::vector<ToleranceLimit>();
+  const std::vector<ToleranceLimit> limits = is_proved ? result.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
     object["out"] = out.string();

@@ -18,13 +18,13 @@ namespace taut {
 
 enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInputExit = 3, kInternalExit = 4 };
 
-/// Of what the checker says: proved or refuted where there is a theorem, else undecided.
+/// The exit code for what the checker says: proved or refuted where there is a theorem, else undecided.
 [[nodiscard]] ExitCode exit_code(const checker::CheckResult& checked);
 
 /// "--max-seconds" of plan, audit and report: the checker's budget.
 void add_max_seconds_option(CLI::App& command, double& max_seconds);
 
-/// Where results go if nobody says: out/NAME, after the file of that name.
+/// The folder for results: `wanted`, or out/NAME after the name of `file` if `wanted` is empty.
 [[nodiscard]] std::filesystem::path out_folder(const std::string& wanted, const std::string& file);
 
 /// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.

@@ -11,7 +11,6 @@
 
 #include "base/files.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
 #include "cli/subprocess.h"
 
@@ -107,8 +106,8 @@ std::optional<std::string> print_to_pdf(const std::string& page, const std::stop
   const std::vector<std::string> candidates = browsers();
   const auto browser = std::ranges::find_if(candidates, can_be_found);
   if (browser == candidates.end()) {
-    throw InputErrorOfKind(
-        InputKind::kBrowser,
+    throw InputError(
+        ErrorCode::kBrowser,
         fmt::format("--pdf: found no browser ({}), expected Chromium: install Debian's package chromium, or set "
                     "TAUT_BROWSER to a Chromium or Chrome; or print report.html from any browser",
                     fmt::join(candidates, ", ")));

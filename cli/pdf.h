@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page as PDF, printed by a Chromium that the user has: it knows the page's style sheet and script as no library does.
+// A page as PDF, printed by a Chromium that the user has: it knows the page's style sheet and script as no library
+// does.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +17,8 @@ class BrowserFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Prints a page, without network, in a directory of its own that vanishes. The browser is $TAUT_BROWSER where that is set, else the
-/// first of chromium, chromium-browser, google-chrome-stable and google-chrome that is found.
+/// Prints a page, without network, in a directory of its own that vanishes. The browser is $TAUT_BROWSER where that is
+/// set, else the first of chromium, chromium-browser, google-chrome-stable and google-chrome that is found.
 /// @returns the PDF's bytes, whole; nothing where `stop` asked to stop.
 /// @throws InputError where there is no browser; BrowserFailed where it fails or takes too long.
 [[nodiscard]] std::optional<std::string> print_to_pdf(const std::string& page, const std::stop_token& stop);

@@ -16,7 +16,6 @@
 
 #include "base/files.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/json_cursor.h"
 #include "base/sanitize.h"
 #include "case/case_file.h"
@@ -67,7 +66,7 @@ const char* name(Expectation expectation) {
   return "";
 }
 
-// --- One case ----------------------------------------------------------------------------------------------------------
+// --- One case --------------------------------------------------------------------------------------------------------
 
 /// Margins are decimals as text, counts and lengths are numbers.
 std::optional<double> number(const json& value) {
@@ -76,7 +75,7 @@ std::optional<double> number(const json& value) {
   return ScalarTraits<double>::from_decimal(value.get<std::string>());
 }
 
-/// From what `taut plan --json` and `taut audit --json` print.
+/// Reads what `taut plan --json` and `taut audit --json` print.
 Measurement measurement(const json& summary) {
   Measurement result{summary.at("verdict"), {}};
   const auto take = [&](const char* quantity, const json& object, const char* key) {
@@ -127,7 +126,7 @@ std::vector<std::string> differences(const Case& declared, const Measurement& me
   return result;
 }
 
-/// What a program that failed said last.
+/// The last line that a failed program wrote.
 std::string last_lines(const std::string& text) {
   constexpr std::size_t kMost = 2000;
   std::string tail = text.size() > kMost ? text.substr(text.size() - kMost) : text;
@@ -198,7 +197,7 @@ void run(const fs::path& file, const fs::path& out, const RegressOptions& option
   if (options.check) recheck(file, out, options, stop, result);
 }
 
-// --- JUnit -------------------------------------------------------------------------------------------------------------
+// --- JUnit -----------------------------------------------------------------------------------------------------------
 
 void add_property(pugi::xml_node& properties, const std::string& name, const std::string& value) {
   pugi::xml_node property = properties.append_child("property");
@@ -334,7 +333,7 @@ Baseline read_baseline(const fs::path& path) {
   const json file = json::parse(read_whole(path), nullptr, false);
   if (!file.is_object() || file.value("format", json()) != kBaselineFormat) throw fail("got another file");
   if (file.value("version", json()) != kBaselineVersion) throw fail("got another version");
-  return reading(InputKind::kRegress, path.string(), [&] {
+  return with_error_code(ErrorCode::kRegress, path.string(), [&] {
     Baseline result;
     const JsonCursor cases = JsonCursor(file, "baseline").at("cases");
     if (!cases.value().is_object()) cases.fail("an object");

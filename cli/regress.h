@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Regression proofs: every case of a folder is planned or audited, each by a taut of its own, and held to what it declares and to
-// what an earlier run measured.
+// Regression proofs: every case of a folder is planned or audited, each by a taut of its own, and held to what it
+// declares and to what an earlier run measured.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@
 
 namespace taut {
 
-/// What a run of a case came to: a verdict, and numbers by the names of kBoundQuantities (SI); what was not measured is missing.
+/// What a run of a case came to: a verdict, and numbers by the names of kBoundQuantities (SI); what was not measured is
+/// missing.
 struct Measurement {
   std::string verdict;
   std::map<std::string, double> quantities;

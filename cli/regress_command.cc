@@ -10,7 +10,6 @@
 
 #include "base/files.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
 #include "cli/console.h"
 #include "cli/number_option.h"
@@ -52,7 +51,7 @@ bool is_junit(const std::string& text) {
   return text.starts_with("<?xml") && text.find("<testsuites>") != std::string::npos;
 }
 
-/// That a file that is not there, is empty, or is an earlier one of its kind is to be written, and no case.
+/// Checks that `file` is absent, empty or an earlier output of this kind: a case is never overwritten.
 void require_replaceable(const char* option, const std::string& file, bool (*is_of_its_kind)(const std::string&)) {
   require_writable(file);
   const std::filesystem::path extension = std::filesystem::path(file).extension();
@@ -60,10 +59,10 @@ void require_replaceable(const char* option, const std::string& file, bool (*is_
   const bool is_there = std::filesystem::is_regular_file(file, ignored);
   const std::string text = is_there ? read_whole(file) : "";
   if (extension != ".yaml" && extension != ".yml" && (text.empty() || is_of_its_kind(text))) return;
-  throw InputErrorOfKind(InputKind::kUse,
-                         fmt::format("{}: got '{}', which is another file or named as a case, expected a new file or "
-                                     "an earlier one of taut regress {}",
-                                     option, excerpt(file), option));
+  throw InputError(ErrorCode::kUse,
+                   fmt::format("{}: got '{}', which is another file or named as a case, expected a new file or "
+                               "an earlier one of taut regress {}",
+                               option, excerpt(file), option));
 }
 
 }  // namespace

@@ -7,21 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "app/recheck.h"
+#include "app/report.h"
 #include "base/files.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
-#include "certificate/certificate_file.h"
-#include "certificate/certificate_view.h"
+#include "certificate/certificate_reader.h"
 #include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
 #include "cli/pdf.h"
-#include "reports/page/html_report.h"
 
 namespace taut {
 namespace {
 
-/// What is asked for, and the name of the file that it goes to if nobody says.
+/// A report, and the name of the file for it unless another one is asked for.
 struct Rendered {
   std::string content;
   const char* file_name;  ///< null: standard output
@@ -30,13 +28,12 @@ struct Rendered {
 /// Nothing, where somebody asked to stop.
 std::optional<Rendered> render(const ReportArguments& arguments, const checker::CheckResult& checked,
                                const ReportOptions& options, const std::stop_token& stop) {
-  if (arguments.text) return Rendered{text_summary(checked, options), nullptr};
-  if (arguments.markdown) return Rendered{markdown_summary(checked, options), nullptr};
-  if (arguments.json) {
-    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    return Rendered{json_summary(checked, options).dump(1, ' ', true, kReplace) + "\n", nullptr};
-  }
-  std::string page = html_report(checked, options);
+  const ReportForm form = arguments.text       ? ReportForm::kText
+                          : arguments.markdown ? ReportForm::kMarkdown
+                          : arguments.json     ? ReportForm::kJson
+                                               : ReportForm::kPage;
+  std::string page = make_report(checked, options, form);
+  if (form != ReportForm::kPage) return Rendered{std::move(page), nullptr};
   if (!arguments.pdf) return Rendered{std::move(page), "report.html"};
   std::optional<std::string> pdf = print_to_pdf(page, stop);
   if (!pdf) return std::nullopt;
@@ -71,19 +68,18 @@ int run_report(const ReportArguments& arguments) {
   const checker::CheckResult checked = recheck(bytes, arguments.max_seconds, interruption.token());
   if (checked.outcome == checker::Outcome::kMalformed) {
     // A report's reader says what it saw and where; what only the checker minds is said in its words.
-    reading(InputKind::kCertificate, arguments.certificate_path,
-            [&] { (void)read_certificate(parse_certificate(bytes, arguments.certificate_path)); });
-    throw InputErrorOfKind(
-        InputKind::kCertificate,
-        fmt::format("{}: got {}, expected a certificate", arguments.certificate_path, checked.message),
-        {arguments.certificate_path});
+    with_error_code(ErrorCode::kCertificate, arguments.certificate_path,
+                    [&] { (void)read_certificate(parse_certificate(bytes, arguments.certificate_path)); });
+    throw InputError(ErrorCode::kCertificate,
+                     fmt::format("{}: got {}, expected a certificate", arguments.certificate_path, checked.message),
+                     {arguments.certificate_path});
   }
   if (checked.outcome == checker::Outcome::kRejected) {
     fmt::print(stderr, "taut: {}: {}. No report is made of it.\n", arguments.certificate_path, sentence(checked));
     return kRefutedExit;
   }
   const ReportOptions options{arguments.document, arguments.revision, date};
-  const std::optional<Rendered> made = reading(InputKind::kCertificate, arguments.certificate_path, [&] {
+  const std::optional<Rendered> made = with_error_code(ErrorCode::kCertificate, arguments.certificate_path, [&] {
     return render(arguments, checked, options, interruption.token());
   });
   if (!made || interruption.token().stop_requested()) {
@@ -99,9 +95,8 @@ int run_report(const ReportArguments& arguments) {
                               : std::filesystem::path(arguments.out);
     std::error_code not_there;
     if (std::filesystem::equivalent(target, arguments.certificate_path, not_there)) {
-      throw InputErrorOfKind(
-          InputKind::kUse,
-          fmt::format("--out: got '{}', which is the certificate, expected another file", excerpt(target.string())));
+      throw InputError(ErrorCode::kUse, fmt::format("--out: got '{}', which is the certificate, expected another file",
+                                                    excerpt(target.string())));
     }
     write_whole({{target, rendered.content}});
     fmt::print("{}\nWritten: {}\n", sentence(checked), sanitize(target.string()));

@@ -46,7 +46,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Both ends are closed in programs that are started meanwhile.
+/// Programs that are started meanwhile do not inherit either end.
 struct Pipe {
   Descriptor read, write;
   Pipe() {

@@ -17,14 +17,14 @@ struct FinishedProgram {
   double seconds = 0;
 };
 
-/// Runs a program to its end, with nothing on its standard input. It is asked to end (SIGTERM), and a little later made to, on a
-/// stop request or when `most_seconds` have passed. Thread-safe.
+/// Runs a program to its end, with nothing on its standard input. It is asked to end (SIGTERM), and a little later made
+/// to, on a stop request or when `most_seconds` have passed. Thread-safe.
 /// @param command  program, looked for in PATH unless it contains a slash, and arguments
 /// @throws InputError where it can't be started.
 [[nodiscard]] FinishedProgram run_program(const std::vector<std::string>& command, const std::stop_token& stop,
                                           std::optional<double> most_seconds = std::nullopt);
 
-/// Of the program that is running.
+/// The path of the running program.
 [[nodiscard]] std::string own_program();
 
 /// taut-check: beside taut, where it was installed, else where it was built, else wherever PATH has it.

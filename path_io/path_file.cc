@@ -13,7 +13,7 @@
 #include <map>
 #include <utility>
 
-#include "base/input_kind.h"
+#include "base/input_error.h"
 #include "base/sanitize.h"
 #include "problem/scalar.h"
 
@@ -97,8 +97,8 @@ class Lines {
     if (!text_->good()) return false;
     text_->read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     if (text_->bad()) {
-      throw InputErrorOfKind(InputKind::kFile, fmt::format("{}:{}: could not read on", file_, number_ + 1),
-                             {file_, number_ + 1});
+      throw InputError(ErrorCode::kFile, fmt::format("{}:{}: could not read on", file_, number_ + 1),
+                       {file_, number_ + 1});
     }
     at_ = 0;
     end_ = static_cast<std::size_t>(text_->gcount());
@@ -645,10 +645,10 @@ std::unique_ptr<std::istream> open(const std::string& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: got a directory, expected a path file", path), {path});
+    throw InputError(ErrorCode::kFile, fmt::format("{}: got a directory, expected a path file", path), {path});
   }
   if (!*file) {
-    throw InputErrorOfKind(InputKind::kFile, fmt::format("{}: could not read: {}", path, std::strerror(errno)), {path});
+    throw InputError(ErrorCode::kFile, fmt::format("{}: could not read: {}", path, std::strerror(errno)), {path});
   }
   return file;
 }

@@ -8,15 +8,15 @@
 // A verdict is the independent checker's: plan(), prove() and audit() ask it before they return, and a certificate that
 // was loaded has none until check() has proved it again.
 //
-// What comes out is what the commands `taut plan` and `taut audit` write for the same input, byte for byte. SI and radians
-// everywhere.
+// What comes out is what the commands `taut plan` and `taut audit` write for the same input, byte for byte. SI and
+// radians everywhere.
 //
-// Errors. That something is not proved is a verdict, no error. Exceptions: InputError where what was given is wrong in some way,
-// Interrupted where the caller asked to stop, UntrustworthyMachine where directed rounding fails or numbers have no decimal point, InternalError where taut does.
-// What a progress callback throws comes through as it is.
+// Errors. That something is not proved is a verdict, no error. Exceptions: InputError where what was given is wrong in
+// some way, Interrupted where the caller asked to stop, UntrustworthyMachine where directed rounding fails or numbers
+// have no decimal point, InternalError where taut does. What a progress callback throws comes through as it is.
 //
-// Threads. Everything may be called from any thread, in any rounding mode, which is as it was on return. A const object may be
-// used by several threads at once. Work is spread over all cores.
+// Threads. Everything may be called from any thread, in any rounding mode, which is as it was on return. A const object
+// may be used by several threads at once. Work is spread over all cores.
 #pragma once
 
 #include <array>
@@ -34,8 +34,9 @@
 #define TAUT_EXPORT __attribute__((visibility("default")))
 
 namespace taut {
-// The inner namespace's name says which ABI this is. Where headers of the layers (taut::certify and so on) are used as well, which
-// have names of their own in namespace taut, these have to be called taut::v0::Case and so on; the layers' CMake targets see to it.
+// The inner namespace's name says which ABI this is. Where headers of the layers (taut::certify and so on) are used as
+// well, which have names of their own in namespace taut, these have to be called taut::v0::Case and so on; the layers'
+// CMake targets see to it.
 #ifdef TAUT_WITH_LAYERS
 namespace v0 {
 #else
@@ -47,8 +48,8 @@ inline namespace v0 {
 
 // --- Errors ----------------------------------------------------------------------------------------------------------
 
-/// A case, path, certificate, key or option is wrong in some way. what() has the place, what was seen and what was expected:
-/// "crane.yaml:12:9: load.mass: got 'NaN', expected …".
+/// A case, path, certificate, key or option is wrong in some way. what() has the place, what was seen and what was
+/// expected: "crane.yaml:12:9: load.mass: got 'NaN', expected …".
 class TAUT_EXPORT InputError : public std::runtime_error {
  public:
   InputError(const std::string& message, std::string file, std::size_t line, std::string field, std::string code);
@@ -108,12 +109,13 @@ class TAUT_EXPORT Case {
   [[nodiscard]] std::array<std::array<double, 2>, 6> tension_limits_N() const;
   [[nodiscard]] std::array<std::array<double, 2>, 6> length_limits_m() const;
 
-  /// What the case was understood to say, with tensions, lengths and margins at the query's waypoints in floating point: what
-  /// `taut show` prints. Nothing is proved here. @throws InputError
+  /// What the case was understood to say, with tensions, lengths and margins at the query's waypoints in floating
+  /// point: what `taut show` prints. Nothing is proved here. @throws InputError
   [[nodiscard]] std::string summary() const;
   /// The same as JSON, in SI: `taut show --json`.
   [[nodiscard]] std::string summary_json() const;
-  /// The robot at the query's first waypoint, an SVG document: `taut show --out`. @throws InputError where there is no query.
+  /// The robot at the query's first waypoint, an SVG document: `taut show --out`. @throws InputError where there is no
+  /// query.
   [[nodiscard]] std::string drawing_svg() const;
 
   struct Content;  // the library's own
@@ -134,8 +136,8 @@ enum class Interpolation {
 
 /// Exact: these binary64 numbers are what is proved.
 struct Waypoint {
-  /// One a parameter of the case [m, rad]; geodesic: px, py, pz [m], qx, qy, qz, qw; cable lengths: these, and the lengths
-  /// l1 … l6 [m], where the pose tells which of those that have them is meant, and is refined if it is rough.
+  /// One a parameter of the case [m, rad]; geodesic: px, py, pz [m], qx, qy, qz, qw; cable lengths: these, and the
+  /// lengths l1 … l6 [m], where the pose tells which of those that have them is meant, and is refined if it is rough.
   std::vector<double> x;
   /// One a parameter, which is then x + π half_turns; not 0 for periodic ones only. Empty: all 0.
   std::vector<int> half_turns;
@@ -306,8 +308,8 @@ struct ProveOptions {
   double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
 };
 
-/// Proves a path that the caller has made. One that is not proved is refuted at the first violation found, or undecided at the
-/// first piece that is: audit() tells of all. The case's query has no part in it.
+/// Proves a path that the caller has made. One that is not proved is refuted at the first violation found, or undecided
+/// at the first piece that is: audit() tells of all. The case's query has no part in it.
 /// @throws InputError where the path does not fit the case; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate prove(const Case& the_case, const Path& path, const ProveOptions& options = {});
 
@@ -321,12 +323,13 @@ struct AuditOptions {
   double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
 };
 
-/// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the path here;
-/// the command's does not.
+/// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the
+/// path here; the command's does not.
 /// @throws InputError with the file's line where the path is wrong; Interrupted.
 [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const std::string& path_file,
                                             const AuditOptions& options = {});
-/// A table of the caller's. @param name  stands for the file in messages, whose line 1 are the columns, and in the certificate
+/// A table of the caller's. @param name  stands for the file in messages, whose line 1 are the columns, and in the
+/// certificate
 [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const Table& table, const AuditOptions& options = {},
                                             const std::string& name = "table");
 /// The path that the case itself names.
@@ -360,8 +363,8 @@ struct CheckOptions {
   std::optional<double> max_seconds = {};  ///< budget; nothing: no end
 };
 
-/// Proves a certificate again, by the independent checker: what `taut-check` says. Takes the text, since a certificate may be no
-/// certificate. Who wants to rely on it should run taut-check: it is another program, and small.
+/// Proves a certificate again, by the independent checker: what `taut-check` says. Takes the text, since a certificate
+/// may be no certificate. Who wants to rely on it should run taut-check: it is another program, and small.
 /// @throws InputError for keys; Interrupted. Never because of what the text says.
 [[nodiscard]] TAUT_EXPORT CheckResult check(const std::string& certificate_text, const CheckOptions& options = {});
 [[nodiscard]] TAUT_EXPORT CheckResult check(const Certificate& certificate, const CheckOptions& options = {});

@@ -53,7 +53,7 @@ Html bar(const Use& use) {
 
 Html cables(const ReportContext& scene, const CableUse& use) {
   if (use.source == CableUse::Source::kNone) return {};
-  const RobotText& robot = scene.view.problem.robot;
+  const RobotText& robot = scene.certificate.problem.robot;
   Html rows;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Use& t = use.tension[i];

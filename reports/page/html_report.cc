@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
 #include "reports/page/first_page.h"
 #include "reports/page/plane.h"
@@ -26,14 +25,14 @@ Html contents(const ReportContext& scene) {
   const bool has_path = !scene.samples.empty();
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   link(has_path, "move", "The move");
-  link(!scene.view.stretches.empty(), "stretches", "Stretches");
+  link(!scene.certificate.stretches.empty(), "stretches", "Stretches");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
-  link(is_plane(scene.view.problem.space), "plane", "Plane");
-  link(is_claimed && scene.view.boxes > 0, "margins", "Margins");
+  link(is_plane(scene.certificate.problem.space), "plane", "Plane");
+  link(is_claimed && count_boxes(scene.certificate) > 0, "margins", "Margins");
   link(is_claimed, "theorem", "Claim");
-  link(is_claimed && scene.view.problem.tolerances.has_value(), "tolerances", "Tolerances");
+  link(is_claimed && scene.certificate.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");
   link(true, "robot", "Robot");
   link(true, "path", "Path");
@@ -51,8 +50,8 @@ void require_plain(const ReportOptions& options) {
   };
   const auto require = [&](const std::string& text, const char* what) {
     if (text.size() > kLongest || !std::ranges::all_of(text, is_plain)) {
-      throw InputErrorOfKind(
-          InputKind::kUse,
+      throw InputError(
+          ErrorCode::kUse,
           fmt::format("{}: got '{}', expected at most {} letters, digits, blanks and . , : ; / _ + - # ( )", what,
                       excerpt(text), kLongest));
     }
@@ -78,10 +77,10 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   require_plain(options);
   const Summary summary(scene, options);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
-  const Html claim = is_claimed ? margins(scene) + theorem(scene.view) + tolerances(scene.view) : Html();
+  const Html claim = is_claimed ? margins(scene) + theorem(scene.certificate) + tolerances(scene) : Html();
   const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
-                    plot_sections(scene) + claim + assumptions(scene.view.problem) + robot(scene) +
-                    path_section(scene) + inputs(scene.view) + recheck(scene.view);
+                    plot_sections(scene) + claim + assumptions(scene.certificate.problem) + robot(scene) +
+                    path_section(scene) + inputs(scene.certificate) + recheck(scene);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(

@@ -52,12 +52,12 @@ std::vector<Image> images(const SpaceText& space) {
 
 /// The values of parameter j that are shown: the path's, and a full turn, the range, or half a turn of θ.
 Span window(const ReportContext& scene, std::size_t j) {
-  const SpaceText& space = scene.view.problem.space;
+  const SpaceText& space = scene.certificate.problem.space;
   const Parameter& parameter = space.parameters[j];
   Span path = nothing();
   for (const PathSample& sample : scene.samples) path.include(sample.parameters[j]);
   if (!(path.length() >= 0)) {  // no path: the query will do
-    for (const auto& waypoint : scene.view.problem.query) path.include(evaluate_constant<double>(waypoint[j]));
+    for (const auto& waypoint : scene.certificate.problem.query) path.include(evaluate_constant<double>(waypoint[j]));
   }
   if (!(path.length() >= 0)) path = {0, 0};
   const double pad = 0.05 * std::max(path.length(), 1e-3);
@@ -74,7 +74,7 @@ Span window(const ReportContext& scene, std::size_t j) {
     if (-path.lower > path.upper) return {std::min(path.lower - kPad, -kPi), path.upper > 0 ? path.upper + kPad : 0};
     return {path.lower < 0 ? path.lower - kPad : 0, std::max(path.upper + kPad, kPi)};
   }
-  for (const ChartView& chart : scene.view.charts) {
+  for (const Illustration::Chart& chart : scene.illustration.charts) {
     for (const auto& corner : chart.corners) path.include(corner[j]);
   }
   const double margin = std::max(0.08 * path.length(), 0.05);
@@ -129,8 +129,8 @@ void Span::include(double x) {
 bool is_plane(const SpaceText& space) { return space.parameters.size() == 2 && space.constraints.empty(); }
 
 std::optional<Plane> sample_plane(const ReportContext& scene) {
-  if (!is_plane(scene.view.problem.space)) return std::nullopt;
-  const SpaceText& space = scene.view.problem.space;
+  if (!is_plane(scene.certificate.problem.space)) return std::nullopt;
+  const SpaceText& space = scene.certificate.problem.space;
   Plane plane;
   plane.window = {window(scene, 0), window(scene, 1)};
   const auto& [x, y] = plane.window;
@@ -140,7 +140,7 @@ std::optional<Plane> sample_plane(const ReportContext& scene) {
   plane.columns = kColumns;
   plane.rows = static_cast<int>(std::round(kColumns * ratio));
   sample_grid(scene.sampler, plane);
-  for (const ChartView& chart : scene.view.charts) {
+  for (const Illustration::Chart& chart : scene.illustration.charts) {
     for (const Image& image : images(space)) {
       const auto [u, v] = image.of({chart.centre[0], chart.centre[1]});
       const auto is_near = [](const Span& span, double c) {

@@ -26,13 +26,15 @@ Html unscripted() {
       "numbers.</p>\n");
 }
 
-/// Explains the marks on the plots along the path, if there are any.
-Html marks_text(const CertificateView& view) {
+/// What the marks on the plots along the path mean, where there are some.
+Html marks_text(const Certificate& certificate) {
   Html result;
-  if (view.witness) result += html(" Dashed red: {}.", view.witness->to ? "the two witness poses" : "the witness pose");
-  if (!view.stretches.empty()) {
+  if (certificate.witness)
+    result += html(" Dashed red: {}.",
+                   certificate.witness->violation.singular ? "the two witness poses" : "the witness pose");
+  if (!certificate.stretches.empty()) {
     result += html(" Shaded over the whole height: the stretches where the path is not proved.");
-  } else if (view.undecided && view.undecided->segment) {
+  } else if (certificate.undecided && certificate.undecided->segment) {
     result += html(" Amber: what was left open.");
   }
   return result;
@@ -49,7 +51,7 @@ Html bands_text(const ReportContext& scene) {
       "Light bands are enclosures, computed by this program anew with interval arithmetic, box by box as the "
       "certificate has them: "
       "at no pose{} does a value leave its band.{} The darker band and the line are floating-point samples.",
-      scene.view.problem.tolerances ? " and no deviation within the tolerances" : "",
+      scene.certificate.problem.tolerances ? " and no deviation within the tolerances" : "",
       scene.ranges_are_whole ? ""
       : scene.ranges.missing > 0
           ? fmt::format(" Where there is none, nothing is proved, or enclosing was given up ({}).",
@@ -62,25 +64,26 @@ Html tensions(const ReportContext& scene) {
       "tensions", "Tensions along the path",
       html(
           "<p>For each cable all tensions that the loads in K can ask of it. {} Shaded red: beyond the limits.{}</p>\n",
-          bands_text(scene), marks_text(scene.view)) +
+          bands_text(scene), marks_text(scene.certificate)) +
           unscripted() + place("tensions"));
 }
 
 Html lengths(const ReportContext& scene) {
-  return section("lengths", "Cable lengths along the path",
-                 html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.view)) +
-                     unscripted() + place("lengths"));
+  return section(
+      "lengths", "Cable lengths along the path",
+      html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.certificate)) +
+          unscripted() + place("lengths"));
 }
 
 Html margins_along(const ReportContext& scene) {
-  if (scene.view.segments.empty()) return {};
+  if (scene.certificate.segments.empty()) return {};
   return section("margins-along", "Margins along the path",
                  html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
                       "of each segment; "
                       "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between. The "
                       "load ellipsoid may "
                       "grow by wrench_scale before a tension reaches a limit.{}</p>\n",
-                      marks_text(scene.view)) +
+                      marks_text(scene.certificate)) +
                      unscripted() + place("margins"));
 }
 
@@ -93,16 +96,16 @@ Html poses() {
 }
 
 Html plane(const ReportContext& scene) {
-  if (!is_plane(scene.view.problem.space)) return {};
+  if (!is_plane(scene.certificate.problem.space)) return {};
   Html stats;
-  for (const auto& [key, value] : scene.view.stats)
+  for (const auto& [key, value] : scene.illustration.stats)
     stats += html("{}{}: {}", stats.empty() ? Html() : html(" · "), key, value);
   return section(
       "plane", "The plane of the two parameters",
       html("<p>C is the set of wrench-feasible poses. Colours and the line det J = 0 are floating-point samples on "
            "a grid, and the atlas is where the planner looked: neither proves anything. Periodic parameters are drawn "
            "unwrapped, so that the path is one line.{}</p>\n",
-           scene.view.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
+           scene.certificate.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
           unscripted() + place("plane") +
           (stats.empty() ? Html()
                          : html("<p class=\"note\">The search, as the program that wrote the certificate says (not "
@@ -111,7 +114,7 @@ Html plane(const ReportContext& scene) {
 }
 
 Html biting_tolerances(const ReportContext& scene) {
-  if (scene.view.tolerance_limits.empty()) return {};
+  if (scene.illustration.tolerance_limits.empty()) return {};
   return section(
       "tolerances-used", "Which tolerance bites",
       html("<p>Each bar: how much of what this tolerance alone could be, all others as stated, is stated. The one "

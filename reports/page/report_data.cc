@@ -89,7 +89,7 @@ json samples(const ReportContext& scene) {
     if (pose.q.dot(last) < 0) pose.q.coeffs() *= -1;
     last = pose.q;
     std::array<double, 3> shown = {sample.pose.phi, sample.pose.theta, sample.pose.sigma};
-    if (has_poses(scene.view.path.interpolation)) {  // its angles are wrapped
+    if (has_poses(scene.certificate.path.interpolation)) {  // its angles are wrapped
       tilt = tilt_and_torsion(pose.q, tilt);
       for (std::size_t c = 0; c < 3; ++c) shown[c] = tilt->value(c);
     }
@@ -106,7 +106,7 @@ json samples(const ReportContext& scene) {
       tension[i].push_back(s.regular ? s.tension[i] : kUnknown);
       tension_radius[i].push_back(s.regular ? s.tension_radius[i] : kUnknown);
     }
-    if (is_plane(scene.view.problem.space)) {
+    if (is_plane(scene.certificate.problem.space)) {
       parameters.resize(2);
       for (std::size_t j = 0; j < 2; ++j) parameters[j].push_back(sample.parameters[j]);
     }
@@ -193,27 +193,26 @@ json bands(const std::vector<Bin>& bins) {
   return {{"from", from}, {"to", to}, {"tension", columns(&Bin::tension)}, {"length", columns(&Bin::length)}};
 }
 
-/// The least margins of groups of consecutive segments, at most kMostBins groups; null where nothing is proved.
-json margins(const std::vector<SegmentView>& segments) {
+/// The least margins of segments, so many in a row together that there are at most kMostBins; null where nothing is proved.
+json margins(const std::vector<CertificateSegment>& segments) {
   const std::size_t together = (segments.size() + kMostBins - 1) / kMostBins;
   json result = {{"from", json::array()}, {"to", json::array()}};
-  const auto column = [&](const char* key, std::string MarginsView::*margin) {
+  const auto column = [&](const char* key, DecimalText Margins::*margin) {
     json list = json::array();
     for (std::size_t k = 0; k < segments.size(); k += together) {
       std::optional<double> least;
       for (std::size_t i = k; i < std::min(k + together, segments.size()); ++i) {
-        const std::string& text = segments[i].margins.*margin;
-        if (text.empty()) continue;
-        const double value = ScalarTraits<double>::from_decimal(text);
+        if (!segments[i].margins) continue;
+        const double value = ScalarTraits<double>::from_decimal((*segments[i].margins).*margin);
         least = std::min(value, least.value_or(value));
       }
       list.push_back(least ? outward(*least, false) : json());
     }
     result[key] = list;
   };
-  column("tension_N", &MarginsView::tension_N);
-  column("length_m", &MarginsView::length_m);
-  column("wrench_scale", &MarginsView::wrench_scale);
+  column("tension_N", &Margins::tension_N);
+  column("length_m", &Margins::length_m);
+  column("wrench_scale", &Margins::wrench_scale);
   for (std::size_t k = 0; k < segments.size(); k += together) {
     result["from"].push_back(k);
     result["to"].push_back(std::min(k + together, segments.size()));
@@ -221,41 +220,43 @@ json margins(const std::vector<SegmentView>& segments) {
   return result;
 }
 
-/// The stretches of the path that are not proved: {from, to, violated}. Stretches of one kind that a picture would not
-/// show apart are merged.
-json stretches(const CertificateView& view) {
-  struct Stretch {
+/// Where the path is not proved: {from, to, violated}. Those of one kind that a picture would not show apart are one.
+json stretches(const Certificate& certificate) {
+  struct Part {
     double from = 0;
     double to = 0;
     bool violated = false;
   };
-  std::vector<Stretch> list;
-  const double thin = static_cast<double>(view.path.segments()) / kMostBins;
-  for (const StretchView& stretch : view.stretches) {
-    const Stretch next = {stretch.begin.position, stretch.end.position, stretch.first.has_value()};
-    if (view.stretches.size() > kMostBins && !list.empty() && list.back().violated == next.violated &&
+  std::vector<Part> list;
+  const double thin = static_cast<double>(certificate.path.segments()) / kMostBins;
+  for (const Stretch& stretch : certificate.stretches) {
+    const Part next = {position(stretch.begin), position(stretch.end), stretch.violations.has_value()};
+    if (certificate.stretches.size() > kMostBins && !list.empty() && list.back().violated == next.violated &&
         next.from - list.back().to < thin) {
       list.back().to = next.to;
     } else {
       list.push_back(next);
     }
   }
-  if (const auto& open = view.undecided; open && open->segment && list.empty()) {
-    list.push_back({*open->segment + open->lower, *open->segment + open->upper, false});
+  if (const auto& open = certificate.undecided; open && open->segment && list.empty()) {
+    list.push_back({*open->segment + (open->box ? open->box->first.approx() : 0.0),
+                    *open->segment + (open->box ? open->box->second.approx() : 1.0), false});
   }
   json result = json::array();
-  for (const Stretch& s : list) {
+  for (const Part& s : list) {
     result.push_back({{"from", number(s.from)}, {"to", number(s.to)}, {"violated", s.violated}});
   }
   return result;
 }
 
-json witness(const CertificateView& view) {
-  if (!view.witness) return nullptr;
-  return {{"position", number(view.witness->at.position)},
-          {"to", view.witness->to ? number(view.witness->to->position) : json()},
-          {"kind", view.witness->kind},
-          {"cable", view.witness->cable}};
+json witness(const Certificate& certificate) {
+  if (!certificate.witness) return nullptr;
+  const PathWitness& violation = certificate.witness->violation;
+  const bool singular = violation.singular;
+  return {{"position", number(position(violation.at))},
+          {"to", singular ? number(position(violation.to)) : json()},
+          {"kind", singular ? "singular" : name(violation.margin.kind)},
+          {"cable", singular ? 0 : violation.margin.cable + 1}};
 }
 
 /// Radius of the tube around the path in which the platform's origin may be [m]; null if no such tolerance is stated.
@@ -265,11 +266,11 @@ json tube_radius(const Problem& problem) {
   return radius > 0 ? number(radius) : json();
 }
 
-/// The stated and the proved value of each tolerance for which the certificate has a limit.
-json tolerances(const CertificateView& view) {
+/// Stated beside proved, of each tolerance whose limit the certificate tells.
+json tolerances(const ReportContext& scene) {
   json result = json::array();
-  if (!view.problem.tolerances) return result;
-  const TolerancesText& t = *view.problem.tolerances;
+  if (!scene.certificate.problem.tolerances) return result;
+  const TolerancesText& t = *scene.certificate.problem.tolerances;
   const auto greatest = [](const auto& texts) {
     double most = 0;
     for (const std::string& text : texts) most = std::max(most, std::abs(evaluate_constant<double>(text)));
@@ -283,7 +284,7 @@ json tolerances(const CertificateView& view) {
                                                 {"position", greatest(std::array{t.position_m})},
                                                 {"orientation", greatest(std::array{t.orientation_rad})},
                                                 {"cable_length", greatest(t.cable_length_m.value_or(none))}};
-  for (const ToleranceLimitView& limit : view.tolerance_limits) {
+  for (const Illustration::ToleranceLimit& limit : scene.illustration.tolerance_limits) {
     const auto found = stated.find(limit.tolerance);
     if (found == stated.end()) continue;
     result.push_back({{"name", limit.tolerance},
@@ -297,7 +298,7 @@ json tolerances(const CertificateView& view) {
 json plane(const ReportContext& scene) {
   const std::optional<Plane> plane = sample_plane(scene);
   if (!plane) return nullptr;
-  const SpaceText& space = scene.view.problem.space;
+  const SpaceText& space = scene.certificate.problem.space;
   json names = json::array();
   json units = json::array();
   json window = json::array();
@@ -321,8 +322,8 @@ json plane(const ReportContext& scene) {
     charts.push_back(std::move(corners));
   }
   json waypoints = json::array();
-  if (scene.view.path.waypoints.size() <= kMostBins) {
-    for (const Waypoint& waypoint : scene.view.path.waypoints) waypoints.push_back(numbers(resolved(waypoint)));
+  if (scene.certificate.path.waypoints.size() <= kMostBins) {
+    for (const Waypoint& waypoint : scene.certificate.path.waypoints) waypoints.push_back(numbers(resolved(waypoint)));
   }
   return {{"names", names},
           {"units", units},
@@ -332,25 +333,25 @@ json plane(const ReportContext& scene) {
           {"cells", plane->cells},
           {"singular", singular},
           {"charts", charts},
-          {"all_charts", scene.view.charts.size()},
+          {"all_charts", scene.illustration.charts.size()},
           {"waypoints", waypoints}};
 }
 
 }  // namespace
 
 json report_data(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  return {{"verdict", view.verdict},
-          {"segments", view.path.segments()},
-          {"is_spline", view.path.interpolation == Interpolation::kCubicBSpline},
+  const Certificate& certificate = scene.certificate;
+  return {{"verdict", scene.verdict},
+          {"segments", certificate.path.segments()},
+          {"is_spline", certificate.path.interpolation == Interpolation::kCubicBSpline},
           {"robot", robot(scene.sampler.model())},
           {"samples", samples(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
-          {"margins", margins(view.segments)},
-          {"stretches", stretches(view)},
-          {"witness", witness(view)},
-          {"tube_m", tube_radius(view.problem)},
-          {"tolerances", tolerances(view)},
+          {"margins", margins(certificate.segments)},
+          {"stretches", stretches(certificate)},
+          {"witness", witness(certificate)},
+          {"tube_m", tube_radius(certificate.problem)},
+          {"tolerances", tolerances(scene)},
           {"plane", plane(scene)}};
 }
 

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "reports/page/markup.h"
 
 namespace taut {
@@ -113,8 +112,8 @@ constexpr const char* kStyle =
 
 std::string robot_drawing(const CaseSummary& summary) {
   if (summary.waypoints.empty()) {
-    throw InputErrorOfKind(InputKind::kUse,
-                           "--out: the case has no query, expected one: the robot is drawn at its first waypoint");
+    throw InputError(ErrorCode::kUse,
+                     "--out: the case has no query, expected one: the robot is drawn at its first waypoint");
   }
   const Model<double>& model = summary.sampler.model();
   const Pose<double>& pose = summary.waypoints.front().pose;
@@ -137,7 +136,7 @@ std::string robot_drawing(const CaseSummary& summary) {
     widest = std::max(widest, bounds[v].sizes().maxCoeff());
   }
   if (!(widest > 0) || !std::isfinite(widest) || !load.allFinite() || !turn.allFinite()) {
-    throw InputErrorOfKind(InputKind::kUse, "--out: the robot has no pose or size there that can be drawn");
+    throw InputError(ErrorCode::kUse, "--out: the robot has no pose or size there that can be drawn");
   }
   const double scale = kSide / widest;
   for (std::size_t v = 0; v < all.size(); ++v) {

@@ -30,17 +30,17 @@ Html motion_between_poses(Interpolation law) {
       "(1 − s) L<sub>k,i</sub> + s L<sub>k+1,i</sub>,&ensp;s ∈ [0, 1]</p>\n");
 }
 
-Html formulas(const CertificateView& view) {
-  if (view.verdict == "undecided") return {};
+Html formulas(const Certificate& certificate) {
+  if (certificate.verdict == Verdict::kUndecided) return {};
   const Html curve =
-      view.path.interpolation == Interpolation::kStraight
+      certificate.path.interpolation == Interpolation::kStraight
           ? html("(1 − s) λ<sub>k</sub> + s λ<sub>k+1</sub>")
           : html(
                 "((1 − s)<sup>3</sup> λ<sub>k</sub> + (3s<sup>3</sup> − 6s<sup>2</sup> + 4) λ<sub>k+1</sub> + "
                 "(−3s<sup>3</sup> + 3s<sup>2</sup> + 3s + 1) λ<sub>k+2</sub> + s<sup>3</sup> λ<sub>k+3</sub>)/6");
   const Html motion =
-      has_poses(view.path.interpolation) ? motion_between_poses(view.path.interpolation)
-      : view.problem.space.constraints.empty()
+      has_poses(certificate.path.interpolation) ? motion_between_poses(certificate.path.interpolation)
+      : certificate.problem.space.constraints.empty()
           ? html("<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose({}),&ensp;s ∈ [0, 1]</p>\n", curve)
           : html(
                 "<p>γ<sub>k</sub>(s) <span class=\"up\">=</span> pose(ℓ<sub>k</sub>(s) + N<sub>k</sub>(s) y(s)),&ensp;"
@@ -52,7 +52,7 @@ Html formulas(const CertificateView& view) {
       "{}<p>K <span class=\"up\">=</span> {{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 "
       "}}</p>\n",
       motion);
-  if (view.verdict == "refuted") {
+  if (certificate.verdict == Verdict::kRefuted) {
     return html(
         "<div class=\"formulas\">{}"
         "<p>∃ k, s ∈ [0, 1], i, w ∈ K :&ensp; det J(γ<sub>k</sub>(s)) = 0 &ensp;<span class=\"up\">or</span>&ensp; "
@@ -70,9 +70,10 @@ Html formulas(const CertificateView& view) {
       "&ensp; f<sub>0,i</sub> + v<sub>i</sub> &lt; f<sub>hi,i</sub>, &ensp;<span class=\"up\">where</span>&ensp; "
       "f<sub>0</sub> = J<sup>−1</sup> w<sub>0</sub>, &ensp; B = J<sup>T</sup> E J, &ensp; v<sub>i</sub> = "
       "√(B<sup>−1</sup>)<sub>ii</sub></p></div>\n",
-      path, view.segments.empty() ? 0 : view.segments.size() - 1,
-      view.problem.tolerances ? html("∀ <span class=\"up\">deviations within the tolerances</span> &ensp;") : Html(),
-      view.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html());
+      path, certificate.segments.empty() ? 0 : certificate.segments.size() - 1,
+      certificate.problem.tolerances ? html("∀ <span class=\"up\">deviations within the tolerances</span> &ensp;")
+                                     : Html(),
+      certificate.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html());
 }
 
 /// "0.5 mm", or six of them.
@@ -167,11 +168,11 @@ Html space_tables(const Problem& problem) {
 /// if that is too wide.
 Html waypoint_table(const ReportContext& scene, std::size_t step) {
   constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
-  const Path& path = scene.view.path;
+  const Path& path = scene.certificate.path;
   const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
   const Html what = html("{}", is_spline ? "Control point" : "Waypoint");
   std::vector<Column> columns = {{what, true}};
-  const auto named = coordinates(scene.view);
+  const auto named = coordinates(scene.certificate);
   for (const auto& [name, unit] : named) columns.push_back({html("<code>{}</code> {}", name, in_brackets(unit)), true});
   std::vector<Column> pose_columns = {{what, true}};
   for (const char* name : {"px [mm]", "py [mm]", "pz [mm]", "φ [°]", "θ [°]", "σ [°]"}) {
@@ -222,7 +223,7 @@ Html waypoint_table(const ReportContext& scene, std::size_t step) {
 
 /// How the path follows the constraints, and how far that takes it from the waypoints.
 Html on_constraints(const ReportContext& scene) {
-  const std::vector<double>& tubes = scene.view.path.tubes;
+  const std::vector<double>& tubes = scene.certificate.path.tubes;
   const double widest = tubes.empty() ? 0 : *std::max_element(tubes.begin(), tubes.end());
   return html(
       " All poses of the motion lie on the constraints, exactly; waypoints lie near them, and the poses shown are "
@@ -237,48 +238,50 @@ Html on_constraints(const ReportContext& scene) {
 struct MarginRow {
   std::size_t first = 0, last = 0;  ///< segments
   std::size_t boxes = 0;
-  int depth = 0;                         ///< of the narrowest box: it is 2^-depth wide
-  const MarginsView* tension = nullptr;  ///< of the segment with the least; null where none is proved
-  const MarginsView* length = nullptr;
-  const MarginsView* scale = nullptr;
+  int depth = 0;                     ///< of the narrowest box: it is 2^-depth wide
+  const Margins* tension = nullptr;  ///< of the segment with the least; null where none is proved
+  const Margins* length = nullptr;
+  const Margins* scale = nullptr;
 };
 
 double approximate(const std::string& margin) { return ScalarTraits<double>::from_decimal(margin); }
 
-MarginRow margin_row(const CertificateView& view, std::size_t first, std::size_t last) {
+MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t last) {
   MarginRow row{first, last};
   for (std::size_t k = first; k <= last; ++k) {
-    const SegmentView& segment = view.segments[k];
-    row.boxes += segment.boxes;
-    for (const DyadicBox& box : view.segment_boxes[k]) row.depth = std::max(row.depth, box.depth);
-    const MarginsView& margins = segment.margins;
-    if (margins.tension_N.empty()) continue;
-    const auto keep_least = [&](const MarginsView*& least, std::string MarginsView::*margin) {
+    const CertificateSegment& segment = scene.certificate.segments[k];
+    row.boxes += segment.boxes.size();
+    for (const DyadicBox& box : scene.boxes[k]) row.depth = std::max(row.depth, box.depth);
+    if (!segment.margins) continue;
+    const Margins& margins = *segment.margins;
+    const auto keep_least = [&](const Margins*& least, DecimalText Margins::*margin) {
       if (least == nullptr || approximate(margins.*margin) < approximate(least->*margin)) least = &margins;
     };
-    keep_least(row.tension, &MarginsView::tension_N);
-    keep_least(row.length, &MarginsView::length_m);
-    keep_least(row.scale, &MarginsView::wrench_scale);
+    keep_least(row.tension, &Margins::tension_N);
+    keep_least(row.length, &Margins::length_m);
+    keep_least(row.scale, &Margins::wrench_scale);
   }
   return row;
 }
 
-Html margin_table(const CertificateView& view, const std::string& caption, const std::vector<MarginRow>& rows) {
-  const auto cell = [&](const MarginsView* least, std::string MarginsView::*margin) {
+Html margin_table(const Certificate& certificate, const std::string& caption, const std::vector<MarginRow>& rows) {
+  const auto cell = [&](const Margins* least, DecimalText Margins::*margin) {
     if (least == nullptr) return html("–");
     const std::string& value = least->*margin;
-    return view.margins && value == (*view.margins).*margin ? html("<b>{}</b>", value) : html("{}", value);
+    return certificate.margins && value == (*certificate.margins).*margin ? html("<b>{}</b>", value)
+                                                                          : html("{}", value);
   };
   std::vector<std::vector<Html>> cells;
   cells.reserve(rows.size());
   for (const MarginRow& row : rows) {
     cells.push_back({row.first == row.last ? html("{}", row.first) : html("{} – {}", row.first, row.last),
-                     html("{} → {}", view.segments[row.first].from, view.segments[row.last].to), html("{}", row.boxes),
+                     html("{} → {}", row.first, row.last + control_points(certificate.path.interpolation) - 1),
+                     html("{}", row.boxes),
                      row.boxes == 0   ? html("–")
                      : row.depth == 0 ? html("1")
                                       : html("2<sup>−{}</sup>", row.depth),
-                     cell(row.tension, &MarginsView::tension_N), cell(row.length, &MarginsView::length_m),
-                     cell(row.scale, &MarginsView::wrench_scale)});
+                     cell(row.tension, &Margins::tension_N), cell(row.length, &Margins::length_m),
+                     cell(row.scale, &Margins::wrench_scale)});
   }
   return table(html("{}", caption),
                {{html("Segment"), true},
@@ -291,21 +294,22 @@ Html margin_table(const CertificateView& view, const std::string& caption, const
                cells);
 }
 
-/// The segments with the least margins of each kind, in order along the path.
-std::vector<MarginRow> least_segments(const CertificateView& view) {
+/// The segments with the least margins: of each kind those that come first, in order along the path.
+std::vector<MarginRow> least_segments(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
   std::vector<std::size_t> all;
-  for (std::size_t k = 0; k < view.segments.size(); ++k) {
-    if (!view.segments[k].margins.tension_N.empty()) all.push_back(k);
+  for (std::size_t k = 0; k < certificate.segments.size(); ++k) {
+    if (certificate.segments[k].margins) all.push_back(k);
   }
-  std::vector<double> scale(view.segments.size());
-  for (const std::size_t k : all) scale[k] = approximate(view.segments[k].margins.wrench_scale);
+  std::vector<double> scale(certificate.segments.size());
+  for (const std::size_t k : all) scale[k] = approximate(certificate.segments[k].margins->wrench_scale);
   const std::size_t count = std::min(kLeastShown, all.size());
   std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count), {},
                             [&](std::size_t k) { return scale[k]; });
   all.resize(count);
   std::ranges::sort(all);
   std::vector<MarginRow> rows;
-  for (const std::size_t k : all) rows.push_back(margin_row(view, k, k));
+  for (const std::size_t k : all) rows.push_back(margin_row(scene, k, k));
   return rows;
 }
 
@@ -320,7 +324,7 @@ for v in (c["problem"], c["path"], c):
 
 }  // namespace
 
-Html theorem(const CertificateView& view) {
+Html theorem(const Certificate& certificate) {
   const std::vector<Column> columns = {{html("Symbol")}, {html("Meaning")}, {html("Unit")}};
   const auto row = [](const Html& symbol, const Html& meaning, const Html& unit) {
     return std::vector<Html>{html("<i>{}</i>", symbol), meaning, unit};
@@ -351,9 +355,9 @@ Html theorem(const CertificateView& view) {
            html("least and greatest tension of cable i over all wrenches in K"), html("N")),
        row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
            html("limits of tension and length; they are themselves excluded"), html("N, m"))});
-  return section(
-      "theorem", "What is claimed",
-      html("<blockquote>{}</blockquote>\n{}{}", view.claim, formulas(view), folded(false, html("Symbols"), symbols)));
+  return section("theorem", "What is claimed",
+                 html("<blockquote>{}</blockquote>\n{}{}", certificate.claim, formulas(certificate),
+                      folded(false, html("Symbols"), symbols)));
 }
 
 Html assumptions(const Problem& problem) {
@@ -391,13 +395,14 @@ Html assumptions(const Problem& problem) {
            exactness, following));
 }
 
-Html tolerances(const CertificateView& view) {
-  if (!view.problem.tolerances) return {};
-  const TolerancesText& t = *view.problem.tolerances;
+Html tolerances(const ReportContext& scene) {
+  if (!scene.certificate.problem.tolerances) return {};
+  const TolerancesText& t = *scene.certificate.problem.tolerances;
+  const auto& limits = scene.illustration.tolerance_limits;
   std::vector<std::vector<Html>> rows;
   const auto row = [&](const std::string& key, const Html& what, const Html& stated) {
     Html limit = html("–");
-    for (const ToleranceLimitView& found : view.tolerance_limits) {
+    for (const Illustration::ToleranceLimit& found : limits) {
       if (found.tolerance == key) limit = html("{} {}", found.proved, found.unit);
     }
     rows.push_back({what, stated, limit});
@@ -413,7 +418,7 @@ Html tolerances(const CertificateView& view) {
   if (t.cable_length_m)
     row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m));
   const Html note =
-      view.tolerance_limits.empty()
+      limits.empty()
           ? Html()
           : html(
                 "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
@@ -429,45 +434,56 @@ Html tolerances(const CertificateView& view) {
           note);
 }
 
-Html inputs(const CertificateView& view) {
+namespace {
+
+/// "taut 0.1.0"
+std::string text(const Generator& generator) {
+  const bool has_both = !generator.name.empty() && !generator.version.empty();
+  return generator.name + (has_both ? " " : "") + generator.version;
+}
+
+}  // namespace
+
+Html inputs(const Certificate& certificate) {
   const auto digest = [](const std::string& text) { return html("<span class=\"digest\">{}</span>", text); };
   const auto row = [](const Html& what, const Html& value) { return std::vector<Html>{what, value}; };
   return section(
       "inputs", "Inputs and digests",
-      table(
-          html("Inputs and digests"), {{html("What")}, {html("Value")}},
-          {row(html("name of the case (not checked)"), html("<bdi>{}</bdi>", view.problem.name)),
-           row(html("made by (not checked)"), html("<bdi>{}</bdi>", view.generator)),
-           row(html("problem_sha256"), digest(view.problem_sha256)), row(html("path_sha256"), digest(view.path_sha256)),
-           row(html("footer.sha256"), digest(view.footer_sha256))}) +
+      table(html("Inputs and digests"), {{html("What")}, {html("Value")}},
+            {row(html("name of the case (not checked)"), html("<bdi>{}</bdi>", certificate.problem.name)),
+             row(html("made by (not checked)"), html("<bdi>{}</bdi>", text(certificate.generator))),
+             row(html("problem_sha256"), digest(certificate.problem_sha256)),
+             row(html("path_sha256"), digest(certificate.path_sha256)),
+             row(html("footer.sha256"), digest(certificate.footer_sha256))}) +
           html("<p class=\"note\">SHA-256 of the canonical JSON of the problem, of the path, and of the whole "
                "certificate without its footer. taut-check compares them with what the certificate contains.</p>\n"));
 }
 
 Html robot(const ReportContext& scene) {
   return section("robot", "Robot, load and space of poses",
-                 robot_tables(scene.view.problem) + html("<h3>Load</h3>\n") + load_table(scene.view.problem.load) +
-                     html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.view.problem));
+                 robot_tables(scene.certificate.problem) + html("<h3>Load</h3>\n") +
+                     load_table(scene.certificate.problem.load) + html("<h3>Poses that the platform may take</h3>\n") +
+                     space_tables(scene.certificate.problem));
 }
 
 Html path_section(const ReportContext& scene) {
-  const std::size_t count = scene.view.path.waypoints.size();
+  const std::size_t count = scene.certificate.path.waypoints.size();
   if (count == 0) return section("path", "Path", html("<p>The certificate contains no path.</p>\n"));
   const Html segments =
-      scene.view.path.interpolation != Interpolation::kCubicBSpline
+      scene.certificate.path.interpolation != Interpolation::kCubicBSpline
           ? html("segment k leads from waypoint k to waypoint k + 1")
           : html(
                 "segment k is the piece of a spline that waypoints k to k + 3 control, passing through a waypoint only "
                 "where that stands three times in a row");
   const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
-  const bool constrained = !scene.view.problem.space.constraints.empty();
+  const bool constrained = !scene.certificate.problem.space.constraints.empty();
   return section(
       "path", "Path",
       html("<p>{}, numbered from 0; {}. Interpolation: "
            "<code>{}</code>.{} Parameters are exact: the decimals read back to the binary64 numbers of the "
            "certificate bit for bit, and a multiple of π is added where it is written. Pose coordinates are rounded, "
            "and angles are not wrapped.</p>\n",
-           plural(count, "waypoint"), segments, scene.view.interpolation,
+           plural(count, "waypoint"), segments, interpolation_name(scene.certificate.path.interpolation),
            constrained ? on_constraints(scene) : Html()) +
           (step == 1 ? Html()
                      : html("<p>Every {}th of them is shown; the certificate and path.csv have all.</p>\n", step)) +
@@ -475,29 +491,30 @@ Html path_section(const ReportContext& scene) {
 }
 
 Html margins(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  const std::size_t count = view.segments.size();
-  if (view.boxes == 0) return {};
+  const Certificate& certificate = scene.certificate;
+  const std::size_t count = certificate.segments.size();
+  if (count_boxes(certificate) == 0) return {};
   const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
   std::vector<MarginRow> rows;
-  for (std::size_t k = 0; k < count; k += step) rows.push_back(margin_row(view, k, std::min(k + step, count) - 1));
+  for (std::size_t k = 0; k < count; k += step) rows.push_back(margin_row(scene, k, std::min(k + step, count) - 1));
   Html tables;
   if (step == 1) {
     tables = folded(count > kLongTable, html("{}", plural(count, "segment")),
-                    margin_table(view, "Proved margins of each segment", rows));
+                    margin_table(certificate, "Proved margins of each segment", rows));
   } else {
     tables =
         html("<p>The certificate has all {}. Here are blocks of them, and those with the least wrench_scale.</p>\n",
              plural(count, "segment")) +
         folded(true, html("{}", plural(rows.size(), "block")),
-               margin_table(view, fmt::format("The least proved margins of blocks of {}", plural(step, "segment")),
-                            rows)) +
+               margin_table(certificate,
+                            fmt::format("The least proved margins of blocks of {}", plural(step, "segment")), rows)) +
         folded(true, html("The segments with the least wrench_scale"),
-               margin_table(view, "Proved margins of the segments with the least wrench_scale", least_segments(view)));
+               margin_table(certificate, "Proved margins of the segments with the least wrench_scale",
+                            least_segments(scene)));
   }
-  const Html whole = view.margins
-                         ? html("; along the whole path it is at least <b>{}</b>", plain(view.margins->wrench_scale))
-                         : Html();
+  const Html whole = certificate.margins ? html("; along the whole path it is at least <b>{}</b>",
+                                                plain(certificate.margins->wrench_scale))
+                                         : Html();
   return section(
       "margins", "Proved margins",
       html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load in K, as the "
@@ -507,44 +524,47 @@ Html margins(const ReportContext& scene) {
            "as sharp "
            "as the proof needed it. Boxes are the intervals of s, from 0 to 1 along a segment, that were proved at one "
            "go.</p>\n",
-           view.margins ? "" : ", for those parts of the path that it proves", whole,
-           view.margins ? "The least of each column is set in bold. " : "") +
+           certificate.margins ? "" : ", for those parts of the path that it proves", whole,
+           certificate.margins ? "The least of each column is set in bold. " : "") +
           tables);
 }
 
 Html stretches(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  if (view.stretches.empty()) return {};
-  const auto place = [&](const PathPointView& point) {
-    return html("{}, s = {:.6g}", place_text(scene, point.position), point.position - point.index);
+  const Certificate& certificate = scene.certificate;
+  if (certificate.stretches.empty()) return {};
+  const auto place = [&](const PathPoint& point) {
+    return html("{}, s = {:.6g}", place_text(scene, position(point)), position(point) - point.index);
   };
-  const auto violation = [&](const WitnessView& end) {
-    return html("{}, {}, s = {}", violation_text(end), place_text(scene, end.at.position), end.at.s.value_or("0"));
+  const auto violation = [&](const PathWitness& end) {
+    return html("{}, {}, s = {}", violation_text(end), place_text(scene, position(end.at)), end.at.s.text());
   };
-  const std::size_t shown = std::min(view.stretches.size(), kMostRows);
+  const std::size_t shown = std::min(certificate.stretches.size(), kMostRows);
   std::vector<std::vector<Html>> rows;
   for (std::size_t k = 0; k < shown; ++k) {
-    const StretchView& stretch = view.stretches[k];
+    const Stretch& stretch = certificate.stretches[k];
     rows.push_back({html("{}", k + 1), place(stretch.begin), place(stretch.end),
-                    stretch.first ? violation(*stretch.first) : html("open: {}", with_code(stretch.reason)),
-                    stretch.last ? violation(*stretch.last) : Html()});
+                    stretch.violations ? violation(stretch.violations->first.violation)
+                                       : html("open: {}", with_code(stretch.reason)),
+                    stretch.violations ? violation(stretch.violations->second.violation) : Html()});
   }
   const Html all = table(
       html("Stretches that are not proved"),
       {{html(""), true}, {html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}}, rows);
-  const Html rest = view.stretches.size() > shown ? html("<p>These are the first {}; the certificate has all {}.</p>\n",
-                                                         shown, view.stretches.size())
-                                                  : Html();
-  return section("stretches", "Where the path is not proved",
-                 html("<p>{} Segment k leads from waypoint k to the next.</p>\n",
-                      view.verdict == "refuted" ? "Outside of these stretches the path is proved. Each violation is "
-                                                  "proved at one pose, with an enclosure of the quantity."
-                                                : "These stretches were left open; nothing is claimed of them.") +
-                     folded(rows.size() > kLongTable, html("{}", plural(view.stretches.size(), "stretch")), all) +
-                     rest);
+  const Html rest =
+      certificate.stretches.size() > shown
+          ? html("<p>These are the first {}; the certificate has all {}.</p>\n", shown, certificate.stretches.size())
+          : Html();
+  return section(
+      "stretches", "Where the path is not proved",
+      html("<p>{} Segment k leads from waypoint k to the next.</p>\n",
+           certificate.verdict == Verdict::kRefuted
+               ? "Outside of these stretches the path is proved. Each violation is "
+                 "proved at one pose, with an enclosure of the quantity."
+               : "These stretches were left open; nothing is claimed of them.") +
+          folded(rows.size() > kLongTable, html("{}", plural(certificate.stretches.size(), "stretch")), all) + rest);
 }
 
-Html recheck(const CertificateView& view) {
+Html recheck(const ReportContext& scene) {
   return section(
       "recheck", "How to check this again",
       html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
@@ -553,7 +573,7 @@ Html recheck(const CertificateView& view) {
            "<p>The printed digests can be computed without taut:</p>\n"
            "<pre>{}</pre>\n"
            "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
-           view.verdict == "undecided" ? "2, undecided" : "0, accepted, if the claim is true", kDigestCommand));
+           scene.verdict == "undecided" ? "2, undecided" : "0, accepted, if the claim is true", kDigestCommand));
 }
 
 }  // namespace taut

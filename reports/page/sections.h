@@ -9,11 +9,11 @@
 namespace taut {
 
 /// The claim, word by word and in formulas, with its symbols.
-[[nodiscard]] Html theorem(const CertificateView& view);
-[[nodiscard]] Html tolerances(const CertificateView& view);
+[[nodiscard]] Html theorem(const Certificate& certificate);
+[[nodiscard]] Html tolerances(const ReportContext& scene);
 [[nodiscard]] Html assumptions(const Problem& problem);
-/// The certificate's sources, with digests.
-[[nodiscard]] Html inputs(const CertificateView& view);
+/// What the certificate is made from, with digests.
+[[nodiscard]] Html inputs(const Certificate& certificate);
 /// Robot, load and space of poses.
 [[nodiscard]] Html robot(const ReportContext& scene);
 /// The path's waypoints.
@@ -23,6 +23,6 @@ namespace taut {
 /// Proved margins of each segment; for a long path, those of blocks of segments and of the segments with the least.
 [[nodiscard]] Html margins(const ReportContext& scene);
 /// How to check the certificate again.
-[[nodiscard]] Html recheck(const CertificateView& view);
+[[nodiscard]] Html recheck(const ReportContext& scene);
 
 }  // namespace taut

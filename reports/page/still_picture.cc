@@ -99,11 +99,11 @@ std::string polygon(const std::vector<Point2>& points, const std::function<Point
 }  // namespace
 
 Html still_picture(const ReportContext& scene) {
-  const Path& path = scene.view.path;
+  const Path& path = scene.certificate.path;
   if (path.waypoints.empty()) return {};
   std::vector<std::pair<Html, double>> views = {{html("Waypoint 0 (start)"), 0.0}};
-  if (const auto& witness = scene.view.witness) {
-    views.emplace_back(html("At the witness"), witness->at.position);
+  if (const auto& witness = scene.certificate.witness) {
+    views.emplace_back(html("At the witness"), position(witness->violation.at));
   } else if (path.segments() > 1) {
     const std::size_t middle = path.segments() / 2;
     const char* what = path.interpolation == Interpolation::kStraight ? "Waypoint" : "Start of segment";
@@ -135,7 +135,8 @@ Html still_picture(const ReportContext& scene) {
       const Point2 a = place(d.base[i]);
       const Point2 b = place(d.platform[i]);
       const Point2 label = 0.62 * a + 0.38 * b;
-      const bool marked = scene.view.witness && scene.view.witness->cable == static_cast<int>(i) + 1;
+      const bool marked = scene.certificate.witness && !scene.certificate.witness->violation.singular &&
+                          scene.certificate.witness->violation.margin.cable == static_cast<int>(i);
       cables += html(
           "<path class=\"cable{}\" d=\"M{} {}L{} {}\"/><circle class=\"tag\" cx=\"{}\" cy=\"{}\" r=\"7\"/>"
           "<text class=\"letter dark\" x=\"{}\" y=\"{}\">{}</text>",

@@ -64,11 +64,11 @@ bool add_samples(const ReportContext& scene, CableUse& use) {
 }  // namespace
 
 CableUse cable_use(const ReportContext& scene) {
-  const RobotText& robot = scene.view.problem.robot;
+  const RobotText& robot = scene.certificate.problem.robot;
   CableUse use{CableUse::Source::kNone, empty_uses(robot.tension_N), empty_uses(robot.length_m)};
   if (add_proved(scene, use)) {
     use.source = scene.ranges_are_whole ? CableUse::Source::kProved : CableUse::Source::kProvedParts;
-  } else if (!found_no_path(scene.view) && add_samples(scene, use)) {
+  } else if (!found_no_path(scene.certificate) && add_samples(scene, use)) {
     use.source = CableUse::Source::kSamples;
   }
   return use;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "certificate/certificate_reader.h"
+
 namespace taut {
 
 namespace {
@@ -15,11 +17,18 @@ namespace {
 constexpr std::size_t kPathSamples = 800;   ///< along the whole path; about one a pixel of a wide plot
 constexpr std::size_t kManyBoxes = 20'000;  ///< more are not halved: each is a fraction of a pixel
 
-PathRanges ranges_of(const CertificateView& view) {
-  if (view.boxes == 0) return {};
+PathRanges ranges_of(const Certificate& certificate, const std::vector<std::vector<DyadicBox>>& boxes) {
+  const std::size_t count = count_boxes(certificate);
+  if (count == 0) return {};
   RangeOptions options;
-  if (view.boxes > kManyBoxes) options.most_halvings = 0;
-  return path_ranges(Prover(view.problem), view.path, view.segment_boxes, options);
+  if (count > kManyBoxes) options.most_halvings = 0;
+  return path_ranges(Prover(certificate.problem), certificate.path, boxes, options);
+}
+
+std::vector<std::vector<DyadicBox>> boxes_of(const Certificate& certificate) {
+  std::vector<std::vector<DyadicBox>> result;
+  for (const CertificateSegment& segment : certificate.segments) result.push_back(dyadic_boxes(segment.boxes));
+  return result;
 }
 
 bool is_covered(const std::vector<DyadicBox>& boxes) {
@@ -31,7 +40,7 @@ bool is_covered(const std::vector<DyadicBox>& boxes) {
   return reached == Dyadic{1, 0};
 }
 
-CertificateView view_of(const checker::CheckResult& checked) {
+Certificate certificate_of(const checker::CheckResult& checked) {
   if (checked.theorem) return read_certificate(checked.theorem->certificate());
   if (checked.certificate == nullptr) throw std::logic_error("a report was asked for of a malformed certificate");
   return read_certificate(*checked.certificate);
@@ -49,41 +58,53 @@ Recheck recheck_of(const checker::CheckResult& checked) {
   return result;
 }
 
-/// The part of a certificate without a theorem that may be shown: problem, path and, if it claims nothing, the reason.
-CertificateView without_claims(CertificateView view, Recheck::Result result) {
-  view.claim.clear();
-  view.segments.clear();
-  view.segment_boxes.clear();
-  view.boxes = 0;
-  view.margins.reset();
-  view.witness.reset();
-  view.tolerance_limits.clear();
+/// What is left of a certificate that no theorem stands behind: problem, path and, where it claims nothing, why.
+Certificate without_claims(Certificate certificate, Recheck::Result result) {
+  certificate.verdict = Verdict::kUndecided;
+  certificate.claim.clear();
+  certificate.segments.clear();
+  certificate.margins.reset();
+  certificate.witness.reset();
   if (result == Recheck::Result::kNoClaim) {
-    for (StretchView& stretch : view.stretches) stretch.first = stretch.last = std::nullopt;
-    return view;
+    for (Stretch& stretch : certificate.stretches) stretch.violations.reset();
+    return certificate;
   }
-  view.verdict = "unchecked";
-  view.undecided.reset();
-  view.stretches.clear();
-  return view;
+  certificate.undecided.reset();
+  certificate.stretches.clear();
+  return certificate;
+}
+
+Illustration illustration_of(const Certificate& certificate, Recheck::Result result) {
+  Illustration illustration(certificate.illustration, certificate.problem.space.parameters.size());
+  if (result != Recheck::Result::kConfirmed) illustration.tolerance_limits.clear();
+  return illustration;
 }
 
 }  // namespace
 
 ReportContext::ReportContext(const checker::CheckResult& checked)
-    : ReportContext(view_of(checked), recheck_of(checked)) {}
+    : ReportContext(certificate_of(checked), recheck_of(checked)) {}
 
-ReportContext::ReportContext(CertificateView certificate, Recheck checked)
+ReportContext::ReportContext(Certificate stated, Recheck checked)
     : recheck(std::move(checked)),
-      view(recheck.result == Recheck::Result::kConfirmed ? std::move(certificate)
-                                                         : without_claims(std::move(certificate), recheck.result)),
-      sampler(view.problem),
-      samples(sampler.along(view.path, kPathSamples)),
-      travel(sampler, view.path),
-      ranges(ranges_of(view)) {
-  ranges_are_whole = !view.segments.empty() && view.segments.size() == view.path.segments() && ranges.missing == 0 &&
-                     std::ranges::all_of(view.segment_boxes, is_covered);
+      certificate(recheck.result == Recheck::Result::kConfirmed ? std::move(stated)
+                                                                : without_claims(std::move(stated), recheck.result)),
+      verdict(recheck.result == Recheck::Result::kUnchecked ? "unchecked" : name(certificate.verdict)),
+      illustration(illustration_of(certificate, recheck.result)),
+      boxes(boxes_of(certificate)),
+      sampler(certificate.problem),
+      samples(sampler.along(certificate.path, kPathSamples)),
+      travel(sampler, certificate.path),
+      ranges(ranges_of(certificate, boxes)) {
+  ranges_are_whole = !certificate.segments.empty() && certificate.segments.size() == certificate.path.segments() &&
+                     ranges.missing == 0 && std::ranges::all_of(boxes, is_covered);
 }
+
+bool found_no_path(const Certificate& certificate) {
+  return certificate.undecided && !certificate.undecided->segment && certificate.stretches.empty();
+}
+
+double position(const PathPoint& point) { return point.index + (point.on_segment ? point.s.approx() : 0.0); }
 
 std::string unit(const SpaceText& space, std::size_t j) {
   const Parameter& parameter = space.parameters[j];

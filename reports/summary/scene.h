@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "certificate/certificate_view.h"
+#include "certificate/certificate.h"
 #include "certify/box_ranges.h"
 #include "checker/check.h"
+#include "reports/summary/illustration.h"
 #include "reports/summary/report_options.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/travel.h"
@@ -15,25 +16,33 @@
 namespace taut {
 
 struct ReportContext {
-  /// The context for a checked certificate; it has a verdict if the checker made a theorem.
-  /// @throws InputError if a report can't show the content. @pre the outcome is neither rejected nor malformed.
+  /// From what the checker said of a certificate: with a verdict where it made a theorem.
+  /// @throws InputError where a report can't show what is in it. @pre the outcome is neither rejected nor malformed.
   explicit ReportContext(const checker::CheckResult& checked);
-  /// Unless confirmed, all claims are taken out of the view.
-  ReportContext(CertificateView certificate, Recheck checked);
+  /// Unless confirmed, all claims are taken out of the certificate.
+  ReportContext(Certificate stated, Recheck checked);
 
   Recheck recheck;
-  CertificateView view;
+  Certificate certificate;
+  std::string verdict;  ///< "proved" or "refuted" where the checker confirmed that, else "undecided" or "unchecked"
+  Illustration illustration;
+  std::vector<std::vector<DyadicBox>> boxes;  ///< of each segment
   Sampler sampler;
   std::vector<PathSample> samples;  ///< along the whole path
-  Travel travel;                    ///< the distance into the move at each position
-  /// Ranges on the certificate's boxes, enclosed anew by interval arithmetic. They are proved if the certificate is
+  Travel travel;                    ///< how far into the move a place is
+  /// Enclosures over the certificate's boxes, computed anew without floating point: proved where the certificate is
   /// right.
   PathRanges ranges;
-  /// Whether these ranges cover the whole path: the boxes have no gaps, and all of them were enclosed.
+  /// Whether they are those of the whole path: the boxes leave no gaps, and all of them were enclosed.
   bool ranges_are_whole = false;
 };
 
-/// The unit of parameter j, "rad" or "m", or "" if it is not known.
+/// Whether a planner found no path: then the certificate's path is the query's waypoints alone.
+[[nodiscard]] bool found_no_path(const Certificate& certificate);
+/// A point of the path as a number that counts segments: k + s is the point s of segment k.
+[[nodiscard]] double position(const PathPoint& point);
+
+/// "rad", "m" or "": the unit of parameter j, where it can be told.
 [[nodiscard]] std::string unit(const SpaceText& space, std::size_t j);
 /// The unit in brackets, "[rad]"; nothing for "".
 [[nodiscard]] std::string in_brackets(const std::string& unit);

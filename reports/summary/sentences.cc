@@ -28,17 +28,21 @@ std::string listed(const std::vector<std::string>& items) {
   return result;
 }
 
-bool is_length(const WitnessView& witness) { return witness.kind.starts_with("length"); }
-bool is_upper(const WitnessView& witness) { return witness.kind.ends_with("max"); }
+bool is_length(const PathWitness& witness) {
+  return witness.margin.kind == MarginKind::kLengthMin || witness.margin.kind == MarginKind::kLengthMax;
+}
+bool is_upper(const PathWitness& witness) {
+  return witness.margin.kind == MarginKind::kTensionMax || witness.margin.kind == MarginKind::kLengthMax;
+}
 
 /// A tension or a length as it is printed, exactly, with its unit.
 std::string quantity(const DecimalText& value, bool length) {
   return length ? millimetres(value) + " mm" : plain(value) + " N";
 }
 
-/// A number of a witness, shortened to as many digits as it takes to distinguish it from the limit, and rounded in the
-/// direction that keeps the sentence true.
-std::string shortened(const WitnessView& witness, const DecimalText& value, bool up) {
+/// A number of a witness, which has as many digits as its proof took: as many as it takes to tell it from the limit, in the direction
+/// that keeps the sentence true.
+std::string shortened(const PathWitness& witness, const DecimalText& value, bool up) {
   const double x = number(value);
   for (const int digits : {4, 6, 9, 12, 15}) {
     const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
@@ -59,41 +63,44 @@ double below(const Rational& x) {
 }
 
 /// By how much a witness breaks its limit, at least.
-double violation(const WitnessView& witness) {
+double violation(const PathWitness& witness) {
   const auto value = Decimal::parse(is_upper(witness) ? witness.value_lower : witness.value_upper).rational();
   const auto limit = Decimal::parse(witness.limit).rational();
   return below(is_upper(witness) ? Rational(value - limit) : Rational(limit - value));
 }
 
 /// The segment that a margin of the whole path comes from.
-std::string where_least(const CertificateView& view, std::string MarginsView::*margin) {
-  const auto least = std::ranges::find_if(
-      view.segments, [&](const SegmentView& segment) { return segment.margins.*margin == (*view.margins).*margin; });
-  return least == view.segments.end() ? "no segment" : fmt::format("segment {}", least->from);
+std::string where_least(const Certificate& certificate, DecimalText Margins::*margin) {
+  const auto states_least = [&](const CertificateSegment& segment) {
+    return segment.margins && (*segment.margins).*margin == (*certificate.margins).*margin;
+  };
+  const auto least = std::ranges::find_if(certificate.segments, states_least);
+  return least == certificate.segments.end() ? "no segment"
+                                             : fmt::format("segment {}", least - certificate.segments.begin());
 }
 
-std::string deviating(const CertificateView& view) {
-  return view.problem.tolerances ? ", for every machine within the stated tolerances" : "";
+std::string deviating(const Certificate& certificate) {
+  return certificate.problem.tolerances ? ", for every machine within the stated tolerances" : "";
 }
 
 // ---- Details of a verdict.
 
-std::vector<std::string> proved_details(const CertificateView& view) {
+std::vector<std::string> proved_details(const Certificate& certificate) {
   return {fmt::format(
       "Reserves, proved for the whole move: every tension stays at least {} N inside its limits (least in {}), every "
       "length "
       "at least {} mm (least in {}), and the set of loads could grow at least {}-fold before a tension reaches a limit "
       "(least in {}).",
-      plain(view.margins->tension_N), where_least(view, &MarginsView::tension_N), millimetres(view.margins->length_m),
-      where_least(view, &MarginsView::length_m), plain(view.margins->wrench_scale),
-      where_least(view, &MarginsView::wrench_scale))};
+      plain(certificate.margins->tension_N), where_least(certificate, &Margins::tension_N),
+      millimetres(certificate.margins->length_m), where_least(certificate, &Margins::length_m),
+      plain(certificate.margins->wrench_scale), where_least(certificate, &Margins::wrench_scale))};
 }
 
 /// "3 stretches of the path are violated, …"
-std::string stretches_text(const CertificateView& view) {
-  const auto violated = static_cast<std::size_t>(
-      std::ranges::count_if(view.stretches, [](const StretchView& stretch) { return stretch.first.has_value(); }));
-  const std::size_t open = view.stretches.size() - violated;
+std::string stretches_text(const Certificate& certificate) {
+  const auto violated = static_cast<std::size_t>(std::ranges::count_if(
+      certificate.stretches, [](const Stretch& stretch) { return stretch.violations.has_value(); }));
+  const std::size_t open = certificate.stretches.size() - violated;
   std::string text = fmt::format("In all, {} of the path {} proved violations", plural(violated, "stretch"),
                                  violated == 1 ? "has" : "have");
   if (open > 0) text += fmt::format(", and {} could not be decided", plural(open, "stretch"));
@@ -103,8 +110,9 @@ std::string stretches_text(const CertificateView& view) {
 /// The worst violation among the samples: the proved one is where the violation begins, and slight there. Nothing for
 /// laws of implied poses, whose samples may not be poses of the motion.
 std::vector<std::string> sampled_details(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  if (view.path.segments() == 0 || found_no_path(view) || view.path.interpolation == Interpolation::kCableLengths) {
+  const Certificate& certificate = scene.certificate;
+  if (certificate.path.segments() == 0 || found_no_path(certificate) ||
+      certificate.path.interpolation == Interpolation::kCableLengths) {
     return {};
   }
   const std::vector<double> changes = sign_changes(scene.samples);
@@ -122,7 +130,8 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
   const auto worst = worst_violation(scene.sampler.model(), scene.samples);
   if (!worst) return {};
   const auto i = static_cast<std::size_t>(worst->cable);
-  const Limits& limits = (worst->is_length ? view.problem.robot.length_m : view.problem.robot.tension_N)[i];
+  const Limits& limits =
+      (worst->is_length ? certificate.problem.robot.length_m : certificate.problem.robot.tension_N)[i];
   const std::string limit = quantity(worst->is_upper ? limits.upper : limits.lower, worst->is_length);
   const auto rounded = [&](int digits) {
     return worst->is_length ? fmt::format("{:.{}g} mm", 1000 * worst->value, digits)
@@ -139,17 +148,17 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
 }
 
 std::vector<std::string> refuted_details(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  const WitnessView& witness = *view.witness;
-  const auto pose_at = [&](double position) { return pose_text(scene.sampler.at(view.path, position).pose); };
+  const Certificate& certificate = scene.certificate;
+  const PathWitness& witness = certificate.witness->violation;
+  const auto pose_at = [&](double position) { return pose_text(scene.sampler.at(certificate.path, position).pose); };
   std::vector<std::string> result;
-  if (witness.to) {
+  if (witness.singular) {
     result.push_back(
         fmt::format("It lies between these two poses, at which the determinant of the force Jacobian has opposite "
                     "signs: {}, {}; and "
                     "{}, {}.",
-                    place_text(scene, witness.at.position), pose_at(witness.at.position),
-                    place_text(scene, witness.to->position), pose_at(witness.to->position)));
+                    place_text(scene, position(witness.at)), pose_at(position(witness.at)),
+                    place_text(scene, position(witness.to)), pose_at(position(witness.to))));
   } else {
     const double beyond = violation(witness);
     const double limit = number(witness.limit);
@@ -161,22 +170,22 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
                        limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
     }
     std::string machine;
-    if (witness.deviates) {
+    if (witness.deviation) {
       machine = fmt::format(
           " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate "
           "says{}.",
-          witness.uses_continuation
+          witness.deviation->cable_lengths_m
               ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
               : "");
     }
     result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
-                                 place_text(scene, witness.at.position), point_text(view, witness.at),
-                                 pose_at(witness.at.position), machine));
+                                 place_text(scene, position(witness.at)), point_text(certificate, witness.at),
+                                 pose_at(position(witness.at)), machine));
   }
-  if (view.path.segments() == 0) {
+  if (certificate.path.segments() == 0) {
     result.emplace_back("Every path of the query passes this pose, so that none is feasible.");
-  } else if (!view.stretches.empty()) {
-    result.push_back(stretches_text(view));
+  } else if (!certificate.stretches.empty()) {
+    result.push_back(stretches_text(certificate));
   } else {
     result.emplace_back("There may be other violations: the proof ends at the first.");
   }
@@ -185,20 +194,21 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
 }
 
 std::vector<std::string> undecided_details(const ReportContext& scene) {
-  const UndecidedView& open = *scene.view.undecided;
+  const OpenPart& open = *scene.certificate.undecided;
   std::vector<std::string> result = {
       "It was neither proved nor refuted: that does not mean that it is unsafe, and it is no evidence that it is safe.",
       fmt::format("Reason, as the certificate gives it: {}.", with_code(open.reason))};
   if (open.segment) {
-    const double from = *open.segment + open.lower;
+    const double from = *open.segment + (open.box ? open.box->first.approx() : 0.0);
     const std::string box =
-        open.box_lower.empty() ? "" : fmt::format(", from s = {} to s = {}", open.box_lower, open.box_upper);
+        open.box ? fmt::format(", from s = {} to s = {}", open.box->first.text(), open.box->second.text()) : "";
     result.push_back(fmt::format("What is open begins {}, on {}{}. The pose there, rounded: {}.",
-                                 place_text(scene, from), segment_text(scene.view, *open.segment), box,
-                                 pose_text(scene.sampler.at(scene.view.path, from).pose)));
+                                 place_text(scene, from), segment_text(scene.certificate, *open.segment), box,
+                                 pose_text(scene.sampler.at(scene.certificate.path, from).pose)));
   }
-  if (!scene.view.stretches.empty()) {
-    result.push_back(fmt::format("In all, {} could not be decided.", plural(scene.view.stretches.size(), "stretch")));
+  if (!scene.certificate.stretches.empty()) {
+    result.push_back(
+        fmt::format("In all, {} could not be decided.", plural(scene.certificate.stretches.size(), "stretch")));
   }
   std::ranges::copy(sampled_details(scene), std::back_inserter(result));
   return result;
@@ -206,8 +216,8 @@ std::vector<std::string> undecided_details(const ReportContext& scene) {
 
 // ---- What the verdict is about.
 
-std::string law_text(const CertificateView& view) {
-  switch (view.path.interpolation) {
+std::string law_text(const Certificate& certificate) {
+  switch (certificate.path.interpolation) {
     case Interpolation::kStraight: return "straight in the parameters of the case";
     case Interpolation::kCubicBSpline: return "a cubic spline in the parameters of the case";
     case Interpolation::kGeodesic: return "straight in position and at a constant rate of turning";
@@ -217,9 +227,9 @@ std::string law_text(const CertificateView& view) {
 }
 
 std::string motion_text(const ReportContext& scene) {
-  const Path& path = scene.view.path;
+  const Path& path = scene.certificate.path;
   if (path.waypoints.empty()) return "The certificate contains no path.";
-  if (found_no_path(scene.view)) {
+  if (found_no_path(scene.certificate)) {
     return "No path was found. What is shown of one joins the waypoints asked for by straight lines, and is not a "
            "plan.";
   }
@@ -228,7 +238,7 @@ std::string motion_text(const ReportContext& scene) {
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
   std::string text =
       fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",
-                  plural(path.segments(), "segment"), law_text(scene.view),
+                  plural(path.segments(), "segment"), law_text(scene.certificate),
                   distance_text(scene.travel.distance_m(segments)), scene.travel.turned_rad(segments) * kDegrees);
   const auto begin = scene.travel.time_s(0);
   const auto end = scene.travel.time_s(segments);
@@ -380,65 +390,51 @@ std::string recheck_text(const Recheck& recheck) {
 }  // namespace
 
 std::string headline(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  if (view.verdict == "unchecked") {
+  const Certificate& certificate = scene.certificate;
+  if (scene.verdict == "unchecked") {
     return "UNCHECKED: whether this certificate is right is not known, and nothing that it claims is repeated here.";
   }
-  if (view.verdict == "undecided") return "Undecided: nothing is claimed about this move.";
-  if (view.verdict == "proved") {
+  if (scene.verdict == "undecided") return "Undecided: nothing is claimed about this move.";
+  if (scene.verdict == "proved") {
     return fmt::format(
         "Proved: at every pose of this move, under every load stated below{}, all six cables stay taut, below their "
         "greatest "
         "tension and within their lengths, and no singular pose is met.",
-        deviating(view));
+        deviating(certificate));
   }
-  const WitnessView& witness = *view.witness;
-  const bool by_load = !witness.to && !is_length(witness);
+  const PathWitness& witness = certificate.witness->violation;
+  const bool by_load = !witness.singular && !is_length(witness);
   return fmt::format("Refuted: on this move {}{}.", violation_text(witness),
-                     !by_load           ? ""
-                     : witness.deviates ? ", under a load that is covered"
-                                        : ", under a load of the set stated below");
+                     !by_load            ? ""
+                     : witness.deviation ? ", under a load that is covered"
+                                         : ", under a load of the set stated below");
 }
 
-std::string violation_text(const WitnessView& witness) {
-  if (witness.to) return "the platform passes a singular pose, where the cables cannot balance every load";
+std::string violation_text(const PathWitness& witness) {
+  if (witness.singular) return "the platform passes a singular pose, where the cables cannot balance every load";
   const bool length = is_length(witness);
   const bool upper = is_upper(witness);
   const DecimalText& value = upper ? witness.value_lower : witness.value_upper;
   return fmt::format("{} of cable {}{} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
-                     witness.cable, witness.deviates ? ", on a machine that deviates within the tolerances," : "",
+                     witness.margin.cable + 1,
+                     witness.deviation ? ", on a machine that deviates within the tolerances," : "",
                      upper ? "reaches at least" : "falls to at most", shortened(witness, value, !upper),
                      upper ? "not below" : "not above", upper ? "upper" : "lower", quantity(witness.limit, length));
 }
 
-std::string violation_text(const PathWitness& witness) {
-  WitnessView view;
-  if (witness.singular) {
-    view.to.emplace();
-    return violation_text(view);
-  }
-  view.kind = name(witness.margin.kind);
-  view.cable = static_cast<int>(witness.margin.cable) + 1;
-  view.value_lower = witness.value_lower;
-  view.value_upper = witness.value_upper;
-  view.limit = witness.limit;
-  view.deviates = witness.deviation != nullptr;
-  return violation_text(view);
-}
-
 std::vector<std::string> verdict_details(const ReportContext& scene) {
-  if (scene.view.verdict == "unchecked") {
+  if (scene.verdict == "unchecked") {
     return {fmt::format("{}: {}.", scene.recheck.checker, scene.recheck.message),
             "Neither does it mean that the move is unsafe, nor is it evidence that it is safe. To know run: taut-check "
             "certificate.json CASE.yaml"};
   }
-  if (scene.view.verdict == "proved") return proved_details(scene.view);
-  return scene.view.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
+  if (scene.verdict == "proved") return proved_details(scene.certificate);
+  return scene.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
 }
 
 std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use) {
-  if (scene.view.verdict != "proved" || use.source != CableUse::Source::kProved) return {};
-  const RobotText& robot = scene.view.problem.robot;
+  if (scene.verdict != "proved" || use.source != CableUse::Source::kProved) return {};
+  const RobotText& robot = scene.certificate.problem.robot;
   const auto sentence = [&](const std::array<Use, kCables>& uses, bool length) {
     const ClosestUse c = closest(uses);
     const Limits& limits = (length ? robot.length_m : robot.tension_N).at(static_cast<std::size_t>(c.cable));
@@ -465,27 +461,29 @@ std::vector<std::string> closest_text(const ReportContext& scene, const CableUse
 
 namespace {
 
-/// The program versions that proved the verdict.
-std::string proof_text(const CertificateView& view) {
-  if (view.verdict == "unchecked") return "None that was checked.";
-  if (view.verdict == "undecided") return "None: nothing is claimed.";
-  if (view.boxes == 0) return "Interval arithmetic at the witness.";
-  return fmt::format("Interval arithmetic, {} in {} without sampling{}.", plural(view.boxes, "box"),
-                     plural(view.segments.size(), "segment"), view.witness ? ", and at the witness" : "");
+/// By what the verdict was proved.
+std::string proof_text(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
+  if (scene.verdict == "unchecked") return "None that was checked.";
+  if (scene.verdict == "undecided") return "None: nothing is claimed.";
+  const std::size_t boxes = count_boxes(certificate);
+  if (boxes == 0) return "Interval arithmetic at the witness.";
+  return fmt::format("Interval arithmetic, {} in {} without sampling{}.", plural(boxes, "box"),
+                     plural(certificate.segments.size(), "segment"), certificate.witness ? ", and at the witness" : "");
 }
 
 }  // namespace
 
 std::vector<Statement> statements(const ReportContext& scene) {
-  const CertificateView& view = scene.view;
-  const Problem& problem = view.problem;
+  const Certificate& certificate = scene.certificate;
+  const Problem& problem = certificate.problem;
   return {{"motion", "Motion", motion_text(scene)},
           {"load", "Loads", load_text(problem.load)},
           {"limits", "Limits", limits_text(problem.robot)},
           {"tolerances", "Tolerances", tolerances_text(problem.tolerances)},
-          {"assumptions", "Assumptions", assumptions_text(problem, view.path.interpolation)},
+          {"assumptions", "Assumptions", assumptions_text(problem, certificate.path.interpolation)},
           {"not_covered", "Not covered", not_covered_text(problem)},
-          {"proof", "Proof", proof_text(view)},
+          {"proof", "Proof", proof_text(scene)},
           {"recheck", "Re-check", recheck_text(scene.recheck)}};
 }
 

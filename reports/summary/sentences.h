@@ -16,7 +16,6 @@ namespace taut {
 [[nodiscard]] std::string headline(const ReportContext& scene);
 
 /// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N"
-[[nodiscard]] std::string violation_text(const WitnessView& witness);
 [[nodiscard]] std::string violation_text(const PathWitness& witness);
 
 /// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the reason

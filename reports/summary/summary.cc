@@ -74,19 +74,19 @@ const char* name(CableUse::Source source) {
 }  // namespace
 
 Summary::Summary(const ReportContext& scene, const ReportOptions& options)
-    : document(options.document.empty() ? document_number(scene.view.footer_sha256) : options.document),
+    : document(options.document.empty() ? document_number(scene.certificate.footer_sha256) : options.document),
       revision(options.revision),
       date(options.date),
-      name(scene.view.problem.name),
-      verdict(scene.view.verdict),
+      name(scene.certificate.problem.name),
+      verdict(scene.verdict),
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
       statements(taut::statements(scene)),
       use(cable_use(scene)),
       recheck(scene.recheck),
-      problem_sha256(scene.view.problem_sha256),
-      path_sha256(scene.view.path_sha256),
-      footer_sha256(scene.view.footer_sha256) {
+      problem_sha256(scene.certificate.problem_sha256),
+      path_sha256(scene.certificate.path_sha256),
+      footer_sha256(scene.certificate.footer_sha256) {
   closest = closest_text(scene, use);
 }
 

@@ -69,17 +69,17 @@ std::string coordinate_text(double x, int half_turns) {
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> coordinates(const CertificateView& view) {
+std::vector<std::pair<std::string, std::string>> coordinates(const Certificate& certificate) {
   std::vector<std::pair<std::string, std::string>> result;
-  if (!has_poses(view.path.interpolation)) {
-    const SpaceText& space = view.problem.space;
+  if (!has_poses(certificate.path.interpolation)) {
+    const SpaceText& space = certificate.problem.space;
     for (std::size_t j = 0; j < space.parameters.size(); ++j)
       result.emplace_back(space.parameters[j].name, unit(space, j));
     return result;
   }
   for (const char* name : {"px", "py", "pz"}) result.emplace_back(name, "m");
   for (const char* name : {"qx", "qy", "qz", "qw"}) result.emplace_back(name, "");
-  if (view.path.interpolation == Interpolation::kCableLengths) {
+  if (certificate.path.interpolation == Interpolation::kCableLengths) {
     for (const char* name : {"L1", "L2", "L3", "L4", "L5", "L6"}) result.emplace_back(name, "m");
   }
   return result;
@@ -89,10 +89,10 @@ int half_turns(const Waypoint& waypoint, std::size_t j) {
   return j < waypoint.half_turns.size() ? waypoint.half_turns[j] : 0;
 }
 
-std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint) {
+std::string waypoint_text(const Certificate& certificate, const Waypoint& waypoint) {
   std::string names;
   std::string values;
-  const auto named = coordinates(view);
+  const auto named = coordinates(certificate);
   for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
     const char* comma = j == 0 ? "" : ", ";
     names += comma + named[j].first;
@@ -101,15 +101,15 @@ std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint)
   return fmt::format("({}) = ({})", names, values);
 }
 
-std::string segment_text(const CertificateView& view, int k) {
-  if (view.path.interpolation == Interpolation::kCubicBSpline) return fmt::format("segment {}", k);
+std::string segment_text(const Certificate& certificate, int k) {
+  if (certificate.path.interpolation == Interpolation::kCubicBSpline) return fmt::format("segment {}", k);
   return fmt::format("segment {}, between waypoints {} and {}", k, k, k + 1);
 }
 
-std::string point_text(const CertificateView& view, const PathPointView& point) {
-  if (!point.s)
-    return fmt::format("waypoint {}, {}", point.index, waypoint_text(view, view.path.waypoints[point.index]));
-  return fmt::format("s = {} of {}", *point.s, segment_text(view, point.index));
+std::string point_text(const Certificate& certificate, const PathPoint& point) {
+  if (point.on_segment) return fmt::format("s = {} of {}", point.s.text(), segment_text(certificate, point.index));
+  const Waypoint& waypoint = certificate.path.waypoints[static_cast<std::size_t>(point.index)];
+  return fmt::format("waypoint {}, {}", point.index, waypoint_text(certificate, waypoint));
 }
 
 std::string pose_text(const Pose<double>& pose) {
@@ -131,7 +131,7 @@ std::string distance_text(double metres) {
 
 std::string place_text(const ReportContext& scene, double position) {
   constexpr double kStill = 1e-9;  // [m], [rad]: less is rounding
-  const auto segments = static_cast<double>(scene.view.path.segments());
+  const auto segments = static_cast<double>(scene.certificate.path.segments());
   if (segments == 0) return "at the only pose of the path";
   const double way = scene.travel.distance_m(segments);
   const double turn = scene.travel.turned_rad(segments);

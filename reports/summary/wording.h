@@ -27,17 +27,17 @@ namespace taut {
 [[nodiscard]] std::string plural(std::size_t count, const std::string& noun);
 
 /// The names of a waypoint's numbers, and their units.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> coordinates(const CertificateView& view);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> coordinates(const Certificate& certificate);
 /// "-2.3", "-2.3 + 2π": reads back exactly.
 [[nodiscard]] std::string coordinate_text(double x, int half_turns);
 /// Of parameter j; 0 where a waypoint has none.
 [[nodiscard]] int half_turns(const Waypoint& waypoint, std::size_t j);
 /// "(phi, theta) = (-2.3, 1.6)"
-[[nodiscard]] std::string waypoint_text(const CertificateView& view, const Waypoint& waypoint);
+[[nodiscard]] std::string waypoint_text(const Certificate& certificate, const Waypoint& waypoint);
 /// "segment 1, between waypoints 1 and 2"
-[[nodiscard]] std::string segment_text(const CertificateView& view, int k);
+[[nodiscard]] std::string segment_text(const Certificate& certificate, int k);
 /// "s = 3/8 of segment 1, …"
-[[nodiscard]] std::string point_text(const CertificateView& view, const PathPointView& point);
+[[nodiscard]] std::string point_text(const Certificate& certificate, const PathPoint& point);
 /// "p = (0, 0, 350) mm, φ = …": rounded.
 [[nodiscard]] std::string pose_text(const Pose<double>& pose);
 

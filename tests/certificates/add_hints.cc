@@ -12,10 +12,12 @@
 #include <memory>
 #include <string>
 
-#include "certificate/elaborate.h"
+#include "certificate/implied_motion.h"
 #include "checker/format/reader.h"
 #include "checker/format/writer.h"
+#include "checker/kernel/box_proof.h"
 #include "checker/near_waypoints.h"
+#include "checker/witness.h"
 
 namespace taut {
 namespace {

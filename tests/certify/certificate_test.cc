@@ -15,6 +15,9 @@
 
 #include "base/input_error.h"
 #include "base/sha256.h"
+#include "certificate/certificate_reader.h"
+#include "certificate/certificate_writer.h"
+#include "certificate/elaborate.h"
 #include "certify/path_proof.h"
 #include "tests/support/robots.h"
 
@@ -25,6 +28,10 @@ using nlohmann::json;
 using testing::robot1_slice;
 
 Path short_path() { return {{{{-2.3, 1.6}, {0, 0}}, {{-2.25, 1.5}, {0, 0}}, {{-2.25, 1.4}, {0, 0}}}}; }
+
+json written(const Problem& problem, const Path& path, const PathProof& proof) {
+  return json::parse(certificate_text(elaborate(problem, path, proof)));
+}
 
 TEST(HexFloat, ReadsBackBitForBit) {
   for (const double x : {0.0, 1.0, -2.3, 0.1, 5e-324, 1.7976931348623157e308, std::nextafter(1.0, 2.0)}) {
@@ -111,7 +118,7 @@ TEST(PathProof, AnUntouchedResultClaimsNothing) { EXPECT_EQ(PathProof{}.verdict,
 TEST(Certificate, StatesDigestsAndCountsOfWhatItHolds) {
   const Problem problem = robot1_slice();
   const PathProof proof = prove_path(Prover(problem), short_path());
-  const json certificate = make_certificate(problem, short_path(), proof, json::object());
+  const json certificate = written(problem, short_path(), proof);
   EXPECT_EQ(certificate["problem_sha256"], sha256(certificate["problem"]));
   EXPECT_EQ(certificate["path_sha256"], sha256(certificate["path"]));
   json body = certificate;
@@ -128,8 +135,7 @@ TEST(Certificate, StatesDigestsAndCountsOfWhatItHolds) {
 
 TEST(Certificate, HoldsNoFractionalNumber) {
   const Problem problem = robot1_slice();
-  const json certificate =
-      make_certificate(problem, short_path(), prove_path(Prover(problem), short_path()), json::object());
+  const json certificate = written(problem, short_path(), prove_path(Prover(problem), short_path()));
   const std::function<void(const json&)> visit = [&](const json& value) {
     EXPECT_FALSE(value.is_number_float());
     if (value.is_structured()) {
@@ -141,15 +147,15 @@ TEST(Certificate, HoldsNoFractionalNumber) {
 
 TEST(Certificate, ItsPathReadsBackBitForBit) {
   const Path path = {{{{-2.3, 0.1}, {0, 0}}, {{5e-324, -0.25}, {-2, 0}}}};
-  const json certificate = make_certificate(robot1_slice(), path, PathProof{}, json::object());
-  EXPECT_EQ(path_from_json(certificate["path"]).waypoints, path.waypoints);
+  const json certificate = written(robot1_slice(), path, PathProof{});
+  EXPECT_EQ(read_path(certificate["path"]).waypoints, path.waypoints);
 }
 
 TEST(Certificate, MalformedPathsAreRefusedWithTheirPlace) {
-  const json good = make_certificate(robot1_slice(), short_path(), PathProof{}, json::object())["path"];
+  const json good = written(robot1_slice(), short_path(), PathProof{})["path"];
   const auto complaint = [&](const char* patch) -> std::string {
     try {
-      (void)path_from_json(good.patch(json::array({json::parse(patch)})));
+      (void)read_path(good.patch(json::array({json::parse(patch)})));
     } catch (const InputError& error) {
       return error.what();
     }

@@ -6,7 +6,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "certificate/certificate.h"
+#include "certificate/certificate_writer.h"
+#include "certificate/elaborate.h"
 #include "checker/check.h"
 #include "planner/planner.h"
 #include "reports/page/html_report.h"
@@ -53,8 +54,8 @@ void expect_proved(const Robot& robot) {
       EXPECT_GT(sampler.clearance(sampler.statics(pose)), 0);
     }
   }
-  const auto certificate = make_certificate(the_case.problem, plan.path, plan.proof, nullptr);
-  const checker::CheckResult checked = checker::check(certificate.dump());
+  const Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
+  const checker::CheckResult checked = checker::check(certificate_text(certificate));
   ASSERT_TRUE(checked.theorem) << checked.message;
   EXPECT_EQ(checked.theorem->verdict(), checker::Theorem::Verdict::kProved);
   EXPECT_NE(html_report(checked).find("proved"), std::string::npos);

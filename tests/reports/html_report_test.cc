@@ -209,12 +209,17 @@ TEST(HtmlReport, NeverPutsARoundedNumberBeyondTheLimitThatItKeeps) {
 TEST(HtmlReport, SaysThatAWitnessDeviates) {
   nlohmann::json certificate = sample::refuted();
   EXPECT_THAT(report(certificate), Not(HasSubstr("deviates")));
-  certificate["witness"]["deviation"] = nlohmann::json::object();
+  const std::vector<std::string> none(3, "0");
+  const std::vector<std::vector<std::string>> no_anchors(6, none);
+  certificate["witness"]["deviation"] = {{"base_anchors_m", no_anchors}, {"platform_anchors_m", no_anchors},
+                                         {"load_point_m", none},         {"wrench", "0"},
+                                         {"position_m", none},           {"turn", none}};
   EXPECT_THAT(report(certificate),
               HasSubstr("the tension of cable 3, on a machine that deviates within the tolerances, "
                         "reaches at least 0.8123 N"));
   EXPECT_THAT(report(certificate), Not(HasSubstr("the lengths of its cables lead")));
   certificate["witness"]["deviation"]["cable_lengths_m"] = {"0", "0", "0", "0", "0", "0.001"};
+  certificate["witness"]["deviation"]["way"] = nullptr;
   EXPECT_THAT(report(certificate),
               HasSubstr("it deviates within the tolerances, as the certificate says, and it is at the "
                         "pose to which that and the lengths of its cables lead from this one."));
@@ -366,6 +371,8 @@ TEST(HtmlReport, StaysSmallForLongPathsAndLargeAtlases) {
   for (int k = 2; k < 50; ++k) {
     certificate["path"]["waypoints"].push_back(waypoint);
     certificate["segments"].push_back(segment);
+    certificate["segments"].back()["from"] = k;
+    certificate["segments"].back()["to"] = k + 1;
   }
   const nlohmann::json chart = certificate["illustration"]["charts"][0];
   for (int k = 0; k < 500; ++k) certificate["illustration"]["charts"].push_back(chart);

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "certificate/certificate_view.h"
+#include "certificate/certificate_reader.h"
 #include "reports/summary/scene.h"
 
 namespace taut::sample {
@@ -85,7 +85,8 @@ inline nlohmann::json refuted() {
   nlohmann::json result = certificate();
   result["verdict"] = "refuted";
   result["witness"] = nlohmann::json::parse(R"({"at": {"segment": 1, "s": "3/8"}, "kind": "tension_max", "cable": 3,
-                                                "value": ["0.8123", "0.8129"], "limit": "0.5"})");
+                                                "value": ["0.8123", "0.8129"], "limit": "0.5",
+                                                "proof": {"bits": 64}, "motion": []})");
   return result;
 }
 
@@ -93,7 +94,8 @@ inline nlohmann::json singular() {
   nlohmann::json result = certificate();
   result["verdict"] = "refuted";
   result["witness"] =
-      nlohmann::json::parse(R"({"at": {"waypoint": 0}, "to": {"segment": 1, "s": "5/8"}, "kind": "singular"})");
+      nlohmann::json::parse(R"({"at": {"waypoint": 0}, "to": {"segment": 1, "s": "5/8"}, "kind": "singular",
+                               "at_proof": {"bits": 64}, "to_proof": {"bits": 64}, "motion": []})");
   return result;
 }
 
@@ -115,9 +117,9 @@ inline nlohmann::json no_path() {
 
 /// What a report would show if the checker had confirmed it; what claims nothing stays so.
 inline ReportContext scene(const nlohmann::json& certificate) {
-  CertificateView view = read_certificate(certificate);
-  const bool is_claim = view.verdict != "undecided";
-  return {std::move(view),
+  Certificate stated = read_certificate(certificate);
+  const bool is_claim = stated.verdict != Verdict::kUndecided;
+  return {std::move(stated),
           {is_claim ? Recheck::Result::kConfirmed : Recheck::Result::kNoClaim, "taut-check 9.9", "so <it> is"}};
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificate/certificate_view.h"
+#include "certificate/certificate_reader.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
@@ -12,18 +12,18 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 TEST(Samples, HitEveryWaypointAndBothEnds) {
-  const CertificateView view = read_certificate(sample::proved());
-  const std::vector<PathSample> samples = Sampler(view.problem).along(view.path, 20);
+  const Certificate certificate = read_certificate(sample::proved());
+  const std::vector<PathSample> samples = Sampler(certificate.problem).along(certificate.path, 20);
   ASSERT_EQ(samples.size(), 21u);
-  EXPECT_EQ(samples[0].parameters, resolved(view.path.waypoints[0]));
-  EXPECT_EQ(samples[10].parameters, resolved(view.path.waypoints[1]));
-  EXPECT_EQ(samples[20].parameters, resolved(view.path.waypoints[2]));
+  EXPECT_EQ(samples[0].parameters, resolved(certificate.path.waypoints[0]));
+  EXPECT_EQ(samples[10].parameters, resolved(certificate.path.waypoints[1]));
+  EXPECT_EQ(samples[20].parameters, resolved(certificate.path.waypoints[2]));
 }
 
 TEST(Samples, KeepToTheirBudgetOnALongPath) {
-  CertificateView view = read_certificate(sample::proved());
-  view.path.waypoints.resize(5000, view.path.waypoints[0]);
-  const std::vector<PathSample> samples = Sampler(view.problem).along(view.path, 100);
+  Certificate certificate = read_certificate(sample::proved());
+  certificate.path.waypoints.resize(5000, certificate.path.waypoints[0]);
+  const std::vector<PathSample> samples = Sampler(certificate.problem).along(certificate.path, 100);
   EXPECT_LE(samples.size(), 101u);
   EXPECT_EQ(samples.back().position, 4999);
 }
@@ -31,8 +31,8 @@ TEST(Samples, KeepToTheirBudgetOnALongPath) {
 TEST(Samples, AddHalfTurns) { EXPECT_EQ(resolved({{1.0, 2.0}, {-2, 0}}), (std::vector<double>{1.0 - 2 * kPi, 2.0})); }
 
 TEST(Samples, TellWhichLimitsAPoseBreaks) {
-  const CertificateView view = read_certificate(sample::proved());
-  const Sampler sampler(view.problem);
+  const Certificate certificate = read_certificate(sample::proved());
+  const Sampler sampler(certificate.problem);
   const auto at = [&](double phi, double theta) {
     return feasibility(sampler.model(), statics(sampler.model(), sampler.pose({phi, theta})));
   };
@@ -45,14 +45,14 @@ class SampledViolations : public ::testing::Test {
  protected:
   /// Tensions 0.2 ± 0.01 N within (0.05, 0.5) N; lengths as they are, within (0.1, 0.55) m.
   [[nodiscard]] PathSample sample(double position) const {
-    PathSample sample = sampler_.at(view_.path, position);
+    PathSample sample = sampler_.at(certificate_.path, position);
     sample.statics.tension.fill(0.2);
     sample.statics.tension_radius.fill(0.01);
     sample.statics.determinant = 1;
     return sample;
   }
-  CertificateView view_ = read_certificate(sample::proved());
-  Sampler sampler_{view_.problem};
+  Certificate certificate_ = read_certificate(sample::proved());
+  Sampler sampler_{certificate_.problem};
 };
 
 TEST_F(SampledViolations, AreNoneWithinLimits) {

@@ -34,9 +34,9 @@ TEST(ReportContext, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
 
 TEST(ReportContext, ReadsBoxesAsTheyAre) {
   const ReportContext scene = sample::scene(sample::proved());
-  ASSERT_EQ(scene.view.segment_boxes.size(), 2u);
-  EXPECT_EQ(scene.view.segment_boxes[0], (std::vector<DyadicBox>{{0, 1}, {1, 1}}));
-  EXPECT_EQ(scene.view.segment_boxes[1], (std::vector<DyadicBox>{{0, 0}}));
+  ASSERT_EQ(scene.boxes.size(), 2u);
+  EXPECT_EQ(scene.boxes[0], (std::vector<DyadicBox>{{0, 1}, {1, 1}}));
+  EXPECT_EQ(scene.boxes[1], (std::vector<DyadicBox>{{0, 0}}));
 }
 
 TEST(ReportContext, LeavesOutBoxesThatAreNotHalvesOfHalves) {
@@ -44,7 +44,7 @@ TEST(ReportContext, LeavesOutBoxesThatAreNotHalvesOfHalves) {
   certificate["segments"][0]["boxes"] = nlohmann::json::parse(R"([{"bits": 64, "s": ["0", "1/4"]},
           {"bits": 64, "s": ["1/4", "3/4"]},
           {"bits": 64, "s": ["3/4", "1"]}])");
-  EXPECT_EQ(sample::scene(certificate).view.segment_boxes[0], (std::vector<DyadicBox>{{0, 2}, {3, 2}}));
+  EXPECT_EQ(sample::scene(certificate).boxes[0], (std::vector<DyadicBox>{{0, 2}, {3, 2}}));
 }
 
 TEST(ReportContext, RefusesBoxesThatAreNoNumbers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/explain.h"
+#include "cli/explain_command.h"
 
 #include <fmt/format.h>
 
@@ -163,23 +163,23 @@ Explanation explained(Undecided reason) {
   return {};
 }
 
-Explanation explained(InputKind kind) {
+Explanation explained(ErrorCode code) {
   const auto entry = [&](const char* title, const char* meaning, const char* causes, const char* remedy,
                          const char* example) {
-    return Explanation{code(kind), title, meaning, causes, remedy, example};
+    return Explanation{text(code), title, meaning, causes, remedy, example};
   };
-  switch (kind) {
-    case InputKind::kUse:
+  switch (code) {
+    case ErrorCode::kUse:
       return entry("The command line", "An option or argument is not one that the command takes. Nothing was done.",
                    "A misspelt option. Two options that exclude each other. A value of another kind.",
                    "taut COMMAND --help lists the options.", "--bits: Value 12 not in range 128 to 1048576 [E1]");
-    case InputKind::kFile:
+    case ErrorCode::kFile:
       return entry(
           "A file can't be read or written", "The system refused; the message says why.",
           "A wrong name, a folder without write permission, a full disk.",
           "Correct the name or the folder. Files are written whole or not at all, so an earlier file is still there.",
           "taut: crane.yaml: could not read: No such file or directory [E2]");
-    case InputKind::kCase:
+    case ErrorCode::kCase:
       return entry(
           "The case is wrong",
           "The case file can't be used. The message names line and field, what was seen and what was expected.",
@@ -188,14 +188,14 @@ Explanation explained(InputKind kind) {
           "docs/case-format.md describes every key. taut show prints what was understood, and taut init writes a case "
           "that is right.",
           "taut: crane.yaml:38:9: load.mass: got 'NaN', expected a decimal number such as 0.05 or 1e-4 [E3]");
-    case InputKind::kPath:
+    case ErrorCode::kPath:
       return entry(
           "The path file is wrong", "The path to be audited can't be read, or does not fit the case.",
           "A column without a unit or with an unknown name. A row with a missing number. A repeated pose. Lengths "
           "whose first row is not at the start pose.",
           "docs/audits.md describes the formats of path files. --allow-repeats drops repeated rows.",
           "taut: path.csv:2: theta: got 'x', expected a decimal number such as 0.05 or 1e-4 [E4]");
-    case InputKind::kCertificate:
+    case ErrorCode::kCertificate:
       return entry(
           "No certificate, or not this one",
           "The file is not a certificate, was altered or cut after it was written, or has another version of the "
@@ -205,26 +205,26 @@ Explanation explained(InputKind kind) {
           "taut which made it.",
           "taut: certificate.json: version: got 3, expected 4: only the taut that made it can make its report, or "
           "one of that time [E5]");
-    case InputKind::kAtlas:
+    case ErrorCode::kAtlas:
       return entry(
           "The atlas file is refused", "The file belongs to another robot, load, space or planner, or is damaged.",
           "The case was changed after the atlas was saved.",
           "Save the atlas again: taut plan CASE --save-atlas FILE. docs/atlas-file.md says which cases a file fits.",
           "taut: robot1.atlas: the atlas is of another problem: its robot, load or space is not the case's [E6]");
-    case InputKind::kKey:
+    case ErrorCode::kKey:
       return entry("The key can't sign",
                    "The file given to --sign does not hold an unencrypted Ed25519 private key in PEM.",
                    "A public key, an RSA key, or a key with a passphrase.",
                    "Make a key: openssl genpkey -algorithm ed25519 -out key.pem",
                    "taut: key.pem: got a private key of type RSA, expected an unencrypted Ed25519 private key in PEM "
                    "(openssl genpkey -algorithm ed25519) [E7]");
-    case InputKind::kBrowser:
+    case ErrorCode::kBrowser:
       return entry("There is no browser to print with",
                    "taut report --pdf prints the page with an installed Chromium, and found none.",
                    "None is installed, or TAUT_BROWSER names a program that does not exist.",
                    "Install Debian's package chromium, set TAUT_BROWSER, or print report.html from any browser.",
                    "taut: --pdf: found no browser (chromium, …), expected Chromium: … [E8]");
-    case InputKind::kRegress:
+    case ErrorCode::kRegress:
       return entry(
           "The folder of cases can't be used", "There are no cases in it, or the baseline file is not a baseline.",
           "A wrong folder. A baseline that was edited.", "See docs/regress.md. --update writes the baseline again.",
@@ -294,7 +294,7 @@ const std::vector<Explanation>& explanations() {
   static const std::vector<Explanation> all = [] {
     std::vector<Explanation> result;
     for (std::size_t k = 0; k < kUndecidedReasons; ++k) result.push_back(explained(static_cast<Undecided>(k)));
-    for (std::size_t k = 0; k < kInputKinds; ++k) result.push_back(explained(static_cast<InputKind>(k)));
+    for (std::size_t k = 0; k < kErrorCodes; ++k) result.push_back(explained(static_cast<ErrorCode>(k)));
     result.push_back({kInternalCode, "taut failed",
                       "taut itself failed: a check in its own code did not hold. Nothing was claimed.",
                       "A bug, or memory that ran out.", "Report it, with the case and the whole message.",
@@ -333,8 +333,8 @@ int run_explain(const ExplainArguments& arguments) {
   for (char& c : wanted) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   const auto found = std::ranges::find(explanations(), wanted, &Explanation::code);
   if (found == explanations().end()) {
-    throw InputErrorOfKind(InputKind::kUse, fmt::format("CODE: got '{}', expected one of those that taut explain lists",
-                                                        excerpt(arguments.code)));
+    throw InputError(ErrorCode::kUse, fmt::format("CODE: got '{}', expected one of those that taut explain lists",
+                                                  excerpt(arguments.code)));
   }
   fmt::print("{}", to_text(*found));
   return kProvedExit;

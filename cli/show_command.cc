@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/show.h"
+#include "cli/show_command.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "base/files.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
 #include "case/case_file.h"
 #include "cli/console.h"
@@ -24,8 +23,8 @@ void add_show_options(CLI::App& command, ShowArguments& arguments) {
 
 int run_show(const ShowArguments& arguments) {
   if (!arguments.out.empty() && !arguments.out.ends_with(".svg")) {
-    throw InputErrorOfKind(InputKind::kUse,
-                           fmt::format("--out: got '{}', expected a file that ends in .svg", excerpt(arguments.out)));
+    throw InputError(ErrorCode::kUse,
+                     fmt::format("--out: got '{}', expected a file that ends in .svg", excerpt(arguments.out)));
   }
   if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
   const Case case_ = load_case(arguments.case_path);

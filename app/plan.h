@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plan, and the certificate that is handed out of it.
+// Plans a case, and has the checker prove the certificate of the plan.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -16,10 +15,8 @@
 namespace taut {
 
 /// A check for load_case(): that there is something to plan.
+/// @throws InputError where there is not.
 void require_plannable(const Case& the_case);
-
-/// The text of a file certificate.json.
-[[nodiscard]] std::string certificate_text(const nlohmann::json& certificate);
 
 struct PlannedCase {
   Plan plan;

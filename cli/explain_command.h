@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `taut explain`: what the short code behind a message means, what usually causes it and what to do. One table, of which
-// docs/errors.md is a print.
+// `taut explain`: what the short code behind a message means, what usually causes it and what to do. One table, of
+// which docs/errors.md is a print.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
-#include "base/input_kind.h"
+#include "base/input_error.h"
 
 namespace taut {
 
@@ -24,7 +24,7 @@ struct Explanation {
   const char* example;  ///< a line that a program prints
 };
 
-/// All of them: reasons of "undecided" (certify/undecided.h), kinds of wrong input, failures.
+/// All explanations: reasons of "undecided" (certify/undecided.h), kinds of wrong input, failures.
 [[nodiscard]] const std::vector<Explanation>& explanations();
 
 struct ExplainArguments {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "certificate/certificate_stream.h"
+#include "certificate/certificate_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,8 @@
 
 #include "base/input_error.h"
 #include "base/sha256.h"
+#include "certificate/certificate_reader.h"
+#include "certificate/elaborate.h"
 #include "tests/support/robots.h"
 
 namespace taut {
@@ -15,32 +17,24 @@ namespace {
 
 using nlohmann::json;
 
-json streamed(const Problem& problem, const Path& path, const PathProof& proof, const json& illustration) {
-  CertificateStream stream(std::filesystem::temp_directory_path(), problem, path.interpolation);
-  for (const Waypoint& waypoint : path.waypoints) stream.add_waypoint(waypoint_text(path.interpolation, waypoint));
-  for (const std::string& time : path.times) stream.add_time(time);
-  for (const double tube : path.tubes) stream.add_tube(tube);
+/// What the writer makes of a certificate's parts, kept in files.
+json streamed(const Certificate& certificate) {
+  const Path& path = certificate.path;
+  CertificateWriter writer(certificate.problem, path.interpolation, std::filesystem::temp_directory_path());
+  for (const Waypoint& waypoint : path.waypoints) writer.add_waypoint(waypoint_text(path.interpolation, waypoint));
+  for (const std::string& time : path.times) writer.add_time(time);
+  for (const double tube : path.tubes) writer.add_tube(tube);
   for (std::size_t k = 0; k < path.pose_tubes.size(); ++k) {
     const bool has_inner_poses = k < path.inner_poses.size();
-    stream.add_pose_tube(path.pose_tubes[k], has_inner_poses ? path.inner_poses[k] : std::vector<InnerPose>());
+    writer.add_pose_tube(path.pose_tubes[k], has_inner_poses ? path.inner_poses[k] : std::vector<InnerPose>());
   }
-  const KernelProof kernel = confirmed(problem, path, proof);
-  CertificateStream::Ending ending;
-  ending.verdict = kernel.verdict;
-  ending.illustration = illustration;
-  const bool has_tolerances = problem.tolerances.has_value();
   for (std::size_t k = 0; k < path.segments(); ++k) {
-    const KernelSegment segment = kernel.verdict == Verdict::kProved ? kernel.segments[k] : KernelSegment();
-    stream.add_segment(segment_text(segment, k, k + control_points(path.interpolation) - 1, has_tolerances),
-                       segment.boxes.size());
-  }
-  if (kernel.verdict == Verdict::kProved) ending.margins = kernel.margins;
-  if (kernel.witness) ending.witness = to_json(*proof.witness, *kernel.witness, segment_of(*proof.witness));
-  if (kernel.verdict == Verdict::kUndecided) {
-    ending.undecided = {{"reason", kernel.reason.text()}, {"segment", nullptr}, {"box", nullptr}};
+    const bool is_proved = k < certificate.segments.size();
+    const CertificateSegment segment = is_proved ? certificate.segments[k] : CertificateSegment();
+    writer.add_segment(segment_text(segment, k, certificate.problem, path.interpolation), segment.boxes.size());
   }
   std::string text;
-  stream.finish(ending, [&](std::string_view piece) { text += piece; });
+  writer.finish(certificate, [&](std::string_view piece) { text += piece; });
   return json::parse(text);
 }
 
@@ -58,7 +52,7 @@ Path path_of(const Problem& problem, Interpolation law) {
   return path;
 }
 
-TEST(CertificateStream, IsTheCertificateMadeInMemory) {
+TEST(CertificateWriter, WritesTheSameFromFilesAndFromMemory) {
   const Problem problem = testing::robot1_slice();
   const Prover prover(problem);
   for (const Interpolation law : {Interpolation::kStraight, Interpolation::kCubicBSpline}) {
@@ -66,30 +60,31 @@ TEST(CertificateStream, IsTheCertificateMadeInMemory) {
     path.times = {"0", "0.5", "1", "1.5", "1e3"};
     const PathProof proof = prove_path(prover, path);
     ASSERT_EQ(proof.verdict, Verdict::kProved);
-    const json illustration = {{"a \"quoted\" Gerät", {1, 2}}, {"b", nullptr}};
-    EXPECT_EQ(streamed(problem, path, proof, illustration), make_certificate(problem, path, proof, illustration));
+    Certificate certificate = elaborate(problem, path, proof);
+    certificate.illustration = {{"a \"quoted\" Gerät", {1, 2}}, {"b", nullptr}};
+    EXPECT_EQ(streamed(certificate), json::parse(certificate_text(certificate)));
   }
 }
 
-TEST(CertificateStream, OfAProofThatFailedIsTheSameButForStretches) {
+TEST(CertificateWriter, WritesSegmentsOfWhichNothingIsProved) {
   const Problem problem = testing::robot1_slice();
   const Prover prover(problem);
   Path path;
   path.waypoints = query_waypoints(problem);  // straight from start to goal is infeasible
   const PathProof proof = prove_path(prover, path);
   ASSERT_EQ(proof.verdict, Verdict::kRefuted);
-  json expected = make_certificate(problem, path, proof, nullptr);
-  json seen = streamed(problem, path, proof, nullptr);
-  EXPECT_EQ(seen["stretches"], json::array());
+  const Certificate certificate = elaborate(problem, path, proof);
+  json expected = json::parse(certificate_text(certificate));
+  json seen = streamed(certificate);
   EXPECT_EQ(seen["segments"], json::parse(R"([{"boxes": [], "from": 0, "margins": null, "to": 1}])"));
-  for (const char* key : {"stretches", "segments", "footer"}) {
+  for (const char* key : {"segments", "footer"}) {
     expected.erase(key);
     seen.erase(key);
   }
   EXPECT_EQ(seen, expected);
 }
 
-TEST(CertificateStream, WritesWaypointsOfAllKinds) {
+TEST(CertificateWriter, WritesWaypointsOfAllKinds) {
   const Waypoint plain{{0.1, -2}, {0, -3}};
   EXPECT_EQ(waypoint_text(Interpolation::kStraight, plain),
             R"({"half_turns":[0,-3],"x":["0x1.999999999999ap-4","-0x1p+1"]})");
@@ -104,7 +99,7 @@ TEST(CertificateStream, WritesWaypointsOfAllKinds) {
             R"({"lengths":["0x1p+3","0x1p+3","0x1p+3","0x1p+3","0x1p+3","0x1p+4"],"posit)");
 }
 
-TEST(CertificateStream, ReadsBackWithPosesAndTubes) {
+TEST(CertificateWriter, ReadsBackWithPosesAndTubes) {
   const Problem problem = testing::robot1_slice();
   for (const Interpolation law : {Interpolation::kGeodesic, Interpolation::kCableLengths}) {
     Path path;
@@ -116,7 +111,7 @@ TEST(CertificateStream, ReadsBackWithPosesAndTubes) {
     path.pose_tubes = {{0.1, 0.2}, {0x1p-40, 1}};
     path.inner_poses = {{}, {{0x1p-40, {0.1, 2, 4, 0, 0.3, 0, 1}, {0.3, 0.7}}, {0.75, {1, 2, 3, 4, 5, 6, 7}, {1, 2}}}};
     path.tubes = {0.5, 0.25};
-    const Path back = path_from_json(streamed(problem, path, {}, nullptr)["path"]);
+    const Path back = read_path(json::parse(certificate_text(elaborate(problem, path, {})))["path"]);
     EXPECT_EQ(back.waypoints, path.waypoints);
     EXPECT_EQ(back.pose_tubes, path.pose_tubes);
     EXPECT_EQ(back.inner_poses, path.inner_poses);
@@ -125,15 +120,15 @@ TEST(CertificateStream, ReadsBackWithPosesAndTubes) {
   }
 }
 
-TEST(CertificateStream, SignsWhatAWholeCertificateIsSignedFor) {
+TEST(CertificateWriter, SignsWhatAWholeCertificateIsSignedFor) {
   const Problem problem = testing::robot1_slice();
-  CertificateStream stream(std::filesystem::temp_directory_path(), problem, Interpolation::kStraight);
+  CertificateWriter writer(problem, Interpolation::kStraight);
   std::string text;
   std::string digest;
-  CertificateStream::Ending ending;
-  ending.undecided = {{"reason", "none"}, {"segment", nullptr}, {"box", nullptr}};
-  stream.finish(
-      ending, [&](std::string_view piece) { text += piece; },
+  Certificate certificate_end;
+  certificate_end.undecided = OpenPart{"none", {}, {}};
+  writer.finish(
+      certificate_end, [&](std::string_view piece) { text += piece; },
       [&](const std::string& of) {
         digest = of;
         return json{{"value", "x"}};
@@ -146,8 +141,8 @@ TEST(CertificateStream, SignsWhatAWholeCertificateIsSignedFor) {
   EXPECT_EQ(sha256(certificate), digest);
 }
 
-TEST(CertificateStream, SaysWhereItCannotSpool) {
-  EXPECT_THROW(CertificateStream("/nowhere/at/all", testing::robot1_slice(), Interpolation::kStraight), InputError);
+TEST(CertificateWriter, SaysWhereItCannotSpool) {
+  EXPECT_THROW(CertificateWriter(testing::robot1_slice(), Interpolation::kStraight, "/nowhere/at/all"), InputError);
 }
 
 }  // namespace

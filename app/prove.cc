@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/proved_path.h"
+#include "app/prove.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "certificate/certificate.h"
+#include "certificate/elaborate.h"
 #include "certify/path_proof.h"
 #include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
@@ -86,8 +86,8 @@ void require_on_constraints(const Path& path, const Problem& problem) {
   }
 }
 
-/// Where a pose does not have the lengths beside it, the one next to it that has: what is sought around a rough pose is not found.
-/// The lengths, which are what is commanded, stay.
+/// Replaces poses that do not have the lengths beside them by the ones next to them that have: around a rough pose no
+/// motion is found. The lengths, which are what is commanded, stay.
 void refine_references(Path& path, const Model<double>& model) {
   constexpr double kNearEnough = 1e-6;  // of the platform's size: proofs bear a hundred times as much
   std::optional<Eigen::Quaterniond> before;
@@ -111,13 +111,9 @@ void refine_references(Path& path, const Model<double>& model) {
   }
 }
 
-}  // namespace
-
-nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits, const std::stop_token& stop) {
+/// Checks waypoints and times against the space; a single waypoint becomes a segment that stays there.
+void require_proper(Path& path, const SpaceText& space) {
   const Interpolation law = path.interpolation;
-  if (max_bits < kLeastBits || max_bits > kMostBits) {
-    fail("max_bits", fmt::format("got {}, expected {} to {}", max_bits, kLeastBits, kMostBits));
-  }
   if (path.waypoints.size() == 1 && law != Interpolation::kCubicBSpline && path.times.empty()) {
     path.waypoints.push_back(path.waypoints.front());
   }
@@ -125,9 +121,35 @@ nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits,
     fail("waypoints", fmt::format("got {}, expected at least {}", path.waypoints.size(), control_points(law)));
   }
   for (std::size_t k = 0; k < path.waypoints.size(); ++k) {
-    require_fit(path.waypoints[k], law, problem.space, fmt::format("waypoints[{}]", k));
+    require_fit(path.waypoints[k], law, space, fmt::format("waypoints[{}]", k));
   }
   require_times(path);
+}
+
+/// Makes the tubes in which implied motions are sought.
+void add_tubes(Path& path, const Prover& prover, const std::stop_token& stop) {
+  const std::size_t segments = path.segments();
+  path.tubes.assign(prover.problem().space.constraints.empty() ? 0 : segments, 0);
+  path.pose_tubes.assign(path.interpolation == Interpolation::kCableLengths ? segments : 0, {});
+  path.inner_poses.assign(path.pose_tubes.size(), {});
+  tbb::parallel_for(std::size_t{0}, segments, [&](std::size_t k) {
+    if (stop.stop_requested()) return;
+    Segment prepared = prover.prepared(path.segment(k));
+    if (!path.tubes.empty()) path.tubes[k] = prepared.tube;
+    if (path.pose_tubes.empty()) return;
+    path.pose_tubes[k] = prepared.pose_tube;
+    path.inner_poses[k] = std::move(prepared.inner_poses);
+  });
+}
+
+}  // namespace
+
+Certificate prove_waypoints(const Problem& problem, Path path, long max_bits, const std::stop_token& stop) {
+  const Interpolation law = path.interpolation;
+  if (max_bits < kLeastBits || max_bits > kMostBits) {
+    fail("max_bits", fmt::format("got {}, expected {} to {}", max_bits, kLeastBits, kMostBits));
+  }
+  require_proper(path, problem.space);
 
   Problem audited = problem;
   audited.query.clear();
@@ -141,19 +163,9 @@ nlohmann::json prove_waypoints(const Problem& problem, Path path, long max_bits,
   ProofOptions options;
   options.max_bits = max_bits;
   const Prover prover(audited, options);
-  const std::size_t segments = path.segments();
-  path.tubes.assign(audited.space.constraints.empty() ? 0 : segments, 0);
-  path.pose_tubes.assign(law == Interpolation::kCableLengths ? segments : 0, {});
-  path.inner_poses.assign(path.pose_tubes.size(), {});
-  tbb::parallel_for(std::size_t{0}, segments, [&](std::size_t k) {
-    if (stop.stop_requested()) return;
-    Segment prepared = prover.prepared(path.segment(k));
-    if (!path.tubes.empty()) path.tubes[k] = prepared.tube;
-    if (path.pose_tubes.empty()) return;
-    path.pose_tubes[k] = prepared.pose_tube;
-    path.inner_poses[k] = std::move(prepared.inner_poses);
-  });
-  return make_certificate(audited, path, prove_path(prover, path, {}, stop), nullptr);
+  add_tubes(path, prover, stop);
+  const PathProof proof = prove_path(prover, path, {}, stop);
+  return elaborate(audited, std::move(path), proof);
 }
 
 }  // namespace taut

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/doctor.h"
+#include "cli/doctor_command.h"
 
 #include <fmt/format.h>
 #include <mpfr.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/planned_case.h"
+#include "app/plan.h"
 
 #include "app/illustration.h"
 #include "app/tolerance_table.h"
-#include "certificate/certificate.h"
+#include "certificate/certificate_writer.h"
+#include "certificate/elaborate.h"
 #include "kinematics/navigation_manifold.h"
 
 namespace taut {
@@ -14,8 +15,6 @@ void require_plannable(const Case& the_case) {
   }
   require_query_on_constraints(the_case.problem, the_case.length_unit);
 }
-
-std::string certificate_text(const nlohmann::json& certificate) { return certificate.dump(1, ' ', true) + "\n"; }
 
 PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                       const Progress& progress, const std::stop_token& stop) {
@@ -28,9 +27,9 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
     result.tolerance_limits = tolerance_limits(the_case.problem, plan.path, stop);
     illustration["tolerance_limits"] = to_json(result.tolerance_limits);
   }
-  nlohmann::json certificate = make_certificate(the_case.problem, plan.path, plan.proof, std::move(illustration));
-  if (options.key != nullptr) options.key->sign(certificate);
-  result.text = certificate_text(certificate);
+  Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
+  certificate.illustration = std::move(illustration);
+  result.text = certificate_text(certificate, options.key);
   result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop);
   require_confirmed(result.checked);
   return result;

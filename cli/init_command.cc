@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/init.h"
+#include "cli/init_command.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "base/files.h"
 #include "base/input_error.h"
-#include "base/input_kind.h"
 #include "base/sanitize.h"
 #include "cli/console.h"
 #include "cli/new_case_text.h"
@@ -28,7 +27,7 @@ std::string new_case(const std::string& name) {
 int run_init(const std::string& path) {
   std::error_code unknown;  // then writing it says why
   if (std::filesystem::exists(path, unknown))
-    throw InputErrorOfKind(InputKind::kUse, path + ": got a file that exists, expected a new one", {path});
+    throw InputError(ErrorCode::kUse, path + ": got a file that exists, expected a new one", {path});
   std::string name = std::filesystem::path(path).stem().string();
   const bool is_plain = std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||

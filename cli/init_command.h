@@ -10,7 +10,8 @@ namespace taut {
 /// @pre name is what read_name() of a case file takes, and plain YAML
 [[nodiscard]] std::string new_case(const std::string& name);
 
-/// Writes it, named after the file. @returns the exit code. @throws InputError where the file exists, or can't be written.
+/// Writes it, named after the file. @returns the exit code. @throws InputError where the file exists, or can't be
+/// written.
 [[nodiscard]] int run_init(const std::string& path);
 
 }  // namespace taut

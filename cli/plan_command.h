@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `taut plan`: its arguments, what it writes and what it says.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "app/recheck.h"
+
+namespace taut {
+
+struct PlanArguments {
+  std::string case_path;
+  std::string out;
+  std::string atlas;
+  std::string save_atlas;
+  std::string key;  ///< file of the private key that signs, or empty
+  bool grow = false;
+  double budget_seconds = 0;  ///< 0: the case's
+  bool json = false;
+  double max_seconds = kCheckSeconds;  ///< that the checker may take
+};
+
+void add_plan_options(CLI::App& command, PlanArguments& arguments);
+
+/// @returns the exit code. @throws InputError
+[[nodiscard]] int run_plan(const PlanArguments& arguments);
+
+}  // namespace taut

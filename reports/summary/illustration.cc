@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/summary/illustration.h"
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/json_cursor.h"
+#include "problem/decimal.h"
+
+namespace taut {
+namespace {
+
+/// Nearest double of a decimal.
+double approximation(const JsonCursor& field) {
+  double value = 0;
+  const std::string& text = field.text();
+  const char* const end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || read != end || !std::isfinite(value)) field.fail("a number in a string");
+  return value;
+}
+
+std::string decimal(const JsonCursor& field) {
+  (void)decimal_from_json(field);
+  return field.text();
+}
+
+}  // namespace
+
+Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
+  const JsonCursor illustration(json, "illustration");
+  if (!illustration.value().is_object()) return;
+  if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
+    for (const auto& [key, value] : illustration.value()["stats"].items()) {
+      stats[key] = value.is_string() ? value.get<std::string>() : value.dump();
+    }
+  }
+  if (illustration.contains("tolerance_limits")) {
+    for (const JsonCursor& limit : illustration.at("tolerance_limits").elements()) {
+      tolerance_limits.push_back({limit.at("tolerance").text(), decimal(limit.at("proved")), limit.at("unit").text()});
+    }
+  }
+  if (!illustration.contains("charts") || parameters != 2) return;
+  for (const JsonCursor& entry : illustration.at("charts").elements()) {
+    if (!entry.contains("c") || entry.at("c").size() != 2) continue;
+    Chart chart;
+    for (const JsonCursor& c : entry.at("c").elements()) chart.centre.push_back(approximation(c));
+    if (entry.contains("p")) {
+      for (const JsonCursor& corner : entry.at("p").elements()) {
+        const std::vector<JsonCursor> at = corner.elements(2);
+        chart.corners.push_back({approximation(at[0]), approximation(at[1])});
+      }
+    }
+    charts.push_back(std::move(chart));
+  }
+}
+
+}  // namespace taut
