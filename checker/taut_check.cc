@@ -231,8 +231,9 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace taut::checker
 
-/// Before all other initialisation, which may fail for want of memory, too.
-[[gnu::constructor(101)]] static void prepare() { taut::prepare_process("taut-check", ""); }
+/// Runs before any initialisation, that of shared libraries included, which may fail for want of memory, too.
+static void prepare() { taut::prepare_process("taut-check", ""); }
+[[gnu::section(".preinit_array"), gnu::used]] static void (*const prepare_first)() = prepare;
 
 int main(int argc, char** argv) {
   try {

@@ -105,8 +105,9 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace taut
 
-/// Before all other initialisation, which may fail for want of memory, too.
-[[gnu::constructor(101)]] static void prepare() { taut::prepare_process("taut", taut::kInternalCode); }
+/// Runs before any initialisation, that of shared libraries included, which may fail for want of memory, too.
+static void prepare() { taut::prepare_process("taut", taut::kInternalCode); }
+[[gnu::section(".preinit_array"), gnu::used]] static void (*const prepare_first)() = prepare;
 
 int main(int argc, char** argv) {
   const auto failed = [](const std::exception& error, const auto& code, int exit_code) {
