@@ -14,8 +14,8 @@ is_current() {
   local built_from newer
   [[ -x $build/cli/taut && -x $build/checker/taut-check && -r $stamp ]] || return
   read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
-  newer=$(find "$root"/{base,problem,case,kinematics,path_io,atlas,certify,planner,checker,certificate,reports,app,api} \
-    "$root"/{cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
+  newer=$(find "$root"/{base,problem,case,kinematics,path_io,atlas,certify,planner} \
+    "$root"/{checker,certificate,reports,app,api,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
     -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
 }

@@ -337,7 +337,7 @@ struct AuditOptions {
 
 enum class Outcome {
   kAccepted,  ///< the claim, "proved" or "refuted", was proved again
-  kRejected,  ///< well formed, but some statement could not be confirmed, or is not about the case or by the signer asked for
+  kRejected,  ///< a statement could not be confirmed, or is about another case, or by another signer, than was asked
   kUndecided,  ///< well formed, and the certificate itself claims nothing
   kUnchecked,  ///< well formed, but the budget ran out: nothing is known of its claim
   kMalformed   ///< unreadable, cut, altered, or no certificate

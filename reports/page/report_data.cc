@@ -193,7 +193,7 @@ json bands(const std::vector<Bin>& bins) {
   return {{"from", from}, {"to", to}, {"tension", columns(&Bin::tension)}, {"length", columns(&Bin::length)}};
 }
 
-/// The least margins of segments, so many in a row together that there are at most kMostBins; null where nothing is proved.
+/// The least margins of runs of segments, at most kMostBins of them; null where nothing is proved.
 json margins(const std::vector<CertificateSegment>& segments) {
   const std::size_t together = (segments.size() + kMostBins - 1) / kMostBins;
   json result = {{"from", json::array()}, {"to", json::array()}};

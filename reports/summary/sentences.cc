@@ -40,8 +40,8 @@ std::string quantity(const DecimalText& value, bool length) {
   return length ? millimetres(value) + " mm" : plain(value) + " N";
 }
 
-/// A number of a witness, which has as many digits as its proof took: as many as it takes to tell it from the limit, in the direction
-/// that keeps the sentence true.
+/// A number of a witness, rounded to as few digits as tell it from the limit, in the direction that keeps the sentence
+/// true.
 std::string shortened(const PathWitness& witness, const DecimalText& value, bool up) {
   const double x = number(value);
   for (const int digits : {4, 6, 9, 12, 15}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Says how the kernel proves what a certificate of the tests states: expand.py gives it certificates that are complete but
-// for that, one on each line, and gets them back, in order.
+// Says how the kernel proves what a certificate of the tests states. expand.py gives it certificates that lack only
+// that, one on each line, and gets them back in order.
 //
 // A box of a segment becomes one or more boxes that the kernel proves at one go. Where it proves none, because what
 // the certificate states is false, the box stays as it is, and has hints that would do if it were true. What is

@@ -98,7 +98,8 @@ TEST(AnyAnchors, ABaseAboveWithZUp) {
   robot.gravity = "[0, 0, -9.81]";
   Case the_case = case_of(robot);
   the_case.problem.load.point_m = {"0.005", "0.004", "-0.003"};
-  // R' = X R X with X the turn: Rz(-phi) Ry(-theta) Rz(-(sigma - phi)), which is (phi, theta, sigma) -> (pi - phi, theta, -sigma).
+  // R' = X R X with X the turn: Rz(-phi) Ry(-theta) Rz(-(sigma - phi)), which takes (phi, theta, sigma) to
+  // (pi - phi, theta, -sigma).
   the_case.problem.space.pose[5] = "-0.1";
   the_case.problem.query = {{"pi + 1", "0.2"}, {"pi - 1.5", "0.3"}};
   EXPECT_EQ(Planner(the_case).plan({}, {}).proof.verdict, Verdict::kProved);

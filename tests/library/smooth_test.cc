@@ -55,7 +55,7 @@ TEST(Smooth, HugsThePathWhereTheInsideOfTheCornerComesTooCloseToALimit) {
   const Prover prover(robot1_slice());
   const auto coarse = smooth(kCorner, {0, 2}, {prover, 0, length, halfway});
   ASSERT_TRUE(coarse);
-  // The largest clearance, in steps of a fiftieth, that the path itself has: its spline needs control points near the corner.
+  // The largest clearance of the path itself, in steps of a fiftieth. Its spline needs control points near the corner.
   const auto has = [&](const Path& path, double clearance) {
     for (std::size_t k = 0; k < path.segments(); ++k) {
       if (prover.prove(path.segment(k), clearance).verdict != Verdict::kProved) return false;

@@ -395,8 +395,8 @@ TEST(Report, ComesInFourForms) {
 
 // --- ABI -------------------------------------------------------------------------------------------------------------
 
-// Programs that were built against the library have these in them: whoever changes one changes the ABI, and with it the minor
-// version (docs/library.md). tests/packaging/symbols.txt has the functions.
+// Programs that were built against the library have these sizes in them. Changing one changes the ABI, and with it the
+// minor version (docs/library.md). tests/packaging/symbols.txt has the functions.
 TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_STREQ(taut::version(), "0.1.0");
   EXPECT_EQ(sizeof(taut::InputError), 120U);
