@@ -336,8 +336,8 @@ struct AuditOptions {
 [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const AuditOptions& options = {});
 
 enum class Outcome {
-  kAccepted,  ///< the claim, "proved" or "refuted", was proved again
-  kRejected,  ///< a statement could not be confirmed, or is about another case, or by another signer, than was asked
+  kAccepted,   ///< the claim, "proved" or "refuted", was proved again
+  kRejected,   ///< a statement could not be confirmed, or is about another case, or by another signer, than was asked
   kUndecided,  ///< well formed, and the certificate itself claims nothing
   kUnchecked,  ///< well formed, but the budget ran out: nothing is known of its claim
   kMalformed   ///< unreadable, cut, altered, or no certificate
