@@ -45,8 +45,8 @@ class Reader {
 
   Certificate read() {
     require_version();
-    const auto by = [this](void (Reader::*read)(const Cursor&)) {
-      return [this, read](const Cursor& json) { (this->*read)(json); };
+    const auto by = [this](void (Reader::*part)(const Cursor&)) {
+      return [this, part](const Cursor& json) { (this->*part)(json); };
     };
     const auto later = [](const Cursor& /*json*/) {};
     const auto read_footer = [&](const Cursor& footer) {
