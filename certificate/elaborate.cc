@@ -444,7 +444,7 @@ class Elaborator::Tightener {
 // ---- Elaborator -----------------------------------------------------------------------------------------------------
 
 Elaborator::Elaborator(const Problem& problem, Interpolation law)
-    : problem_(to_kernel(problem)), law_(law), approx_(make_model<double>(problem)) {
+    : problem_(to_kernel(problem)), approx_(make_model<double>(problem)) {
   is_implied_ = law == Interpolation::kCableLengths || !problem_.constraints.empty();
 }
 

@@ -82,7 +82,6 @@ class Elaborator {
   [[nodiscard]] const checker::Machine& machine(int bits) const;
 
   checker::Problem problem_;
-  Interpolation law_;
   bool is_implied_ = false;
   Model<double> approx_;
   mutable std::mutex mutex_;

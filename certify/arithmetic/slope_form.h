@@ -52,15 +52,15 @@ struct SlopeForm {
 
   friend SlopeForm reciprocal(const SlopeForm& a) {
     const I mid = reciprocal(a.at_mid);
-    const I range = reciprocal(a.range);
-    return {mid, -(a.slope * (mid * range)), range};
+    const I over = reciprocal(a.range);
+    return {mid, -(a.slope * (mid * over)), over};
   }
   friend SlopeForm sqr(const SlopeForm& a) { return {sqr(a.at_mid), a.slope * (a.at_mid + a.range), sqr(a.range)}; }
   friend SlopeForm sqrt(const SlopeForm& a) {
     if (!certainly_positive(a.range)) Faults<I>::raise();  // not differentiable at 0
     const I mid = sqrt(a.at_mid);
-    const I range = sqrt(a.range);
-    return {mid, a.slope / (mid + range), range};
+    const I over = sqrt(a.range);
+    return {mid, a.slope / (mid + over), over};
   }
   /// With x = a(m), h = a(t) − x:  sin(x + h) − sin x = h (cos x sinc h − sin x verc h),
   ///   cos(x + h) − cos x = −h (sin x sinc h + cos x verc h),  where
@@ -75,16 +75,16 @@ struct SlopeForm {
     const I verc = I(0.5) * h;
     I sin_slope = mid.cos * sinc - mid.sin * verc;
     I cos_slope = -(mid.sin * sinc + mid.cos * verc);
-    SinCos<I> range;
+    SinCos<I> over;
     if (upper_bound(magnitude(h)) <= kNear) {
       const I cosine = I(1.0) - I(0.5) * square;  // cos h; sin h is in h
-      range = {mid.sin * cosine + mid.cos * h, mid.cos * cosine - mid.sin * h};
+      over = {mid.sin * cosine + mid.cos * h, mid.cos * cosine - mid.sin * h};
     } else {
-      range = sincos(a.range);
-      sin_slope = intersect(sin_slope, range.cos);
-      cos_slope = intersect(cos_slope, -range.sin);
+      over = sincos(a.range);
+      sin_slope = intersect(sin_slope, over.cos);
+      cos_slope = intersect(cos_slope, -over.sin);
     }
-    return {{mid.sin, sin_slope * a.slope, range.sin}, {mid.cos, cos_slope * a.slope, range.cos}};
+    return {{mid.sin, sin_slope * a.slope, over.sin}, {mid.cos, cos_slope * a.slope, over.cos}};
   }
   friend SlopeForm tan(const SlopeForm& a) {
     const SinCos<SlopeForm> sc = sincos(a);
@@ -93,8 +93,8 @@ struct SlopeForm {
   friend SlopeForm sin(const SlopeForm& a) { return sincos(a).sin; }
   friend SlopeForm cos(const SlopeForm& a) { return sincos(a).cos; }
   friend SlopeForm exp(const SlopeForm& a) {
-    const I range = exp(a.range);
-    return {exp(a.at_mid), range * a.slope, range};
+    const I over = exp(a.range);
+    return {exp(a.at_mid), over * a.slope, over};
   }
   friend SlopeForm log(const SlopeForm& a) { return {log(a.at_mid), a.slope / a.range, log(a.range)}; }
   friend SlopeForm asin(const SlopeForm& a) {

@@ -233,7 +233,9 @@ class Hints {
   }
 
   void place_both(checker::Witness& witness) {
-    for (const auto& [point, box] : {std::pair(witness.at, &witness.at_box), std::pair(witness.to, &witness.to_box)}) {
+    for (const auto& end : {std::pair(witness.at, &witness.at_box), std::pair(witness.to, &witness.to_box)}) {
+      const auto& point = end.first;
+      Box* const box = end.second;
       for (const int bits : kBits) {
         Box tried = *box;
         tried.bits = bits;
