@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "problem/loads.h"
 
 namespace taut {
 
@@ -40,10 +41,17 @@ struct RobotText {
   std::array<Limits, kCables> length_m;                                ///< 0 <= lower < upper [m]
 };
 
+/// E, symmetric positive definite [1/N^2, 1/(N m)^2].
+using EllipsoidText = std::array<std::array<DecimalText, 6>, 6>;
+
+/// The set K of wrenches: the sum of the items and of { w0 + e : e' E e <= 1 }, where there is an E. There are items, or
+/// there is an E, or both.
 struct LoadText {
-  std::array<DecimalText, 3> point_m;                   ///< p_m in P [m]
-  std::array<DecimalText, 6> wrench;                    ///< w0: force [N], moment about P_m [N m], axes of W
-  std::array<std::array<DecimalText, 6>, 6> ellipsoid;  ///< E, symmetric positive definite [1/N^2, 1/(N m)^2]
+  std::array<DecimalText, 3> point_m;                               ///< p_m in P [m]
+  std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};  ///< w0: force [N], moment about P_m [N m], in W
+  std::optional<EllipsoidText> ellipsoid;                           ///< if there is none, w0 is 0
+  RationalVector gravity_m_s2{"0", "0", "0"};                       ///< in W; of the items that are weights
+  std::vector<LoadItem> items;
 };
 
 /// How far the machine may deviate from the robot, the load and the path. All are >= 0; distances and angles hold in
