@@ -491,8 +491,8 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
       copy.is_singular = !sample.statics.regular;
       copy.length_m = sample.statics.length;
       for (std::size_t i = 0; i < copy.length_m.size() && !copy.is_singular; ++i) {
-        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.tension_radius[i];
-        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.tension_radius[i];
+        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.tension_below[i];
+        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.tension_above[i];
       }
     }
     return result;

@@ -78,6 +78,7 @@ Model<S> make_model_without_ellipsoid(const Problem& problem) {
   }
   model.characteristic_length = reach;
   for (int i = 0; i < 6; ++i) model.wrench(i) = Traits::from_decimal(problem.load.wrench[static_cast<std::size_t>(i)]);
+  model.loads = make_load_model<S>(problem.load);
   return model;
 }
 
@@ -85,9 +86,9 @@ Model<S> make_model_without_ellipsoid(const Problem& problem) {
 inline bool is_zero(const DecimalText& text) { return text == "0"; }
 
 inline bool has_diagonal_ellipsoid(const LoadText& load) {
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; load.ellipsoid && i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
-      if (i != j && !is_zero(load.ellipsoid[i][j])) return false;
+      if (i != j && !is_zero((*load.ellipsoid)[i][j])) return false;
     }
   }
   return true;
@@ -95,10 +96,16 @@ inline bool has_diagonal_ellipsoid(const LoadText& load) {
 
 template <class S>
 void set_ellipsoid(const LoadText& load, Model<S>& model) {
+  model.has_ellipsoid = load.ellipsoid.has_value();
   model.ellipsoid_is_diagonal = has_diagonal_ellipsoid(load);
+  if (!load.ellipsoid) {
+    model.ellipsoid.setConstant(S(0.0));
+    model.ellipsoid_root.setConstant(S(0.0));
+    return;
+  }
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
-      const DecimalText& text = load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      const DecimalText& text = (*load.ellipsoid)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
       model.ellipsoid(i, j) = is_zero(text) ? S(0.0) : S(ScalarTraits<S>::from_decimal(text));
     }
   }

@@ -232,7 +232,7 @@ void validate_ellipsoid(const std::array<std::array<DecimalText, 6>, 6>& ellipso
 void validate_load(const LoadText& load) {
   point_at("load.point", load.point_m);
   for (std::size_t i = 0; i < load.wrench.size(); ++i) decimal_at(fmt::format("load.wrench[{}]", i), load.wrench[i]);
-  validate_ellipsoid(load.ellipsoid);
+  if (load.ellipsoid) validate_ellipsoid(*load.ellipsoid);
 }
 
 /// Approximate value, to tell mistakes; closer calls are left to the proof.
@@ -431,7 +431,7 @@ json to_json(const Problem& problem) {
             {"tension_N", limits_to_json(problem.robot.tension_N)},
             {"length_m", limits_to_json(problem.robot.length_m)}}},
           {"load",
-           {{"point_m", problem.load.point_m}, {"wrench", problem.load.wrench}, {"ellipsoid", problem.load.ellipsoid}}},
+           {{"point_m", problem.load.point_m}, {"wrench", problem.load.wrench}, {"ellipsoid", problem.load.ellipsoid.value()}}},
           {"tolerances", problem.tolerances ? tolerances_to_json(*problem.tolerances) : json()},
           {"space",
            {{"parameters", std::move(parameters)},
@@ -457,7 +457,7 @@ Problem problem_from_json(const json& value) {
   load.expect_keys({"point_m", "wrench", "ellipsoid"});
   read(load.at("point_m"), problem.load.point_m);
   read(load.at("wrench"), problem.load.wrench);
-  read(load.at("ellipsoid"), problem.load.ellipsoid);
+  read(load.at("ellipsoid"), problem.load.ellipsoid.emplace());
   if (const JsonCursor tolerances = member("tolerances"); !tolerances.is_null()) {
     problem.tolerances = read_tolerances(tolerances);
   }

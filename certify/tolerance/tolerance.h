@@ -47,8 +47,13 @@ struct DeviationBounds {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> length{};                  ///< of d_i [m]
   std::array<std::array<Upper, 2>, kCables> tension{};  ///< of f0_i − v_ii and f0_i + v_ii [N]
-  /// Of v_ii, half the difference of those two [N].
-  [[nodiscard]] Upper tension_radius(std::size_t i) const { return Upper(0.5) * (tension[i][0] + tension[i][1]); }
+  /// Of the tension of the nominal wrench [N]; only where loads are items.
+  std::optional<std::array<Upper, kCables>> nominal;
+  /// Of how far K moves a tension below (side 0) or above (side 1) its nominal one [N]. Of an ellipsoid alone both are
+  /// v_ii, half the difference of the two bounds.
+  [[nodiscard]] Upper tension_reach(std::size_t i, std::size_t side) const {
+    return nominal ? tension[i][side] + (*nominal)[i] : Upper(0.5) * (tension[i][0] + tension[i][1]);
+  }
 };
 
 /// What (t) needs to know of a box, undisturbed.
@@ -57,10 +62,10 @@ struct UndisturbedBox {
   const Model<I>& model;
   const MotionEnclosure<I>& motion;
   const CableGeometry<SlopeForm<I>>& geometry;
-  const std::array<SlopeForm<I>, kCables>&length, &density, &tension_radius;  ///< d_i, λ_i, |Z_i|
-  const Square<I>& root;                                                      ///< rows Z_i of D^-1 L, over T
-  const Matrix6<typename ProofScalarTraits<I>::Point>& c;                     ///< C
-  const Square<UpperOf<I>>& q;                                                ///< D^-1 = P C on T, |P − I| <= Q
+  const std::array<SlopeForm<I>, kCables>&length, &density, &radius;  ///< d_i, λ_i, |Z_i|
+  const Square<I>& root;                                              ///< rows Z_i of D^-1 L, over T
+  const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
+  const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
   bool length_controlled;
 };
 

@@ -74,7 +74,7 @@ json samples(const ReportContext& scene) {
   std::vector<double> position, distance, turned, scale, sign;
   std::array<std::vector<double>, 3> p, angles;
   std::array<std::vector<double>, 4> q;
-  std::array<std::vector<double>, kCables> tension, tension_radius, length;
+  std::array<std::vector<double>, kCables> tension, tension_below, tension_above, length;
   std::vector<std::vector<double>> parameters;
   json time = json::array();
   std::optional<TiltAndTorsion> tilt;
@@ -104,7 +104,8 @@ json samples(const ReportContext& scene) {
     for (std::size_t i = 0; i < kCables; ++i) {
       length[i].push_back(s.length[i]);
       tension[i].push_back(s.regular ? s.tension[i] : kUnknown);
-      tension_radius[i].push_back(s.regular ? s.tension_radius[i] : kUnknown);
+      tension_below[i].push_back(s.regular ? s.tension_below[i] : kUnknown);
+      tension_above[i].push_back(s.regular ? s.tension_above[i] : kUnknown);
     }
     if (is_plane(scene.certificate.problem.space)) {
       parameters.resize(2);
@@ -125,7 +126,8 @@ json samples(const ReportContext& scene) {
           {"angles", columns(angles)},
           {"length", columns(length)},
           {"tension", columns(tension)},
-          {"tension_radius", columns(tension_radius)},
+          {"tension_below", columns(tension_below)},
+          {"tension_above", columns(tension_above)},
           {"wrench_scale", numbers(scale)},
           {"sign", numbers(sign)},
           {"parameters", columns(parameters)}};

@@ -116,7 +116,7 @@ Html load_table(const LoadText& load) {
   std::vector<std::vector<Html>> rows;
   for (std::size_t i = 0; i < 6; ++i) {
     std::vector<Html> row = {html("{} [{}]", kNames[i], i < 3 ? "N" : "N·m"), html("{}", plain(load.wrench[i]))};
-    for (std::size_t j = 0; j < 6; ++j) row.push_back(html("{}", plain(load.ellipsoid[i][j])));
+    for (std::size_t j = 0; j < 6; ++j) row.push_back(html("{}", load.ellipsoid ? plain((*load.ellipsoid)[i][j]) : std::string("0")));
     rows.push_back(std::move(row));
   }
   return html(

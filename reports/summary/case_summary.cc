@@ -118,6 +118,15 @@ std::string space_text(const SpaceText& space) {
   return text;
 }
 
+/// "12.3 ± 0.45" where K moves the tension as far down as up, else "12.3, 11.9 to 13.1".
+std::string tension_text(const Statics<double>& s, std::size_t i) {
+  if (s.tension_below[i] == s.tension_above[i]) {
+    return fmt::format("{:.5g} ± {:.3g}", s.tension[i], s.tension_above[i]);
+  }
+  return fmt::format("{:.5g}, {:.5g} to {:.5g}", s.tension[i], s.tension[i] - s.tension_below[i],
+                     s.tension[i] + s.tension_above[i]);
+}
+
 std::string waypoint_text(const CaseSummary& summary, std::size_t k, const LengthUnit& length) {
   const WaypointSummary& waypoint = summary.waypoints[k];
   const SpaceText& space = summary.source.problem.space;
@@ -138,7 +147,7 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Lengt
     const double f = tension_margin(summary.sampler.model(), s, i);
     const double d = length_margin(summary.sampler.model(), s, i);
     rows.push_back({std::to_string(i + 1), length.about(s.length[i]), length.about(d),
-                    fmt::format("{:.5g} ± {:.3g}", s.tension[i], s.tension_radius[i]), fmt::format("{:.4g}", f),
+                    tension_text(s, i), fmt::format("{:.4g}", f),
                     f > 0 && d > 0 ? "" : "out of its limits"});
   }
   return text + columns(rows) +
@@ -157,8 +166,8 @@ const char* law_text(const Case& the_case) {
 }  // namespace
 
 double tension_margin(const Model<double>& model, const Statics<double>& s, std::size_t i) {
-  return std::min(s.tension[i] - s.tension_radius[i] - model.tension_lower[i],
-                  model.tension_upper[i] - s.tension[i] - s.tension_radius[i]);
+  return std::min(s.tension[i] - s.tension_below[i] - model.tension_lower[i],
+                  model.tension_upper[i] - s.tension[i] - s.tension_above[i]);
 }
 
 double length_margin(const Model<double>& model, const Statics<double>& s, std::size_t i) {
@@ -206,7 +215,8 @@ nlohmann::json to_json(const CaseSummary& summary) {
            {"length_m", s.length[i]},
            {"length_margin_m", length_margin(summary.sampler.model(), s, i)},
            {"f0_N", s.regular ? json(s.tension[i]) : json()},
-           {"v_N", s.regular ? json(s.tension_radius[i]) : json()},
+           {"lowest_N", s.regular ? json(s.tension[i] - s.tension_below[i]) : json()},
+           {"highest_N", s.regular ? json(s.tension[i] + s.tension_above[i]) : json()},
            {"tension_margin_N", s.regular ? json(tension_margin(summary.sampler.model(), s, i)) : json()}});
     }
     waypoints.push_back({{"parameters", waypoint.parameters},

@@ -265,7 +265,7 @@ std::string spread_text(const LoadText& load) {
   Eigen::Matrix<double, 6, 6> e;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
-      e(i, j) = number(load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+      e(i, j) = number((*load.ellipsoid)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
     }
   }
   const Eigen::Matrix<double, 6, 6> inverse = e.inverse();

@@ -74,11 +74,12 @@ class Readout {
       `p = (${p.join(", ")}) ${lengthUnit.name}; φ, θ, σ = ${angles.map((a) => `${a}°`).join(", ")}`;
     this.rows.forEach((row, i) => {
       const f = between(samples.tension[i], where);
-      const v = between(samples.tension_radius[i], where);
+      const below = between(samples.tension_below[i], where);
+      const above = between(samples.tension_above[i], where);
       const d = between(samples.length[i], where) * lengthUnit.factor;
       const [lower, upper] = robot.tension[i];
       const decimals = decimalsFor(upper - lower);
-      row.tension.textContent = `${fixed(f - v, decimals)} to ${fixed(f + v, decimals)}`;
+      row.tension.textContent = `${fixed(f - below, decimals)} to ${fixed(f + above, decimals)}`;
       row.length.textContent = fixed(d, decimalsFor((robot.length[i][1] - robot.length[i][0]) * lengthUnit.factor));
       const limits = robot.length[i].map((x) => x * lengthUnit.factor);
       const slackOrOver = row.f.show(f - v, f, f + v, robot.tension[i]);

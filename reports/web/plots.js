@@ -207,10 +207,10 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
 export function tensionPanels(data) {
   return data.robot.tension.map((limits, i) => {
     const f0 = data.samples.tension[i].map((x) => x ?? NaN);
-    const v = data.samples.tension_radius[i];
+    const [below, above] = [data.samples.tension_below[i], data.samples.tension_above[i]];
     return cablePanel(data, i, {
       name: "tension", unit: "N", factor: 1, limits,
-      low: f0.map((f, k) => f - v[k]), middle: f0, high: f0.map((f, k) => f + v[k]),
+      low: f0.map((f, k) => f - below[k]), middle: f0, high: f0.map((f, k) => f + above[k]),
       band: data.bands && data.bands.from.length ? data.bands.tension[i] : null,
     });
   });
@@ -242,8 +242,8 @@ function leastReserve(data, low, high, limits) {
 export function marginPanels(data) {
   const { samples, robot, margins, lengthUnit } = data;
   const number = (x) => x ?? NaN;
-  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.tension_radius[i][k]),
-    (i, k) => number(samples.tension[i][k]) + number(samples.tension_radius[i][k]), robot.tension);
+  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.tension_below[i][k]),
+    (i, k) => number(samples.tension[i][k]) + number(samples.tension_above[i][k]), robot.tension);
   const length = leastReserve(data, (i, k) => number(samples.length[i][k]), (i, k) => number(samples.length[i][k]),
     robot.length).map((x) => x * lengthUnit.factor);
   const scaledLength = margins.length_m.map((x) => (x === null ? null : x * lengthUnit.factor));
