@@ -144,7 +144,7 @@ TEST(Prover, RefutesASingularSegmentByAChangeOfSign) {
   // A weightless platform has no tensions at all: w0 = 0, and only det J tells.
   Problem problem = robot1_slice();
   problem.load.wrench = {"0", "0", "0", "0", "0", "0"};
-  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e300";
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid.value()[i][i] = "1e300";
   for (auto& limits : problem.robot.tension_N) limits = {"-1e9", "1e9"};
   for (auto& limits : problem.robot.length_m) limits = {"0", "100"};
   const Prover prover(problem);
@@ -199,8 +199,8 @@ TEST(Prover, RestoresTheCallersRoundingMode) {
 
 TEST(Prover, AWildlyScaledProblemIsNeverProvedByOverflow) {
   Problem problem = robot1_slice();
-  for (auto& row : problem.load.ellipsoid) row.fill("0");
-  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e-300";
+  for (auto& row : problem.load.ellipsoid.value()) row.fill("0");
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid.value()[i][i] = "1e-300";
   for (auto& anchor :
        problem.robot.platform_anchors_m) {  // of a platform too small to hold K: tensions beyond binary64
     for (DecimalText& coordinate : anchor) coordinate += "e-200";
@@ -249,7 +249,7 @@ TEST(Prover, NumbersBeyondBinary64AreRefused) {
 
 TEST(Prover, AnEllipsoidThatIsNotPositiveDefiniteIsRefused) {
   Problem problem = robot1_slice();
-  problem.load.ellipsoid[0][0] = "-1";
+  problem.load.ellipsoid.value()[0][0] = "-1";
   EXPECT_ANY_THROW(Prover{problem});
 }
 

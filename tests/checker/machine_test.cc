@@ -68,9 +68,9 @@ TEST(Machine, HoldsEveryPoseOfABox) {
   for (int trial = 0; trial < 200 && !HasFailure(); ++trial) {
     taut::Problem stated = trial % 2 == 0 ? robot1() : robot2();
     if (trial % 3 == 0) {  // a tilted ellipsoid
-      stated.load.ellipsoid[0][1] = stated.load.ellipsoid[1][0] = "3000";
-      stated.load.ellipsoid[2][4] = stated.load.ellipsoid[4][2] = "-2500.5";
-      for (std::size_t i = 0; i < 6; ++i) stated.load.ellipsoid[i][i] = "10000.1";
+      stated.load.ellipsoid.value()[0][1] = stated.load.ellipsoid.value()[1][0] = "3000";
+      stated.load.ellipsoid.value()[2][4] = stated.load.ellipsoid.value()[4][2] = "-2500.5";
+      for (std::size_t i = 0; i < 6; ++i) stated.load.ellipsoid.value()[i][i] = "10000.1";
     }
     const WorkingPrecision precision(trial % 4 == 0 ? 128 : 64);
     const Problem problem = to_kernel(stated);
