@@ -41,8 +41,8 @@ struct RobotText {
   std::array<Limits, kCables> length_m;                                ///< 0 <= lower < upper [m]
 };
 
-/// E, symmetric positive definite [1/N^2, 1/(N m)^2].
-using EllipsoidText = std::array<std::array<DecimalText, 6>, 6>;
+/// E, symmetric positive definite [1/N^2, 1/(N m)^2]; 1/36 is no decimal.
+using EllipsoidText = std::array<std::array<RationalText, 6>, 6>;
 
 /// The set K of wrenches: the sum of the items and of { w0 + e : e' E e <= 1 }, where there is an E. There are items, or
 /// there is an E, or both.
