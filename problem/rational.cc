@@ -113,4 +113,17 @@ Rational evaluate_exactly(const ExpressionText& expression) {
   return slots[static_cast<std::size_t>(tape.outputs()[0])];
 }
 
+Rational root_above(const Rational& x) {
+  if (x == 0) return 0;
+  // With n >= 10^26 the root is at least 10^13, of which the next integer is less than 1e-12 off.
+  constexpr int kDigits = 28;
+  const auto digits = [](const cpp_int& n) { return static_cast<int>(n.str().size()); };
+  const int places = (kDigits - digits(numerator(x)) + digits(denominator(x))) / 2;  // may be negative
+  const auto ten_to_the = [](int n) -> cpp_int { return pow(cpp_int(10), static_cast<unsigned>(n)); };
+  const Rational scale = places >= 0 ? Rational(ten_to_the(places)) : Rational(1) / ten_to_the(-places);
+  const Rational scaled = x * scale * scale;
+  const cpp_int n = numerator(scaled) / denominator(scaled) + 1;
+  return Rational(cpp_int(sqrt(n) + 1)) / scale;
+}
+
 }  // namespace taut

@@ -30,6 +30,9 @@ inline constexpr std::size_t kMaxFractionDigits = 300;
 /// need more than some thousand digits.
 [[nodiscard]] Rational evaluate_exactly(const ExpressionText& expression);
 
+/// A decimal that is not below the square root of x >= 0, and above it by less than 1e-12 of it.
+[[nodiscard]] Rational root_above(const Rational& x);
+
 /// The value in scalar S: an enclosure if S encloses. @pre parse_rational(text) succeeds, and the rounding mode is the one
 /// that divisions of S need.
 template <class S>

@@ -62,6 +62,16 @@ TEST(Rational, RefusesExpressionsWithoutAnExactValue) {
   }
 }
 
+RC_GTEST_PROP(Rational, RootsAreAboveAndNear, (unsigned long above, unsigned long below, bool is_large)) {
+  RC_PRE(below != 0);
+  Rational x = Rational(above) / Rational(below);
+  if (is_large) x *= Rational(boost::multiprecision::pow(boost::multiprecision::cpp_int(10), 600));
+  const Rational root = root_above(x);
+  RC_ASSERT(root * root >= x);
+  const Rational smaller = root * (1 - Rational(1, 1'000'000'000'000));
+  RC_ASSERT(x == 0 || smaller * smaller < x);
+}
+
 TEST(Rational, IsTheNearestDoubleOfShortFractions) {
   EXPECT_EQ(from_rational<double>("1/3"), 1.0 / 3.0);
   EXPECT_EQ(from_rational<double>("-7/4"), -1.75);
