@@ -60,6 +60,8 @@ struct Case {
   Expectation expect = Expectation::kNone;
   std::vector<Bound> bounds;  ///< expected besides the verdict
   std::optional<AuditedPath> audit;
+  /// What may not be meant as it was typed, each with its place; for people, before a verdict.
+  std::vector<std::string> warnings;
   std::string description;                         ///< the file's leading comment block, for reports
   Unit length_unit = si_unit(Dimension::kLength);  ///< of lengths typed without a unit, for messages
 };

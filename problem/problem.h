@@ -41,8 +41,8 @@ struct RobotText {
   std::array<Limits, kCables> length_m;                                ///< 0 <= lower < upper [m]
 };
 
-/// E, symmetric positive definite [1/N^2, 1/(N m)^2].
-using EllipsoidText = std::array<std::array<DecimalText, 6>, 6>;
+/// E, symmetric positive definite [1/N^2, 1/(N m)^2]; 1/36 is no decimal.
+using EllipsoidText = std::array<std::array<RationalText, 6>, 6>;
 
 /// The set K of wrenches: the sum of the items and of { w0 + e : e' E e <= 1 }, where there is an E. There are items, or
 /// there is an E, or both.
@@ -110,10 +110,11 @@ struct Problem {
 /// The space of all poses: px, py, pz [m], phi, theta, sigma [rad], without bounds.
 [[nodiscard]] SpaceText coordinate_space();
 
-/// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, E symmetric and
-/// positive definite (exactly), expressions that parse, poses that by their form agree after a turn of a periodic
-/// parameter, a correct `flip`, tolerances >= 0, and either no waypoints or at least two, with one finite value for
-/// each parameter, within its range up to rounding. @throws FieldError
+/// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, a load with items or
+/// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions that
+/// parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0, and
+/// either no waypoints or at least two, with one finite value for each parameter, within its range up to rounding.
+/// @throws FieldError
 void validate(const Problem& problem);
 
 /// The `problem` object of a certificate.

@@ -2,6 +2,7 @@
 find_library(RAPIDCHECK_LIBRARY rapidcheck REQUIRED)
 taut_add_test(kinematics decimal LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics expression LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
+taut_add_test(kinematics rational LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics problem LABELS unit LIBS taut::case)
 taut_add_test(base sanitize LABELS unit LIBS taut::base)
 taut_add_test(kinematics json_cursor LABELS unit LIBS taut::problem)
