@@ -35,6 +35,19 @@ class ArbMatrix {
 
 }  // namespace
 
+MeanValueForm norm(const Vector3<MeanValueForm>& a) {
+  const Vector3<Ball> x = {a[0].at, a[1].at, a[2].at};
+  const Vector3<Ball> y = {a[0].slope, a[1].slope, a[2].slope};
+  const Ball steepest = length_bound(y);
+  const Ball both = length_range(x) + length_range(range(a));
+  Ball z = plus_minus(steepest);
+  if (certainly_positive(both)) {
+    const Ball closer = dot(y, x + range(a)) / both;
+    if (certainly_negative(magnitude(closer) - steepest)) z = closer;
+  }
+  return {length_range(x), std::move(z)};
+}
+
 Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B) {
   ArbMatrix left(A), right(B), result;
   arb_mat_mul_classical(result.get(), left.get(), right.get(), Ball::bits());
