@@ -13,6 +13,7 @@
 
 #include "base/input_error.h"
 #include "base/sha256.h"
+#include "certificate/worst_loads.h"
 #include "checker/format/claims.h"
 #include "checker/format/writer.h"
 
@@ -179,6 +180,7 @@ json to_json(const Witness& witness) {
   result["value"] = {violation.value_lower, violation.value_upper};
   result["limit"] = violation.limit;
   result["proof"] = checker::proof_to_json(witness.at_box);
+  if (witness.loads) result["loads"] = to_json(*witness.loads);
   if (violation.deviation) {
     checker::WitnessDeviation way;
     way.poses = witness.way_poses;
