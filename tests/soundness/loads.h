@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Load items of the campaign: the extremes of a tension over a sum of items, each attained by a load that is written
 // down in full, force by force and lever by lever: vertices of what has vertices, and of balls and discs the direction
-// of the gradient, the coordinate axes and some directions between. No support functions, no derivatives.
+// of the gradient and, in 200 bits, the coordinate axes and some directions between. No support functions, no
+// derivatives.
 #pragma once
 
 #include <algorithm>
@@ -66,6 +67,11 @@ void for_each_vector(const VectorSet& set, const Vec<S>& gradient, Visit visit) 
     return scaled_to(radius, v);
   };
   std::vector<Vec<S>> directions = {gradient};
+  if constexpr (std::is_same_v<S, double>) {  // a search, which takes many; the judge looks at more
+    visit(inside(gradient));
+    visit(S(-1.0) * inside(gradient));
+    return;
+  }
   for (const double x : {-1.0, 0.0, 1.0}) {
     for (const double y : {-1.0, 0.0, 1.0}) {
       for (const double z : {-1.0, 0.0, 1.0}) directions.push_back({S(x), S(y), S(z)});
