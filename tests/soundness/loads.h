@@ -62,7 +62,9 @@ void for_each_vector(const VectorSet& set, const Vec<S>& gradient, Visit visit) 
   const auto inside = [&](Vec<S> v) {
     if (disc != nullptr) {
       const Vec<S> n = numbers<S>(disc->normal);
+      const S whole = dot(v, v);
       v = v - (dot(v, n) / dot(n, n)) * n;
+      if (dot(v, v) < S(1e-20) * whole) v = S(0.0) * v;  // along the normal: what is left is rounding
     }
     return scaled_to(radius, v);
   };
