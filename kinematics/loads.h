@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include "problem/expression.h"
 #include "problem/problem.h"
+#include "problem/rational.h"
 #include "problem/scalar.h"
 
 #include <Eigen/Core>

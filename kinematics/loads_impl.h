@@ -61,7 +61,7 @@ template <class S, class K>
 
 template <class K>
 [[nodiscard]] Eigen::Matrix<K, 3, 1> vector_of(const RationalVector& text) {
-  return {evaluate_constant<K>(text[0]), evaluate_constant<K>(text[1]), evaluate_constant<K>(text[2])};
+  return {from_rational<K>(text[0]), from_rational<K>(text[1]), from_rational<K>(text[2])};
 }
 
 template <class K>
@@ -76,14 +76,14 @@ void set_shape(const VectorSet& set, typename LoadModel<K>::Item& item) {
   };
   if (const auto* ball = std::get_if<BallOfVectors>(&set)) {
     item.shape = Shape::kBall;
-    item.radius = evaluate_constant<K>(ball->radius);
+    item.radius = from_rational<K>(ball->radius);
   } else if (const auto* disc = std::get_if<DiscOfVectors>(&set)) {
     item.shape = Shape::kDisc;
-    item.radius = evaluate_constant<K>(disc->radius);
+    item.radius = from_rational<K>(disc->radius);
     item.direction = unit(disc->normal);
   } else {
     const auto& segment = std::get<SegmentOfVectors>(set);
-    const K lower = evaluate_constant<K>(segment.lower), upper = evaluate_constant<K>(segment.upper);
+    const K lower = from_rational<K>(segment.lower), upper = from_rational<K>(segment.upper);
     const K middle = K(0.5) * (lower + upper);
     const bool holds_zero = !certainly_positive(lower) && !certainly_positive(-upper);
     item.shape = Shape::kSegment;
@@ -108,13 +108,13 @@ LoadModel<K> make_load_model(const LoadText& load) {
     item.lever = {K(0.0), K(0.0), K(0.0)};
     item.reach = K(0.0);
     if (const auto* weight = std::get_if<Weight>(&text.what)) {
-      const K lower = evaluate_constant<K>(weight->mass_lower), upper = evaluate_constant<K>(weight->mass_upper);
+      const K lower = from_rational<K>(weight->mass_lower), upper = from_rational<K>(weight->mass_upper);
       item.lever = lever(weight->at);
       item.direction = vector_of<K>(load.gravity_m_s2);
       item.nominal = K(0.5) * (lower + upper);
       item.radius = K(0.5) * (upper - lower);
       item.offset = K(0.0);
-      item.reach = evaluate_constant<K>(weight->at_tolerance);
+      item.reach = from_rational<K>(weight->at_tolerance);
       item.varies = weight->mass_lower != weight->mass_upper;
       item.swings = weight->at_tolerance != "0";
     } else if (const auto* force = std::get_if<Force>(&text.what)) {
@@ -134,14 +134,14 @@ LoadModel<K> make_load_model(const LoadText& load) {
       for (int k = 0; k < 6; ++k) {
         item.mean(k) = K(0.0);
         for (const auto& w : cases.wrenches) {
-          item.mean(k) = item.mean(k) + evaluate_constant<K>(w[static_cast<std::size_t>(k)]);
+          item.mean(k) = item.mean(k) + from_rational<K>(w[static_cast<std::size_t>(k)]);
         }
         item.mean(k) = item.mean(k) / K(static_cast<double>(cases.wrenches.size()));
       }
       for (const auto& w : cases.wrenches) {
         typename Model::Wrench& deviation = item.deviations.emplace_back();
         for (int k = 0; k < 6; ++k) {
-          deviation(k) = evaluate_constant<K>(w[static_cast<std::size_t>(k)]) - item.mean(k);
+          deviation(k) = from_rational<K>(w[static_cast<std::size_t>(k)]) - item.mean(k);
         }
       }
     }

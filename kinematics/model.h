@@ -11,6 +11,7 @@
 #include "kinematics/loads.h"
 #include "problem/expression.h"
 #include "problem/problem.h"
+#include "problem/rational.h"
 #include "problem/scalar.h"
 
 namespace taut {

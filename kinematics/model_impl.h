@@ -106,7 +106,7 @@ void set_ellipsoid(const LoadText& load, Model<S>& model) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       const DecimalText& text = (*load.ellipsoid)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      model.ellipsoid(i, j) = is_zero(text) ? S(0.0) : S(ScalarTraits<S>::from_decimal(text));
+      model.ellipsoid(i, j) = is_zero(text) ? S(0.0) : S(from_rational<S>(text));
     }
   }
   model.ellipsoid_root = ellipsoid_root(model.ellipsoid, model.ellipsoid_is_diagonal);

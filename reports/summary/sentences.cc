@@ -283,6 +283,7 @@ std::string spread_text(const LoadText& load) {
 }  // namespace
 
 std::string load_text(const LoadText& load) {
+  if (!load.ellipsoid) return "K is the sum of the items of the load.";
   constexpr double kStandardGravity = 9.80665;  // [m/s²]
   std::array<double, 3> force{};
   std::array<double, 3> moment{};

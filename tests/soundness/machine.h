@@ -115,7 +115,7 @@ struct Machine {
   Six<S> wrench;
   SixBySix<S> inverse_ellipsoid;  ///< 0 where there is no ellipsoid
   Vec<S> gravity;
-  std::vector<LoadItem> items;
+  std::vector<Load<S>> loads;
 };
 
 /// Gauss–Jordan elimination of a x = b with partial pivoting, several right-hand sides at once (columns of b).
@@ -169,7 +169,7 @@ Machine<S> make_machine(const Problem& problem) {
   }
   if (problem.load.ellipsoid) solve(ellipsoid, machine.inverse_ellipsoid);
   machine.gravity = vector(problem.load.gravity_m_s2);
-  machine.items = problem.load.items;
+  for (const LoadItem& item : problem.load.items) machine.loads.push_back(make_load<S>(item));
   return machine;
 }
 
@@ -319,8 +319,8 @@ StaticsAt<S> statics(const Machine<S>& machine, const RigidPose<S>& pose) {
     }
     result.tension_low[i] = tension - root(square);
     result.tension_high[i] = tension + root(square);
-    for (const LoadItem& item : machine.items) {
-      const Range<S> range = extremes(item, machine.gravity, pose.r, machine.load_point, TensionOf<S>{y});
+    for (const Load<S>& load : machine.loads) {
+      const Range<S> range = extremes(load, machine.gravity, pose.r, machine.load_point, TensionOf<S>{y});
       result.tension_low[i] = result.tension_low[i] + range.low;
       result.tension_high[i] = result.tension_high[i] + range.high;
     }
