@@ -175,6 +175,22 @@ TEST(LoadItems, AreReadBackFromTheirJson) {
   }
 }
 
+TEST(LoadItems, OfEveryKindMakeOneLoad) {
+  const Case every_kind = load_case(std::string(TAUT_SOURCE_DIR) + "/tests/fuzz/seeds/load_items.yaml");
+  const LoadText& load = every_kind.problem.load;
+  std::vector<std::string> names;
+  for (const LoadItem& item : load.items) names.push_back(item.name);
+  EXPECT_THAT(names, ElementsAre("platform", "payload", "hook", "wind", "wind, moment", "gust", "push", "any", "tool x",
+                                 "tool y", "tool z", "tool, moment", "slewing", "twist x", "twist z", "cases", "one",
+                                 "swing of platform", "swing of payload", "swing of payload, moment", "swing of hook"));
+  // A force that is off by 1 cm, the diagonal of the box: sqrt(1 + 1 + 4) kN, rounded up.
+  const Rational radius = parse_rational(std::get<BallOfVectors>(get<Moment>(load, 11).set).radius);
+  EXPECT_GE(radius * radius, 600);
+  EXPECT_LE(radius * radius, Rational(600) * (1 + Rational(1, 100'000'000'000)));
+  EXPECT_THAT(every_kind.warnings, ElementsAre(HasSubstr("load.items[payload].inertia: is not used")));
+  EXPECT_EQ(problem_from_json(to_json(every_kind.problem)).load.items, load.items);
+}
+
 TEST(LoadItems, LeaveTheJsonOfOtherLoadsAsItWas) {
   const Problem problem =
       parse_case(crane("load: {wrench: [0, 0, -1, 0, 0, 0], ellipsoid: {diagonal: [4, 4, 4, 4, 4, 4]}}\n"), "c")
