@@ -18,6 +18,7 @@
 #include "certify/undecided.h"
 #include "cli/console.h"
 #include "cli/report_command.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
@@ -195,6 +196,7 @@ int run_audit(const AuditArguments& arguments) {
   const std::string date = report_date();
   PathSource source(case_.problem, request.path, request.law, {request.allow_repeats});
   if (!arguments.json) fmt::print("{}", source.description());
+  announce(case_, arguments.json);
   std::fflush(stdout);
 
   const std::filesystem::path out = out_folder(arguments.out, request.path.name);
@@ -257,6 +259,8 @@ int run_audit(const AuditArguments& arguments) {
   const std::vector<ToleranceLimit> limits = is_proved ? result.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
+    object["load"] = to_json(load_statement(case_.problem.load));
+    object["warnings"] = case_.warnings;
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(limits);
     object["recheck"] = to_json(checked);

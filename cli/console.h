@@ -11,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include "case/case_file.h"
 #include "certificate/signature.h"
 #include "checker/check.h"
 
@@ -34,6 +35,10 @@ void add_max_seconds_option(CLI::App& command, double& max_seconds);
 /// Writes "taut: MESSAGE" on a line of its own to stderr. Where that can't be written, nothing happens: a closed stderr
 /// changes no exit code.
 void complain(std::string_view message);
+
+/// Says on the screen what load was understood: its total and its extremes; and on stderr what may not be meant as it was
+/// typed. With `json`, on stderr only.
+void announce(const Case& the_case, bool json);
 
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {

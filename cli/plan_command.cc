@@ -21,6 +21,7 @@
 #include "cli/console.h"
 #include "cli/number_option.h"
 #include "path_io/path_csv.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
@@ -89,7 +90,7 @@ struct Outcome {
   [[nodiscard]] bool is_proved() const { return exit_code(planned.checked) == kProvedExit; }
 };
 
-nlohmann::json summary(const Outcome& outcome) {
+nlohmann::json summary(const Outcome& outcome, const Case& the_case) {
   const PlanStatistics& s = outcome.planned.plan.statistics;
   const checker::CheckResult& checked = outcome.planned.checked;
   const auto if_proved = [&](double x) { return outcome.is_proved() ? nlohmann::json(x) : nlohmann::json(); };
@@ -116,6 +117,8 @@ nlohmann::json summary(const Outcome& outcome) {
           {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
           {"undecided", is_undecided ? checked.certificate->at("undecided") : nlohmann::json()},
           {"recheck", to_json(checked)},
+          {"load", to_json(load_statement(the_case.problem.load))},
+          {"warnings", the_case.warnings},
           {"out", outcome.out.string()}};
 }
 
@@ -172,6 +175,7 @@ int run_plan(const PlanArguments& arguments) {
   require_others(arguments, out);
   Planner planner(case_, arguments.atlas);
   make_directories(out);
+  announce(case_, arguments.json);
 
   const Interruption interruption;
   const PlannedCase planned = plan(case_, planner, arguments, key, interruption.token());
@@ -191,7 +195,7 @@ int run_plan(const PlanArguments& arguments) {
   write_whole(files, path_file);
 
   if (arguments.json) {
-    fmt::print("{}\n", summary(outcome).dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", summary(outcome, case_).dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
     return exit_code(checked);
   }
   fmt::print("{}\n", plan_sentence(planned.plan, checked));

@@ -28,6 +28,7 @@ int run_show(const ShowArguments& arguments) {
   }
   if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
   const Case case_ = load_case(arguments.case_path);
+  for (const std::string& warning : case_.warnings) complain("warning: " + warning);
   const CaseSummary summary(case_);
   if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summary)}});
   if (arguments.json) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "certify/undecided.h"
+#include "problem/rational.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
@@ -109,14 +111,25 @@ Html robot_tables(const Problem& problem) {
                cables);
 }
 
-Html load_table(const LoadText& load) {
+/// The items in words.
+Html items_table(const LoadText& load) {
+  const LoadStatement statement = load_statement(load);
+  std::vector<std::vector<Html>> rows;
+  for (const auto& [name, words] : statement.items) rows.push_back({html("<bdi>{}</bdi>", name), html("{}", words)});
+  return html("<p>{} {}</p>\n", statement.total, statement.spread) +
+         table(html("What the load consists of; K is the sum. Numbers with many digits are rounded outward"),
+               {{html("Item")}, {html("What it is")}}, rows);
+}
+
+Html ellipsoid_table(const LoadText& load) {
   constexpr std::array<const char*, 6> kNames = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
   std::vector<Column> columns = {{html("Component")}, {html("w<sub>0</sub>"), true}};
   for (int j = 1; j <= 6; ++j) columns.push_back({html("E<sub>i{}</sub>", j), true});
   std::vector<std::vector<Html>> rows;
   for (std::size_t i = 0; i < 6; ++i) {
     std::vector<Html> row = {html("{} [{}]", kNames[i], i < 3 ? "N" : "N·m"), html("{}", plain(load.wrench[i]))};
-    for (std::size_t j = 0; j < 6; ++j) row.push_back(html("{}", load.ellipsoid ? plain((*load.ellipsoid)[i][j]) : std::string("0")));
+    for (std::size_t j = 0; j < 6; ++j)
+      row.push_back(html("{}", rational_text(parse_rational((*load.ellipsoid)[i][j]))));
     rows.push_back(std::move(row));
   }
   return html(
@@ -125,6 +138,8 @@ Html load_table(const LoadText& load) {
              triple(load.point_m)) +
          table(html("Centre load w<sub>0</sub> and matrix E of the set of loads, exact"), columns, rows);
 }
+
+Html load_table(const LoadText& load) { return items_table(load) + (load.ellipsoid ? ellipsoid_table(load) : Html()); }
 
 Html space_tables(const Problem& problem) {
   const SpaceText& space = problem.space;
@@ -350,7 +365,8 @@ Html theorem(const Certificate& certificate) {
        row(html("w, w<sub>0</sub>"),
            html("wrench (force, moment about the load point) that the cables balance; its centre value"),
            html("N, N·m")),
-       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches in it"), html("1/N², 1/(N·m)²")),
+       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches of the load"),
+           html("1/N², 1/(N·m)²")),
        row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
            html("least and greatest tension of cable i over all wrenches in K"), html("N")),
        row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
@@ -366,10 +382,9 @@ Html assumptions(const Problem& problem) {
       problem.tolerances
           ? html(
                 "<li>Anchors, load and tracking differ from the numbers below by no more than the tolerances. Limits "
-                "and the "
-                "load ellipsoid are exactly as below.</li>\n")
+                "and the shape of the set of loads are exactly as below.</li>\n")
           : html(
-                "<li>Anchors, limits, load and ellipsoid are exactly the numbers below. Tolerances of manufacture, "
+                "<li>Anchors, limits and load are exactly the numbers below. Tolerances of manufacture, "
                 "measurement and control are not covered.</li>\n");
   const Html following =
       held
@@ -384,7 +399,7 @@ Html assumptions(const Problem& problem) {
            "agrees with it.</p>\n<ul>\n"
            "<li>Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no "
            "pulleys.</li>\n"
-           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load ellipsoid contains "
+           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load contains "
            "them.</li>\n"
            "{}{}"
            "<li>Waypoints are the binary64 numbers below; a typed coordinate that is no such number is moved by at "

@@ -10,6 +10,7 @@
 
 #include "certify/path_proof.h"
 #include "problem/decimal.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/scene.h"
 #include "reports/summary/sentences.h"
@@ -76,8 +77,9 @@ std::string robot_text(const RobotText& robot, const LengthUnit& length) {
   return "Robot (a in the world frame, b in the platform frame; limits are themselves excluded)\n" + columns(rows);
 }
 
-/// Directions and sizes of K's semi-axes, if forces and moments are not coupled.
+/// Directions and sizes of the semi-axes of the ellipsoid, if there is one and forces and moments are not coupled.
 std::string axes_text(const Model<double>& model) {
+  if (!model.has_ellipsoid) return "";
   const Matrix6<double>& e = model.ellipsoid;
   if (!e.topRightCorner<3, 3>().isZero(0)) return "  Its axes mix forces and moments: E is in --json.\n";
   std::string text;
@@ -146,9 +148,8 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Lengt
   for (std::size_t i = 0; i < kCables; ++i) {
     const double f = tension_margin(summary.sampler.model(), s, i);
     const double d = length_margin(summary.sampler.model(), s, i);
-    rows.push_back({std::to_string(i + 1), length.about(s.length[i]), length.about(d),
-                    tension_text(s, i), fmt::format("{:.4g}", f),
-                    f > 0 && d > 0 ? "" : "out of its limits"});
+    rows.push_back({std::to_string(i + 1), length.about(s.length[i]), length.about(d), tension_text(s, i),
+                    fmt::format("{:.4g}", f), f > 0 && d > 0 ? "" : "out of its limits"});
   }
   return text + columns(rows) +
          fmt::format("  wrench_scale {:.4g}: by so much could K grow before a tension reaches a limit{}\n",
@@ -193,7 +194,9 @@ std::string to_text(const CaseSummary& summary) {
       "floating point.\n\n",
       problem.name, length.name());
   text += robot_text(problem.robot, length) + "\n";
-  text += fmt::format("Load\n  {}\n{}\n", load_text(problem.load), axes_text(summary.sampler.model()));
+  text += "Load\n";
+  for (const std::string& line : lines(load_statement(problem.load))) text += "  " + line + "\n";
+  text += axes_text(summary.sampler.model()) + "\n";
   text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances));
   text += space_text(problem.space) + "\n";
   text += fmt::format("Path between waypoints: {}\n", law_text(summary.source));
@@ -231,8 +234,11 @@ nlohmann::json to_json(const CaseSummary& summary) {
                          {"wrench_scale", waypoint.statics.regular ? json(waypoint.wrench_scale) : json()},
                          {"cables", cables}});
   }
-  return {
-      {"problem", to_json(summary.source.problem)}, {"path_law", law_text(summary.source)}, {"waypoints", waypoints}};
+  return {{"problem", to_json(summary.source.problem)},
+          {"load", to_json(load_statement(summary.source.problem.load))},
+          {"warnings", summary.source.warnings},
+          {"path_law", law_text(summary.source)},
+          {"waypoints", waypoints}};
 }
 
 }  // namespace taut

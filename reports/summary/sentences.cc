@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "certify/undecided.h"
 #include "problem/decimal.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -245,63 +245,6 @@ std::string motion_text(const ReportContext& scene) {
   if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
   return text + fmt::format(". From {} to {}. Positions and angles here are rounded.", pose(0), pose(segments));
 }
-
-/// "10 N along (0, 0, 1)", or the components if there are several.
-std::string vector_text(const std::array<double, 3>& v, const char* what, const char* unit) {
-  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-  const auto components = std::ranges::count_if(v, [](double x) { return x != 0; });
-  if (components == 0) return fmt::format("no {}", what);
-  if (components == 1) {
-    const auto at = std::ranges::find_if(v, [](double x) { return x != 0; });
-    return fmt::format("a {} of {:.6g} {} along {}{}", what, std::abs(*at), unit, *at < 0 ? "−" : "+",
-                       kAxes.at(static_cast<std::size_t>(at - v.begin())));
-  }
-  return fmt::format("a {} of ({:.6g}, {:.6g}, {:.6g}) {}", what, v[0], v[1], v[2], unit);
-}
-
-/// The largest distance of each component of a wrench in K from w0: sqrt((E^-1)_ii). If E is diagonal these are the
-/// semi-axes.
-std::string spread_text(const LoadText& load) {
-  Eigen::Matrix<double, 6, 6> e;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      e(i, j) = number((*load.ellipsoid)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
-    }
-  }
-  const Eigen::Matrix<double, 6, 6> inverse = e.inverse();
-  const auto group = [&](int first, const char* what, const char* unit) {
-    std::array<double, 3> s{};
-    for (int i = 0; i < 3; ++i) s[static_cast<std::size_t>(i)] = std::sqrt(inverse(first + i, first + i));
-    if (s[0] == s[1] && s[1] == s[2]) return fmt::format("each component of {} by up to {:.4g} {}", what, s[0], unit);
-    return fmt::format("the components of {} by up to ({:.4g}, {:.4g}, {:.4g}) {}", what, s[0], s[1], s[2], unit);
-  };
-  const bool is_diagonal = e.isDiagonal(0.0);
-  return fmt::format("{} and {}, all at once, within an ellipsoid of these {}", group(0, "the force", "N"),
-                     group(3, "the moment", "N·m"), is_diagonal ? "semi-axes" : "extents, whose axes are oblique");
-}
-
-}  // namespace
-
-std::string load_text(const LoadText& load) {
-  if (!load.ellipsoid) return "K is the sum of the items of the load.";
-  constexpr double kStandardGravity = 9.80665;  // [m/s²]
-  std::array<double, 3> force{};
-  std::array<double, 3> moment{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    force[i] = number(load.wrench[i]);
-    moment[i] = number(load.wrench[i + 3]);
-  }
-  const double size = std::hypot(force[0], force[1], force[2]);
-  const std::string weight =
-      size > 0 ? fmt::format(" (about the weight of {:.3g} kg under standard gravity)", size / kStandardGravity) : "";
-  return fmt::format(
-      "At the load point ({}, {}, {}) mm of the platform, {}{} and {}, in the axes of the base. Covered, too, is "
-      "every load that differs from it in {}.",
-      millimetres(load.point_m[0]), millimetres(load.point_m[1]), millimetres(load.point_m[2]),
-      vector_text(force, "force", "N"), weight, vector_text(moment, "moment", "N·m"), spread_text(load));
-}
-
-namespace {
 
 /// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
 std::string limits_text(const RobotText& robot) {

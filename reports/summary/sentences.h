@@ -36,8 +36,6 @@ struct Statement {
 /// The verdict's scope: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and the check.
 [[nodiscard]] std::vector<Statement> statements(const ReportContext& scene);
 
-/// The centre load and by how much each component may differ from it, in floating point.
-[[nodiscard]] std::string load_text(const LoadText& load);
 /// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
 [[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances);
 
