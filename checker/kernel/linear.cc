@@ -38,13 +38,9 @@ class ArbMatrix {
 MeanValueForm norm(const Vector3<MeanValueForm>& a) {
   const Vector3<Ball> x = {a[0].at, a[1].at, a[2].at};
   const Vector3<Ball> y = {a[0].slope, a[1].slope, a[2].slope};
-  const Ball steepest = length_bound(y);
   const Ball both = length_range(x) + length_range(range(a));
-  Ball z = plus_minus(steepest);
-  if (certainly_positive(both)) {
-    const Ball closer = dot(y, x + range(a)) / both;
-    if (certainly_negative(magnitude(closer) - steepest)) z = closer;
-  }
+  Ball z = plus_minus(length_bound(y));
+  if (certainly_positive(both)) z = intersection(z, dot(y, x + range(a)) / both);
   return {length_range(x), std::move(z)};
 }
 

@@ -165,11 +165,10 @@ TEST(Witness, TheQuantityIsThatOfTheMachineThatDeviates) {
       const auto truth = scene.truth();
       for (std::size_t cable = 0; cable < 6; ++cable) {
         scene.witness.cable = cable;
-        const std::pair<WitnessKind, BigFloat> kinds[] = {
-            {WitnessKind::kTensionMin, truth.tension[cable] - truth.tension_radius[cable]},
-            {WitnessKind::kTensionMax, truth.tension[cable] + truth.tension_radius[cable]},
-            {WitnessKind::kLengthMin, truth.length[cable]},
-            {WitnessKind::kLengthMax, truth.length[cable]}};
+        const std::pair<WitnessKind, BigFloat> kinds[] = {{WitnessKind::kTensionMin, truth.tension_low[cable]},
+                                                          {WitnessKind::kTensionMax, truth.tension_high[cable]},
+                                                          {WitnessKind::kLengthMin, truth.length[cable]},
+                                                          {WitnessKind::kLengthMax, truth.length[cable]}};
         for (const auto& [kind, value] : kinds) {
           scene.witness.kind = kind;
           const Ball seen = scene.quantity();
