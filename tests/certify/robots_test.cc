@@ -2,6 +2,7 @@
 // Published robots of cases/robots/: their anchors agree with the cable lengths that their own controllers state.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -42,6 +43,23 @@ std::string half_of_last_digit(const std::string& text) {
   return "5e-" + std::to_string(digits + 1);
 }
 
+/// The cables' lengths at a pose that is level and not turned, from decimals in metres.
+std::vector<Interval> lengths_at(const Problem& problem, const std::array<const char*, 3>& position_m) {
+  using Traits = ScalarTraits<Interval>;
+  const Interval zero(0.0);
+  const Pose<Interval> pose{Vector3<Interval>(Traits::from_decimal(position_m[0]), Traits::from_decimal(position_m[1]),
+                                              Traits::from_decimal(position_m[2])),
+                            zero, zero, zero};
+  const CableGeometry<Interval> cables = cable_geometry(make_model<Interval>(problem), pose);
+  std::vector<Interval> lengths;
+  for (const Vector3<Interval>& cable : cables.p_AB_W) lengths.push_back(length(cable));
+  return lengths;
+}
+
+Problem problem_of(const std::string& robot, const std::string& name) {
+  return load_case(TAUT_SOURCE_DIR "/cases/robots/" + robot + "/" + name + ".yaml").problem;
+}
+
 class PublishedRobot : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PublishedRobot, HasItsHomeLengthsToTheLastDigitStated) {
@@ -49,18 +67,21 @@ TEST_P(PublishedRobot, HasItsHomeLengthsToTheLastDigitStated) {
   const Home home = home_of(GetParam());
   ASSERT_EQ(home.pose, std::vector<std::string>(6, "0"));
   ASSERT_EQ(home.lengths.size(), static_cast<std::size_t>(kCables));
-  const Problem problem =
-      load_case(std::string(TAUT_SOURCE_DIR) + "/cases/robots/" + GetParam() + "/home.yaml").problem;
-  const Model<Interval> model = make_model<Interval>(problem);
-  const Interval zero(0.0);
-  const Pose<Interval> at_home{Vector3<Interval>(zero, zero, zero), zero, zero, zero};
-  const CableGeometry<Interval> cables = cable_geometry(model, at_home);
+  const std::vector<Interval> lengths = lengths_at(problem_of(GetParam(), "home"), {"0", "0", "0"});
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Interval length_cm = length(cables.p_AB_W[i]) * Interval(100.0);
+    const Interval length_cm = lengths[i] * Interval(100.0);
     const Interval stated = Traits::from_decimal(home.lengths[i]);
     const Interval half = Traits::from_decimal(half_of_last_digit(home.lengths[i]));
     EXPECT_TRUE(certainly_positive(length_cm - stated + half)) << "cable " << i + 1;
     EXPECT_TRUE(certainly_positive(stated + half - length_cm)) << "cable " << i + 1;
+  }
+}
+
+TEST(Hexacrane, HasEqualCablesAtHomeAsItsReadmeSays) {
+  using Traits = ScalarTraits<Interval>;
+  for (const Interval& length : lengths_at(problem_of("iri-hexacrane", "q1-q2"), {"0", "0", "0.3"})) {
+    EXPECT_TRUE(certainly_positive(length - Traits::from_decimal("0.38185")));
+    EXPECT_TRUE(certainly_positive(Traits::from_decimal("0.38195") - length));
   }
 }
 
