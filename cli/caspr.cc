@@ -392,7 +392,7 @@ class CaseText {
   }
 
   std::string query_section() {
-    const std::string planner = "\nplanner: {strategy: astar, cost: rotation, max_seconds: 1}\n";
+    const std::string planner = "\nplanner: {strategy: astar, cost: parameters, max_seconds: 1}\n";
     if (!body_.start) {
       case_.not_said.push_back("where to start (q_initial): this case has no query; add one to plan");
       return "# MISSING: poses to go through. Remove the # and put them in:\n# query:\n#   waypoints:\n"
