@@ -319,6 +319,7 @@ class CaseText {
 
   ImportedCase write(const std::string& name) {
     const CasprUnits& units = robot_.units;
+    if (units.mass_is_assumed) case_.not_said.emplace_back("the unit of masses: kg, as in CASPR's own robots");
     const std::string robot = robot_section();
     const std::string load = load_section();
     const std::string space = space_section();
@@ -326,8 +327,8 @@ class CaseText {
     case_.read = {
         fmt::format("{}: cable_set '{}', six cables", robot_.cables.name, excerpt(set_)),
         fmt::format("{}: body '{}', {} {}", robot_.bodies.name, excerpt(body_.name), body_.mass, units.mass.name),
-        fmt::format("Units, as asked for: lengths in {}, forces in {}, masses in {}. Angles are radians.",
-                    units.length.name, units.force.name, units.mass.name)};
+        fmt::format("Units, as asked for: lengths in {}, forces in {}{}. Angles are radians.", units.length.name,
+                    units.force.name, units.mass_is_assumed ? "" : ", masses in " + units.mass.name)};
     std::string& text = case_.text;
     text = fmt::format("# {}: a robot of CASPR, imported by taut init.\n#\n", name);
     for (const std::string& line : case_.read) text += fmt::format("# {}\n", sanitize(line));
@@ -445,7 +446,7 @@ CasprUnits read_caspr_units(const std::string& text) {
     }
   }
   if (!units[0] || !units[1]) fail(fmt::format("'{}'", excerpt(text)), "both length=UNIT and force=UNIT");
-  return {*units[0], *units[1], units[2].value_or(si_unit(Dimension::kMass))};
+  return {*units[0], *units[1], units[2].value_or(si_unit(Dimension::kMass)), !units[2]};
 }
 
 ImportedCase case_from_caspr(const CasprRobot& robot, const std::string& name) {

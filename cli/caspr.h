@@ -26,6 +26,7 @@ struct CasprUnits {
   Unit length;
   Unit force;
   Unit mass;
+  bool mass_is_assumed = false;  ///< kg, since nobody said
 };
 
 /// Reads "length=m,force=N" or "length=m,force=N,mass=kg"; without it, masses are in kg. @throws InputError
