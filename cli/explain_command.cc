@@ -182,7 +182,8 @@ Explanation explained(ErrorCode code) {
     case ErrorCode::kCase:
       return entry(
           "The case is wrong",
-          "The case file can't be used. The message names line and field, what was seen and what was expected.",
+          "The case file, or the robot's file from which taut init should make one, can't be used. The message names "
+          "line and field, what was seen and what was expected.",
           "A misspelt key. A unit of another kind of quantity. Limits in the wrong order. An ellipsoid that is not "
           "positive definite. A query outside its space.",
           "docs/case-format.md describes every key. taut show prints what was understood, and taut init writes a case "

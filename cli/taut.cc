@@ -61,9 +61,9 @@ int run(int argc, char** argv) {
   CLI::App* regress_command = app.add_subcommand("regress", "run every case of a folder against what it declares");
   add_regress_options(*regress_command, regress_arguments);
 
-  std::string new_path;
-  CLI::App* init_command = app.add_subcommand("init", "write a commented case to begin from");
-  init_command->add_option("FILE", new_path, "case file to write")->required();
+  InitArguments init_arguments;
+  CLI::App* init_command = app.add_subcommand("init", "write a commented case to begin from, or a CASPR robot's");
+  add_init_options(*init_command, init_arguments);
   CLI::App* doctor_command = app.add_subcommand("doctor", "look whether this machine can be trusted with proofs");
 
   ReportArguments report_arguments;
@@ -95,7 +95,7 @@ int run(int argc, char** argv) {
   }
   if (*show_command) return with_error_code(ErrorCode::kCase, [&] { return run_show(show_arguments); });
   if (*explain_command) return run_explain(explain_arguments);
-  if (*init_command) return run_init(new_path);
+  if (*init_command) return run_init(init_arguments);
   if (*doctor_command) return run_doctor();
   if (*regress_command) return with_error_code(ErrorCode::kRegress, [&] { return run_regress(regress_arguments); });
   rounding_self_test();
