@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <numeric>
 #include <optional>
 #include <regex>
 #include <set>
@@ -19,6 +18,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/nearest.h"
 #include "base/sanitize.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
@@ -179,32 +179,14 @@ Map Field::open_map(const std::string& expected) const {
   return {*this, std::move(entries)};
 }
 
-/// Number of insertions, deletions and replacements that turn one word into the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
-}
-
 Map Field::map(const std::vector<std::string>& keys) const {
   Map result = open_map("a map with the keys " + join(keys));
   for (const auto& entry : node_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string shown = excerpt(key);
-    const std::string& nearest = *std::min_element(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(a, shown) < edit_distance(b, shown);
-    });
-    constexpr std::size_t kTypingSlip = 3;
-    const std::string hint =
-        edit_distance(nearest, shown) <= kTypingSlip ? fmt::format("did you mean '{}'? ", nearest) : "";
+    const std::optional<std::string> nearest = nearest_word(shown, keys);
+    const std::string hint = nearest ? fmt::format("did you mean '{}'? ", *nearest) : "";
     places_->fail(entry.first.Mark(), path_,
                   fmt::format("got the unknown key '{}', {}expected {}", shown, hint, join(keys)));
   }
@@ -261,6 +243,10 @@ class Units {
   }
   [[nodiscard]] const Unit& operator[](Dimension dimension) const {
     return units_[static_cast<std::size_t>(dimension)];
+  }
+  [[nodiscard]] CaseUnits all() const {
+    return {(*this)[Dimension::kLength], (*this)[Dimension::kForce], (*this)[Dimension::kMoment],
+            (*this)[Dimension::kMass], (*this)[Dimension::kAngle]};
   }
 
  private:
@@ -782,7 +768,7 @@ Case read_case(const Field& root) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
   }
   result.problem.space = coordinate_space();
-  result.length_unit = units[Dimension::kLength];
+  result.units = units.all();
   const auto query = map.find("query");
   if (query || map.find("space")) {
     const Space space = read_space(map.at("space"), units);
@@ -806,6 +792,20 @@ void require_utf8(const std::string& text, const Places& places) {
   mark.column = static_cast<int>(utf8::distance(before.begin() + static_cast<std::ptrdiff_t>(line), before.end()));
   places.fail(mark, "",
               fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[wrong])));
+}
+
+/// Of text that is not YAML: names the first tab among the blanks that begin a line, which is what most often is wrong.
+void refuse_tabs(const std::string& text, const Places& places) {
+  YAML::Mark mark;
+  mark.line = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); ++mark.line) {
+    const std::size_t content = line.find_first_not_of(" \t\r");
+    const std::size_t tab = line.find('\t');
+    if (content == std::string::npos || line[content] == '#' || tab >= content) continue;
+    mark.column = static_cast<int>(tab);
+    places.fail(mark, "", "got a tab at the beginning of the line, expected blanks: YAML forbids tabs in indentation");
+  }
 }
 
 /// Ignores all events.
@@ -861,6 +861,7 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
   } catch (const FieldError& error) {
     places.fail(error);
   } catch (const YAML::Exception& error) {
+    refuse_tabs(text, places);
     places.fail(error.mark, "", fmt::format("got text that is not YAML ({}), expected a case file", error.msg));
   }
 }

@@ -60,8 +60,8 @@ struct Case {
   Expectation expect = Expectation::kNone;
   std::vector<Bound> bounds;  ///< expected besides the verdict
   std::optional<AuditedPath> audit;
-  std::string description;                         ///< the file's leading comment block, for reports
-  Unit length_unit = si_unit(Dimension::kLength);  ///< of lengths typed without a unit, for messages
+  std::string description;  ///< the file's leading comment block, for reports
+  CaseUnits units;          ///< of numbers typed without one, for messages and results
 };
 
 /// A further check of a case. It throws FieldError, to which the reader adds the place in the file.

@@ -23,6 +23,7 @@ struct Summary {
   std::vector<std::string> closest;
   std::vector<Statement> statements;
   CableUse use;
+  DisplayUnits units;  ///< of text for people; JSON is in SI
   Recheck recheck;
   std::string problem_sha256, path_sha256, footer_sha256;
 };
