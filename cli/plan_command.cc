@@ -185,8 +185,14 @@ std::string atlas_sentence(const PlannedCase& planned, int charts, const std::st
 PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& arguments,
                  const std::optional<SigningKey>& key, const std::stop_token& stop) {
   ProgressLine line(!arguments.json);
+  std::optional<Stopwatch> growing;
   const auto progress = [&](const PlanProgress& at) {
-    line.show([&] { return fmt::format("planning: {}", plural(static_cast<std::size_t>(at.charts), "chart")); });
+    line.show([&] {
+      const std::string charts = plural(static_cast<std::size_t>(at.charts), "chart");
+      return growing ? fmt::format("growing the atlas: {}, {:.0f} of at most {:.6g} s", charts, growing->seconds(),
+                                   arguments.grow_seconds)
+                     : "planning: " + charts;
+    });
   };
   PlannedCaseOptions options;
   options.grow = arguments.grow;
@@ -194,6 +200,7 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
   options.max_seconds = arguments.max_seconds;
   options.grow_seconds = arguments.grow_seconds;
   options.announce_growth = [&](const GrowthEstimate& estimate) {
+    growing.emplace();
     if (arguments.json) return;
     line.clear();
     fmt::print("{}\n", growth_announcement(estimate, arguments.grow_seconds));
