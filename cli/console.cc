@@ -73,8 +73,11 @@ void announce(const Case& the_case, bool json) {
 
 ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::clear() {
   if (shown_) static_cast<void>(std::fputs("\r\033[K", stderr));
+  shown_ = false;
 }
 
 bool ProgressLine::is_due() {

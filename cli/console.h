@@ -47,6 +47,8 @@ class ProgressLine {
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+  /// Removes the line, so that something else may be printed.
+  void clear();
   /// Calls `text()` and shows what it returns, ten times a second at most.
   template <class Text>
   void show(Text text) {

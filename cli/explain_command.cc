@@ -28,7 +28,7 @@ Explanation explained(Undecided reason) {
           "last place. A path from elsewhere that leaves the range.",
           "Widen the range a little, or move the waypoint inside.",
           "undecided: waypoint 0 of the query: it lies outside the closed range of a parameter, or its nearest "
-          "binary64 does [U1].");
+          "binary64 does: px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad) [U1].");
     case Undecided::kParameterRange:
       return entry(
           "The motion leaves the range of a parameter, or may",

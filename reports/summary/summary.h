@@ -25,6 +25,7 @@ struct Summary {
   std::vector<Statement> statements;
   LoadStatement load;
   CableUse use;
+  DisplayUnits units;  ///< of text for people; JSON is in SI
   Recheck recheck;
   std::string problem_sha256, path_sha256, footer_sha256;
 };

@@ -338,7 +338,7 @@ class Audit(Audits):
         path = self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n-88.9,80.2\n-88,80.2\n")
         summary = self.audit(ROBOT1, path, "--allow-repeats")
         self.assertEqual(summary["segments"], 1)
-        self.assertIn("1 repeated rows were dropped", summary["read"])
+        self.assertIn("1 repeated row was dropped", summary["read"])
 
     def test_an_interrupted_audit_leaves_nothing(self):
         def rows():
