@@ -33,6 +33,7 @@
 #include "path_io/path_csv.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
+#include "reports/summary/display_units.h"
 #include "reports/summary/samples.h"
 
 namespace taut::v0 {
@@ -538,8 +539,9 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
   return prove_within(ErrorCode::kPath, [&] {
     require_seconds(options.max_check_seconds, "max_check_seconds");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    const taut::Certificate certificate =
-        prove_waypoints(the_case.content().the_case.problem, inner(path), options.max_bits, options.stop);
+    const taut::Case& about = the_case.content().the_case;
+    taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
+    certificate.illustration = {{"kind", "proof"}, {"units", to_json(about.units)}};
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
                                options.stop);
@@ -561,7 +563,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(
-        source, {options.max_bits, temporary_folder(), key ? &*key : nullptr},
+        source, {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

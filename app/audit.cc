@@ -11,6 +11,7 @@
 #include "app/audit_batch.h"
 #include "app/tolerance_table.h"
 #include "base/input_error.h"
+#include "reports/summary/display_units.h"
 
 namespace taut {
 namespace {
@@ -286,13 +287,14 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.verdict = audit.verdict;
   ending.margins = audit.margins;
   ending.source = source.source();
+  ending.illustration = {{"kind", "audit"}, {"units", to_json(options.units)}};
   if (audit.verdict == Verdict::kRefuted) ending.witness = first_witness(audit);
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);
   if (audit.verdict == Verdict::kProved && source.problem().tolerances && audit.segments <= kMostReported) {
     audit.tolerance_limits = tolerance_limits(source.problem(), source.whole_path(), stop);
     audit.interrupted = stop.stop_requested();
     if (audit.interrupted) return audit;
-    ending.illustration = {{"kind", "audit"}, {"tolerance_limits", to_json(audit.tolerance_limits)}};
+    ending.illustration["tolerance_limits"] = to_json(audit.tolerance_limits);
   }
   CertificateWriter::Sign sign;
   if (options.key != nullptr) sign = [&](const std::string& digest) { return options.key->signature(digest); };

@@ -46,6 +46,7 @@ struct AuditOptions {
   long max_bits = 4096;             ///< the greatest precision of the prover
   std::filesystem::path folder;     ///< for temporary files
   const SigningKey* key = nullptr;  ///< null: the certificate is not signed
+  CaseUnits units{};                ///< in which the report shows results
 };
 
 /// Where in a path file a point of the path is.

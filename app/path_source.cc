@@ -11,8 +11,10 @@
 #include <sstream>
 #include <utility>
 
+#include "app/path_hints.h"
 #include "base/files.h"
 #include "base/input_error.h"
+#include "base/plural.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
 #include "certificate/certificate_reader.h"
@@ -113,7 +115,7 @@ PathSource::PathSource(const Problem& problem, PathInput input, std::optional<In
   if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();
-    description_ = fmt::format("a certificate's path, {} waypoint{}\n", waypoints_, waypoints_ == 1 ? "" : "s");
+    description_ = fmt::format("a certificate's path, {}\n", plural(waypoints_, "waypoint"));
   } else {
     PathFile file = open_file();
     header_ = file.header();
@@ -121,16 +123,20 @@ PathSource::PathSource(const Problem& problem, PathInput input, std::optional<In
     WaypointMaker maker(problem, *header_, law_, path_);
     problem_ = maker.problem();
     PathSummary summary(problem, *header_);
-    for (PathRow row; file.next(row);) summary.add(row);
+    for (PathRow row; file.next(row);) {
+      if (summary.rows() == 0) column_hint_ = column_hint(PoseSampler(problem), *header_, row);
+      summary.add(row);
+    }
     waypoints_ = summary.rows();
     description_ = summary.text();
     if (file.repeats_dropped() > 0)
-      description_ += fmt::format("  {} repeated rows were dropped\n", file.repeats_dropped());
+      description_ += fmt::format("  {} {} dropped\n", plural(file.repeats_dropped(), "repeated row"),
+                                  file.repeats_dropped() == 1 ? "was" : "were");
   }
   if (waypoints_ < control_points(law_) && (waypoints_ != 1 || law_ == Interpolation::kCubicBSpline)) {
-    throw InputError(
-        fmt::format("{}: got {} waypoints, expected at least {} of a spline", path_, waypoints_, control_points(law_)),
-        {path_});
+    throw InputError(fmt::format("{}: got {}, expected at least {} of a spline", path_, plural(waypoints_, "waypoint"),
+                                 control_points(law_)),
+                     {path_});
   }
   stays_ = waypoints_ == 1;
   if (stays_) description_ += "  one pose only: the platform stays there\n";
@@ -203,6 +209,17 @@ Path PathSource::whole_path() const {
   return path;
 }
 
+Path PathSource::first_segment() const {
+  PathSource again(case_problem_, input_, law_, options_);
+  Path path;
+  path.interpolation = law_;
+  SourceWaypoint waypoint;
+  while (path.waypoints.size() < control_points(law_) && again.next(waypoint)) {
+    path.waypoints.push_back(waypoint.is_copy ? path.waypoints.back() : waypoint.waypoint);
+  }
+  return path;
+}
+
 void PathSource::open() {
   if (certificate_) return;
   std::unique_ptr<std::istream> text;
@@ -259,6 +276,13 @@ bool PathSource::next(SourceWaypoint& result) {
   return true;
 }
 
+std::string PathSource::swapped_lengths(double most_m) const {
+  const auto swapped = maker_->exchanged_lengths(most_m);
+  if (!swapped) return "";
+  return fmt::format(" (With {} and {} exchanged they would agree: are these columns swapped?)",
+                     header_->coordinates[swapped->first].name, header_->coordinates[swapped->second].name);
+}
+
 void PathSource::require_start(std::size_t line) const {
   constexpr double kMostOff = 0.02;  // of the platform's size; beyond, it may be the start of another assembly
   const double size = make_model<double>(case_problem_).characteristic_length;
@@ -266,9 +290,9 @@ void PathSource::require_start(std::size_t line) const {
   if (off <= kMostOff * size) return;
   throw InputError(
       fmt::format(
-          "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row, expected "
+          "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row{}, expected "
           "the pose that has them, to within {:.4g} m",
-          path_, line, off, kMostOff * size),
+          path_, line, off, swapped_lengths(kMostOff * size), kMostOff * size),
       {path_, line});
 }
 
@@ -285,11 +309,12 @@ std::string PathSource::description() const {
 
 std::string PathSource::remarks() const {
   constexpr double kLargeError = 1e-3;
-  std::string text;
+  std::string text = column_hint_;
   if (maker_ && maker_->start_error_m() > kLargeError) {
     text += fmt::format(
-        "The start pose has cable lengths up to {:.4g} m from those of the first row; the pose next to it was taken.\n",
-        maker_->start_error_m());
+        "The start pose has cable lengths up to {:.4g} m from those of the first row; the pose next to it was "
+        "taken.{}\n",
+        maker_->start_error_m(), swapped_lengths(maker_->start_error_m() / 10));
   }
   if (maker_ && maker_->lost_line()) {
     text += fmt::format(

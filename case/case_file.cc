@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <numeric>
 #include <optional>
 #include <regex>
 #include <set>
@@ -429,7 +428,7 @@ Case read_case(const Field& root) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
   }
   result.problem.space = coordinate_space();
-  result.length_unit = units[Dimension::kLength];
+  result.units = units.all();
   const auto query = map.find("query");
   if (query || map.find("space")) {
     const Space space = read_space(map.at("space"), units);
@@ -453,6 +452,20 @@ void require_utf8(const std::string& text, const Places& places) {
   mark.column = static_cast<int>(utf8::distance(before.begin() + static_cast<std::ptrdiff_t>(line), before.end()));
   places.fail(mark, "",
               fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[wrong])));
+}
+
+/// Of text that is not YAML: names the first tab among the blanks that begin a line, which is what most often is wrong.
+void refuse_tabs(const std::string& text, const Places& places) {
+  YAML::Mark mark;
+  mark.line = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); ++mark.line) {
+    const std::size_t content = line.find_first_not_of(" \t\r");
+    const std::size_t tab = line.find('\t');
+    if (content == std::string::npos || line[content] == '#' || tab >= content) continue;
+    mark.column = static_cast<int>(tab);
+    places.fail(mark, "", "got a tab at the beginning of the line, expected blanks: YAML forbids tabs in indentation");
+  }
 }
 
 /// Ignores all events.
@@ -508,6 +521,7 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
   } catch (const FieldError& error) {
     places.fail(error);
   } catch (const YAML::Exception& error) {
+    refuse_tabs(text, places);
     places.fail(error.mark, "", fmt::format("got text that is not YAML ({}), expected a case file", error.msg));
   }
 }

@@ -62,8 +62,8 @@ struct Case {
   std::optional<AuditedPath> audit;
   /// What may not be meant as it was typed, each with its place; for people, before a verdict.
   std::vector<std::string> warnings;
-  std::string description;                         ///< the file's leading comment block, for reports
-  Unit length_unit = si_unit(Dimension::kLength);  ///< of lengths typed without a unit, for messages
+  std::string description;  ///< the file's leading comment block, for reports
+  CaseUnits units;          ///< of numbers typed without one, for messages and results
 };
 
 /// A further check of a case. It throws FieldError, to which the reader adds the place in the file.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <set>
 #include <string_view>
 
+#include "base/nearest.h"
 #include "base/sanitize.h"
 #include "problem/expression.h"
 
@@ -107,32 +107,14 @@ Map Field::open_map(const std::string& expected) const {
   return {*this, std::move(entries)};
 }
 
-/// Number of insertions, deletions and replacements that turn one word into the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
-}
-
 Map Field::map(const std::vector<std::string>& keys) const {
   Map result = open_map("a map with the keys " + join(keys));
   for (const auto& entry : node_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string shown = excerpt(key);
-    const std::string& nearest = *std::min_element(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(a, shown) < edit_distance(b, shown);
-    });
-    constexpr std::size_t kTypingSlip = 3;
-    const std::string hint =
-        edit_distance(nearest, shown) <= kTypingSlip ? fmt::format("did you mean '{}'? ", nearest) : "";
+    const std::optional<std::string> nearest = nearest_word(shown, keys);
+    const std::string hint = nearest ? fmt::format("did you mean '{}'? ", *nearest) : "";
     places_->fail(entry.first.Mark(), path_,
                   fmt::format("got the unknown key '{}', {}expected {}", shown, hint, join(keys)));
   }

@@ -150,6 +150,10 @@ class Units {
   [[nodiscard]] const Unit& operator[](Dimension dimension) const {
     return units_[static_cast<std::size_t>(dimension)];
   }
+  [[nodiscard]] CaseUnits all() const {
+    return {(*this)[Dimension::kLength], (*this)[Dimension::kForce], (*this)[Dimension::kMoment],
+            (*this)[Dimension::kMass], (*this)[Dimension::kAngle]};
+  }
 
  private:
   std::array<Unit, kDimensionsOfUnits> units_ = {si_unit(Dimension::kLength), si_unit(Dimension::kForce),

@@ -33,10 +33,10 @@ void append_hex_floats(std::string& text, std::span<const double> values) {
   text += ']';
 }
 
-std::string claim_of(Verdict verdict, const Problem& problem) {
+std::string claim_of(Verdict verdict, bool has_items) {
   if (verdict == Verdict::kUndecided) return checker::kUndecidedClaim;
   const std::string claim = verdict == Verdict::kProved ? checker::kProvedClaim : checker::kRefutedClaim;
-  return problem.load.items.empty() ? claim : claim + checker::kItemsClause;
+  return has_items ? claim + checker::kItemsClause : claim;
 }
 
 json hex_floats(std::span<const double> values) {
@@ -286,7 +286,7 @@ void CertificateWriter::emit_path(const Write& write) const {
 /// Writes all but the footer, the signature and the brace at the end.
 void CertificateWriter::emit(const Certificate& rest, const Write& write, const std::string& path_digest) const {
   const bool is_undecided = rest.verdict == Verdict::kUndecided;
-  write("{\"claim\":" + canonical(claim_of(rest.verdict, rest.problem)));
+  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_["load"].contains("items"))));
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical({{"name", "taut"}, {"version", TAUT_VERSION}}));
   write(",\"illustration\":" + canonical(rest.illustration));
   write(",\"margins\":" + canonical(rest.margins ? to_json(*rest.margins) : json::object()));

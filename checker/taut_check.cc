@@ -151,17 +151,11 @@ nlohmann::json to_json(const CheckResult& result, double seconds) {
   nlohmann::json verdict;  // null unless it is known
   if (result.theorem) verdict = result.theorem->verdict() == Theorem::Verdict::kProved ? "proved" : "refuted";
   if (result.outcome == Outcome::kUndecided) verdict = "undecided";
-  return {{"outcome", name(result.outcome)},
-          {"message", result.message},
-          {"verdict", verdict},
-          {"audit", result.is_audit},
-          {"segments", result.counts.segments},
-          {"boxes", result.counts.boxes},
-          {"bits", result.counts.bits},
-          {"not_compared", result.not_compared},
-          {"sha256", result.sha256},
-          {"signature", signature},
-          {"seconds", seconds}};
+  return {{"command", "check"},           {"outcome", name(result.outcome)}, {"message", result.message},
+          {"verdict", verdict},           {"audit", result.is_audit},        {"segments", result.counts.segments},
+          {"boxes", result.counts.boxes}, {"bits", result.counts.bits},      {"not_compared", result.not_compared},
+          {"sha256", result.sha256},      {"signature", signature},          {"exit_code", exit_code(result.outcome)},
+          {"elapsed_seconds", seconds}};
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {

@@ -38,8 +38,9 @@ Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Pa
 void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
   const Ball seen = witnessed_quantity(machine, problem, path, witness);
   for (const Ball& excess : {seen - Ball(witness.value_lower), Ball(witness.value_upper) - seen}) {
-    if (certainly_negative(excess)) throw Rejected("false: the value of the witness");
-    if (!certainly_nonnegative(excess)) throw Undefined("the value of the witness");
+    if (certainly_negative(excess)) throw Rejected("the tension or length at the witness is outside the stated bounds");
+    if (!certainly_nonnegative(excess))
+      throw Undefined("the tension or length at the witness may be outside the stated bounds");
   }
 }
 

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "base/sanitize.h"
 #include "checker/arguments.h"
+#include "reports/summary/load_statement.h"
 
 namespace taut {
 namespace {
@@ -63,10 +64,20 @@ void complain(std::string_view message) {
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
 }
 
+void announce(const Case& the_case, bool json) {
+  for (const std::string& warning : the_case.warnings) complain("warning: " + warning);
+  if (json) return;
+  const LoadStatement load = load_statement(the_case.problem.load);
+  fmt::print("Load: {}\n      {}\n", sanitize(load.total), sanitize(load.spread));
+}
+
 ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::clear() {
   if (shown_) static_cast<void>(std::fputs("\r\033[K", stderr));
+  shown_ = false;
 }
 
 bool ProgressLine::is_due() {

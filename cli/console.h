@@ -11,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include "case/case_file.h"
 #include "certificate/signature.h"
 #include "checker/check.h"
 
@@ -35,6 +36,10 @@ void add_max_seconds_option(CLI::App& command, double& max_seconds);
 /// changes no exit code.
 void complain(std::string_view message);
 
+/// Says on the screen what load was understood: its total and its extremes; and on stderr what may not be meant as it was
+/// typed. With `json`, on stderr only.
+void announce(const Case& the_case, bool json);
+
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {
  public:
@@ -42,6 +47,8 @@ class ProgressLine {
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+  /// Removes the line, so that something else may be printed.
+  void clear();
   /// Calls `text()` and shows what it returns, ten times a second at most.
   template <class Text>
   void show(Text text) {

@@ -16,6 +16,7 @@ struct PlanArguments {
   std::string save_atlas;
   std::string key;  ///< file of the private key that signs, or empty
   bool grow = false;
+  double grow_seconds = 300;  ///< that growing the atlas may take
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
   double max_seconds = kCheckSeconds;  ///< that the checker may take

@@ -410,17 +410,31 @@ std::string junit_text(const std::string& suite_name, const std::vector<Regresse
   return text.str();
 }
 
+namespace {
+
+/// The unit of a quantity of kBoundQuantities, as keys of JSON end in it.
+std::string unit_suffix(const std::string& quantity) {
+  if (quantity == "tension_margin") return "_N";
+  if (quantity == "length_margin" || quantity == "length") return "_m";
+  return quantity == "angle" ? "_rad" : "";
+}
+
+}  // namespace
+
 json to_json(const RegressedCase& regressed) {
   json result = {{"case", regressed.name},
                  {"as_declared", regressed.is_as_declared()},
                  {"expected", regressed.expected},
                  {"differences", regressed.differences},
                  {"error", regressed.error.empty() ? json() : json(regressed.error)},
-                 {"seconds", regressed.seconds},
+                 {"elapsed_seconds", regressed.seconds},
+                 {"measured", json::object()},
                  {"verdict", nullptr}};
   if (!regressed.measurement) return result;
   result["verdict"] = regressed.measurement->verdict;
-  for (const auto& [quantity, value] : regressed.measurement->quantities) result["measured"][quantity] = value;
+  for (const auto& [quantity, value] : regressed.measurement->quantities) {
+    result["measured"][quantity + unit_suffix(quantity)] = value;
+  }
   return result;
 }
 

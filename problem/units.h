@@ -34,6 +34,15 @@ struct Unit {
 /// m, N, N*m, kg, rad, s, m/s^2, m^2, m/s, kg/m^3.
 [[nodiscard]] Unit si_unit(Dimension dimension);
 
+/// The units of numbers that a case states without one, in which results are shown as well.
+struct CaseUnits {
+  Unit length = si_unit(Dimension::kLength);
+  Unit force = si_unit(Dimension::kForce);
+  Unit moment = si_unit(Dimension::kMoment);
+  Unit mass = si_unit(Dimension::kMass);
+  Unit angle = si_unit(Dimension::kAngle);
+};
+
 /// "34 deg" → {"34", degree}; the text itself and nothing if it doesn't end in a unit that follows a space, a closing
 /// parenthesis or a number.
 [[nodiscard]] std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text);

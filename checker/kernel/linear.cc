@@ -62,7 +62,7 @@ Ball norm(const Matrix6<Ball>& A) {
 
 Matrix6<Ball> approximate_inverse(const Matrix6<Ball>& A) {
   ArbMatrix matrix(map(A, middle)), result;
-  if (arb_mat_approx_inv(result.get(), matrix.get(), Ball::bits()) == 0) throw Undefined("a matrix that is singular");
+  if (arb_mat_approx_inv(result.get(), matrix.get(), Ball::bits()) == 0) throw Undefined("a matrix may be singular");
   return map(result.balls(), middle);
 }
 

@@ -341,11 +341,21 @@ json plane(const ReportContext& scene) {
 
 }  // namespace
 
+namespace {
+
+/// A unit, and by what SI values are multiplied to be in it.
+json display_unit(const DisplayUnit& unit) { return {{"name", unit.name()}, {"factor", unit.approx(1)}}; }
+
+}  // namespace
+
 json report_data(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   return {{"verdict", scene.verdict},
           {"segments", certificate.path.segments()},
           {"is_spline", certificate.path.interpolation == Interpolation::kCubicBSpline},
+          {"units",
+           {{"length", display_unit(scene.illustration.units.length)},
+            {"force", display_unit(scene.illustration.units.force)}}},
           {"robot", robot(scene.sampler.model())},
           {"samples", samples(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "reports/summary/hints.h"
+
 namespace taut {
 
 namespace {
@@ -48,7 +50,7 @@ bool add_proved(const ReportContext& scene, CableUse& use) {
 bool add_samples(const ReportContext& scene, CableUse& use) {
   bool is_any = false;
   for (const PathSample& sample : scene.samples) {
-    if (!sample.statics.regular) continue;
+    if (is_nearly_singular(scene.sampler.model(), sample.statics)) continue;
     for (std::size_t i = 0; i < kCables; ++i) {
       const double tension = sample.statics.tension[i];
       const double length = sample.statics.length[i];

@@ -4,6 +4,7 @@
 //
 //   verdict     "unchecked" if it is not known; then none of the certificate's claims is in here
 //   segments, is_spline
+//   units       length, force: name and factor of the units that are shown
 //   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of
 //               limits
 //   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3),
@@ -20,17 +21,12 @@
 
 export function readData() {
   const data = JSON.parse(document.getElementById("data").textContent);
-  data.lengthUnit = lengthUnit(data);
+  data.lengthUnit = data.units.length;
+  data.forceUnit = data.units.force;
   return data;
 }
 
 const finite = (x) => typeof x === "number" && Number.isFinite(x);
-
-/// The unit of lengths: millimetres for robots up to the size of a room, metres for larger ones.
-function lengthUnit({ robot }) {
-  const sizes = [...robot.base.flat(), ...robot.length.map(([, upper]) => upper)].filter(finite).map(Math.abs);
-  return Math.max(0, ...sizes) < 20 ? { name: "mm", factor: 1000 } : { name: "m", factor: 1 };
-}
 
 /// Whether the data contain all that a picture of the robot needs.
 export function isDrawable({ robot, samples }) {

@@ -189,7 +189,7 @@ TEST_F(PrintedOracle, AgreesWithTheOracleAtTheOrigin) {
     for (std::size_t i = 0; i < 6; ++i) {
       expect_near(s.length[i], p.length[i]);
       expect_near(s.tension[i], p.tension[i]);
-      expect_near(s.tension_above[i], p.tension_radius[i]);
+      expect_near(s.tension_radius[i], p.tension_radius[i]);
     }
   }
 }

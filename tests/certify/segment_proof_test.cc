@@ -234,6 +234,23 @@ TEST(Prover, ClosedRangesAreKeptExactly) {
   EXPECT_EQ(prover.prove(kStart, kNearStart).verdict, Verdict::kUndecided) << "theta = 1.6 exceeds pi/2";
 }
 
+TEST(Prover, NamesTheParameterThatIsOutsideItsRange) {
+  Problem problem = robot1_slice();
+  problem.space.flip.reset();
+  problem.space.parameters[1].kind = ParameterKind::kRange;
+  problem.space.parameters[1].range_lower = "-0.1";
+  problem.space.parameters[1].range_upper = "1.5";
+  const Prover prover(problem);
+  const SegmentProof beyond = prover.prove(at({0, 0}), at({0, 1.75}));
+  EXPECT_EQ(beyond.reason.text(),
+            "a waypoint lies outside the closed range of a parameter, or may: theta is 1.75, its range is from -0.1 to "
+            "1.5 (SI: m, rad)");
+  const SegmentProof rounded = prover.prove(at({0, -0.1}), at({0, 0}));
+  EXPECT_NE(rounded.reason.text().find("theta is -0.1 and so, but for rounding, at an end of its range"),
+            std::string::npos)
+      << rounded.reason;
+}
+
 TEST(Prover, HalfTurnsNeedAPeriodicParameter) {
   const Prover prover(robot1_slice());
   Waypoint turned = kStart;

@@ -4,6 +4,7 @@
 
 Usage: audit_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
+import glob
 import hashlib
 import json
 import math
@@ -11,7 +12,8 @@ import os
 import re
 import subprocess
 
-from command_line import AUDITS, CHECK, EXIT, ROBOT1, SOURCE, TAUT, Audits, expected, interrupt, main, run, text_of
+from command_line import (AUDITS, CASES, CHECK, EXIT, ROBOT1, SOURCE, TAUT, Audits, expected, interrupt, main, run,
+                          text_of)
 
 
 def fraction(text):
@@ -73,15 +75,15 @@ class Audit(Audits):
 
     def test_every_case_ends_as_it_declares_and_its_certificate_is_accepted(self):
         laws = set()
-        for name in sorted(os.listdir(AUDITS)):
-            if not name.endswith(".yaml"):
-                continue
-            case = os.path.join(AUDITS, name)
+        for case in sorted(glob.glob(os.path.join(CASES, "**", "*.yaml"), recursive=True)):
+            name = os.path.relpath(case, CASES).replace(os.sep, "-")
+            if not re.search("^audit:", text_of(case), re.M):
+                continue  # planned: end_to_end_test.py
             if "TAUT_SAMPLED" in os.environ and "\ntolerances:" in text_of(case):
                 continue  # how far each can grow takes minutes
             with self.subTest(case=name):
                 path = re.search(r"^audit: \{path: (.*)\}$", text_of(case), re.M).group(1)
-                summary = self.audit(case, os.path.join(AUDITS, path), out=name)
+                summary = self.audit(case, os.path.join(os.path.dirname(case), path), out=name)
                 self.assertEqual(summary["verdict"], expected(case))
                 laws.add((summary["verdict"], summary["interpolation"]))
                 self.cover(self.certificate(name), summary["segments"])
@@ -336,7 +338,7 @@ class Audit(Audits):
         path = self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n-88.9,80.2\n-88,80.2\n")
         summary = self.audit(ROBOT1, path, "--allow-repeats")
         self.assertEqual(summary["segments"], 1)
-        self.assertIn("1 repeated rows were dropped", summary["read"])
+        self.assertIn("1 repeated row was dropped", summary["read"])
 
     def test_an_interrupted_audit_leaves_nothing(self):
         def rows():

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Loads that consist of items, from the case to the verdict, and what is said of them.
+
+Usage: loads_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TAUT, CHECK, SOURCE = (os.path.abspath(argument) for argument in sys.argv[1:4])
+
+CRANE = """\
+taut: 1
+name: portal-crane
+units: {length: m, force: kN, moment: kN*m, mass: t, angle: deg, time: s}
+robot:
+  base_anchors: [[15, 10, 15], [15, 10, 15], [-15, 10, 15], [-15, 10, 15], [0, -10, 15], [0, -10, 15]]
+  platform_anchors: [[0, 1.5, 0], [1.3, -0.75, 0], [0, 1.5, 0], [-1.3, -0.75, 0], [1.3, -0.75, 0], [-1.3, -0.75, 0]]
+  tension: [2, 160]
+  length: [3, 35]
+LOAD
+tolerances: {base_anchor: 10 mm, platform_anchor: 10 mm}
+space:
+  slice: {py: 0, pz: 6, phi: 0, theta: 0, sigma: 0}
+query:
+  waypoints: [{px: 0}, {px: 0.5}]
+"""
+ITEMS = """\
+load:
+  gravity: [0, 0, -9.81 m/s^2]
+  items:
+    - {name: platform, mass: 8, at: [0, 0, 0]}
+    - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}
+    - {name: wind, force: 6, direction: horizontal, at: [0, 0, -1]}"""
+
+
+class Loads(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_on(self, load, *command):
+        """taut COMMAND[0] CASE with this load, in an empty folder but for the case."""
+        with open(os.path.join(self.folder.name, "crane.yaml"), "w", encoding="utf-8") as file:
+            file.write(CRANE.replace("LOAD", load))
+        return subprocess.run([TAUT, command[0], "crane.yaml", *command[1:]], cwd=self.folder.name, capture_output=True,
+                              text=True, check=False, timeout=600)
+
+    def test_a_load_is_shown_in_tonnes_and_kilonewtons(self):
+        said = self.run_on(ITEMS, "show")
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        for expected in ("In all 19.76 to 20.24 t", "a force of 196.2 kN along −z", "force x ± 6 kN, y ± 6 kN, z -198.6 to",
+                         "payload: 11.76 to 12.24 t, centre of gravity within 50 mm of (0, 0, -1.2) m",
+                         "wind: a force of up to 6 kN in any horizontal direction, at (0, 0, -1) m"):
+            self.assertIn(expected, said.stdout)
+        shown = json.loads(self.run_on(ITEMS, "show", "--json").stdout)
+        self.assertEqual([item["name"] for item in shown["load"]["items"]], ["platform", "payload", "wind"])
+        self.assertEqual(shown["problem"]["load"]["items"][1]["weight"]["mass_kg"], ["11760", "12240"])
+        self.assertEqual(shown["warnings"], [])
+
+    def test_a_plan_says_the_load_before_the_verdict(self):
+        said = self.run_on(ITEMS, "plan", "--out", "out")
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertLess(said.stdout.index("Load: In all 19.76 to 20.24 t"), said.stdout.index("proved:"))
+        with open(os.path.join(self.folder.name, "out", "report.html"), encoding="utf-8") as file:
+            report = file.read()
+        self.assertIn("centre of gravity within 50 mm of (0, 0, -1.2) m", report)
+        self.assertNotIn("all at once, within an ellipsoid", report)
+        summary = json.loads(self.run_on(ITEMS, "plan", "--out", "out", "--json").stdout)
+        self.assertEqual(summary["load"]["mass_kg"], [19760, 20240])
+
+    def test_semi_axes_in_place_of_a_diagonal_are_warned_of(self):
+        load = "load: {mass: 20 t, gravity: [0, 0, -9.81], ellipsoid: {KIND: [6, 6, 1, 3, 3, 1]}}"
+        said = self.run_on(load.replace("KIND", "diagonal"), "show")
+        self.assertRegex(said.stderr, r"^taut: warning: crane\.yaml:9:\d+: load\.ellipsoid\.diagonal: .*only 0\.408")
+        self.assertEqual(self.run_on(load.replace("KIND", "semi_axes"), "show").stderr, "")
+        self.assertEqual(len(json.loads(self.run_on(load.replace("KIND", "diagonal"), "show", "--json").stdout)["warnings"]), 1)
+
+    def test_a_load_that_makes_no_sense_is_refused_and_nothing_is_written(self):
+        for change, expected in (
+                ((r"mass: 12,", "mass: -12,"), r"crane\.yaml:13:\d+: load\.items\[payload\]\.mass: got '-12', expected a mass"),
+                ((r"2 %", "200 %"), r"load\.items\[payload\]\.mass_tolerance: got '200 %', expected a tolerance from 0 to"),
+                ((r"name: wind", "name: payload"), r"load\.items\[2\]\.name: got 'payload' twice"),
+                ((r"force: 6, direction", "force: 6, wrench: [0, 0, 1, 0, 0, 0], direction"), r"got force, wrench in one"),
+                ((r"direction", "directon"), r"did you mean 'direction'\?"),
+                ((r"  gravity: .*\n", ""), r"load\.gravity: got none, expected gravity"),
+                ((r"mass: 12, mass_tolerance: 2 %", "force: [200, 300], direction: [0, 0, 1]"), "expected a downward load"),
+                ((r"    - {name: p.*\n", ""), "got a load whose nominal force is zero"),
+                ((r"name: wind, .*}", "name: e, wrench: [0, 0, 0, 0, 0, 0], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 0]}}"),
+                 "expected a positive definite matrix")):
+            load = re.sub(*change, ITEMS)
+            self.assertNotEqual(load, ITEMS)
+            said = self.run_on(load, "plan", "--out", "out")
+            self.assertEqual(said.returncode, 3, said.stderr)
+            self.assertRegex(said.stderr, r"^taut: crane\.yaml:\d+:\d+: load.*" if "gravity" not in change[0] else "^taut: ")
+            self.assertRegex(said.stderr, expected)
+            self.assertEqual(os.listdir(self.folder.name), ["crane.yaml"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
