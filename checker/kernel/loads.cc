@@ -163,12 +163,12 @@ namespace {
 /// The one load of an item. @throws Rejected unless it is in the item.
 LoadItem chosen(LoadItem item, const LoadChoice& choice, const ExactVector& gravity) {
   const auto require = [](bool holds, const char* what) {
-    if (!holds) throw Rejected(std::string("false: the witness's load is in its item: ") + what);
+    if (!holds) throw Rejected(std::string("the witness's load is not in its item: ") + what);
   };
   const auto of_weight = [&](const Weight& x) -> LoadItem {
     const auto& [mass, e] = std::get<WeightChoice>(choice);
-    require(mass >= x.mass.lower && mass <= x.mass.upper, "a mass");
-    require(squared(e) <= x.offset * x.offset, "the offset of a centre of gravity");
+    require(mass >= x.mass.lower && mass <= x.mass.upper, "the mass");
+    require(squared(e) <= x.offset * x.offset, "the offset of the centre of gravity");
     const ExactVector F = {mass * gravity[0], mass * gravity[1], mass * gravity[2]};
     const ExactWrench w = {
         F[0], F[1], F[2], e[1] * F[2] - e[2] * F[1], e[2] * F[0] - e[0] * F[2], e[0] * F[1] - e[1] * F[0]};
@@ -177,7 +177,7 @@ LoadItem chosen(LoadItem item, const LoadChoice& choice, const ExactVector& grav
   const auto of_vectors = [&](const VectorSet& set, bool is_moment) -> LoadItem {
     if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
       const mpq_class& f = std::get<AmountChoice>(choice).amount;
-      require(f >= segment->range.lower && f <= segment->range.upper, "an amount");
+      require(f >= segment->range.lower && f <= segment->range.upper, "the amount");
       const SegmentOfVectors point = {segment->direction, {f, f}};
       if (is_moment) return {Moment{point}, item.axes, item.at};
       return {Force{point}, item.axes, item.at};
@@ -185,17 +185,17 @@ LoadItem chosen(LoadItem item, const LoadChoice& choice, const ExactVector& grav
     const ExactVector& v = std::get<VectorChoice>(choice).vector;
     if (const auto* disc = std::get_if<DiscOfVectors>(&set)) {
       const ExactVector& n = disc->normal;
-      require(v[0] * n[0] + v[1] * n[1] + v[2] * n[2] == 0, "a vector in a plane");
+      require(v[0] * n[0] + v[1] * n[1] + v[2] * n[2] == 0, "a vector that is out of its plane");
     }
     const mpq_class radius = std::visit(
         Overloaded{[](const SegmentOfVectors&) { return mpq_class(); }, [](const auto& x) { return x.radius; }}, set);
-    require(squared(v) <= radius * radius, "a vector's magnitude");
+    require(squared(v) <= radius * radius, "the magnitude of a vector");
     const ExactWrench w = is_moment ? ExactWrench{0, 0, 0, v[0], v[1], v[2]} : ExactWrench{v[0], v[1], v[2], 0, 0, 0};
     return {LoadCases{{w}}, item.axes, item.at};
   };
   const auto of_cases = [&](const LoadCases& x) -> LoadItem {
     const std::size_t j = std::get<CaseChoice>(choice).index;
-    require(j < x.wrenches.size(), "one of its cases");
+    require(j < x.wrenches.size(), "the load case");
     return {LoadCases{{x.wrenches[j]}}, item.axes, item.at};
   };
   return std::visit(Overloaded{of_weight, [&](const Force& x) { return of_vectors(x.set, false); },
