@@ -16,8 +16,10 @@ namespace taut::checker {
 [[nodiscard]] Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path,
                                   const PathPoint& place, const Box& how);
 
-/// The least or largest tension [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre not kSingular
-/// @throws Rejected where the deviation is not within the tolerances, or a load not in its item; Undefined where the quantity can't be enclosed.
+/// The least or largest tension [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre not
+/// kSingular
+/// @throws Rejected where the deviation is not within the tolerances, or a load not in its item; Undefined where the
+/// quantity can't be enclosed.
 [[nodiscard]] Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path,
                                       const Witness& witness);
 

@@ -29,7 +29,8 @@
 //     kappa_i = x_i + c (z_r . z_i) / V_r,   phi = kappa_r,   u_r = d_r / |d_r|,
 // (This is the rate of |d_r| y_r . w* for a w* of K at which y_r . w is extreme:
 // kappa_i = y_i . w*. This holds for every compact K whose members are differentiable functions of t of some z from one
-// compact set: then the extreme is Lipschitz in t, and its derivative, wherever it exists, is that of y_r . w(z*) for any
+// compact set: then the extreme is Lipschitz in t, and its derivative, wherever it exists, is that of y_r . w(z*) for
+// any
 // z* that attains it (Danskin). So with the items of a load (loads.h), kappa_i gains y_i . w* of each item, where w* is
 // one of a few wrenches that certainly include one that attains the extreme; w' is W . T: Q_r below gains |d_r| T. The
 // items have no other tolerances. With w_nominal for w*, F_r' is the rate of f0_r.)

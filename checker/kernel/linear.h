@@ -80,7 +80,8 @@ Ball length_range(const std::array<Ball, N>& a) {
   }
   return hull(sqrt(lowest(least)), sqrt(most));
 }
-/// |a|. With a = x + y u, |a| = |x| + z u, |z| <= |y|, and z (|a| + |x|) = y . (a + x), as |a|^2 - |x|^2 = u y . (a + x).
+/// |a|. With a = x + y u, |a| = |x| + z u, |z| <= |y|, and z (|a| + |x|) = y . (a + x), as |a|^2 - |x|^2 = u y . (a +
+/// x).
 [[nodiscard]] MeanValueForm norm(const Vector3<MeanValueForm>& a);
 inline Vector3<Ball> range(const Vector3<MeanValueForm>& a) { return {a[0].range(), a[1].range(), a[2].range()}; }
 inline Matrix3<Ball> range(const Matrix3<MeanValueForm>& a) { return {range(a[0]), range(a[1]), range(a[2])}; }

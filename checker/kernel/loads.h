@@ -3,9 +3,10 @@
 //
 // An item is a compact convex set S of wrenches (F ; M) about a point c of the platform, r = R (c - p_m), in axes of W
 // or of P. About the load point (F ; M) is (F ; r x F + M); so a row y = (y_F, y_M) of D^-1 sees it as
-//     y . w = g . F + m . M,    g = y_F + y_M x r,   m = y_M        (g and m in the item's axes: turned back by R' for P).
-// Each item has a nominal wrench. With the largest of all y . w, max_S = g . F + m . M over S, and those of a sum of sets
-// being added,
+//     y . w = g . F + m . M,    g = y_F + y_M x r,   m = y_M        (g and m in the item's axes: turned back by R'
+//     for P).
+// Each item has a nominal wrench. With the largest of all y . w, max_S = g . F + m . M over S, and those of a sum of
+// sets being added,
 //     above(y) = max_S (y . w) - y . w_nominal,    below(y) = y . w_nominal - min_S (y . w) = above(-y).
 //
 //   item                                         nominal      above(y)
@@ -18,11 +19,11 @@
 //   load cases w_1 ... w_k                       their mean   max_j (g . F + m . M) of w_j - mean
 //
 // f_n is 0 if 0 is in [f-, f+], else the middle. A weight m gamma at c + e, |e| <= rho, is the wrench
-// (m gamma ; e x m gamma): m (A + e . (gamma x m)), which is at most m (A + B), linear in m. Below the table's A is -A, so
-// that mu |A - B| is there.
+// (m gamma ; e x m gamma): m (A + e . (gamma x m)), which is at most m (A + B), linear in m. Below the table's A is
+// -A, so that mu |A - B| is there.
 //
-// Rotation.  Where the platform turns at the rate W (axes of W), r moves at W x r, and F and M turn if they are fixed in
-// P, e does not: y . w changes at the rate W . T, with F and M in axes of W now,
+// Rotation.  Where the platform turns at the rate W (axes of W), r moves at W x r, and F and M turn if they are fixed
+// in P, e does not: y . w changes at the rate W . T, with F and M in axes of W now,
 //     T = r x (F x m)                               for axes of W,  as m . ((W x r) x F) = W . (r x (F x m)),
 //     T = F x y_F + (r x F + M) x y_M               for axes of P.
 #pragma once

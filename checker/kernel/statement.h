@@ -93,8 +93,8 @@ struct LoadItem {
   ExactVector at;            ///< c in P [m]; a moment has none
 };
 
-/// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and wrench
-/// have no tolerances.
+/// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and
+/// wrench have no tolerances.
 struct Problem {
   std::array<ExactVector, kCables> base_anchors;        ///< a_i in W [m]
   std::array<ExactVector, kCables> platform_anchors;    ///< b_i in P [m]

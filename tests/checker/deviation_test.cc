@@ -226,8 +226,8 @@ void expect_bounds(bool length_controlled) {
 TEST(Deviation, TakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_bounds(false); }
 TEST(Deviation, TakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_bounds(true); }
 
-/// A box of a robot with items: what tolerances take from tensions over all loads, and how much these may come to differ
-/// from the nominal ones.
+/// A box of a robot with items: what tolerances take from tensions over all loads, and how much these may come to
+/// differ from the nominal ones.
 struct ItemTrial {
   taut::Problem stated;
   Problem problem;

@@ -43,8 +43,8 @@ SixBySix<S> responses(campaign::Machine<S> machine, const campaign::RigidPose<S>
   return result;
 }
 
-/// One load of an item: of a weight the mass and the offset, of a ball or a disc the vector, of a segment the amount, of
-/// load cases how much of each.
+/// One load of an item: of a weight the mass and the offset, of a ball or a disc the vector, of a segment the amount,
+/// of load cases how much of each.
 template <class S>
 struct OneLoad {
   S amount = S(0.0);
@@ -229,8 +229,8 @@ Extremes<S> extremes_of(const LoadItem& item, const Six<S>& y, const Platform<S>
   return result;
 }
 
-/// The least, the largest and the nominal tension of each cable over all loads: items, and the machine's ellipsoid, where
-/// `problem` has it.
+/// The least, the largest and the nominal tension of each cable over all loads: items, and the machine's ellipsoid,
+/// where `problem` has it.
 template <class S>
 std::array<Extremes<S>, 6> tensions_of(const Problem& problem, campaign::Machine<S> machine,
                                        const campaign::RigidPose<S>& pose) {
