@@ -212,7 +212,9 @@ void expect_tensions(std::mt19937_64& random, int trial, int& shown) {
       const auto expect = [&](const MeanValueForm& density, const BigFloat& value) {
         EXPECT_TRUE(holds(length * density, u, value, 1e-30)) << "trial " << trial << ", cable " << i << " at " << u;
         const double size = 1 + std::abs(value.to_double());
-        if (step == 0) EXPECT_LT(width((length * density).range()), 1e-25 * size) << trial;
+        if (step == 0) {
+          EXPECT_LT(width((length * density).range()), 1e-25 * size) << trial;
+        }
       };
       expect(tensions.density[i], truth[i].nominal);
       expect(tensions.extreme(i, 0), truth[i].least);
