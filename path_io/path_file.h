@@ -69,8 +69,8 @@ struct PathRow {
   bool operator==(const PathRow&) const = default;
 };
 
-/// Reads a path file. A row may repeat the one before: the platform rests. Every fault is an InputError with file, line,
-/// column, the value seen and what was expected.
+/// Reads a path file. A row may repeat the one before: the platform rests. Every fault is an InputError with file,
+/// line, column, the value seen and what was expected.
 class PathFile {
  public:
   /// Opens the file and reads its header. @throws InputError
