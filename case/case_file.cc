@@ -388,16 +388,13 @@ void read_expectation(const Field& field, const Units& units, Case& result) {
 }
 
 AuditedPath read_audited_path(const Field& field) {
-  const Map map = field.map({"path", "interpolation", "allow_repeats"});
+  const Map map = field.map({"path", "interpolation"});
   AuditedPath result;
   result.file = map.at("path").text("the name of a path file, seen from the case file");
   if (const auto law = map.find("interpolation")) {
     const std::vector<std::string> laws = {"straight", "geodesic", "cable-lengths"};
     result.interpolation = law->text("one of " + join(laws));
     if (std::ranges::find(laws, result.interpolation) == laws.end()) law->fail("one of " + join(laws));
-  }
-  if (const auto allow = map.find("allow_repeats")) {
-    result.allow_repeats = read_choice<bool>(*allow, {{"true", true}, {"false", false}});
   }
   return result;
 }

@@ -50,7 +50,6 @@ inline constexpr std::array<const char*, 10> kBoundQuantities = {
 struct AuditedPath {
   std::string file;           ///< relative to the case file
   std::string interpolation;  ///< empty: as the file suggests
-  bool allow_repeats = false;
 };
 
 /// A case file's content. The space is coordinate_space() if the file has none; a case without a query is for audits.

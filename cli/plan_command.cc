@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,8 @@
 #include "cli/console.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
+#include "cli/result_folder.h"
+#include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
@@ -86,7 +87,7 @@ void require_others(const PlanArguments& arguments, const std::filesystem::path&
     require_writable(arguments.save_atlas);
     for (const std::string& file : read) require_another(arguments.save_atlas, file);
   }
-  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+  for (const char* name : kResultFiles) {
     for (const std::string& file : read) require_another(out / name, file);
     for (const std::string& file : {arguments.atlas, arguments.save_atlas}) require_another(out / name, file);
   }
@@ -216,7 +217,10 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
 
 void add_plan_options(CLI::App& command, PlanArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md)")->required();
-  command.add_option("--out", arguments.out, "directory for the results (default: out/CASE's name)");
+  command.add_option("--out", arguments.out,
+                     "directory for the results (default: a new one, out/CASE's name, or this case's own)");
+  command.add_option("--step", arguments.step,
+                     "how far the platform travels between two rows of controller.csv at most (default: 10 mm)");
   command.add_option("--atlas", arguments.atlas, "begin with the charts of this file (docs/atlas-file.md)");
   CLI::Option* save_atlas = command.add_option("--save-atlas", arguments.save_atlas, "write all charts into this file");
   CLI::Option* grow =
@@ -242,12 +246,15 @@ int run_plan(const PlanArguments& arguments) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;
   }
-  const std::filesystem::path out = out_folder(arguments.out, arguments.case_path);
+  const ControllerStep step = read_controller_step(arguments.step, "--step");
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
-  require_others(arguments, out);
   Planner planner(case_, arguments.atlas);
-  make_directories(out);
+  ResultInputs inputs("plan");
+  inputs.add_file("case", arguments.case_path);
+  const std::filesystem::path out =
+      make_result_folder(arguments.out, std::filesystem::path(arguments.case_path).stem().string(), inputs);
+  require_others(arguments, out);
   announce(case_, arguments.json);
 
   const Interruption interruption;
@@ -258,14 +265,14 @@ int run_plan(const PlanArguments& arguments) {
                                     {out / "report.html", make_report(checked, {"", "", date}, ReportForm::kPage)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
-  // What is not proved is not for a machine to follow: path.csv goes first, and comes back last.
-  const std::array<std::filesystem::path, 1> path_file = {out / "path.csv"};
-  if (outcome.is_proved()) {
+  if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
     outcome.lengths = planner.measure(planned.plan.path);
     outcome.tolerance_limits = planned.tolerance_limits;
-    files.push_back({path_file[0], path_csv(case_.problem, planned.plan.path, checked.sha256)});
+    const Path& path = planned.plan.path;
+    files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
+    files.push_back({out / "path.csv", path_csv(case_.problem, path, checked.sha256)});  // last
   }
-  write_whole(files, path_file);
+  write_whole(files, outdated_results(out, inputs));
 
   if (arguments.json) {
     nlohmann::json result = summary(case_, outcome);
@@ -279,7 +286,7 @@ int run_plan(const PlanArguments& arguments) {
   if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) fmt::print("{}\n", may_be);
   print_search(outcome, DisplayUnits(case_.units));
   fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
-             outcome.is_proved() ? "path.csv, " : "");
+             outcome.is_proved() ? "path.csv, controller.csv, " : "");
   if (saves_atlas) {
     fmt::print("{}\n", atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
   }
