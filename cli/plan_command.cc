@@ -73,11 +73,11 @@ std::string hint(const Case& the_case, const Plan& plan) {
 
 /// What the search knows of its path.
 std::string length_sentence(const PlanStatistics& s) {
-  const std::string spent = s.budget_spent ? "; the budget is spent" : "";
-  if (s.factor == 1) return "The path found is the shortest on the charts' graph" + spent;
-  if (!std::isfinite(s.factor)) return "The path found is the first, not the shortest, on the charts' graph" + spent;
-  return fmt::format("The path found is at most {:.4g} times as long as the shortest on the charts' graph{}", s.factor,
-                     spent);
+  const std::string rest = fmt::format(" on the charts' graph{}.\nLength here is {}",
+                                       s.budget_spent ? "; the budget is spent" : "", s.cost_measure);
+  if (s.factor == 1) return "The path found is the shortest" + rest;
+  if (!std::isfinite(s.factor)) return "The path found is the first, not the shortest," + rest;
+  return fmt::format("The path found is at most {:.4g} times as long as the shortest{}", s.factor, rest);
 }
 
 /// Checks that no file that is written is one that is read.
@@ -128,6 +128,8 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"edges_rejected", s.edges_rejected},
                            {"cost", s.cost},
                            {"cost_found", s.cost_found},
+                           {"cost_unit", s.cost_unit},
+                           {"cost_measure", s.cost_measure},
                            {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nlohmann::json()},
                            {"budget_spent", s.budget_spent},
                            {"length_m", if_proved(outcome.lengths.length_m)},
@@ -149,9 +151,11 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
 void print_search(const Outcome& outcome, const DisplayUnits& units) {
   const PlanStatistics& s = outcome.planned.plan.statistics;
   if (s.charts == 0) return;
-  fmt::print("{}, {} expanded; {} looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n",
-             plural(static_cast<std::size_t>(s.charts), "chart"), s.nodes_expanded,
-             plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected, s.cost, s.cost_found);
+  const std::string unit = s.cost_unit.empty() ? "" : " " + s.cost_unit;
+  const bool has_path = outcome.is_proved() || s.cost_found > 0;
+  fmt::print("{}, {} expanded; {} looked at, {} refused{}.\n", plural(static_cast<std::size_t>(s.charts), "chart"),
+             s.nodes_expanded, plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected,
+             has_path ? fmt::format("; cost {:.4g}{}, shortened from {:.4g}{}", s.cost, unit, s.cost_found, unit) : "");
   if (outcome.is_proved()) {
     fmt::print("On its way the platform's origin moves {:.4g} {}, and the platform turns {}.\n",
                units.length.approx(outcome.lengths.length_m), units.length.name(),

@@ -213,6 +213,8 @@ class EndToEnd(InFolder):
         generous = run(TAUT, "plan", case, "--out", self.out, "--budget", "1000")
         self.assertEqual(generous.returncode, 0, generous.stderr)
         self.assertIn("the shortest on the charts' graph.", generous.stdout)
+        self.assertIn("Length here is the angle that the platform turns.", generous.stdout)
+        self.assertEqual((whole["cost_unit"], whole["cost_measure"]), ("rad", "the angle that the platform turns"))
         greedy = run(TAUT, "plan", os.path.join(CASES, "robot2-free-q2-q3.yaml"), "--out", self.out)
         self.assertIn("the first, not the shortest", greedy.stdout)
 
