@@ -30,6 +30,7 @@
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "kinematics/pose_conversion.h"
+#include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
@@ -476,6 +477,19 @@ std::string Certificate::path_csv() const {
   });
 }
 
+std::string Certificate::controller_csv(double step_m) const {
+  return within(ErrorCode::kUse, [&] {
+    if (verdict() != Verdict::kProved) {
+      throw taut::InputError(
+          "controller_csv: got a certificate without a theorem that the path is proved, expected a "
+          "proved one: what is not proved is not for a machine to follow");
+    }
+    const ControllerStep step = read_controller_step(fmt::format("{:.17f} m", step_m), "controller_csv");
+    return taut::controller_csv(content_->stated.problem, content_->stated.path,
+                                {step.metres, fmt::format("{:.12g} mm", 1e3 * step_m)}, content_->checked.sha256);
+  });
+}
+
 std::size_t Certificate::segments() const { return content_->stated.path.segments(); }
 std::size_t Certificate::boxes() const { return content_->boxes; }
 
@@ -555,11 +569,11 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
   const auto work = [&] {
     const Case::Content& content = the_case.content();
     require_seconds(options.max_check_seconds, "max_check_seconds");
-    AuditRequest request{path, std::nullopt, options.allow_repeats};
+    AuditRequest request{path, std::nullopt};
     if (options.interpolation) request.law = inner(*options.interpolation);
     request = resolved(request, content.the_case, content.file);
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    PathSource source(content.the_case.problem, request.path, request.law, {request.allow_repeats});
+    PathSource source(content.the_case.problem, request.path, request.law);
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(

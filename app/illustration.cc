@@ -31,6 +31,7 @@ nlohmann::json illustrate(const Problem& problem, const Atlas& atlas, const Plan
   }
   nlohmann::json parameters = nlohmann::json::array();
   for (const Parameter& parameter : problem.space.parameters) parameters.push_back(parameter.name);
+  const std::string cost = fmt::format("{:.6g}", statistics.cost);
   return {{"kind", "atlas"},
           {"parameters", std::move(parameters)},
           {"charts", std::move(charts)},
@@ -39,7 +40,8 @@ nlohmann::json illustrate(const Problem& problem, const Atlas& atlas, const Plan
             {"expanded", statistics.nodes_expanded},
             {"edges_checked", statistics.edges_checked},
             {"edges_rejected", statistics.edges_rejected},
-            {"cost", fmt::format("{:.6g}", statistics.cost)}}}};
+            {"cost", statistics.cost_unit.empty() ? cost : cost + " " + statistics.cost_unit},
+            {"cost_measure", statistics.cost_measure}}}};
 }
 
 }  // namespace taut

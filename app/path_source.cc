@@ -81,37 +81,10 @@ class DigestedStream : private std::streambuf, public std::istream {
   Sha256& digest_;
 };
 
-std::string names(const Problem& problem) {
-  std::vector<std::string> list;
-  for (const Parameter& parameter : problem.space.parameters) list.push_back(parameter.name);
-  return fmt::format("{}", fmt::join(list, ", "));
-}
-
-/// What the law means, in a sentence.
-std::string meaning(Interpolation law, const Problem& problem) {
-  switch (law) {
-    case Interpolation::kStraight:
-      return fmt::format(
-          "straight: between two waypoints {} each go from value to value at a constant rate, all at once{}",
-          names(problem), problem.space.constraints.empty() ? "" : ", and from there onto the constraints");
-    case Interpolation::kCubicBSpline:
-      return fmt::format("spline: {} follow a cubic B-spline of which these are the control points", names(problem));
-    case Interpolation::kGeodesic:
-      return "geodesic: between two waypoints the platform's origin moves straight, and the platform turns about one "
-             "axis, the "
-             "shorter way, both at constant rates";
-    case Interpolation::kCableLengths: break;
-  }
-  return "cable-lengths: between two waypoints the length of each cable changes at a constant rate, all at once; the "
-         "pose is the one "
-         "that the lengths imply";
-}
-
 }  // namespace
 
-PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law,
-                       PathFileOptions options)
-    : input_(kept_if_pipe(std::move(input))), case_problem_(problem), options_(options) {
+PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law)
+    : input_(kept_if_pipe(std::move(input))), case_problem_(problem) {
   if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();
@@ -129,9 +102,6 @@ PathSource::PathSource(const Problem& problem, PathInput input, std::optional<In
     }
     waypoints_ = summary.rows();
     description_ = summary.text();
-    if (file.repeats_dropped() > 0)
-      description_ += fmt::format("  {} {} dropped\n", plural(file.repeats_dropped(), "repeated row"),
-                                  file.repeats_dropped() == 1 ? "was" : "were");
   }
   if (waypoints_ < control_points(law_) && (waypoints_ != 1 || law_ == Interpolation::kCubicBSpline)) {
     throw InputError(fmt::format("{}: got {}, expected at least {} of a spline", path_, plural(waypoints_, "waypoint"),
@@ -196,16 +166,19 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
 }
 
 PathFile PathSource::open_file() const {
-  if (!input_.text) return {path_, case_problem_.space, options_};
-  return {std::make_unique<std::istringstream>(*input_.text), path_, case_problem_.space, options_};
+  if (!input_.text) return {path_, case_problem_.space};
+  return {std::make_unique<std::istringstream>(*input_.text), path_, case_problem_.space};
 }
 
 Path PathSource::whole_path() const {
-  PathSource again(case_problem_, input_, law_, options_);
+  PathSource again(case_problem_, input_, law_);
   if (again.sha256_ != sha256_) throw InputError(path_ + ": the file was changed while it was read", {path_});
   Path path;
   path.interpolation = law_;
-  for (SourceWaypoint waypoint; again.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
+  for (SourceWaypoint waypoint; again.next(waypoint);) {
+    path.waypoints.push_back(waypoint.waypoint);
+    if (waypoint.time_s) path.times.push_back(waypoint.time_s->text());
+  }
   return path;
 }
 
@@ -229,7 +202,7 @@ void PathSource::open() {
     text = std::make_unique<std::ifstream>(path_, std::ios::binary);
   }
   file_ = std::make_unique<PathFile>(std::make_unique<DigestedStream>(std::move(text), digest_), path_,
-                                     case_problem_.space, options_);
+                                     case_problem_.space);
   maker_ = std::make_unique<WaypointMaker>(case_problem_, *header_, law_, path_);
 }
 
@@ -298,7 +271,7 @@ void PathSource::require_start(std::size_t line) const {
 
 std::string PathSource::description() const {
   std::string text =
-      fmt::format("Read {}: {}Interpolation {}.\n", sanitize(path_), description_, meaning(law_, problem_));
+      fmt::format("Read {}: {}Interpolation {}.\n", sanitize(path_), description_, law_sentence(law_, problem_));
   if (maker_ && maker_->is_converted()) {
     text +=
         "The file's poses were converted to this form in floating point: what is proved is about the converted "

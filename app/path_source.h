@@ -41,7 +41,7 @@ class PathSource {
   /// waypoint.
   /// @param law  how to join the waypoints; nothing for the file's usual way.
   /// @throws InputError
-  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law, PathFileOptions options);
+  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law);
   ~PathSource();
   PathSource(const PathSource&) = delete;
   PathSource& operator=(const PathSource&) = delete;
@@ -88,7 +88,6 @@ class PathSource {
   bool stays_ = false;  ///< one pose, which takes no time
   Problem case_problem_;
   Problem problem_;
-  PathFileOptions options_;
   Interpolation law_ = Interpolation::kStraight;
   std::size_t waypoints_ = 0;
   std::string sha256_;

@@ -317,7 +317,37 @@ int read_count(const Field& field, int largest) {
   return value;
 }
 
-PlannerOptions read_planner(const Field& field) {
+/// Reads `{travel: {point, per_radian}}`.
+TravelCost read_travel(const Field& field, const Units& units) {
+  const Unit& length = units[Dimension::kLength];
+  const Map map = field.map({"point", "per_radian"});
+  TravelCost travel;
+  if (const auto point = map.find("point")) {
+    const std::vector<Field> coordinates = point->list(3, "a point of the platform: a list of three lengths");
+    for (std::size_t k = 0; k < 3; ++k) {
+      travel.point_m[k] = ScalarTraits<double>::from_decimal(read_quantity(coordinates[k], length));
+    }
+  }
+  if (const auto per_radian = map.find("per_radian")) {
+    travel.per_radian_m = ScalarTraits<double>::from_decimal(read_quantity(*per_radian, length));
+    if (*travel.per_radian_m < 0) per_radian->fail("a length >= 0");
+  }
+  return travel;
+}
+
+void read_cost(const Field& field, const Units& units, PlannerOptions& planner) {
+  if (field.node().IsMap()) {
+    planner.cost = Cost::kTravel;
+    planner.travel = read_travel(field.map({"travel"}).at("travel"), units);
+    return;
+  }
+  planner.cost = read_choice<Cost>(field, {{"rotation", Cost::kRotation},
+                                           {"great_circle", Cost::kGreatCircle},
+                                           {"parameters", Cost::kParameters},
+                                           {"travel", Cost::kTravel}});
+}
+
+PlannerOptions read_planner(const Field& field, const Units& units) {
   const Map map =
       field.map({"strategy", "cost", "radius", "epsilon", "max_charts", "max_seconds", "clearance", "smooth"});
   PlannerOptions planner;
@@ -325,11 +355,7 @@ PlannerOptions read_planner(const Field& field) {
     planner.strategy =
         read_choice<Strategy>(*strategy, {{"astar", Strategy::kAStar}, {"greedy", Strategy::kGreedyBestFirst}});
   }
-  if (const auto cost = map.find("cost")) {
-    planner.cost = read_choice<Cost>(
-        *cost,
-        {{"rotation", Cost::kRotation}, {"great_circle", Cost::kGreatCircle}, {"parameters", Cost::kParameters}});
-  }
+  if (const auto cost = map.find("cost")) read_cost(*cost, units, planner);
   if (const auto radius = map.find("radius")) planner.radius = read_positive(*radius);
   if (const auto epsilon = map.find("epsilon")) planner.epsilon = read_positive(*epsilon);
   if (const auto max_charts = map.find("max_charts")) planner.max_charts = read_count(*max_charts, 100'000'000);
@@ -388,16 +414,13 @@ void read_expectation(const Field& field, const Units& units, Case& result) {
 }
 
 AuditedPath read_audited_path(const Field& field) {
-  const Map map = field.map({"path", "interpolation", "allow_repeats"});
+  const Map map = field.map({"path", "interpolation"});
   AuditedPath result;
   result.file = map.at("path").text("the name of a path file, seen from the case file");
   if (const auto law = map.find("interpolation")) {
     const std::vector<std::string> laws = {"straight", "geodesic", "cable-lengths"};
     result.interpolation = law->text("one of " + join(laws));
     if (std::ranges::find(laws, result.interpolation) == laws.end()) law->fail("one of " + join(laws));
-  }
-  if (const auto allow = map.find("allow_repeats")) {
-    result.allow_repeats = read_choice<bool>(*allow, {{"true", true}, {"false", false}});
   }
   return result;
 }
@@ -435,7 +458,7 @@ Case read_case(const Field& root) {
     result.problem.space = space.text;
     if (query) result.problem.query = read_query(*query, space);
   }
-  if (const auto planner = map.find("planner")) result.planner = read_planner(*planner);
+  if (const auto planner = map.find("planner")) result.planner = read_planner(*planner, units);
   if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit);
   if (const auto expect = map.find("expect")) read_expectation(*expect, units, result);
   return result;

@@ -15,15 +15,22 @@
 namespace taut {
 
 enum class Strategy { kAStar, kGreedyBestFirst };
-enum class Cost { kRotation, kGreatCircle, kParameters };
+enum class Cost { kRotation, kGreatCircle, kParameters, kTravel };
 enum class Smoothing { kNone, kShorten, kSpline };
 enum class Expectation { kNone, kProved, kRefuted, kUndecided };
+
+/// What Cost::kTravel adds up: how far a point of the platform moves, and a length for each radian that it turns.
+struct TravelCost {
+  std::array<double, 3> point_m{};     ///< in the platform's axes; its origin unless the case names another
+  std::optional<double> per_radian_m;  ///< >= 0; by default the mean distance of the platform's anchors from the point
+};
 
 /// Options of the search. They are floating-point numbers, since a search proves nothing. Lengths and angles share one
 /// scale; see atlas/wrench_feasible_manifold.h.
 struct PlannerOptions {
   Strategy strategy = Strategy::kAStar;
   Cost cost = Cost::kRotation;
+  TravelCost travel;      ///< for Cost::kTravel
   double radius = 0.15;   ///< chart radius r [rad]
   double epsilon = 0.15;  ///< largest distance from chart to manifold [rad]
   int max_charts = 200000;
@@ -50,7 +57,6 @@ inline constexpr std::array<const char*, 10> kBoundQuantities = {
 struct AuditedPath {
   std::string file;           ///< relative to the case file
   std::string interpolation;  ///< empty: as the file suggests
-  bool allow_repeats = false;
 };
 
 /// A case file's content. The space is coordinate_space() if the file has none; a case without a query is for audits.

@@ -21,6 +21,8 @@
 #include "cli/console.h"
 #include "cli/output.h"
 #include "cli/report_command.h"
+#include "cli/result_folder.h"
+#include "path_io/controller_csv.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -187,6 +189,25 @@ std::string progress_text(std::size_t done, std::size_t all, double seconds) {
                      static_cast<double>(all - done) / rate);
 }
 
+/// What the results are about.
+ResultInputs inputs_of(const AuditArguments& arguments, const AuditRequest& request) {
+  ResultInputs inputs("audit");
+  inputs.add_file("case", arguments.case_path);
+  inputs.add_file("path", request.path.name);
+  if (request.law) inputs.add("interpolation", interpolation_name(*request.law));
+  return inputs;
+}
+
+/// controller.csv, where it is asked for and the path is proved.
+std::optional<NewFile> controller_file(const std::filesystem::path& out, const std::optional<ControllerStep>& step,
+                                       const PathSource& source, const checker::CheckResult& checked) {
+  if (!step || exit_code(checked) != kProvedExit) return std::nullopt;
+  NewFile file(out / "controller.csv");
+  file.write(controller_csv(source.problem(), source.whole_path(), *step, checked.sha256));
+  file.finish();
+  return file;
+}
+
 }  // namespace
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments) {
@@ -198,12 +219,15 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command
       .add_option("--interpolation", arguments.law, "what happens between waypoints (default: as the file suggests)")
       ->check(CLI::IsMember(names));
-  command.add_option("--out", arguments.out, "directory for the results (default: out/PATH's name)");
+  command.add_option("--out", arguments.out,
+                     "directory for the results (default: a new one, out/CASE-audit-PATH, or that of these files)");
+  command.add_option("--step", arguments.step,
+                     "write controller.csv, too, if the path is proved: the platform travels at most so far from row "
+                     "to row, for example 10mm");
   constexpr int kLeastBits = 128;
   constexpr int kMostBits = 1 << 20;
   command.add_option("--bits", arguments.bits, "precision beyond which the prover gives up (default: 4096)")
       ->check(CLI::Range(kLeastBits, kMostBits));
-  command.add_flag("--allow-repeats", arguments.allow_repeats, "drop rows that repeat the pose of the row before");
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
   add_max_seconds_option(command, arguments.max_seconds);
@@ -214,17 +238,21 @@ int run_audit(const AuditArguments& arguments) {
   const Case case_ = load_case(arguments.case_path);
   const std::optional<Interpolation> law =
       arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
-  const AuditRequest request = resolved({arguments.path, law, arguments.allow_repeats}, case_, arguments.case_path);
+  const AuditRequest request = resolved({arguments.path, law}, case_, arguments.case_path);
+  const std::optional<ControllerStep> step =
+      arguments.step.empty() ? std::nullopt : std::optional(read_controller_step(arguments.step, "--step"));
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
-  PathSource source(case_.problem, request.path, request.law, {request.allow_repeats});
+  PathSource source(case_.problem, request.path, request.law);
   if (!arguments.json) fmt::print("{}", source.description());
   announce(case_, arguments.json);
   std::fflush(stdout);
 
-  const std::filesystem::path out = out_folder(arguments.out, request.path.name);
-  make_directories(out);
-  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+  const ResultInputs inputs = inputs_of(arguments, request);
+  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+  const std::filesystem::path out =
+      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(request.path.name), inputs);
+  for (const char* name : kResultFiles) {
     for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
       require_another(out / name, read);
     }
@@ -272,8 +300,10 @@ int run_audit(const AuditArguments& arguments) {
     report->finish();
     files.push_back(&*report);
   }
+  std::optional<NewFile> controller = controller_file(out, step, source, checked);
+  if (controller) files.push_back(&*controller);
   files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
-  std::vector<std::filesystem::path> remove_first = {out / "path.csv"};
+  std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
   if (!report) remove_first.push_back(report_path);  // of an earlier audit
   rename_into_place(files, remove_first);
 
@@ -287,13 +317,19 @@ int run_audit(const AuditArguments& arguments) {
     object["tolerance_limits"] = to_json(limits);
     std::vector<std::filesystem::path> written = {out / "certificate.json"};
     if (report) written.push_back(report_path);
+    if (controller) written.push_back(out / "controller.csv");
     written.push_back(out / "path.csv");
     add_ending(object, stopwatch, exit_code(checked), written);
     print_json(object);
   } else {
     print(result, case_, source, checked);
+    const bool has_not_grown = is_proved && source.problem().tolerances && limits.empty();
+    if (has_not_grown && result.segments <= kMostReported) {
+      fmt::print("How far each tolerance could grow alone was not found out within {} s.\n", kGrowthSeconds);
+    }
     fmt::print("{}{}\n", tolerance_table(limits, DisplayUnits(case_.units)), sentence(checked));
-    fmt::print("Written to {}: path.csv, certificate.json{}\n", sanitize(out.string()), report ? ", report.html" : "");
+    fmt::print("Written to {}: path.csv, {}certificate.json{}\n", sanitize(out.string()),
+               controller ? "controller.csv, " : "", report ? ", report.html" : "");
     if (!report) {
       fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
                  sanitize((out / "certificate.json").string()));

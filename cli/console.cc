@@ -41,11 +41,6 @@ void add_max_seconds_option(CLI::App& command, double& max_seconds) {
       ->check(checker::complain_of_seconds);
 }
 
-std::filesystem::path out_folder(const std::string& wanted, const std::string& file) {
-  return wanted.empty() ? std::filesystem::path("out") / std::filesystem::path(file).stem()
-                        : std::filesystem::path(wanted);
-}
-
 std::optional<SigningKey> load_signing_key(const std::string& path) {
   if (path.empty()) return std::nullopt;
   constexpr std::size_t kMaxKeyBytes = std::size_t{1} << 16U;  // an Ed25519 key in PEM has 119

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -24,9 +23,6 @@ enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInput
 
 /// "--max-seconds" of plan, audit and report: the checker's budget.
 void add_max_seconds_option(CLI::App& command, double& max_seconds);
-
-/// The folder for results: `wanted`, or out/NAME after the name of `file` if `wanted` is empty.
-[[nodiscard]] std::filesystem::path out_folder(const std::string& wanted, const std::string& file);
 
 /// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
 /// @throws InputError as SigningKey

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,8 @@
 #include "cli/console.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
+#include "cli/result_folder.h"
+#include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
@@ -72,11 +73,11 @@ std::string hint(const Case& the_case, const Plan& plan) {
 
 /// What the search knows of its path.
 std::string length_sentence(const PlanStatistics& s) {
-  const std::string spent = s.budget_spent ? "; the budget is spent" : "";
-  if (s.factor == 1) return "The path found is the shortest on the charts' graph" + spent;
-  if (!std::isfinite(s.factor)) return "The path found is the first, not the shortest, on the charts' graph" + spent;
-  return fmt::format("The path found is at most {:.4g} times as long as the shortest on the charts' graph{}", s.factor,
-                     spent);
+  const std::string rest = fmt::format(" on the charts' graph{}.\nLength here is {}",
+                                       s.budget_spent ? "; the budget is spent" : "", s.cost_measure);
+  if (s.factor == 1) return "The path found is the shortest" + rest;
+  if (!std::isfinite(s.factor)) return "The path found is the first, not the shortest," + rest;
+  return fmt::format("The path found is at most {:.4g} times as long as the shortest{}", s.factor, rest);
 }
 
 /// Checks that no file that is written is one that is read.
@@ -86,7 +87,7 @@ void require_others(const PlanArguments& arguments, const std::filesystem::path&
     require_writable(arguments.save_atlas);
     for (const std::string& file : read) require_another(arguments.save_atlas, file);
   }
-  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+  for (const char* name : kResultFiles) {
     for (const std::string& file : read) require_another(out / name, file);
     for (const std::string& file : {arguments.atlas, arguments.save_atlas}) require_another(out / name, file);
   }
@@ -127,6 +128,8 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"edges_rejected", s.edges_rejected},
                            {"cost", s.cost},
                            {"cost_found", s.cost_found},
+                           {"cost_unit", s.cost_unit},
+                           {"cost_measure", s.cost_measure},
                            {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nlohmann::json()},
                            {"budget_spent", s.budget_spent},
                            {"length_m", if_proved(outcome.lengths.length_m)},
@@ -148,9 +151,11 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
 void print_search(const Outcome& outcome, const DisplayUnits& units) {
   const PlanStatistics& s = outcome.planned.plan.statistics;
   if (s.charts == 0) return;
-  fmt::print("{}, {} expanded; {} looked at, {} refused; cost {:.4g}, shortened from {:.4g}.\n",
-             plural(static_cast<std::size_t>(s.charts), "chart"), s.nodes_expanded,
-             plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected, s.cost, s.cost_found);
+  const std::string unit = s.cost_unit.empty() ? "" : " " + s.cost_unit;
+  const bool has_path = outcome.is_proved() || s.cost_found > 0;
+  fmt::print("{}, {} expanded; {} looked at, {} refused{}.\n", plural(static_cast<std::size_t>(s.charts), "chart"),
+             s.nodes_expanded, plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected,
+             has_path ? fmt::format("; cost {:.4g}{}, shortened from {:.4g}{}", s.cost, unit, s.cost_found, unit) : "");
   if (outcome.is_proved()) {
     fmt::print("On its way the platform's origin moves {:.4g} {}, and the platform turns {}.\n",
                units.length.approx(outcome.lengths.length_m), units.length.name(),
@@ -216,7 +221,10 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
 
 void add_plan_options(CLI::App& command, PlanArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md)")->required();
-  command.add_option("--out", arguments.out, "directory for the results (default: out/CASE's name)");
+  command.add_option("--out", arguments.out,
+                     "directory for the results (default: a new one, out/CASE's name, or this case's own)");
+  command.add_option("--step", arguments.step,
+                     "how far the platform travels between two rows of controller.csv at most (default: 10 mm)");
   command.add_option("--atlas", arguments.atlas, "begin with the charts of this file (docs/atlas-file.md)");
   CLI::Option* save_atlas = command.add_option("--save-atlas", arguments.save_atlas, "write all charts into this file");
   CLI::Option* grow =
@@ -242,12 +250,15 @@ int run_plan(const PlanArguments& arguments) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;
   }
-  const std::filesystem::path out = out_folder(arguments.out, arguments.case_path);
+  const ControllerStep step = read_controller_step(arguments.step, "--step");
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
-  require_others(arguments, out);
   Planner planner(case_, arguments.atlas);
-  make_directories(out);
+  ResultInputs inputs("plan");
+  inputs.add_file("case", arguments.case_path);
+  const std::filesystem::path out =
+      make_result_folder(arguments.out, std::filesystem::path(arguments.case_path).stem().string(), inputs);
+  require_others(arguments, out);
   announce(case_, arguments.json);
 
   const Interruption interruption;
@@ -258,14 +269,14 @@ int run_plan(const PlanArguments& arguments) {
                                     {out / "report.html", make_report(checked, {"", "", date}, ReportForm::kPage)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
-  // What is not proved is not for a machine to follow: path.csv goes first, and comes back last.
-  const std::array<std::filesystem::path, 1> path_file = {out / "path.csv"};
-  if (outcome.is_proved()) {
+  if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
     outcome.lengths = planner.measure(planned.plan.path);
     outcome.tolerance_limits = planned.tolerance_limits;
-    files.push_back({path_file[0], path_csv(case_.problem, planned.plan.path, checked.sha256)});
+    const Path& path = planned.plan.path;
+    files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
+    files.push_back({out / "path.csv", path_csv(case_.problem, path, checked.sha256)});  // last
   }
-  write_whole(files, path_file);
+  write_whole(files, outdated_results(out, inputs));
 
   if (arguments.json) {
     nlohmann::json result = summary(case_, outcome);
@@ -279,7 +290,7 @@ int run_plan(const PlanArguments& arguments) {
   if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) fmt::print("{}\n", may_be);
   print_search(outcome, DisplayUnits(case_.units));
   fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
-             outcome.is_proved() ? "path.csv, " : "");
+             outcome.is_proved() ? "path.csv, controller.csv, " : "");
   if (saves_atlas) {
     fmt::print("{}\n", atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
   }

@@ -138,9 +138,7 @@ std::vector<std::string> command_for(const Case& declared, const fs::path& file,
                                      const fs::path& out) {
   std::vector<std::string> command = {own_program(), declared.audit ? "audit" : "plan", file.string(), "--max-seconds",
                                       fmt::format("{}", options.most_seconds)};
-  if (declared.audit) {
-    if (declared.audit->allow_repeats) command.emplace_back("--allow-repeats");
-  } else if (options.budget) {
+  if (!declared.audit && options.budget) {
     command.insert(command.end(), {"--budget", fmt::format("{}", *options.budget)});
   }
   command.insert(command.end(), {"--json", "--out", out.string()});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planner/path_length.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -17,10 +19,21 @@ std::span<const double> span_of(const Coordinates& q) { return {q.data(), static
 /// Length of an arc of a circle, from its chord.
 double arc(double chord, double radius) { return 2.0 * radius * std::asin(std::min(1.0, chord / (2.0 * radius))); }
 
+/// Mean distance of the platform's anchors from a point, both in the platform's axes.
+double mean_reach(const Model<double>& model, const Vector3<double>& point) {
+  double sum = 0;
+  for (const Vector3<double>& from_load_point : model.p_MB) sum += (model.p_PM + from_load_point - point).norm();
+  return sum / kCables;
+}
+
 }  // namespace
 
-PathLength::PathLength(const PoseSampler& sampler, Cost cost, const std::vector<Coordinates>& near)
-    : sampler_(sampler), cost_(cost) {
+PathLength::PathLength(const PoseSampler& sampler, Cost cost, const std::vector<Coordinates>& near,
+                       const TravelCost& travel)
+    : sampler_(sampler),
+      cost_(cost),
+      point_P_(travel.point_m[0], travel.point_m[1], travel.point_m[2]),
+      per_radian_(travel.per_radian_m.value_or(mean_reach(sampler.model(), point_P_))) {
   if (cost == Cost::kGreatCircle) fit_sphere(near);
 }
 
@@ -56,17 +69,44 @@ void PathLength::fit_sphere(const std::vector<Coordinates>& near) {
   }
 }
 
+const char* PathLength::unit() const {
+  switch (cost_) {
+    case Cost::kRotation: return "rad";
+    case Cost::kGreatCircle:
+    case Cost::kTravel: return "m";
+    case Cost::kParameters: break;
+  }
+  return "";
+}
+
+std::string PathLength::measure() const {
+  switch (cost_) {
+    case Cost::kRotation: return "the angle that the platform turns";
+    case Cost::kGreatCircle: return "how far the platform's origin moves on its sphere";
+    case Cost::kParameters: return "the distance in the case's parameters (in m and rad)";
+    case Cost::kTravel: break;
+  }
+  const std::string point = point_P_.isZero() ? "the platform's origin"
+                                              : fmt::format("the platform's point ({:.4g}, {:.4g}, {:.4g}) m",
+                                                            point_P_[0], point_P_[1], point_P_[2]);
+  const std::string turning =
+      per_radian_ > 0 ? fmt::format(", plus {:.4g} m for each radian that the platform turns", per_radian_) : "";
+  return fmt::format("how far {} moves{}", point, turning);
+}
+
 PathLength::RigidTransform PathLength::transform(const Coordinates& q) const {
   return transform(sampler_.pose(span_of(q)));
 }
 
 PathLength::RigidTransform PathLength::transform(const Pose<double>& pose) const {
   if (cost_ == Cost::kGreatCircle) return {pose.p_WP, {}};
-  return {pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma)};
+  const Matrix3<double> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
+  return {cost_ == Cost::kTravel ? Vector3<double>(pose.p_WP + r_WP * point_P_) : pose.p_WP, r_WP};
 }
 
 double PathLength::between(const RigidTransform& a, const RigidTransform& b) const {
-  if (cost_ == Cost::kGreatCircle) return arc((a.p_WP - b.p_WP).norm(), sphere_radius_);
+  if (cost_ == Cost::kGreatCircle) return arc((a.p_W - b.p_W).norm(), sphere_radius_);
+  if (cost_ == Cost::kTravel) return (a.p_W - b.p_W).norm() + per_radian_ * rotation_angle(a.r_WP, b.r_WP);
   return rotation_angle(a.r_WP, b.r_WP);
 }
 

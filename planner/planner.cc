@@ -215,7 +215,7 @@ Planner::Planner(const Case& the_case, const std::filesystem::path& atlas_file)
       prover_(the_case.problem),
       sampler_(the_case.problem),
       query_(query_waypoints(the_case.problem)),
-      length_(sampler_, the_case.planner.cost, to_coordinates(query_)),
+      length_(sampler_, the_case.planner.cost, to_coordinates(query_), the_case.planner.travel),
       clearance_(possible_clearance(the_case.planner.clearance, sampler_, query_)),
       chart_clearance_(clearance_) {
   if (!atlas_file.empty()) {
@@ -353,8 +353,9 @@ double Planner::seconds_for_leg(std::size_t leg) const {
 
 Reason Planner::no_path_reason(const SearchResult& result, std::size_t leg) const {
   const std::string what = fmt::format("no path from waypoint {} to {} of the query: ", leg, leg + 1);
-  const std::string best = fmt::format(
-      "; best so far: a chart whose distance to waypoint {} is {:.3g}, by the case's cost", leg + 1, result.nearest);
+  const std::string unit = length_.unit();
+  const std::string best = fmt::format("; best so far: a chart whose distance to waypoint {} is {:.3g}{} ({})", leg + 1,
+                                       result.nearest, unit.empty() ? "" : " " + unit, length_.measure());
   switch (result.status) {
     case SearchStatus::kExhausted: {
       const std::string charts = fmt::format(
@@ -397,6 +398,8 @@ Plan Planner::plan(const Progress& progress, const std::stop_token& stop) {
   }
   set_tubes(result.path, prover_);
   PlanStatistics& statistics = result.statistics;
+  statistics.cost_measure = length_.measure();
+  statistics.cost_unit = length_.unit();
   statistics.charts = atlas_->size();
   statistics.charts_stored = atlas_file_ ? atlas_file_->size() : 0;
   statistics.plan_seconds = seconds_since(start) - statistics.prove_seconds - statistics.smooth_seconds;

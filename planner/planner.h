@@ -34,7 +34,9 @@ struct PlanStatistics {
   int nodes_expanded = 0;
   int edges_checked = 0;  ///< by samples or by proof, for search and shortening
   int edges_rejected = 0;
-  double cost_found = 0;      ///< of the path that the search found, by the case's cost
+  std::string cost_measure;   ///< what the case's cost measures, in words (planner/path_length.h)
+  std::string cost_unit;      ///< "rad", "m", or empty for the parameters
+  double cost_found = 0;      ///< of the path that the search found
   double factor = 1;          ///< that path is at most this many times as long as the shortest on the charts' graph
   bool budget_spent = false;  ///< the budget ended the search
   double cost = 0;            ///< of the final path

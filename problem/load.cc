@@ -253,6 +253,7 @@ void validate_ellipsoid(const EllipsoidText& ellipsoid) {
 
 using Vector = std::array<double, 3>;
 
+double size_of(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector vector_approx(const RationalVector& texts) {
@@ -262,28 +263,28 @@ Vector vector_approx(const RationalVector& texts) {
 /// The force in the middle of an item's set, in the axes of the set.
 Vector nominal_force_approx(const LoadItem& item, const Vector& gravity) {
   const auto times = [](double k, const Vector& v) -> Vector { return {k * v[0], k * v[1], k * v[2]}; };
-  return std::visit(
-      Overloaded{[&](const Weight& w) {
-                   return times((from_rational<double>(w.mass_lower) + from_rational<double>(w.mass_upper)) / 2,
-                                gravity);
-                 },
-                 [&](const Force& f) {
-                   const auto* segment = std::get_if<SegmentOfVectors>(&f.set);
-                   if (!segment) return Vector{};
-                   const double lower = from_rational<double>(segment->lower);
-                   const double upper = from_rational<double>(segment->upper);
-                   const Vector e = vector_approx(segment->direction);
-                   return times(lower <= 0 && upper >= 0 ? 0 : (lower + upper) / 2 / std::sqrt(dot(e, e)), e);
-                 },
-                 [](const Moment&) { return Vector{}; },
-                 [&](const LoadCases& c) {
-                   Vector sum{};
-                   for (const auto& wrench : c.wrenches) {
-                     for (std::size_t k = 0; k < 3; ++k) sum[k] += from_rational<double>(wrench[k]);
-                   }
-                   return times(1 / static_cast<double>(c.wrenches.size()), sum);
-                 }},
-      item.what);
+  return std::visit(Overloaded{[&](const Weight& w) {
+                                 return times(
+                                     (from_rational<double>(w.mass_lower) + from_rational<double>(w.mass_upper)) / 2,
+                                     gravity);
+                               },
+                               [&](const Force& f) {
+                                 const auto* segment = std::get_if<SegmentOfVectors>(&f.set);
+                                 if (!segment) return Vector{};
+                                 const double lower = from_rational<double>(segment->lower);
+                                 const double upper = from_rational<double>(segment->upper);
+                                 const Vector e = vector_approx(segment->direction);
+                                 return times(lower <= 0 && upper >= 0 ? 0 : (lower + upper) / 2 / size_of(e), e);
+                               },
+                               [](const Moment&) { return Vector{}; },
+                               [&](const LoadCases& c) {
+                                 Vector sum{};
+                                 for (const auto& wrench : c.wrenches) {
+                                   for (std::size_t k = 0; k < 3; ++k) sum[k] += from_rational<double>(wrench[k]);
+                                 }
+                                 return times(1 / static_cast<double>(c.wrenches.size()), sum);
+                               }},
+                    item.what);
 }
 
 bool turns_with_platform(const LoadItem& item) {
@@ -297,20 +298,20 @@ bool turns_with_platform(const LoadItem& item) {
 void validate_there_is_a_load(const LoadText& load) {
   const Vector gravity = vector_approx(load.gravity_m_s2);
   Vector force = vector_approx({load.wrench[0], load.wrench[1], load.wrench[2]});
-  double scale = std::sqrt(dot(force, force));
+  double scale = size_of(force);
   for (const LoadItem& item : load.items) {
     const Vector nominal = nominal_force_approx(item, gravity);
     // Where it points depends on the pose.
-    if (turns_with_platform(item) && dot(nominal, nominal) > 0) return;
+    if (turns_with_platform(item) && size_of(nominal) > 0) return;
     for (std::size_t k = 0; k < 3; ++k) force[k] += nominal[k];
-    scale += std::sqrt(dot(nominal, nominal));
+    scale += size_of(nominal);
   }
   constexpr double kRounding = 1e-12;
-  if (std::sqrt(dot(force, force)) <= kRounding * scale) {
+  if (size_of(force) <= kRounding * scale) {
     throw FieldError("load.items", "a load whose nominal force is zero",
                      "expected a weight or another force that keeps the cables taut");
   }
-  const double size = std::sqrt(dot(gravity, gravity));
+  const double size = size_of(gravity);
   const double down = size > 0 ? dot(force, gravity) / size : 0;
   if (size > 0 && down <= kRounding * scale) {
     throw FieldError(

@@ -38,7 +38,7 @@ std::size_t size_of(const Rational& x) {
   return std::max(bits(numerator(x)), bits(denominator(x)));
 }
 
-constexpr std::size_t kMaxBits = 1 << 14;  // about 5000 digits
+constexpr std::size_t kMaxBits = 1 << 13;  // about 2500 digits
 
 /// One step of an exact evaluation. @throws InputError for a step that has no exact result.
 Rational perform(const Instruction& step, const std::vector<Rational>& slots, const std::vector<DecimalText>& constants,
@@ -86,8 +86,9 @@ Rational parse_rational(std::string_view text) {
 RationalText rational_text(const Rational& value) {
   // A fraction is a finite decimal if its denominator divides a power of ten.
   cpp_int rest = denominator(value);
-  unsigned twos = 0, fives = 0;
-  for (; rest % 2 == 0; rest /= 2) ++twos;
+  const auto twos = static_cast<unsigned>(lsb(rest));
+  rest >>= twos;
+  unsigned fives = 0;
   for (; rest % 5 == 0; rest /= 5) ++fives;
   if (rest == 1) {
     const unsigned places = std::max(twos, fives);

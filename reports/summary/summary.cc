@@ -120,11 +120,15 @@ std::string to_text(const Summary& s) {
   for (const std::string& sentence : s.closest) line(sentence);
   if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
     line(use_caption(s.use.source) + ":");
+    const CableRow heads = cable_heads(s.units);
+    constexpr std::size_t kFirstWidth = 16;
+    const std::size_t width = std::max(kFirstWidth, heads.cells[1].size());
     const auto row = [&](const CableRow& cable) {
       const auto& c = cable.cells;
-      line(fmt::format("  {:>5} {:>17} {:>10} {:>8} {:>17} {:>10} {:>8}", c[0], c[1], c[2], c[3], c[4], c[5], c[6]));
+      line(fmt::format("  {:>5} {:>{}} {:>10} {:>8} {:>17} {:>10} {:>8}", c[0], c[1], width, c[2], c[3], c[4], c[5],
+                       c[6]));
     };
-    row(cable_heads(s.units));
+    row(heads);
     std::ranges::for_each(rows, row);
   }
   for (const Statement& statement : s.statements)

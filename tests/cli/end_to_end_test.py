@@ -59,8 +59,8 @@ class EndToEnd(InFolder):
                 # The load as it was understood comes first, on two lines.
                 self.assertRegex(planned.stdout, rf"\ALoad: .*\n      .*\n{verdict}")
                 self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
-                path = ["path.csv"] if verdict == "proved" else []
-                self.assertEqual(sorted(os.listdir(out)), ["certificate.json", *path, "report.html"])
+                paths = ["controller.csv", "path.csv"] if verdict == "proved" else []
+                self.assertEqual(sorted(os.listdir(out)), ["certificate.json", *paths, "report.html"])
                 checked = run(CHECK, os.path.join(out, "certificate.json"), case)
                 self.assertEqual(checked.returncode, 2 if verdict == "undecided" else 0, checked.stdout + checked.stderr)
 
@@ -185,8 +185,10 @@ class EndToEnd(InFolder):
         undecided = run(TAUT, "plan", self.budgeted("max_charts: 1", "robot1-slice-qs1-qg.yaml"), "--out", self.out)
         self.assertEqual(undecided.returncode, 2, undecided.stdout + undecided.stderr)
         self.assertNotIn("path.csv", undecided.stdout)
+        self.assertNotIn("controller.csv", undecided.stdout)
         self.assertNotIn("0 rad", undecided.stdout)
         self.assertFalse(os.path.exists(self.path("path.csv")))
+        self.assertFalse(os.path.exists(self.path("controller.csv")))
 
     def test_codes_are_explained_as_they_are_shown(self):
         self.assertEqual(run(TAUT, "explain", "[U7]").stdout, run(TAUT, "explain", "u7").stdout)
@@ -211,6 +213,8 @@ class EndToEnd(InFolder):
         generous = run(TAUT, "plan", case, "--out", self.out, "--budget", "1000")
         self.assertEqual(generous.returncode, 0, generous.stderr)
         self.assertIn("the shortest on the charts' graph.", generous.stdout)
+        self.assertIn("Length here is the angle that the platform turns.", generous.stdout)
+        self.assertEqual((whole["cost_unit"], whole["cost_measure"]), ("rad", "the angle that the platform turns"))
         greedy = run(TAUT, "plan", os.path.join(CASES, "robot2-free-q2-q3.yaml"), "--out", self.out)
         self.assertIn("the first, not the shortest", greedy.stdout)
 

@@ -20,7 +20,7 @@ from command_line import CASES, CHECK, InFolder, TAUT, main, run, text_of
 
 CASE = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
 AUDITED = os.path.join(CASES, "audits", "robot1-planned.yaml")
-RESULTS = ("certificate.json", "path.csv", "report.html")
+RESULTS = ("certificate.json", "controller.csv", "path.csv", "report.html")
 
 
 def may_mount():

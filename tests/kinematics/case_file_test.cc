@@ -125,6 +125,20 @@ TEST(CaseFile, KnowsWhetherABudgetIsStated) {
   EXPECT_EQ(parse(sections).planner.max_seconds, 0.2);
 }
 
+TEST(CaseFile, TravelMayNameAPointAndALengthPerRadian) {
+  Sections sections;  // in mm
+  sections.tail = "planner: {cost: travel}\n";
+  EXPECT_EQ(parse(sections).planner.cost, Cost::kTravel);
+  EXPECT_EQ(parse(sections).planner.travel.point_m, (std::array<double, 3>{0, 0, 0}));
+  EXPECT_FALSE(parse(sections).planner.travel.per_radian_m);
+  sections.tail = "planner: {cost: {travel: {point: [10, 2 cm, -0.5 m], per_radian: 125}}}\n";
+  EXPECT_EQ(parse(sections).planner.cost, Cost::kTravel);
+  EXPECT_EQ(parse(sections).planner.travel.point_m, (std::array<double, 3>{0.01, 0.02, -0.5}));
+  EXPECT_EQ(parse(sections).planner.travel.per_radian_m, 0.125);
+  sections.tail = "planner: {cost: {travel: {per_radian: 0}}}\n";
+  EXPECT_EQ(parse(sections).planner.travel.per_radian_m, 0);
+}
+
 TEST(CaseFile, ConstraintsAreOfTheParametersInMetres) {
   Sections sections;
   sections.space = "space: {implicit: ['px^2 + py^2 + (pz - 306)^2 - 130^2', 1e3*sigma*px + exp(2*py)]}\n";
@@ -468,6 +482,13 @@ TEST(CaseFile, RejectsEveryMistake) {
       {&Sections::tail, "planner: {strategy: dijkstra}\n",
        "planner.strategy: got 'dijkstra', expected one of astar, greedy"},
       {&Sections::tail, "planner: {cost: time}\n", "expected one of rotation, great_circle, parameters"},
+      {&Sections::tail, "planner: {cost: {rotation: 1}}\n", "got the unknown key 'rotation', expected travel"},
+      {&Sections::tail, "planner: {cost: {travel: {}, travel: {}}}\n", "got 'travel' twice"},
+      {&Sections::tail, "planner: {cost: {travel: {per_radian: -1 mm}}}\n",
+       "planner.cost.travel.per_radian: got '-1 mm', expected a length >= 0"},
+      {&Sections::tail, "planner: {cost: {travel: {per_radian: 1 N}}}\n", "got '1 N', expected a length"},
+      {&Sections::tail, "planner: {cost: {travel: {point: [1, 2]}}}\n",
+       "planner.cost.travel.point: got [1, 2], expected a point of the platform: a list of three lengths"},
       {&Sections::tail, "planner: {radius: 0}\n", "planner.radius: got '0', expected a number above zero"},
       {&Sections::tail, "planner: {epsilon: .inf}\n", "planner.epsilon: got '.inf', expected a decimal number"},
       {&Sections::tail, "planner: {max_charts: 1.5}\n", "planner.max_charts: got '1.5', expected a whole number"},

@@ -159,5 +159,22 @@ TEST(StoredAtlas, OfAnotherProblemIsRefused) {
   for (const Case& other : others) EXPECT_THROW(Planner(other, file.path()), InputError);
 }
 
+// The slice shows that nothing forces the origin to move.
+TEST(Travel, KeepsTheOriginOfAFreePlatformInPlaceWhereRotationLetsItWander) {
+  Case the_case = case_of("robot1-free-box-qs-qg");
+  const auto way = [&](Cost cost) {
+    the_case.planner.cost = cost;
+    Planner planner(the_case);
+    const Plan plan = planner.plan({}, {});
+    EXPECT_EQ(plan.proof.verdict, Verdict::kProved) << plan.proof.reason;
+    return planner.measure(plan.path);
+  };
+  const MotionLengths by_rotation = way(Cost::kRotation);
+  const MotionLengths by_travel = way(Cost::kTravel);
+  EXPECT_LT(by_travel.length_m, 0.02);
+  EXPECT_LT(4 * by_travel.length_m, by_rotation.length_m);
+  EXPECT_LT(by_travel.angle_rad, 1.2 * by_rotation.angle_rad);
+}
+
 }  // namespace
 }  // namespace taut

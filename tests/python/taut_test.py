@@ -180,6 +180,13 @@ class Certificates(unittest.TestCase):
         self.assertTrue((samples.tension_lower_N > 0.05).all() and (samples.tension_upper_N < 0.5).all())
         self.assertTrue(np.allclose(np.linalg.norm(samples.quaternion, axis=1), 1))
 
+    def test_have_a_table_for_a_controller(self):
+        self.assertIn("# Step: 10 mm.", self.planned.controller_csv())
+        coarse, fine = (self.planned.controller_csv(step).count("\n") for step in (0.1, 0.001))
+        self.assertLess(coarse, fine)
+        self.assertRaises(taut.InputError, self.planned.controller_csv, 0)
+        self.assertRaises(taut.InputError, taut.Certificate(self.planned.text).controller_csv)
+
     def test_are_reported(self):
         self.assertTrue(taut.report(self.planned, document="LIFT-1").startswith("<!DOCTYPE html>"))
         self.assertIn("confirmed", taut.report(self.planned, "json"))
