@@ -183,7 +183,7 @@ Path PathSource::whole_path() const {
 }
 
 Path PathSource::first_segment() const {
-  PathSource again(case_problem_, input_, law_, options_);
+  PathSource again(case_problem_, input_, law_);
   Path path;
   path.interpolation = law_;
   SourceWaypoint waypoint;

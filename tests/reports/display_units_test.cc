@@ -68,7 +68,8 @@ struct Cables {
     model.tension_upper.fill(4000);
     statics.regular = true;
     statics.tension.fill(-900);
-    statics.tension_radius.fill(90);
+    statics.tension_below.fill(90);
+    statics.tension_above.fill(90);
   }
   Model<double> model;
   Statics<double> statics;
@@ -90,7 +91,7 @@ TEST(NearlySingular, IsWhereTensionsAreAMillionTimesTheLimits) {
   EXPECT_FALSE(is_nearly_singular(cables.model, cables.statics));
   cables.statics.tension[2] = 3.9e9;
   EXPECT_FALSE(is_nearly_singular(cables.model, cables.statics));
-  cables.statics.tension_radius[2] = 2e8;
+  cables.statics.tension_above[2] = 2e8;
   EXPECT_TRUE(is_nearly_singular(cables.model, cables.statics));
   cables.statics.tension[2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(is_nearly_singular(cables.model, cables.statics));
