@@ -19,12 +19,12 @@
 #include "case/case_file.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/signature.h"
-#include "certify/tolerance_limits.h"
+#include "certify/headroom.h"
 
 namespace taut {
 
-/// For longer paths it is not tried how far tolerances could grow, which takes some tens of proofs of the whole path
-/// and all of it in memory; nor is a report made of them unless somebody asks for one.
+/// For longer paths it is not sought what stands in the way or how far the proof reaches, which takes some tens of
+/// proofs and all of the path in memory; nor is a report made of them unless somebody asks for one.
 inline constexpr std::size_t kMostReported = 5'000;
 
 /// The laws that may be asked for, by their names.
@@ -46,6 +46,8 @@ struct AuditOptions {
   long max_bits = 4096;             ///< the greatest precision of the prover
   std::filesystem::path folder;     ///< for temporary files
   const SigningKey* key = nullptr;  ///< null: the certificate is not signed
+  double headroom_seconds = 0;      ///< that find_headroom() may take; 0: it is not sought
+  HeadroomProgress headroom_progress = {};
 };
 
 /// Where in a path file a point of the path is.
@@ -70,11 +72,11 @@ struct Audit {
   std::size_t segments = 0;
   std::size_t boxes = 0;
   long boxes_judged = 0;
-  std::optional<Margins> margins;                  ///< of the whole path; only if proved
-  std::size_t stretches_violated = 0;              ///< with a proved violation
-  std::size_t stretches_open = 0;                  ///< without
-  std::vector<AuditedStretch> stretches;           ///< the first of them
-  std::vector<ToleranceLimit> tolerance_limits{};  ///< where the path is proved and the case states tolerances
+  std::optional<Margins> margins;         ///< of the whole path; only if proved
+  std::size_t stretches_violated = 0;     ///< with a proved violation
+  std::size_t stretches_open = 0;         ///< without
+  std::vector<AuditedStretch> stretches;  ///< the first of them
+  std::optional<Headroom> headroom{};     ///< where it was sought
   double seconds = 0;
 };
 

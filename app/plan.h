@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/headroom.h"
 #include "app/recheck.h"
 #include "certificate/signature.h"
-#include "certify/tolerance_limits.h"
 #include "planner/planner.h"
 
 namespace taut {
@@ -20,16 +20,18 @@ void require_plannable(const Case& the_case);
 
 struct PlannedCase {
   Plan plan;
-  bool whole_atlas = false;                      ///< whether the atlas was grown until nothing was left
-  std::vector<ToleranceLimit> tolerance_limits;  ///< where the path is proved and the case states tolerances
-  std::string text;                              ///< of certificate.json
-  checker::CheckResult checked;                  ///< what the checker says of it: the verdict
+  bool whole_atlas = false;          ///< whether the atlas was grown until nothing was left
+  std::optional<Headroom> headroom;  ///< where it was sought
+  std::string text;                  ///< of certificate.json
+  checker::CheckResult checked;      ///< what the checker says of it: the verdict
 };
 
 struct PlannedCaseOptions {
-  bool grow = false;                   ///< the atlas, before it is drawn and stored
-  const SigningKey* key = nullptr;     ///< null: the certificate is not signed
-  double max_seconds = kCheckSeconds;  ///< that the checker may take
+  bool grow = false;                           ///< the atlas, before it is drawn and stored
+  const SigningKey* key = nullptr;             ///< null: the certificate is not signed
+  double max_seconds = kCheckSeconds;          ///< that the checker may take
+  double headroom_seconds = kHeadroomSeconds;  ///< that find_headroom() may take; 0: it is not sought
+  HeadroomProgress headroom_progress = {};
 };
 
 /// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it

@@ -10,13 +10,13 @@
 #include "app/audit.h"
 #include "app/recheck.h"
 #include "app/report.h"
-#include "app/tolerance_table.h"
 #include "base/files.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
 #include "case/case_file.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
+#include "cli/headroom_output.h"
 #include "cli/report_command.h"
 #include "reports/summary/sentences.h"
 
@@ -183,6 +183,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command.add_flag("--allow-repeats", arguments.allow_repeats, "drop rows that repeat the pose of the row before");
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_headroom_option(command, arguments.headroom_seconds);
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
@@ -220,7 +221,9 @@ int run_audit(const AuditArguments& arguments) {
       });
     };
     result = audit_path(
-        source, {arguments.bits, out, key ? &*key : nullptr},
+        source,
+        {arguments.bits, out, key ? &*key : nullptr, arguments.headroom_seconds,
+         [&](std::size_t done, std::size_t all) { line.show([&] { return headroom_progress_text(done, all); }); }},
         [&](std::string_view text) {
           digest.update(text);
           size += text.size();
@@ -253,17 +256,16 @@ int run_audit(const AuditArguments& arguments) {
   if (!report) remove_first.push_back(report_path);  // of an earlier audit
   rename_into_place(files, remove_first);
 
-  const bool is_proved = exit_code(checked) == kProvedExit;
-  const std::vector<ToleranceLimit> limits = is_proved ? result.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
     object["out"] = out.string();
-    object["tolerance_limits"] = to_json(limits);
+    object["headroom"] = headroom_json(result.headroom);
     object["recheck"] = to_json(checked);
     fmt::print("{}\n", object.dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {
     print(result, source, checked);
-    fmt::print("{}{}\n", tolerance_table(limits), sentence(checked));
+    print_headroom(result.headroom);
+    fmt::print("{}\n", sentence(checked));
     fmt::print("Written to {}: path.csv, certificate.json{}\n", sanitize(out.string()), report ? ", report.html" : "");
     if (!report) {
       fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,

@@ -13,12 +13,12 @@
 
 #include "app/plan.h"
 #include "app/report.h"
-#include "app/tolerance_table.h"
 #include "base/files.h"
 #include "base/sanitize.h"
 #include "certificate/signature.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
+#include "cli/headroom_output.h"
 #include "cli/number_option.h"
 #include "path_io/path_csv.h"
 #include "reports/summary/sentences.h"
@@ -82,8 +82,7 @@ void require_others(const PlanArguments& arguments, const std::filesystem::path&
 /// What there is to say once all is written.
 struct Outcome {
   const PlannedCase& planned;
-  MotionLengths lengths{};                         ///< only if proved
-  std::vector<ToleranceLimit> tolerance_limits{};  ///< only if proved
+  MotionLengths lengths{};  ///< only if proved
   std::filesystem::path out;
 
   [[nodiscard]] bool is_proved() const { return exit_code(planned.checked) == kProvedExit; }
@@ -111,7 +110,7 @@ nlohmann::json summary(const Outcome& outcome) {
           {"plan_seconds", s.plan_seconds},
           {"smooth_seconds", s.smooth_seconds},
           {"prove_seconds", s.prove_seconds},
-          {"tolerance_limits", to_json(outcome.tolerance_limits)},
+          {"headroom", headroom_json(outcome.planned.headroom)},
           {"margins", checked.theorem ? checked.theorem->margins() : nlohmann::json::object()},
           {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
           {"undecided", is_undecided ? checked.certificate->at("undecided") : nlohmann::json()},
@@ -131,7 +130,6 @@ void print_search(const Outcome& outcome) {
   fmt::print("Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n", 1e3 * s.plan_seconds,
              1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
   if (outcome.is_proved()) fmt::print("{}.\n", length_sentence(s));
-  fmt::print("{}", tolerance_table(outcome.tolerance_limits));
 }
 
 /// Plans, with a progress line.
@@ -141,7 +139,11 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
   const auto progress = [&](const PlanProgress& at) {
     line.show([&] { return fmt::format("planning: {} charts", at.charts); });
   };
-  return plan_case(the_case, planner, {arguments.grow, key ? &*key : nullptr, arguments.max_seconds}, progress, stop);
+  PlannedCaseOptions options{arguments.grow, key ? &*key : nullptr, arguments.max_seconds, arguments.headroom_seconds};
+  options.headroom_progress = [&](std::size_t done, std::size_t all) {
+    line.show([&] { return headroom_progress_text(done, all); });
+  };
+  return plan_case(the_case, planner, options, progress, stop);
 }
 
 }  // namespace
@@ -157,6 +159,7 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
       ->check(positive_number("a number of seconds above 0"));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_headroom_option(command, arguments.headroom_seconds);
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
@@ -176,7 +179,7 @@ int run_plan(const PlanArguments& arguments) {
   const Interruption interruption;
   const PlannedCase planned = plan(case_, planner, arguments, key, interruption.token());
   const checker::CheckResult& checked = planned.checked;
-  Outcome outcome{planned, {}, {}, out};
+  Outcome outcome{planned, {}, out};
   std::vector<FileContent> files = {{out / "certificate.json", planned.text},
                                     {out / "report.html", make_report(checked, {"", "", date}, ReportForm::kPage)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
@@ -185,7 +188,6 @@ int run_plan(const PlanArguments& arguments) {
   const std::array<std::filesystem::path, 1> path_file = {out / "path.csv"};
   if (outcome.is_proved()) {
     outcome.lengths = planner.measure(planned.plan.path);
-    outcome.tolerance_limits = planned.tolerance_limits;
     files.push_back({path_file[0], path_csv(case_.problem, planned.plan.path, checked.sha256)});
   }
   write_whole(files, path_file);
@@ -196,6 +198,7 @@ int run_plan(const PlanArguments& arguments) {
   }
   fmt::print("{}\n", plan_sentence(planned.plan, checked));
   print_search(outcome);
+  print_headroom(planned.headroom);
   fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
              outcome.is_proved() ? "path.csv, " : "");
   if (saves_atlas) {

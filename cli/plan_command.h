@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "app/headroom.h"
 #include "app/recheck.h"
 
 namespace taut {
@@ -18,7 +19,8 @@ struct PlanArguments {
   bool grow = false;
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
-  double max_seconds = kCheckSeconds;  ///< that the checker may take
+  double max_seconds = kCheckSeconds;          ///< that the checker may take
+  double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares
 };
 
 void add_plan_options(CLI::App& command, PlanArguments& arguments);
