@@ -10,6 +10,7 @@ taut_add_test(certify length_controlled_motion LABELS unit LIBS taut::case taut:
 taut_add_test(certify gaps LABELS unit LIBS taut::case taut::certify)
 taut_add_test(certify tolerance LABELS unit LIBS taut::case taut::certify fmt::fmt)
 taut_add_test(certify headroom LABELS unit LIBS taut::case taut::certify)
+taut_add_test(certify sensitivity LABELS unit LIBS taut::case taut::certify)
 foreach(header rounding interval mp_interval dyadic slope_form motion box_proof box_ranges oracle)
   taut_add_test(certify ${header} LABELS unit laws LIBS taut::certify taut::case)
 endforeach()
