@@ -462,6 +462,12 @@ const std::string& Certificate::reason() const {
 
 std::string Certificate::reason_code() const { return code_of(reason()); }
 
+std::string Certificate::headroom() const {
+  const nlohmann::json& illustration = content_->stated.illustration;
+  if (!illustration.is_object() || !illustration.contains("headroom")) return "";
+  return illustration.at("headroom").dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
 Path Certificate::path() const {
   const taut::Path& path = content_->stated.path;
   Path result;
@@ -528,6 +534,7 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     }
     require_seconds(options.budget_seconds, "budget_seconds");
     require_seconds(options.max_check_seconds, "max_check_seconds");
+    require_seconds(options.headroom_seconds, "headroom_seconds");
     if (options.budget_seconds > 0) {
       planned.planner.max_seconds = options.budget_seconds;
       planned.planner.has_budget = true;
@@ -538,8 +545,9 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     const auto progress = [&](const PlanProgress& at) {
       relay.report({"planning", static_cast<std::size_t>(at.charts), 0});
     };
-    PlannedCase made = plan_case(planned, planner, {options.grow, key ? &*key : nullptr, options.max_check_seconds},
-                                 progress, relay.token());
+    PlannedCase made = plan_case(
+        planned, planner, {options.grow, key ? &*key : nullptr, options.max_check_seconds, options.headroom_seconds},
+        progress, relay.token());
     if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
       write_whole({{options.save_atlas, planner.atlas_bytes()}});
     }
@@ -569,6 +577,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
   const auto work = [&] {
     const Case::Content& content = the_case.content();
     require_seconds(options.max_check_seconds, "max_check_seconds");
+    require_seconds(options.headroom_seconds, "headroom_seconds");
     AuditRequest request{path, std::nullopt};
     if (options.interpolation) request.law = inner(*options.interpolation);
     request = resolved(request, content.the_case, content.file);
@@ -577,7 +586,8 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(
-        source, {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units},
+        source,
+        {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "app/audit_batch.h"
-#include "app/tolerance_table.h"
 #include "base/input_error.h"
-#include "reports/summary/display_units.h"
 #include "planner/time_budget.h"
+#include "reports/summary/display_units.h"
+#include "reports/summary/headroom_summary.h"
 
 namespace taut {
 namespace {
@@ -288,14 +288,14 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.illustration = {{"kind", "audit"}, {"units", to_json(options.units)}};
   if (audit.verdict == Verdict::kRefuted) ending.witness = first_witness(audit);
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);
-  if (audit.verdict == Verdict::kProved && source.problem().tolerances && audit.segments <= kMostReported) {
-    const TimeBudget budget(kGrowthSeconds, stop);
-    audit.tolerance_limits = tolerance_limits(source.problem(), source.whole_path(), budget.token());
+  if (options.headroom_seconds > 0 && audit.segments <= kMostReported) {
+    const TimeBudget budget(options.headroom_seconds, stop);
+    audit.headroom =
+        find_headroom(source.problem(), source.whole_path(), audit.verdict,
+                      audit.margins ? audit.margins->wrench_scale : "", options.headroom_progress, budget.token());
     audit.interrupted = stop.stop_requested();
     if (audit.interrupted) return audit;
-    if (!audit.tolerance_limits.empty()) {
-      ending.illustration["tolerance_limits"] = to_json(audit.tolerance_limits);
-    }
+    ending.illustration["headroom"] = to_json(*audit.headroom);
   }
   CertificateWriter::Sign sign;
   if (options.key != nullptr) sign = [&](const std::string& digest) { return options.key->signature(digest); };

@@ -19,15 +19,14 @@
 #include "case/case_file.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/signature.h"
-#include "certify/tolerance_limits.h"
+#include "certify/headroom.h"
 
 namespace taut {
 
-/// The segments of the longest path of which a report is made unless somebody asks for one: memory for it grows with
-/// the path. Its least margins are stated more sharply, too, and it is tried how far tolerances could grow.
+/// For longer paths it is not sought what stands in the way or how far the proof reaches, which takes some tens of
+/// proofs and all of the path in memory; nor is a report made of them unless somebody asks for one. Their least margins
+/// are stated less sharply, too.
 inline constexpr std::size_t kMostReported = 20'000;
-/// What that trial may take, which is some tens of proofs of the whole path [s].
-inline constexpr double kGrowthSeconds = 30;
 
 /// The laws that may be asked for, by their names.
 [[nodiscard]] const std::map<std::string, Interpolation>& audit_laws();
@@ -48,6 +47,8 @@ struct AuditOptions {
   std::filesystem::path folder;     ///< for temporary files
   const SigningKey* key = nullptr;  ///< null: the certificate is not signed
   CaseUnits units{};                ///< in which the report shows results
+  double headroom_seconds = 0;      ///< that find_headroom() may take; 0: it is not sought
+  HeadroomProgress headroom_progress = {};
 };
 
 /// Where in a path file a point of the path is.
@@ -76,8 +77,7 @@ struct Audit {
   std::size_t stretches_violated = 0;     ///< with a proved violation
   std::size_t stretches_open = 0;         ///< without
   std::vector<AuditedStretch> stretches;  ///< the first of them
-  /// Where the path is proved and the case states tolerances, and they were found in time.
-  std::vector<ToleranceLimit> tolerance_limits{};
+  std::optional<Headroom> headroom{};     ///< where it was sought
   double seconds = 0;
 };
 

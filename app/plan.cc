@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "app/illustration.h"
-#include "app/tolerance_table.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
 #include "kinematics/navigation_manifold.h"
 #include "planner/time_budget.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/headroom_summary.h"
 
 namespace taut {
 
@@ -72,9 +72,9 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   const Plan& plan = result.plan;
   nlohmann::json illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   illustration["units"] = to_json(the_case.units);
-  if (plan.proof.verdict == Verdict::kProved && the_case.problem.tolerances) {
-    result.tolerance_limits = tolerance_limits(the_case.problem, plan.path, stop);
-    illustration["tolerance_limits"] = to_json(result.tolerance_limits);
+  if (options.headroom_seconds > 0 && !stop.stop_requested()) {
+    result.headroom = plan_headroom(the_case, plan, options.headroom_seconds, options.headroom_progress, stop);
+    illustration["headroom"] = to_json(*result.headroom);
   }
   Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
   certificate.illustration = std::move(illustration);

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "app/headroom.h"
 #include "app/recheck.h"
 #include "certificate/signature.h"
-#include "certify/tolerance_limits.h"
 #include "planner/planner.h"
 
 namespace taut {
@@ -38,10 +38,10 @@ struct Growth {
 
 struct PlannedCase {
   Plan plan;
-  std::optional<Growth> growth;                  ///< where it was asked for
-  std::vector<ToleranceLimit> tolerance_limits;  ///< where the path is proved and the case states tolerances
-  std::string text;                              ///< of certificate.json
-  checker::CheckResult checked;                  ///< what the checker says of it: the verdict
+  std::optional<Growth> growth;      ///< where it was asked for
+  std::optional<Headroom> headroom;  ///< where it was sought
+  std::string text;                  ///< of certificate.json
+  checker::CheckResult checked;      ///< what the checker says of it: the verdict
 };
 
 struct PlannedCaseOptions {
@@ -51,6 +51,8 @@ struct PlannedCaseOptions {
   double grow_seconds = std::numeric_limits<double>::infinity();  ///< that growing the atlas may take
   /// Called once while the atlas grows, unless that ends at once.
   std::function<void(const GrowthEstimate&)> announce_growth{};
+  double headroom_seconds = kHeadroomSeconds;  ///< that find_headroom() may take; 0: it is not sought
+  HeadroomProgress headroom_progress = {};
 };
 
 /// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it

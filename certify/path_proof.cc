@@ -75,7 +75,10 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
                            : verdict.kind == BoxVerdict::Kind::kTolerance  ? Undecided::kTolerances
                            : verdict.kind == BoxVerdict::Kind::kFault      ? Undecided::kUndefined
                                                                            : Undecided::kPrecision;
-  undecided = Reason::at_pose(reason);
+  undecided =
+      reason == Undecided::kTolerances
+          ? Reason(reason, fmt::format(" margin {} of cable {}", name(verdict.worst.kind), verdict.worst.cable + 1))
+          : Reason::at_pose(reason);
   return std::nullopt;
 }
 

@@ -22,8 +22,7 @@ UndecidedWords words(Undecided reason) {
           "no single pose on the constraints was proved to exist there"};
     case Undecided::kSingular:
       return {"the force Jacobian is singular or nearly so", "the force Jacobian is singular, or nearly so, there"};
-    case Undecided::kTolerances:
-      return {"the tolerances are too large for a proof at", "the tolerances are too large for a proof there"};
+    case Undecided::kTolerances: return {"the tolerances are too large for a proof at", nullptr};
     case Undecided::kPrecision: return {"precision reached at", "a margin vanishes there, or nearly so"};
     case Undecided::kDepth: return {"bisection depth reached at", nullptr};
     case Undecided::kBoxBudget: return {"the budget of boxes is spent", nullptr};

@@ -11,7 +11,6 @@
 #include "app/audit.h"
 #include "app/recheck.h"
 #include "app/report.h"
-#include "app/tolerance_table.h"
 #include "base/files.h"
 #include "base/plural.h"
 #include "base/sanitize.h"
@@ -19,6 +18,7 @@
 #include "case/case_file.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
+#include "cli/headroom_output.h"
 #include "cli/output.h"
 #include "cli/report_command.h"
 #include "cli/result_folder.h"
@@ -230,6 +230,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
       ->check(CLI::Range(kLeastBits, kMostBits));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_headroom_option(command, arguments.headroom_seconds);
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
@@ -273,7 +274,9 @@ int run_audit(const AuditArguments& arguments) {
       });
     };
     result = audit_path(
-        source, {arguments.bits, out, key ? &*key : nullptr, case_.units},
+        source,
+        {arguments.bits, out, key ? &*key : nullptr, case_.units, arguments.headroom_seconds,
+         [&](std::size_t done, std::size_t all) { line.show([&] { return headroom_progress_text(done, all); }); }},
         [&](std::string_view text) {
           digest.update(text);
           size += text.size();
@@ -307,14 +310,12 @@ int run_audit(const AuditArguments& arguments) {
   if (!report) remove_first.push_back(report_path);  // of an earlier audit
   rename_into_place(files, remove_first);
 
-  const bool is_proved = exit_code(checked) == kProvedExit;
-  const std::vector<ToleranceLimit> limits = is_proved ? result.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
     object["load"] = to_json(load_statement(case_.problem.load));
     object["warnings"] = case_.warnings;
     object["out"] = out.string();
-    object["tolerance_limits"] = to_json(limits);
+    object["headroom"] = headroom_json(result.headroom);
     std::vector<std::filesystem::path> written = {out / "certificate.json"};
     if (report) written.push_back(report_path);
     if (controller) written.push_back(out / "controller.csv");
@@ -323,11 +324,8 @@ int run_audit(const AuditArguments& arguments) {
     print_json(object);
   } else {
     print(result, case_, source, checked);
-    const bool has_not_grown = is_proved && source.problem().tolerances && limits.empty();
-    if (has_not_grown && result.segments <= kMostReported) {
-      fmt::print("How far each tolerance could grow alone was not found out within {} s.\n", kGrowthSeconds);
-    }
-    fmt::print("{}{}\n", tolerance_table(limits, DisplayUnits(case_.units)), sentence(checked));
+    print_headroom(result.headroom, source.problem(), case_.units);
+    fmt::print("{}\n", sentence(checked));
     fmt::print("Written to {}: path.csv, {}certificate.json{}\n", sanitize(out.string()),
                controller ? "controller.csv, " : "", report ? ", report.html" : "");
     if (!report) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "app/headroom.h"
 #include "app/recheck.h"
 
 namespace taut {
@@ -18,7 +19,8 @@ struct AuditArguments {
   std::string key;   ///< file of the private key that signs, or empty
   long bits = 4096;  ///< of the prover's last rung
   bool json = false;
-  double max_seconds = kCheckSeconds;  ///< that the checker may take
+  double max_seconds = kCheckSeconds;          ///< that the checker may take
+  double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares
 };
 
 void add_audit_options(CLI::App& command, AuditArguments& arguments);

@@ -72,13 +72,13 @@ Explanation explained(Undecided reason) {
           "undecided: waypoint 1 of the query: the force Jacobian is singular, or nearly so, there [U5].");
     case Undecided::kTolerances:
       return entry(
-          "The tolerances are too large for a proof here",
-          "The machine as stated keeps its limits. That every machine within all the tolerances keeps them could be "
-          "neither proved nor refuted.",
+          "The tolerances are too large for a proof of this margin",
+          "The machine as stated keeps its limits. That every machine within all the tolerances keeps the named margin "
+          "could be neither proved nor refuted.",
           "A small margin at the place that is named, or tolerances whose effects add up there. Proofs with tolerances "
           "are cautious: they may need a little more margin than the machine does.",
-          "Tighten the tolerance that matters most (for a proved path, the report says which), widen the limit that is "
-          "named, or lead the path through poses with more margin.",
+          "Read the lines that begin \"In the way\": they name cable, limit, place and amount, and which share of the "
+          "tolerances is provable. taut sensitivity seeks changes that prove the path.",
           "open: the tolerances are too large for a proof at margin tension_min of cable 1 [U6]");
     case Undecided::kPrecision:
       return entry(

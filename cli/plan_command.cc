@@ -12,13 +12,13 @@
 
 #include "app/plan.h"
 #include "app/report.h"
-#include "app/tolerance_table.h"
 #include "base/files.h"
 #include "base/plural.h"
 #include "base/sanitize.h"
 #include "certificate/signature.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
+#include "cli/headroom_output.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
 #include "cli/result_folder.h"
@@ -96,8 +96,7 @@ void require_others(const PlanArguments& arguments, const std::filesystem::path&
 /// What there is to say once all is written.
 struct Outcome {
   const PlannedCase& planned;
-  MotionLengths lengths{};                         ///< only if proved
-  std::vector<ToleranceLimit> tolerance_limits{};  ///< only if proved
+  MotionLengths lengths{};  ///< only if proved
   std::filesystem::path out;
 
   [[nodiscard]] bool is_proved() const { return exit_code(planned.checked) == kProvedExit; }
@@ -137,7 +136,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"plan_seconds", s.plan_seconds},
                            {"smooth_seconds", s.smooth_seconds},
                            {"prove_seconds", s.prove_seconds},
-                           {"tolerance_limits", to_json(outcome.tolerance_limits)},
+                           {"headroom", headroom_json(outcome.planned.headroom)},
                            {"growth", growth_json(outcome.planned.growth)},
                            {"load", to_json(load_statement(the_case.problem.load))},
                            {"warnings", the_case.warnings},
@@ -164,7 +163,6 @@ void print_search(const Outcome& outcome, const DisplayUnits& units) {
   fmt::print("Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n", 1e3 * s.plan_seconds,
              1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
   if (outcome.is_proved()) fmt::print("{}.\n", length_sentence(s));
-  fmt::print("{}", tolerance_table(outcome.tolerance_limits, units));
 }
 
 /// What growing the atlas will cost, at most.
@@ -214,6 +212,10 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
     fmt::print("{}\n", growth_announcement(estimate, arguments.grow_seconds));
     std::fflush(stdout);
   };
+  options.headroom_seconds = arguments.headroom_seconds;
+  options.headroom_progress = [&](std::size_t done, std::size_t all) {
+    line.show([&] { return headroom_progress_text(done, all); });
+  };
   return plan_case(the_case, planner, options, progress, stop);
 }
 
@@ -240,6 +242,7 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
       ->check(positive_number("a number of seconds above 0"));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_headroom_option(command, arguments.headroom_seconds);
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
@@ -264,14 +267,13 @@ int run_plan(const PlanArguments& arguments) {
   const Interruption interruption;
   const PlannedCase planned = plan(case_, planner, arguments, key, interruption.token());
   const checker::CheckResult& checked = planned.checked;
-  Outcome outcome{planned, {}, {}, out};
+  Outcome outcome{planned, {}, out};
   std::vector<FileContent> files = {{out / "certificate.json", planned.text},
                                     {out / "report.html", make_report(checked, {"", "", date}, ReportForm::kPage)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
   if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
     outcome.lengths = planner.measure(planned.plan.path);
-    outcome.tolerance_limits = planned.tolerance_limits;
     const Path& path = planned.plan.path;
     files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
     files.push_back({out / "path.csv", path_csv(case_.problem, path, checked.sha256)});  // last
@@ -289,6 +291,7 @@ int run_plan(const PlanArguments& arguments) {
   fmt::print("{}\n", plan_sentence(case_, planned.plan, checked));
   if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) fmt::print("{}\n", may_be);
   print_search(outcome, DisplayUnits(case_.units));
+  print_headroom(planned.headroom, case_.problem, case_.units);
   fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
              outcome.is_proved() ? "path.csv, controller.csv, " : "");
   if (saves_atlas) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "app/headroom.h"
 #include "app/recheck.h"
 #include "path_io/controller_csv.h"
 
@@ -21,7 +22,8 @@ struct PlanArguments {
   double grow_seconds = 300;  ///< that growing the atlas may take
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
-  double max_seconds = kCheckSeconds;  ///< that the checker may take
+  double max_seconds = kCheckSeconds;          ///< that the checker may take
+  double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares
 };
 
 void add_plan_options(CLI::App& command, PlanArguments& arguments);

@@ -29,6 +29,7 @@
 #include "cli/plan_command.h"
 #include "cli/regress_command.h"
 #include "cli/report_command.h"
+#include "cli/sensitivity_command.h"
 #include "cli/show_command.h"
 
 namespace taut {
@@ -137,6 +138,11 @@ int run(int argc, char** argv) {
   CLI::App* explain_command = app.add_subcommand("explain", "say what the code behind a message means: U3, E5");
   add_explain_options(*explain_command, explain_arguments);
 
+  SensitivityArguments sensitivity_arguments;
+  CLI::App* sensitivity_command =
+      app.add_subcommand("sensitivity", "say what to change so that a path is proved, and what its margin depends on");
+  add_sensitivity_options(*sensitivity_command, sensitivity_arguments);
+
   ShowArguments show_arguments;
   CLI::App* show_command = app.add_subcommand("show", "print what a case was understood to say; draw the robot");
   add_show_options(*show_command, show_arguments);
@@ -154,6 +160,10 @@ int run(int argc, char** argv) {
   if (*audit_command) {
     rounding_self_test();
     return with_error_code(ErrorCode::kPath, [&] { return run_audit(audit_arguments); });
+  }
+  if (*sensitivity_command) {
+    rounding_self_test();
+    return with_error_code(ErrorCode::kCase, [&] { return run_sensitivity(sensitivity_arguments); });
   }
   if (*show_command) return with_error_code(ErrorCode::kCase, [&] { return run_show(show_arguments); });
   if (*explain_command) return run_explain(explain_arguments);

@@ -246,6 +246,7 @@ std::optional<Plan> Planner::judge_query(const std::stop_token& stop) const {
     }
     if (!undecided.empty()) {
       answer.path.waypoints = query_;
+      answer.undecided_waypoint = k;
       answer.proof.reason = undecided.preceded_by(fmt::format("waypoint {} of the query: ", k));
       return answer;
     }

@@ -49,7 +49,8 @@ struct Plan {
   Path path;  ///< the path found; or the waypoint that refutes; or the query's waypoints if no path was found
   PathProof proof;
   PlanStatistics statistics;
-  std::optional<std::size_t> refuted_waypoint;  ///< index in the query of the waypoint that `path` then consists of
+  std::optional<std::size_t> refuted_waypoint;    ///< index in the query of the waypoint that `path` then consists of
+  std::optional<std::size_t> undecided_waypoint;  ///< index in the query of the waypoint that is neither
 };
 
 struct MotionLengths {

@@ -253,7 +253,10 @@ class TAUT_EXPORT Certificate {
   [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved; none of an unchecked one
   [[nodiscard]] const std::string& reason() const;       ///< only if undecided
   [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty
-  [[nodiscard]] Path path() const;                       ///< bit for bit
+  /// What stands in the way of a proof, or how far it reaches: JSON (docs/sensitivity.md), or empty where that was not
+  /// sought. The program that wrote the certificate says so; it is no part of the claim, and nothing checks it.
+  [[nodiscard]] std::string headroom() const;
+  [[nodiscard]] Path path() const;  ///< bit for bit
   /// As `taut plan` writes it of a proved path, for a machine to follow; its last line names this certificate's
   /// SHA-256.
   [[nodiscard]] std::string path_csv() const;
@@ -291,6 +294,9 @@ using ProgressCallback = std::function<void(const Progress&)>;
 /// The checker's budget if nobody says [s]: a check takes about as long as the proof did.
 inline constexpr double kCheckSeconds = 300;
 
+/// The budget for finding what stands in the way of a proof, or how far it reaches, if nobody says [s].
+inline constexpr double kHeadroomSeconds = 30;
+
 struct PlanOptions {
   double budget_seconds = 0;    ///< for planning and proving; 0: the case's own
   std::string atlas;            ///< begin with the charts of this file (docs/atlas-file.md); empty: with none
@@ -300,7 +306,8 @@ struct PlanOptions {
   ProgressCallback progress = {};
   /// Asks for the best path so far: without one the certificate says undecided, "interrupted".
   std::stop_token stop = {};
-  double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
+  double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
+  double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
 };
 
 /// Plans through the case's query and proves the path: `taut plan`. A case without a path that is found is undecided.
@@ -325,7 +332,8 @@ struct AuditOptions {
   std::string signing_key_pem;
   ProgressCallback progress = {};
   std::stop_token stop = {};
-  double max_check_seconds = kCheckSeconds;  ///< that the checker may take before the certificate is unchecked
+  double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
+  double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
 };
 
 /// Proves a path or says of every stretch that is not proved where it is and why: `taut audit`. Memory grows with the

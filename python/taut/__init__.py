@@ -264,6 +264,15 @@ class Certificate:
         return self._certificate.reason_code
 
     @property
+    def headroom(self) -> Optional[dict[str, Any]]:
+        """What stands in the way of a proof, or how far it reaches (docs/sensitivity.md); None where it was not sought.
+
+        The program that wrote the certificate says so; it is no part of the claim, and nothing checks it.
+        """
+        illustration = json.loads(self.text)["illustration"]
+        return illustration.get("headroom") if isinstance(illustration, dict) else None
+
+    @property
     def path(self) -> Path:
         interpolation, waypoints, half_turns, times = self._certificate.path
         return Path(interpolation, waypoints, half_turns, tuple(times))

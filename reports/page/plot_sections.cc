@@ -114,7 +114,8 @@ Html plane(const ReportContext& scene) {
 }
 
 Html biting_tolerances(const ReportContext& scene) {
-  if (scene.illustration.tolerance_limits.empty()) return {};
+  const std::optional<Headroom>& headroom = scene.illustration.headroom;
+  if (scene.verdict != "proved" || !headroom || !scene.certificate.problem.tolerances) return {};
   return section(
       "tolerances-used", "Which tolerance bites",
       html("<p>Each bar: how much of what this tolerance alone could be, all others as stated, is stated. The one "

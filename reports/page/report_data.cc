@@ -268,31 +268,18 @@ json tube_radius(const Problem& problem) {
   return radius > 0 ? number(radius) : json();
 }
 
-/// Stated beside proved, of each tolerance whose limit the certificate tells.
+/// Stated beside proved, of each tolerance whose provable size the certificate tells.
 json tolerances(const ReportContext& scene) {
   json result = json::array();
-  if (!scene.certificate.problem.tolerances) return result;
-  const TolerancesText& t = *scene.certificate.problem.tolerances;
-  const auto greatest = [](const auto& texts) {
-    double most = 0;
-    for (const std::string& text : texts) most = std::max(most, std::abs(evaluate_constant<double>(text)));
-    return most;
-  };
-  const std::array<DecimalText, kCables> none{"0", "0", "0", "0", "0", "0"};
-  const std::map<std::string, double> stated = {{"base_anchors", greatest(t.base_anchor_m)},
-                                                {"platform_anchors", greatest(t.platform_anchor_m)},
-                                                {"load_point", greatest(std::array{t.load_point_m})},
-                                                {"load", greatest(t.wrench)},
-                                                {"position", greatest(std::array{t.position_m})},
-                                                {"orientation", greatest(std::array{t.orientation_rad})},
-                                                {"cable_length", greatest(t.cable_length_m.value_or(none))}};
-  for (const Illustration::ToleranceLimit& limit : scene.illustration.tolerance_limits) {
-    const auto found = stated.find(limit.tolerance);
-    if (found == stated.end()) continue;
-    result.push_back({{"name", limit.tolerance},
-                      {"unit", limit.unit},
-                      {"stated", number(found->second)},
-                      {"proved", number(ScalarTraits<double>::from_decimal(limit.proved))}});
+  if (!scene.certificate.problem.tolerances || !scene.illustration.headroom) return result;
+  for (const ProvableShare& share : scene.illustration.headroom->shares) {
+    const UncertaintyKind kind = share.of.kind;
+    const bool is_tolerance = std::ranges::find(single_uncertainties(), kind) != single_uncertainties().end();
+    if (!is_tolerance || kind == UncertaintyKind::kWrenchSet || !(share.proved > 0)) continue;
+    result.push_back({{"name", name(kind)},
+                      {"unit", unit(kind)},
+                      {"stated", number(size_of(scene.certificate.problem, kind))},
+                      {"proved", number(share.proved)}});
   }
   return result;
 }

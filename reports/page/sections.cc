@@ -5,6 +5,7 @@
 
 #include "certify/undecided.h"
 #include "problem/rational.h"
+#include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
@@ -412,16 +413,30 @@ Html assumptions(const Problem& problem) {
            exactness, following));
 }
 
+Html headroom(const ReportContext& scene) {
+  if (!scene.illustration.headroom) return {};
+  const std::vector<std::string> sentences = 
+      headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+  if (sentences.empty()) return {};
+  Html body;
+  for (const std::string& sentence : sentences) body += html("<p>{}</p>\n", sentence);
+  return section("headroom", scene.verdict == "proved" ? "How far the proof reaches" : "What stands in the way",
+                 body + html("<p class=\"note\">The program that wrote the certificate proved these shares, and found "
+                             "the place in floating point. They are no part of the claim, and nothing has checked "
+                             "them.</p>\n"));
+}
+
 Html tolerances(const ReportContext& scene) {
   if (!scene.certificate.problem.tolerances) return {};
   const TolerancesText& t = *scene.certificate.problem.tolerances;
-  const auto& limits = scene.illustration.tolerance_limits;
+  const std::optional<Headroom>& headroom = scene.illustration.headroom;
   const DisplayUnit& length = scene.illustration.units.length;
   std::vector<std::vector<Html>> rows;
   const auto row = [&](const std::string& key, const Html& what, const Html& stated) {
     Html limit = html("–");
-    for (const Illustration::ToleranceLimit& found : limits) {
-      if (found.tolerance == key) limit = html("{} {}", found.proved, found.unit);
+    for (const ProvableShare& found : headroom ? headroom->shares : std::vector<ProvableShare>()) {
+      if (key == name(found.of.kind) && found.share != "0")
+        limit = html("{} {}", rounded_down(found.proved, 3), unit(found.of.kind));
     }
     rows.push_back({what, stated, limit});
   };
@@ -437,12 +452,12 @@ Html tolerances(const ReportContext& scene) {
   if (t.cable_length_m)
     row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m, length));
   const Html note =
-      limits.empty()
+      !headroom
           ? Html()
           : html(
-                "<p class=\"note\">The last column: how far each could grow alone, all others as stated, and the path "
-                "still be "
-                "proved, bisected; of six the largest. The program that wrote the certificate says so; it is no part "
+                "<p class=\"note\">The last column: the size of each alone at which the path is provable, all others "
+                "as "
+                "stated, bisected; of six the largest. The program that wrote the certificate says so; it is no part "
                 "of "
                 "the claim, and nothing has checked it.</p>\n");
   return section(

@@ -11,6 +11,8 @@ namespace taut {
 /// The claim, word by word and in formulas, with its symbols.
 [[nodiscard]] Html theorem(const Certificate& certificate);
 [[nodiscard]] Html tolerances(const ReportContext& scene);
+/// What stands in the way of a proof, or by how much it succeeds, as the certificate's illustration says.
+[[nodiscard]] Html headroom(const ReportContext& scene);
 [[nodiscard]] Html assumptions(const Problem& problem);
 /// What the certificate is made from, with digests.
 [[nodiscard]] Html inputs(const Certificate& certificate);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_cursor.h"
-#include "problem/decimal.h"
+#include "reports/summary/headroom_summary.h"
 
 namespace taut {
 namespace {
@@ -21,11 +21,6 @@ double approximation(const JsonCursor& field) {
   return value;
 }
 
-std::string decimal(const JsonCursor& field) {
-  (void)decimal_from_json(field);
-  return field.text();
-}
-
 }  // namespace
 
 Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
@@ -37,11 +32,7 @@ Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
       stats[key] = value.is_string() ? value.get<std::string>() : value.dump();
     }
   }
-  if (illustration.contains("tolerance_limits")) {
-    for (const JsonCursor& limit : illustration.at("tolerance_limits").elements()) {
-      tolerance_limits.push_back({limit.at("tolerance").text(), decimal(limit.at("proved")), limit.at("unit").text()});
-    }
-  }
+  if (illustration.contains("headroom")) headroom = headroom_from_json(illustration.at("headroom"));
   if (!illustration.contains("charts") || parameters != 2) return;
   for (const JsonCursor& entry : illustration.at("charts").elements()) {
     if (!entry.contains("c") || entry.at("c").size() != 2) continue;

@@ -76,7 +76,7 @@ Certificate without_claims(Certificate certificate, Recheck::Result result) {
 
 Illustration illustration_of(const Certificate& certificate, Recheck::Result result) {
   Illustration illustration(certificate.illustration, certificate.problem.space.parameters.size());
-  if (result != Recheck::Result::kConfirmed) illustration.tolerance_limits.clear();
+  if (result == Recheck::Result::kUnchecked) illustration.headroom.reset();
   return illustration;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/sanitize.h"
+#include "reports/summary/headroom_summary.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -94,6 +95,8 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       path_sha256(scene.certificate.path_sha256),
       footer_sha256(scene.certificate.footer_sha256) {
   closest = closest_text(scene, use);
+  if (scene.illustration.headroom) headroom = 
+      headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
 }
 
 std::string document_number(const std::string& footer_sha256) {
@@ -118,6 +121,7 @@ std::string to_text(const Summary& s) {
   line(s.headline);
   for (const std::string& sentence : s.details) line(sentence);
   for (const std::string& sentence : s.closest) line(sentence);
+  for (const std::string& sentence : s.headroom) line(sentence);
   if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
     line(use_caption(s.use.source) + ":");
     const CableRow heads = cable_heads(s.units);
@@ -148,7 +152,8 @@ std::string to_markdown(const Summary& s) {
   text += fmt::format("**{}**\n\n", markdown(s.headline));
   for (const std::string& sentence : s.details) text += markdown(sentence) + "\n\n";
   for (const std::string& sentence : s.closest) text += fmt::format("- {}\n", markdown(sentence));
-  if (!s.closest.empty()) text += "\n";
+  for (const std::string& sentence : s.headroom) text += fmt::format("- {}\n", markdown(sentence));
+  if (!s.closest.empty() || !s.headroom.empty()) text += "\n";
   if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
     text += markdown(use_caption(s.use.source)) + ":\n\n|";
     for (const std::string& cell : cable_heads(s.units).cells) text += fmt::format(" {} |", markdown(cell));
@@ -195,6 +200,7 @@ nlohmann::json to_json(const Summary& s) {
       {"headline", s.headline},
       {"details", s.details},
       {"closest", s.closest},
+      {"headroom", s.headroom},
       {"statements", statements},
       {"load", to_json(s.load)},
       {"cables_source", name(s.use.source)},

@@ -22,6 +22,7 @@ struct Summary {
   std::string headline;
   std::vector<std::string> details;
   std::vector<std::string> closest;
+  std::vector<std::string> headroom;  ///< what stands in the way, or how far the proof reaches; nothing checks it
   std::vector<Statement> statements;
   LoadStatement load;
   CableUse use;

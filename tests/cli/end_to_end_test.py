@@ -296,7 +296,10 @@ class EndToEnd(InFolder):
 
         said = plan(1.2)  # more than can be proved, less than is violated
         self.assertEqual(said.returncode, 2, said.stdout + said.stderr)
-        self.assertRegex(said.stdout, r"waypoint \d of the query: the tolerances are too large for a proof there \[U6\]")
+        self.assertRegex(said.stdout, r"waypoint \d of the query: the tolerances are too large for a proof at "
+                                      r"margin (tension|length)_(min|max) of cable \d \[U6\]")
+        self.assertRegex(said.stdout, r"In the way: the (tension|length) of cable \d at waypoint \d of the query, limit")
+        self.assertRegex(said.stdout.replace("\n  ", " "), r"Waypoint \d of the query is provable at [\d.]+ % of all tolerances and deviations")
         for far_too_large in (5, 100):
             said = plan(far_too_large)
             self.assertEqual(said.returncode, 1, said.stdout + said.stderr)

@@ -2,7 +2,6 @@
 find_package(Threads REQUIRED)
 taut_add_test(library time_budget LABELS unit LIBS Threads::Threads)
 taut_add_test(library files LABELS unit LIBS taut::base Threads::Threads)
-taut_add_test(library tolerance_table LABELS unit LIBS taut::app)
 taut_add_test(library smooth LABELS unit LIBS taut::planner)
 taut_add_test(library plan LABELS unit LIBS taut::planner fmt::fmt)
 taut_add_test(library any_anchors LABELS unit LIBS taut::planner taut::reports fmt::fmt)

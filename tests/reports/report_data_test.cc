@@ -115,15 +115,28 @@ TEST(ReportData, SetsWhatIsStatedBesideWhatIsProvedOfATolerance) {
   certificate["problem"]["tolerances"] = json::parse(R"({"base_anchor_m": ["0","0","0.0001","0","0","0"],
       "platform_anchor_m": ["0","0","0","0","0","0"], "load_point_m": "0", "wrench": ["0","0","-0.005","0","0","0"],
       "position_m": "0.001", "orientation_rad": "(0.1)*pi/180", "cable_length_m": null})");
-  certificate["illustration"]["tolerance_limits"] = json::parse(R"([
-      {"tolerance": "base_anchors", "stated": "7", "proved": "0.000183", "unit": "m"},
-      {"tolerance": "load", "stated": "7", "proved": "0.0841", "unit": "N, N m"},
-      {"tolerance": "unheard_of", "stated": "7", "proved": "1", "unit": "m"}])");
+  certificate["illustration"]["headroom"] = json::parse(R"({"subject": "path", "waypoint": null, "tightest": null,
+      "nominal": null, "shares": [
+      {"of": "all", "share": "1.2", "stated": "1", "proved": "1.2", "unit": "1", "complete": true},
+      {"of": "base_anchors", "share": "1.83", "stated": "7", "proved": "0.000183", "unit": "m", "complete": true},
+      {"of": "load", "share": "16.8", "stated": "7", "proved": "0.0841", "unit": "N, N m", "complete": true}]})");
   const json data = report_data(sample::scene(certificate));
   EXPECT_EQ(data["tube_m"], 0.001);
   EXPECT_EQ(data["tolerances"], json::parse(R"([
       {"name": "base_anchors", "unit": "m", "stated": 0.0001, "proved": 0.000183},
       {"name": "load", "unit": "N, N m", "stated": 0.005, "proved": 0.0841}])"));
+}
+
+TEST(ReportData, RefusesAHeadroomThatIsNone) {
+  for (const char* text :
+       {R"({"shares": []})", R"({"subject": "sky", "waypoint": null, "tightest": null, "nominal": null,
+       "shares": []})",
+        R"({"subject": "path", "waypoint": null, "tightest": null, "nominal": null, "shares": [
+       {"of": "<b>", "share": "1", "stated": "1", "proved": "1", "unit": "1", "complete": true}]})"}) {
+    json certificate = sample::proved();
+    certificate["illustration"]["headroom"] = json::parse(text);
+    EXPECT_THROW(sample::scene(certificate), InputError) << text;
+  }
 }
 
 TEST(ReportData, RepeatsNoClaimOfAnUncheckedCertificate) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stands in the way of a proof, or by how much it succeeds, in words and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/json_cursor.h"
+#include "certify/headroom.h"
+#include "reports/summary/display_units.h"
+
+namespace taut {
+
+/// The object `headroom` of an `illustration` (docs/sensitivity.md): numbers are strings, in SI.
+[[nodiscard]] nlohmann::json to_json(const Headroom& headroom);
+/// Its inverse. @throws FieldError
+[[nodiscard]] Headroom headroom_from_json(const JsonCursor& json);
+
+/// Sentences: what is tightest, the provable share of all uncertainties, and each alone. None if nothing was sought.
+/// @param problem  what the headroom is about; items that it has not are named without a size
+[[nodiscard]] std::vector<std::string> headroom_sentences(const Headroom& headroom, const Problem& problem,
+                                                          const DisplayUnits& units);
+
+/// "62 %", exactly.
+[[nodiscard]] std::string percent_text(const DecimalText& share);
+
+}  // namespace taut
