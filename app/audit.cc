@@ -11,8 +11,8 @@
 #include "app/audit_batch.h"
 #include "app/tolerance_table.h"
 #include "base/input_error.h"
-#include "reports/summary/display_units.h"
 #include "planner/time_budget.h"
+#include "reports/summary/display_units.h"
 
 namespace taut {
 namespace {

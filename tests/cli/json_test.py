@@ -48,7 +48,7 @@ class Json(InFolder):
     def test_plans(self):
         proved = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("a"), code=0)
         self.assertEqual(sorted(os.path.basename(file) for file in proved["files"]),
-                         ["certificate.json", "path.csv", "report.html"])
+                         ["certificate.json", "controller.csv", "path.csv", "report.html"])
         self.assertTrue(all(os.path.isfile(file) for file in proved["files"]))
         self.assertGreater(proved["elapsed_seconds"], proved["prove_seconds"])
         self.assertEqual(proved["messages"], [])
