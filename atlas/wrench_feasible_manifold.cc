@@ -153,8 +153,7 @@ class WrenchFeasibleManifold final : public Manifold {
   /// The κ log of the slack variables and their derivatives; false where a margin is within the clearance or D is
   /// singular.
   template <class Put>
-  bool put_slacks(const Matrix3<Jet<double, N>>& r_WP, const CableGeometry<Jet<double, N>>& geometry,
-                  Put&& put) const {
+  bool put_slacks(const Matrix3<Jet<double, N>>& r_WP, const CableGeometry<Jet<double, N>>& geometry, Put&& put) const {
     using J = Jet<double, N>;
     Cables lengths;
     for (std::size_t i = 0; i < kCables; ++i) {

@@ -9,13 +9,13 @@
 #include <limits>
 
 #include "certificate/implied_motion.h"
+#include "certificate/worst_loads.h"
 #include "certify/arithmetic/rounding.h"
 #include "checker/format/cursor.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
-#include "checker/near_waypoints.h"
-#include "certificate/worst_loads.h"
 #include "checker/kernel/deviant.h"
+#include "checker/near_waypoints.h"
 #include "checker/witness.h"
 
 namespace taut {

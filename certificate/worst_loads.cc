@@ -27,7 +27,8 @@ ExactVector within(const mpq_class& radius, Vector direction, const ExactVector*
   if (!(size > 0) || !std::isfinite(size) || radius == 0) return {};
   direction /= size;
   ExactVector v;
-  for (int k = 0; k < 3; ++k) v[static_cast<std::size_t>(k)] = std::ldexp(std::round(std::ldexp(direction(k), kBits)), -kBits);
+  for (int k = 0; k < 3; ++k)
+    v[static_cast<std::size_t>(k)] = std::ldexp(std::round(std::ldexp(direction(k), kBits)), -kBits);
   const auto dot = [](const ExactVector& a, const ExactVector& b) -> mpq_class {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };

@@ -152,8 +152,8 @@ void add_items(const Model<I>& model, const LoadsAtPose<SlopeForm<I>>& loads, co
 /// The items' nominal wrench depends on the pose: what it is near the midpoint, a constant, is multiplied by D^-1 as w0
 /// is, so that what cancels between its components does so before it is enclosed.
 template <class I>
-Densities<I> enclose_densities(const Model<I>& model, const Matrix3<SlopeForm<I>>& r_WP,
-                               const InverseBound<I>& inverse, const I& offset) {
+Densities<I> enclose_densities(const Model<I>& model, const Matrix3<SlopeForm<I>>& r_WP, const InverseBound<I>& inverse,
+                               const I& offset) {
   Densities<I> result;
   LoadsAtPose<SlopeForm<I>> loads;
   Vector6<SlopeForm<I>> remaining;
@@ -250,10 +250,9 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   if (!problem.tolerance || !result.margins.are_positive()) return result;
 
   const bool held = is_length_controlled(problem, segment);
-  result.disturbance =
-      disturbance<I>({model, motion, geometry, result.length, result.density, densities.radius, densities.root,
-                      inverse.c(), inverse.q(), held},
-                     *problem.tolerance, continuation_steps);
+  result.disturbance = disturbance<I>({model, motion, geometry, result.length, result.density, densities.radius,
+                                       densities.root, inverse.c(), inverse.q(), held},
+                                      *problem.tolerance, continuation_steps);
   if (!result.disturbance) return result;
   for (auto& margin : result.margins) {
     margin.disturbed = margin.disturbed + ProofScalarTraits<I>::symmetric(change_of(margin.id, *result.disturbance));

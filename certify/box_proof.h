@@ -71,14 +71,14 @@ struct MarginList {
 /// What is known over one box, of the undisturbed machine but for `disturbance`.
 template <class I>
 struct BoxEnclosure {
-  typename MotionEnclosure<I>::Status motion;        ///< nothing below is set where the motion is unproved
-  bool regular = false;                              ///< ρ < 1: J is non-singular on all of T, given positive lengths
-  std::array<SlopeForm<I>, kCables> length;          ///< d_i [m]
-  std::array<SlopeForm<I>, kCables> density;         ///< λ_i [N/m]; this and what follows only where regular
-  std::array<SlopeForm<I>, kCables> below, above;    ///< how far K moves it down and up; of an ellipsoid v_ii / d_i
-  std::array<SlopeForm<I>, kCables> low, high;       ///< the least and the greatest tension over K [N]
-  I offset;                                          ///< contains t − m for all t in T
-  MarginList<I> margins;                             ///< those of lengths, and where regular those of tensions
+  typename MotionEnclosure<I>::Status motion;      ///< nothing below is set where the motion is unproved
+  bool regular = false;                            ///< ρ < 1: J is non-singular on all of T, given positive lengths
+  std::array<SlopeForm<I>, kCables> length;        ///< d_i [m]
+  std::array<SlopeForm<I>, kCables> density;       ///< λ_i [N/m]; this and what follows only where regular
+  std::array<SlopeForm<I>, kCables> below, above;  ///< how far K moves it down and up; of an ellipsoid v_ii / d_i
+  std::array<SlopeForm<I>, kCables> low, high;     ///< the least and the greatest tension over K [N]
+  I offset;                                        ///< contains t − m for all t in T
+  MarginList<I> margins;                           ///< those of lengths, and where regular those of tensions
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of
   /// T, and for every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<DeviationBounds<I>> disturbance;

@@ -15,6 +15,7 @@
 // and moments likewise, with y_M for g.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -22,8 +23,6 @@
 #include "problem/problem.h"
 #include "problem/rational.h"
 #include "problem/scalar.h"
-
-#include <Eigen/Core>
 
 namespace taut {
 
@@ -40,14 +39,14 @@ struct LoadModel {
     Kind kind = Kind::kWeight;
     Shape shape = Shape::kPoint;  ///< of forces and moments
     Axes axes = Axes::kWorld;
-    Vector lever;      ///< c − p_m, axes of P [m]; 0 of a moment
-    Vector direction;  ///< n, e or, of a weight, γ
-    K nominal;         ///< f_n, or M
-    K offset;          ///< f_m − f_n
-    K radius;          ///< f, f_r, or μ
-    K reach;           ///< ρ, of a weight
-    bool varies = false;   ///< whether μ of a weight may differ from 0
-    bool swings = false;   ///< whether ρ may
+    Vector lever;                    ///< c − p_m, axes of P [m]; 0 of a moment
+    Vector direction;                ///< n, e or, of a weight, γ
+    K nominal;                       ///< f_n, or M
+    K offset;                        ///< f_m − f_n
+    K radius;                        ///< f, f_r, or μ
+    K reach;                         ///< ρ, of a weight
+    bool varies = false;             ///< whether μ of a weight may differ from 0
+    bool swings = false;             ///< whether ρ may
     Wrench mean;                     ///< of load cases, about c
     std::vector<Wrench> deviations;  ///< w_j − mean, likewise
   };

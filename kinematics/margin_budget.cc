@@ -242,19 +242,33 @@ double limit_of(const Model<Inner<double>>& model, MarginId id) {
   return model.length_upper[n].value;
 }
 
+DesignParameter parameter(DesignParameter::Kind kind, std::size_t index = 0, std::size_t axis = 0) {
+  DesignParameter result;
+  result.kind = kind;
+  result.index = index;
+  result.axis = axis;
+  return result;
+}
+
+DesignParameter parameter(DesignParameter::Kind kind, const Uncertainty& uncertainty) {
+  DesignParameter result = parameter(kind);
+  result.uncertainty = uncertainty;
+  return result;
+}
+
 DesignParameter design_parameter(int variable) {
   using Kind = DesignParameter::Kind;
   const auto n = static_cast<std::size_t>(variable);
-  if (variable < kPlatform) return {Kind::kBaseAnchor, n / 3, n % 3};
-  if (variable < kLoadPoint) return {Kind::kPlatformAnchor, (n - kPlatform) / 3, n % 3};
-  if (variable < kWrench) return {Kind::kLoadPoint, 0, n - kLoadPoint};
-  return {Kind::kWrench, 0, n - kWrench};
+  if (variable < kPlatform) return parameter(Kind::kBaseAnchor, n / 3, n % 3);
+  if (variable < kLoadPoint) return parameter(Kind::kPlatformAnchor, (n - kPlatform) / 3, n % 3);
+  if (variable < kWrench) return parameter(Kind::kLoadPoint, 0, n - kLoadPoint);
+  return parameter(Kind::kWrench, 0, n - kWrench);
 }
 
 DesignParameter limit_parameter(MarginId id) {
   using Kind = DesignParameter::Kind;
   constexpr std::array kKinds = {Kind::kTensionLower, Kind::kTensionUpper, Kind::kLengthLower, Kind::kLengthUpper};
-  return {kKinds.at(static_cast<std::size_t>(id.kind)), static_cast<std::size_t>(id.cable)};
+  return parameter(kKinds.at(static_cast<std::size_t>(id.kind)), static_cast<std::size_t>(id.cable));
 }
 
 double loss_of(const MarginBudget& budget, const Uncertainty& uncertainty) {
@@ -293,7 +307,7 @@ struct MarginDifferentiator::Data {
   /// What each deviating item may take of the tensions' margins at a pose, in the order of all_margins().
   [[nodiscard]] std::vector<std::vector<double>> item_losses(const RigidPose& pose) const;
   /// The derivative of what is left of a margin by the outer variable.
-  [[nodiscard]] double derivative(Model<Inner<Outer>> model, const RigidPose& pose, MarginId margin) const;
+  [[nodiscard]] double derivative(Model<Inner<Outer>> changed, const RigidPose& pose, MarginId margin) const;
 };
 
 std::vector<std::vector<double>> MarginDifferentiator::Data::item_losses(const RigidPose& pose) const {
@@ -317,12 +331,13 @@ std::vector<std::vector<double>> MarginDifferentiator::Data::item_losses(const R
   return result;
 }
 
-double MarginDifferentiator::Data::derivative(Model<Inner<Outer>> model, const RigidPose& pose, MarginId margin) const {
-  set_arms(model, places);
-  const Statics<Inner<Outer>> at = statics_at(model, pose);
+double MarginDifferentiator::Data::derivative(Model<Inner<Outer>> changed, const RigidPose& pose,
+                                              MarginId margin) const {
+  set_arms(changed, places);
+  const Statics<Inner<Outer>> at = statics_at(changed, pose);
   std::optional<LengthControl<Outer>> control;
   if (length_controlled) control = length_control(at);
-  const Budget<Outer> found = budget(model, at, sizes, control, margin);
+  const Budget<Outer> found = budget(changed, at, sizes, control, margin);
   Outer left = found.nominal;
   for (const Outer& loss : found.loss) left = left - loss;
   return left.partial[0];
@@ -389,15 +404,15 @@ std::vector<Derivative> MarginDifferentiator::derivatives(const RigidPose& pose,
     for (int k = 0; k < 6; ++k) {
       by_weight += data_->model.wrench(k).value * result[static_cast<std::size_t>(kWrench + k)].value;
     }
-    result.push_back({{DesignParameter::Kind::kWeight}, by_weight});
+    result.push_back({parameter(DesignParameter::Kind::kWeight), by_weight});
   }
   for (std::size_t n = 0; n < data_->weights.size(); ++n) {
     if (data_->weights[n].empty()) continue;
     Model<Inner<Outer>> model = data_->varied;
     Outer& mass = model.loads.items[n].nominal.value;
     mass = Outer(mass.value, 0);
-    result.push_back({{DesignParameter::Kind::kMass, 0, 0, {UncertaintyKind::kLoadItem, data_->weights[n]}},
-                      data_->derivative(model, pose, margin)});
+    const Uncertainty item(UncertaintyKind::kLoadItem, data_->weights[n]);
+    result.push_back({parameter(DesignParameter::Kind::kMass, item), data_->derivative(model, pose, margin)});
   }
   const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
   for (const MarginId id : all_margins()) {
@@ -406,7 +421,7 @@ std::vector<Derivative> MarginDifferentiator::derivatives(const RigidPose& pose,
   const auto all = budgets(pose);
   const auto own = std::ranges::find_if(*all, [&](const MarginBudget& b) { return b.id == margin; });
   for (const Uncertainty& uncertainty : data_->stated) {
-    result.push_back({{DesignParameter::Kind::kTolerance, 0, 0, uncertainty}, -loss_of(*own, uncertainty)});
+    result.push_back({parameter(DesignParameter::Kind::kTolerance, uncertainty), -loss_of(*own, uncertainty)});
   }
   return result;
 }

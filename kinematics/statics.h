@@ -17,12 +17,12 @@ namespace taut {
 
 template <class S>
 struct Statics {
-  bool regular = false;                   ///< D was inverted; else only lengths are set
-  std::array<S, kCables> length;          ///< d_i [m]
-  std::array<S, kCables> tension;         ///< f0_i [N]
-  std::array<S, kCables> tension_below;   ///< v_ii; how far K moves a tension below f0 [N]
-  std::array<S, kCables> tension_above;   ///< v_ii; how far above [N]
-  S determinant;                          ///< det J about P_m, equal to det J about O
+  bool regular = false;                  ///< D was inverted; else only lengths are set
+  std::array<S, kCables> length;         ///< d_i [m]
+  std::array<S, kCables> tension;        ///< f0_i [N]
+  std::array<S, kCables> tension_below;  ///< v_ii; how far K moves a tension below f0 [N]
+  std::array<S, kCables> tension_above;  ///< v_ii; how far above [N]
+  S determinant;                         ///< det J about P_m, equal to det J about O
 };
 
 /// Gauss–Jordan elimination with partial pivoting by mignitude. @returns whether `matrix` is (certainly) regular.

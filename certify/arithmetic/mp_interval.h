@@ -166,8 +166,7 @@ template <class T, class P>
   return interval<T, P>(std::max(x.lower(), y.lower()), std::max(x.upper(), y.upper()));
 }
 template <class T, class P>
-[[nodiscard]] interval<T, P> euclidean_norm(const interval<T, P>& x, const interval<T, P>& y,
-                                            const interval<T, P>& z) {
+[[nodiscard]] interval<T, P> euclidean_norm(const interval<T, P>& x, const interval<T, P>& y, const interval<T, P>& z) {
   return sqrt(interval<T, P>(square(x) + square(y) + square(z)));
 }
 

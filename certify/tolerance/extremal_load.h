@@ -36,9 +36,8 @@ class ExtremalLoads {
       const Vector6<I> w = wrench_of(model_.items[n], at_.items[n], f, m, which);
       const Vector3<I> force(w(0), w(1), w(2)), moment(w(3), w(4), w(5));
       const bool turns = model_.items[n].axes == Axes::kPlatform && model_.items[n].shape != Shape::kBall;
-      const Vector3<I> turn =
-          turns ? Vector3<I>(cross(force, f) + cross(moment, m))
-                : Vector3<I>(cross(at_.items[n].lever, Vector3<I>(cross(force, m))));
+      const Vector3<I> turn = turns ? Vector3<I>(cross(force, f) + cross(moment, m))
+                                    : Vector3<I>(cross(at_.items[n].lever, Vector3<I>(cross(force, m))));
       for (int k = 0; k < 6; ++k) sum.wrench(k) = sum.wrench(k) + w(k);
       for (int k = 0; k < 3; ++k) sum.by_turn(k) = sum.by_turn(k) + turn(k);
     }
@@ -107,8 +106,8 @@ class ExtremalLoads {
     return joined(vector, cross(at.lever, vector));
   }
 
-  static Vector6<I> wrench_of_weight(const Item& item, const ItemAtPose& at, const Vector3<I>& f,
-                                     const Vector3<I>& m, Extremum which) {
+  static Vector6<I> wrench_of_weight(const Item& item, const ItemAtPose& at, const Vector3<I>& f, const Vector3<I>& m,
+                                     Extremum which) {
     Vector3<I> lever = at.lever;
     I mass = item.nominal;
     if (which != Extremum::kNominal) {

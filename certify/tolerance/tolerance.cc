@@ -456,9 +456,9 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   Vector3<I> by_position = pull;                                 // P_r
   Vector3<I> by_turn = cross(x.arm[r], pull);                    // of the turn about P_m: W_r − R p_m × P_r
   if (origin.has_items) by_turn = by_turn + scaled(length, load_turn);
-  Vector3<I> by_load_point(I(0.0), I(0.0), I(0.0));              // M_r
-  std::array<Vector3<I>, kCables> by_base;                       // A_ri
-  std::array<Vector3<I>, kCables> by_platform;                   // B_ri
+  Vector3<I> by_load_point(I(0.0), I(0.0), I(0.0));  // M_r
+  std::array<Vector3<I>, kCables> by_base;           // A_ri
+  std::array<Vector3<I>, kCables> by_platform;       // B_ri
   for (std::size_t i = 0; i < kCables; ++i) {
     const I weight = length * kappa[i];
     const Vector3<I> h = scaled(weight, x.h[r][i]);

@@ -54,7 +54,8 @@ bool add_samples(const ReportContext& scene, CableUse& use) {
     for (std::size_t i = 0; i < kCables; ++i) {
       const double tension = sample.statics.tension[i];
       const double length = sample.statics.length[i];
-      widen(use.tension[i], {tension - sample.statics.tension_below[i], tension + sample.statics.tension_above[i]}, sample.position);
+      widen(use.tension[i], {tension - sample.statics.tension_below[i], tension + sample.statics.tension_above[i]},
+            sample.position);
       widen(use.length[i], {length, length}, sample.position);
     }
     is_any = true;

@@ -145,8 +145,9 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Displ
   for (std::size_t i = 0; i < kCables; ++i) {
     const double f = tension_margin(summary.sampler.model(), s, i);
     const double d = length_margin(summary.sampler.model(), s, i);
-    rows.push_back({std::to_string(i + 1), about(length, s.length[i]), about(length, d), tension_text(s, i, units.force),
-                    fmt::format("{:.4g}", units.force.approx(f)), f > 0 && d > 0 ? "" : "out of its limits"});
+    rows.push_back({std::to_string(i + 1), about(length, s.length[i]), about(length, d),
+                    tension_text(s, i, units.force), fmt::format("{:.4g}", units.force.approx(f)),
+                    f > 0 && d > 0 ? "" : "out of its limits"});
   }
   return text + columns(rows) +
          fmt::format("  wrench_scale {:.4g}: by so much could K grow before a tension reaches a limit{}\n",

@@ -128,8 +128,7 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
     expect_form<I>(enclosure.length[i], samples, component(&Sample::length), cable + ", length");
     if (!enclosure.regular) continue;
     expect_form<I>(enclosure.density[i], samples, component(&Sample::density), cable + ", density");
-    expect_form<I>(enclosure.above[i], samples, component(&Sample::tension_radius),
-                   cable + ", tension_radius");
+    expect_form<I>(enclosure.above[i], samples, component(&Sample::tension_radius), cable + ", tension_radius");
   }
   for (const auto& entry : enclosure.margins) {
     const auto value = [&entry](const Sample& x) -> const BigFloat& {

@@ -84,9 +84,9 @@ campaign::Range<double> range(const LoadText& load, const Matrix3<double>& r, co
   const campaign::TensionOf<double> value{y};
   campaign::Range<double> sum{0, 0};
   for (const LoadItem& item : load.items) {
-    const auto of_item = campaign::extremes(campaign::make_load<double>(item),
-                                            campaign::numbers<double>(load.gravity_m_s2), rows,
-                                            campaign::numbers<double>(load.point_m), value);
+    const auto of_item =
+        campaign::extremes(campaign::make_load<double>(item), campaign::numbers<double>(load.gravity_m_s2), rows,
+                           campaign::numbers<double>(load.point_m), value);
     sum.low += of_item.low;
     sum.high += of_item.high;
   }
@@ -242,7 +242,8 @@ TEST(ExtremalLoads, AreDerivativesOfTheRange) {
         behind[k] -= kStep;
         const double slope = (value(ahead, r) - value(behind, r)) / (2 * kStep);
         ASSERT_NEAR(midpoint_approx(found.wrench(static_cast<int>(k))), slope, 2e-4) << n << ", component " << k;
-        ASSERT_LT(upper_bound(found.wrench(static_cast<int>(k))) - lower_bound(found.wrench(static_cast<int>(k))), 1e-9);
+        ASSERT_LT(upper_bound(found.wrench(static_cast<int>(k))) - lower_bound(found.wrench(static_cast<int>(k))),
+                  1e-9);
       }
       for (int k = 0; k < 3; ++k) {
         const auto turned = [&](double by) {
@@ -268,8 +269,7 @@ TEST(ExtremalLoads, EncloseEveryCandidate) {
   const LoadsAtPose<MpInterval> at = loads_at(model, identity);
   const MpInterval around(-1e-9, 1e-9);
   const Vector3<MpInterval> nearly(around, around, around);
-  const ExtremalLoad<MpInterval> found =
-      ExtremalLoads<MpInterval>(model, at).find(nearly, nearly, Extremum::kGreatest);
+  const ExtremalLoad<MpInterval> found = ExtremalLoads<MpInterval>(model, at).find(nearly, nearly, Extremum::kGreatest);
   for (int k = 0; k < 3; ++k) {
     EXPECT_LE(lower_bound(found.wrench(k)), (k == 2 ? -40 : 0) - 3);
     EXPECT_GE(upper_bound(found.wrench(k)), (k == 2 ? -20 : 0) + 3);

@@ -268,11 +268,11 @@ TEST(Witness, ADeviationBeyondATolerancesIsRejected) {
        [](By& by) {
          by.position = {mpq_class(-1001, 1000000), 0, 0};
        }},
-      {"angle",
+      {"the orientation",
        [](By& by) {
          by.turn = {0, mpq_class(501, 100000), 0};
        }},  // 0.01002 rad
-      {"angle", [](By& by) {
+      {"the orientation", [](By& by) {
          by.turn = {100, 0, 0};
        }}};
   for (const bool length_controlled : {false, true}) {

@@ -48,7 +48,7 @@ class Json(InFolder):
     def test_plans(self):
         proved = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("a"), code=0)
         self.assertEqual(sorted(os.path.basename(file) for file in proved["files"]),
-                         ["certificate.json", "path.csv", "report.html"])
+                         ["certificate.json", "controller.csv", "path.csv", "report.html"])
         self.assertTrue(all(os.path.isfile(file) for file in proved["files"]))
         self.assertGreater(proved["elapsed_seconds"], proved["prove_seconds"])
         self.assertEqual(proved["messages"], [])
@@ -70,6 +70,12 @@ class Json(InFolder):
             with self.subTest(os.path.basename(case)):
                 code = {"proved": 0, "refuted": 1, "undecided": 2}[expected(case)]
                 self.printed(TAUT, "audit", case, "--out", self.path("out"), code=code)
+
+    def test_sensitivities(self):
+        self.assertEqual(self.printed(TAUT, "sensitivity", ROBOT1, code=0)["verdict"], "proved")
+        refuted = self.printed(TAUT, "sensitivity", REFUTED, "--budget", "20", code=0)
+        self.assertEqual(refuted["verdict"], "refuted")
+        self.assertIsNotNone(refuted["headroom"]["tightest"])
 
     def test_documents_and_checks(self):
         self.printed(TAUT, "plan", ROBOT1, "--out", self.path("out"), code=0)
@@ -105,7 +111,7 @@ class Json(InFolder):
                 self.assertRegex(page, rf"`{name}`")
         common = set(OUTPUT["$defs"]["plan"]["properties"]) & set(OUTPUT["$defs"]["audit"]["properties"])
         missing = {key for key in common if not re.search(rf"`{key}`", page)}
-        self.assertEqual(missing - {"out", "tolerance_limits"}, set())
+        self.assertEqual(missing - {"out"}, set())
 
 
 if __name__ == "__main__":

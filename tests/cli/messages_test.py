@@ -51,7 +51,7 @@ class Messages(InFolder):
     def test_a_start_that_is_singular_but_for_rounding_is_called_singular(self):
         turned = ("theta: 0, sigma: 0}", "theta: 0, sigma: 90}")
         said = self.plan(turned, code=1)
-        self.assertRegex(said, r"^refuted: at waypoint 0 of the query the platform is at a singular pose, or so near one")
+        self.assertRegex(said, r"(?m)^refuted: at waypoint 0 of the query the platform is at a singular pose, or so near one")
         self.assertNotRegex(said, r"\d{9}")
         report = self.report()
         self.assertIn("singular pose, or so near one", report)
@@ -73,7 +73,7 @@ class Messages(InFolder):
         self.assertIn(question, run(TAUT, "show", self.path("altered.yaml")).stdout)
         self.assertIn(question, self.audit(self.table("px,py,pz,phi,theta,sigma", (0, 0, 2, 0, 0, 0), (.1, 0, 2, 0, 0, 0)), 1,
                                            self.path("altered.yaml")))
-        self.assertNotIn(question, self.plan(("mass: 500 kg", "mass: 50 t"), code=1), "too heavy is another fault")
+        self.assertNotIn(question, self.plan(("mass: 300 kg", "mass: 50 t"), code=1), "too heavy is another fault")
         self.assertNotIn(question, run(TAUT, "show", self.case).stdout)
 
     def test_tabs_in_indentation_are_named(self):
@@ -82,7 +82,7 @@ class Messages(InFolder):
             self.assertEqual(said.returncode, 3)
             line = self.text[:self.text.index(old)].count("\n") + 1
             self.assertRegex(said.stderr, rf"altered\.yaml:{line}:\d: got a tab .* YAML forbids tabs in indentation \[E3\]")
-        self.assertEqual(run(TAUT, "show", self.altered(("mass: 500 kg", "mass:\t500 kg"))).returncode, 0, "elsewhere they may be")
+        self.assertEqual(run(TAUT, "show", self.altered(("tension: [50 N", "tension:\t[50 N"))).returncode, 0, "elsewhere they may be")
 
     # --- What may be wrong with a path ---
 
@@ -174,26 +174,29 @@ class Messages(InFolder):
         millimetres = f"{float(base['length_m']) * 1000:.6g} mm"
         self.assertIn(f"Proved margins: tension {float(base['tension_N']):g} N, length {millimetres}", said)
         self.assertRegex(said, r"origin moves 1609 mm, and the platform turns 11\.18 deg\.")
-        in_kN = (("length: mm, force: N, moment: N*m", "length: m, force: kN, moment: kN*m"),
-                 ("diagonal: [1e-4, 1e-4, 1e-4, 4e-4, 4e-4, 4e-4]", "diagonal: [100, 100, 100, 400, 400, 400]"))
+        in_kN = (("length: mm, force: N, moment: N*m", "length: m, force: kN, moment: kN*m"),)
         metres = self.text
         for numbers in re.findall(r"\[-?\d[^\]\[]*\]", metres.split("load:")[0]):
             if "N" not in numbers and " m" not in numbers:
                 metres = metres.replace(numbers, "[" + ", ".join(f"{float(x) / 1000:g}" for x in numbers[1:-1].split(",")) + "]")
-        metres = metres.replace("[0, 0, -200]", "[0, 0, -0.2]").replace("px: [-1500, 1500], py: [-1500, 1500], pz: [1000, 6000]",
-                                                                         "px: [-1.5, 1.5], py: [-1.5, 1.5], pz: [1, 6]")
+        for old, new in (("[0, 0, -200]", "[0, 0, -0.2]"),
+                         ("[0, 0, -333], at_tolerance: 10}", "[0, 0, -0.333], at_tolerance: 0.01}"),
+                         ("px: [-1500, 1500], py: [-1500, 1500], pz: [1000, 6000]",
+                          "px: [-1.5, 1.5], py: [-1.5, 1.5], pz: [1, 6]")):
+            self.assertIn(old, metres)
+            metres = metres.replace(old, new)
         metres = metres.replace("pz: 2000", "pz: 2").replace("px: 500, py: -300, pz: 3500", "px: 0.5, py: -0.3, pz: 3.5")
         self.text = metres
         said = self.plan(*in_kN, code=0)
         self.assertIn(f"Proved margins: tension {float(base['tension_N']) / 1000:g} kN, length {float(base['length_m']):g} m", said)
         self.assertRegex(said, r"origin moves 1\.609 m, ")
         report = self.report()
-        for expected in ("every tension stays at least 0.343601 kN inside its limits", "Every tension above 0.05 kN and below 4 kN",
+        self.assertRegex(report, r"every tension stays at least 0\.\d+ kN inside its limits")
+        for expected in ("Every tension above 0.05 kN and below 4 kN",
                          "every cable length above 1 m and below 9 m", "Tension from [kN]", "Length from [m]"):
             self.assertIn(expected, report)
         shown = run(TAUT, "show", self.path("altered.yaml")).stdout
-        for expected in ("tension [kN]", "0.05 to 4", "length [m]", "tension f0 ± v [kN]", "semi-axis of the force: 0.1 kN",
-                         "semi-axis of the moment: 0.05 kN·m"):
+        for expected in ("tension [kN]", "0.05 to 4", "length [m]", "tension f0 ± v [kN]", "force x ± 0.08 kN"):
             self.assertIn(expected, shown)
         page = text_of(self.path("out", "report.html"))
         for expected in ("Tension [kN]", "Base anchor a [m]", "px [m]"):

@@ -187,8 +187,7 @@ TEST(NavigationManifold, SlacksAreOneAtMidRange) {
   for (int i = 0; i < 6; ++i) {
     EXPECT_NEAR(x.point(Layout::kLengthSlack + i), 1.0, 1e-12);
     EXPECT_NEAR(x.point(Layout::kLowSlack + i), 1.0, 1e-12);
-    EXPECT_NEAR(x.point(Layout::kHighSlack + i), 0.5 / (0.5 - 2 * s.tension_above[static_cast<std::size_t>(i)]),
-                1e-10);
+    EXPECT_NEAR(x.point(Layout::kHighSlack + i), 0.5 / (0.5 - 2 * s.tension_above[static_cast<std::size_t>(i)]), 1e-10);
   }
 }
 

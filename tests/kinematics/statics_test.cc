@@ -75,6 +75,7 @@ Model<double> axes_robot() {
     model.tension_upper[n] = 100;
   }
   model.wrench << 50, 60, 70, -10, -20, -30;
+  model.has_ellipsoid = true;
   model.ellipsoid_is_diagonal = true;
   model.ellipsoid.setZero();
   model.ellipsoid_root.setZero();

@@ -68,7 +68,7 @@ class Cases(unittest.TestCase):
             self.assertEqual(case.summary(), said.stdout)
             said = subprocess.run([TAUT, "show", ROBOT1, "--json", "--out", drawing], capture_output=True, text=True, check=True,
                                   timeout=60)
-            self.assertEqual(case.summary_data(), json.loads(said.stdout))
+            self.assertEqual({"command": "show", **case.summary_data()}, json.loads(said.stdout))
             with open(drawing, encoding="utf-8") as file:
                 self.assertEqual(case._repr_svg_(), file.read())
         bridging = taut.Case.load(BRIDGING)

@@ -159,7 +159,8 @@ Range<S> extremes(const Load<S>& load, const Vec<S>& gravity, const Rows<S>& r, 
   };
   if (!load.masses.empty()) {
     Vec<S> gradient;  // of the value by the offset
-    for (std::size_t k = 0; k < 3; ++k) gradient[k] = tension.force_at(units[k], gravity) - tension.force_at(none, gravity);
+    for (std::size_t k = 0; k < 3; ++k)
+      gradient[k] = tension.force_at(units[k], gravity) - tension.force_at(none, gravity);
     for (const S& mass : load.masses) {
       for_each_vector(load.offsets, gradient,
                       [&](const Vec<S>& offset) { include(tension.force_at(lever + offset, mass * gravity)); });

@@ -280,7 +280,7 @@ std::optional<RigidPose<S>> hold(const Machine<S>& machine, RigidPose<S> pose, c
 template <class S>
 struct StaticsAt {
   Six<S> length, tension_low, tension_high;  ///< tensions over K
-  S determinant;  ///< of J; not finite or 0 where it is singular
+  S determinant;                             ///< of J; not finite or 0 where it is singular
 };
 
 template <class S>
