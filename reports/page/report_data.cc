@@ -274,8 +274,8 @@ json tolerances(const ReportContext& scene) {
   if (!scene.certificate.problem.tolerances || !scene.illustration.headroom) return result;
   for (const ProvableShare& share : scene.illustration.headroom->shares) {
     const UncertaintyKind kind = share.of.kind;
-    const bool is_tolerance = std::ranges::find(single_uncertainties(), kind) != single_uncertainties().end();
-    if (!is_tolerance || kind == UncertaintyKind::kWrenchSet || !(share.proved > 0)) continue;
+    const bool is_of_sets = kind == UncertaintyKind::kAll || kind == UncertaintyKind::kWrenchSet;
+    if (is_of_sets || kind == UncertaintyKind::kLoadItem || !(share.proved > 0)) continue;
     result.push_back({{"name", name(kind)},
                       {"unit", unit(kind)},
                       {"stated", number(size_of(scene.certificate.problem, kind))},

@@ -40,7 +40,7 @@ Verdict verdict(const Problem& problem, const Path& path) {
 
 /// The problem at `more` times the share that was found.
 Problem at(const Problem& problem, const ProvableShare& found, const char* more = "1") {
-  const Problem whole = found.stated > 0 ? problem : with_unit_uncertainty(problem, found.of);
+  const Problem whole = found.stated > 0 ? problem : with_unit_uncertainty(problem, found.of.kind);
   return with_uncertainty_scaled(whole, found.of, Decimal::parse(found.share) * Decimal::parse(more));
 }
 
@@ -61,9 +61,9 @@ TEST(Headroom, SharesOfAProvedPathAreProvedAndNotFarFromWhereTheProofFails) {
   EXPECT_EQ(found.shares.front().of, UncertaintyKind::kAll);
   for (const ProvableShare& share : found.shares) {
     EXPECT_TRUE(share.is_complete);
-    EXPECT_GT(number(share.share), share.stated > 0 ? 1 : 1e-6) << name(share.of);
-    EXPECT_EQ(verdict(at(problem, share), path), Verdict::kProved) << name(share.of);
-    EXPECT_NE(verdict(at(problem, share, "1.1"), path), Verdict::kProved) << name(share.of) << " " << share.share;
+    EXPECT_GT(number(share.share), share.stated > 0 ? 1 : 1e-6) << name(share.of.kind);
+    EXPECT_EQ(verdict(at(problem, share), path), Verdict::kProved) << name(share.of.kind);
+    EXPECT_NE(verdict(at(problem, share, "1.1"), path), Verdict::kProved) << name(share.of.kind) << " " << share.share;
   }
   EXPECT_EQ(share_of(found, UncertaintyKind::kPosition).stated, 0.0002);
   EXPECT_LE(share_of(found, UncertaintyKind::kPosition).proved,
@@ -137,13 +137,60 @@ TEST(Headroom, OfAnUnprovedPathIsAShareThatSamplingCannotRefute) {
   EXPECT_NE(verdict(at(problem, all, "1.1"), path), Verdict::kProved);
   EXPECT_GT(least_margin_of_random_machines(at(problem, all), path, 20000), 0);
   for (const ProvableShare& share : found.shares) {
-    EXPECT_LT(number(share.share), 1) << name(share.of);
+    EXPECT_LT(number(share.share), 1) << name(share.of.kind);
     if (share.share == "0") continue;
-    EXPECT_EQ(verdict(at(problem, share), path), Verdict::kProved) << name(share.of);
+    EXPECT_EQ(verdict(at(problem, share), path), Verdict::kProved) << name(share.of.kind);
   }
   ASSERT_TRUE(found.tightest);
   EXPECT_LT(found.tightest->budget.left(), 0);
   EXPECT_GT(found.tightest->budget.nominal, 0);
+}
+
+/// A block and a wind, with which the path is proved.
+Problem robot_with_items() {
+  Problem problem = robot1_slice();
+  const std::array<RationalText, 3> at = problem.load.point_m;
+  problem.load.ellipsoid.reset();
+  problem.load.wrench.fill("0");
+  problem.load.gravity_m_s2 = {"0", "0", "10"};
+  problem.load.items = {{"block", Weight{"0.0995", "0.1005", at, "0.0005"}},
+                        {"wind", Force{DiscOfVectors{"0.004", {"0", "0", "1"}}, Axes::kWorld, at}}};
+  return problem;
+}
+
+TEST(Headroom, ListsLoadItemsByTheirNames) {
+  Problem problem = robot_with_items();
+  const Path path = short_path();
+  ASSERT_EQ(verdict(problem, path), Verdict::kProved);
+  std::vector<std::string> expected = {"all", "wrench_set", "load_item block", "load_item wind"};
+  for (const bool has_tolerances : {false, true}) {
+    if (has_tolerances) {
+      problem.tolerances.emplace().position_m = "0.0002";
+      expected = {"all",          "position",         "wrench_set", "load_item block", "load_item wind",
+                  "base_anchors", "platform_anchors", "orientation"};
+    }
+    const Headroom found = find_headroom(problem, path, Verdict::kProved, "3", {}, {});
+    std::vector<std::string> names;
+    for (const ProvableShare& share : found.shares) {
+      names.push_back(name(share.of.kind) + (share.of.item.empty() ? "" : " " + share.of.item));
+      EXPECT_TRUE(share.is_complete);
+      EXPECT_GT(number(share.share), share.stated > 0 ? 1 : 1e-6) << names.back();
+      EXPECT_EQ(verdict(at(problem, share), path), Verdict::kProved) << names.back();
+    }
+    EXPECT_EQ(names, expected);
+    const ProvableShare& wind = found.shares.at(has_tolerances ? 4 : 3);
+    EXPECT_NE(verdict(at(problem, wind, "1.1"), path), Verdict::kProved) << wind.share;
+  }
+}
+
+TEST(Headroom, OfALoadWithoutDeviationsIsNothingToState) {
+  Problem problem = robot_with_items();
+  problem.load.items = {{"block", Weight{"0.1", "0.1", problem.load.point_m, "0"}}};
+  const Path path = short_path();
+  ASSERT_EQ(verdict(problem, path), Verdict::kProved);
+  const Headroom found = find_headroom(problem, path, Verdict::kProved, "", {}, {});
+  EXPECT_TRUE(found.shares.empty());
+  EXPECT_TRUE(found.tightest);
 }
 
 TEST(Headroom, SaysWhereTheNominalMachineItselfFails) {

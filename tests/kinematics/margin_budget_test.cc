@@ -24,6 +24,30 @@ Problem tolerant_robot() {
   return problem;
 }
 
+/// The same load, more or less, as items of every kind.
+Problem robot_with_items() {
+  Problem problem = tolerant_robot();
+  problem.load = {};
+  problem.load.point_m = {"0.01", "-0.02", "0.03"};
+  problem.load.gravity_m_s2 = {"0", "0", "9.81"};
+  problem.load.items = {
+      {"block", Weight{"0.09", "0.1", {"0.02", "0.014", "-0.021"}, "0.002"}},
+      {"exact", Weight{"0.004", "0.004", {"0.05", "0", "0"}, "0"}},
+      {"wind", Force{DiscOfVectors{"0.02", {"0", "0", "1"}}, Axes::kWorld, {"0.03", "0.014", "0"}}},
+      {"gust", Force{SegmentOfVectors{{"1", "0", "0"}, "-0.005", "0.01"}, Axes::kPlatform, {"0.01", "0", "0"}}},
+      {"pull", Force{SegmentOfVectors{{"0", "1", "0"}, "0.01", "0.03"}, Axes::kWorld, {"0.03", "0.014", "-0.021"}}},
+      {"twist", Moment{BallOfVectors{"0.001"}, Axes::kWorld}},
+      {"cases", LoadCases{{{"0", "0", "0.01", "0", "0", "0"},
+                           {"0.01", "0", "0", "0", "0", "0.001"},
+                           {"0", "0.01", "0", "0", "0", "0"}},
+                          Axes::kWorld,
+                          {"0.03", "0.014", "-0.021"}}}};
+  TolerancesText& t = *problem.tolerances;
+  t.load_point_m = "0";
+  t.wrench = {"0", "0", "0", "0", "0", "0"};
+  return problem;
+}
+
 RigidPose pose_of(const Problem& problem) {
   const PoseSampler sampler(problem);
   return rigid_pose(sampler.pose(Waypoint{{0.5, 0.3}, {0, 0}}));
@@ -41,6 +65,7 @@ DecimalText* text_of(Problem& problem, const DesignParameter& parameter) {
     case Kind::kLengthLower: return &problem.robot.length_m[parameter.index].lower;
     case Kind::kLengthUpper: return &problem.robot.length_m[parameter.index].upper;
     case Kind::kWeight:
+    case Kind::kMass:
     case Kind::kTolerance: break;
   }
   return nullptr;
@@ -51,15 +76,16 @@ double left(const Problem& problem, bool length_controlled, const RigidPose& pos
   return std::ranges::find_if(*all, [&](const auto& b) { return b.id == id; })->left();
 }
 
-TEST(MarginDifferentiator, DerivativesAreThoseOfChangedProblems) {
+void expect_derivatives_of_changed_problems(const Problem& stated, std::size_t least_count) {
   for (const bool length_controlled : {false, true}) {
-    Problem problem = tolerant_robot();
+    Problem problem = stated;
     if (length_controlled) problem.tolerances->cable_length_m.emplace().fill("0.0003");
     const RigidPose pose = pose_of(problem);
     const MarginDifferentiator differentiator(problem, length_controlled);
     for (const MarginId id : {MarginId{MarginKind::kTensionMin, 2}, MarginId{MarginKind::kTensionMax, 5},
                               MarginId{MarginKind::kLengthMax, 1}}) {
       const std::vector<Derivative> all = differentiator.derivatives(pose, id);
+      EXPECT_GE(all.size(), least_count);
       for (const Derivative& derivative : all) {
         const bool is_factor = derivative.parameter.kind == DesignParameter::Kind::kTolerance;
         const double step = 1e-6;
@@ -68,6 +94,11 @@ TEST(MarginDifferentiator, DerivativesAreThoseOfChangedProblems) {
           Problem changed = problem;
           if (derivative.parameter.kind == DesignParameter::Kind::kWeight) {
             for (DecimalText& w : changed.load.wrench) w = fmt::format("{:.17g}", std::stod(w) * (1 + sign * step));
+          } else if (derivative.parameter.kind == DesignParameter::Kind::kMass) {
+            auto& item = *std::ranges::find(changed.load.items, derivative.parameter.uncertainty.item, &LoadItem::name);
+            auto& weight = std::get<Weight>(item.what);
+            weight.mass_lower = fmt::format("{:.17g}", std::stod(weight.mass_lower) + sign * step);
+            weight.mass_upper = fmt::format("{:.17g}", std::stod(weight.mass_upper) + sign * step);
           } else if (is_factor) {
             changed = with_uncertainty_scaled(problem, derivative.parameter.uncertainty,
                                               Decimal::parse(fmt::format("{:.9f}", 1 + sign * step)));
@@ -85,6 +116,34 @@ TEST(MarginDifferentiator, DerivativesAreThoseOfChangedProblems) {
             << derivative.parameter.axis;
       }
     }
+  }
+}
+
+TEST(MarginDifferentiator, DerivativesAreThoseOfChangedProblems) {
+  constexpr std::size_t kAll = 18 + 18 + 3 + 6 + 1 + 24 + 7;
+  expect_derivatives_of_changed_problems(tolerant_robot(), kAll);
+}
+
+TEST(MarginDifferentiator, DerivativesOfItemsAreThoseOfChangedProblems) {
+  constexpr std::size_t kTwoMasses = 2, kSixItemsAndTheirSum = 7, kOtherTolerances = 4;
+  expect_derivatives_of_changed_problems(robot_with_items(),
+                                         18 + 18 + 24 + kTwoMasses + kSixItemsAndTheirSum + kOtherTolerances);
+}
+
+TEST(MarginDifferentiator, LossesOfItemsAreThePartsOfTheLoads) {
+  const Problem problem = robot_with_items();
+  const auto budgets = MarginDifferentiator(problem, false).budgets(pose_of(problem));
+  ASSERT_TRUE(budgets);
+  for (const MarginBudget& budget : *budgets) {
+    ASSERT_EQ(budget.loss_by_item.size(), 6U);
+    EXPECT_EQ(budget.loss_by_item[0].first, "block");
+    EXPECT_EQ(budget.loss_by_item[1].first, "wind");
+    double sum = 0;
+    for (const auto& [item, loss] : budget.loss_by_item) sum += loss;
+    const double all = budget.loss[static_cast<std::size_t>(UncertaintyKind::kWrenchSet)];
+    EXPECT_NEAR(sum, all, 1e-12);
+    const bool is_tension = budget.id.kind == MarginKind::kTensionMin || budget.id.kind == MarginKind::kTensionMax;
+    EXPECT_EQ(all > 0, is_tension);
   }
 }
 
@@ -124,8 +183,8 @@ TEST(Scaled, TheScaledSetContainsTheShareOfTheSet) {
     for (std::size_t k = 0; k < 6; ++k) {
       const auto f = Decimal::parse(factor).rational();
       using Rational = boost::multiprecision::cpp_rational;
-      const Rational exact = Decimal::parse(problem.load.ellipsoid[k][k]).rational() / Rational(f * f);
-      const Rational found = Decimal::parse(scaled.load.ellipsoid[k][k]).rational();
+      const Rational exact = Decimal::parse((*problem.load.ellipsoid)[k][k]).rational() / Rational(f * f);
+      const Rational found = Decimal::parse((*scaled.load.ellipsoid)[k][k]).rational();
       EXPECT_LE(found, exact);
       EXPECT_GT(found, Rational(exact * Decimal::parse("0.9999999999999999999999999").rational()));
     }
@@ -145,9 +204,63 @@ TEST(Scaled, ScalesEveryToleranceTogether) {
     if (kind == UncertaintyKind::kWrenchSet) continue;
     EXPECT_DOUBLE_EQ(size_of(half, kind), 0.5 * size_of(problem, kind)) << name(kind);
   }
-  EXPECT_EQ(half.load.ellipsoid[0][0], "40000");
+  EXPECT_EQ((*half.load.ellipsoid)[0][0], "40000");
   EXPECT_NO_THROW(validate(half));
   EXPECT_NO_THROW(validate(with_uncertainty_scaled(problem, UncertaintyKind::kAll, Decimal::parse("0"))));
+}
+
+TEST(Scaled, ScalesItemsAboutTheirNominalWrench) {
+  const Problem problem = robot_with_items();
+  const Problem twice = with_uncertainty_scaled(problem, UncertaintyKind::kAll, Decimal::parse("2"));
+  const auto& items = twice.load.items;
+  EXPECT_EQ(items[0].what, (LoadItem{"", Weight{"0.085", "0.105", {"0.02", "0.014", "-0.021"}, "0.004"}}.what));
+  EXPECT_EQ(items[1], problem.load.items[1]);
+  EXPECT_EQ(std::get<DiscOfVectors>(std::get<Force>(items[2].what).set).radius, "0.04");
+  const auto range = [](const LoadItem& item) {
+    const auto& set = std::get<SegmentOfVectors>(std::get<Force>(item.what).set);
+    return std::pair(set.lower, set.upper);
+  };
+  EXPECT_EQ(range(items[3]), std::pair(std::string("-0.01"), std::string("0.02")));
+  EXPECT_EQ(range(items[4]), std::pair(std::string("0"), std::string("0.04")));
+  EXPECT_EQ(std::get<BallOfVectors>(std::get<Moment>(items[5].what).set).radius, "0.002");
+  const auto& cases = std::get<LoadCases>(items[6].what).wrenches;  // about the mean of 1/300 N
+  EXPECT_EQ(cases[0], (std::array<RationalText, 6>{"-1/300", "-1/300", "1/60", "0", "0", "-1/3000"}));
+  EXPECT_NO_THROW(validate(twice));
+  EXPECT_NO_THROW(validate(with_uncertainty_scaled(problem, UncertaintyKind::kAll, Decimal::parse("0"))));
+}
+
+TEST(Scaled, ScalesOneItemAlone) {
+  const Problem problem = robot_with_items();
+  const Uncertainty wind(UncertaintyKind::kLoadItem, "wind");
+  const Problem half = with_uncertainty_scaled(problem, wind, Decimal::parse("0.5"));
+  for (std::size_t n = 0; n < problem.load.items.size(); ++n) {
+    EXPECT_EQ(half.load.items[n] == problem.load.items[n], problem.load.items[n].name != "wind");
+  }
+  EXPECT_EQ(std::get<DiscOfVectors>(std::get<Force>(half.load.items[2].what).set).radius, "0.01");
+  EXPECT_EQ(half.tolerances->position_m, problem.tolerances->position_m);
+  const Uncertainty none(UncertaintyKind::kLoadItem, "snow");
+  EXPECT_THROW(with_uncertainty_scaled(problem, none, Decimal::parse("0.5")), InputError);
+}
+
+TEST(Scaled, RefusesAMassThatWouldBeNegative) {
+  const Problem problem = robot_with_items();
+  const Uncertainty block(UncertaintyKind::kLoadItem, "block");
+  EXPECT_NO_THROW(with_uncertainty_scaled(problem, block, Decimal::parse("19")));
+  EXPECT_THROW(with_uncertainty_scaled(problem, block, Decimal::parse("19.1")), InputError);
+}
+
+TEST(Scaled, NamesWhatDeviates) {
+  Problem problem = robot_with_items();
+  EXPECT_EQ(deviating_items(problem.load),
+            (std::vector<std::string>{"block", "wind", "gust", "pull", "twist", "cases"}));
+  problem.load.items = {problem.load.items[0], problem.load.items[1]};
+  problem.tolerances.reset();
+  EXPECT_EQ(stated_uncertainties(problem),
+            (std::vector<Uncertainty>{{UncertaintyKind::kLoadItem, "block"}}));  // the load's deviations are its
+  problem.load.items.erase(problem.load.items.begin());
+  EXPECT_FALSE(is_stated(problem, UncertaintyKind::kWrenchSet));
+  EXPECT_FALSE(is_stated(problem, UncertaintyKind::kAll));
+  EXPECT_EQ(stated_uncertainties(problem), std::vector<Uncertainty>());
 }
 
 }  // namespace
