@@ -111,6 +111,9 @@ void print(const Audit& audit, const Case& the_case, const PathSource& source, c
   } else {
     fmt::print("{}\n", sentence(audit, DisplayUnits(the_case.units)));
     print_stretches(audit, the_case, source);
+    if (const std::string load = load_that_breaks(the_case.problem.load, checked); !load.empty()) {
+      fmt::print("{}\n", load.substr(1));
+    }
     if (const std::string may_be = hint(audit, source); !may_be.empty()) fmt::print("{}\n", may_be);
   }
   fmt::print("Audited {} in {:.3g} s, {:.4g} a second.\n", plural(audit.segments, "segment"), audit.seconds,

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "app/recheck.h"
 #include "base/files.h"
@@ -64,6 +65,13 @@ void announce(const Case& the_case, bool json) {
   if (json) return;
   const LoadStatement load = load_statement(the_case.problem.load);
   fmt::print("Load: {}\n      {}\n", sanitize(load.total), sanitize(load.spread));
+}
+
+std::string load_that_breaks(const LoadText& load, const checker::CheckResult& checked) {
+  if (!checked.theorem || !checked.theorem->witness().is_object()) return "";
+  const nlohmann::json& witness = checked.theorem->witness();
+  if (!witness.contains("loads")) return "";
+  return fmt::format("\nA load that breaks the limit there: {}.", sanitize(witness_load_text(load, witness.at("loads"))));
 }
 
 ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}

@@ -36,6 +36,9 @@ void complain(std::string_view message);
 /// typed. With `json`, on stderr only.
 void announce(const Case& the_case, bool json);
 
+/// "\nA load that breaks the limit there: …", where the checker confirmed a witness that names one; else empty.
+[[nodiscard]] std::string load_that_breaks(const LoadText& load, const checker::CheckResult& checked);
+
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {
  public:

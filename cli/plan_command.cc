@@ -58,7 +58,8 @@ std::string plan_sentence(const Case& the_case, const Plan& plan, const checker:
                                     ? fmt::format("at waypoint {} of the query", *plan.refuted_waypoint)
                                 : w.at.on_segment ? fmt::format("on segment {} of the path", w.at.index)
                                                   : fmt::format("at waypoint {} of the path", w.at.index);
-      return fmt::format("refuted: {} {}.", where, violation_text(w, the_case.problem.robot, units));
+      return fmt::format("refuted: {} {}.{}", where, violation_text(w, the_case.problem.robot, units),
+                         load_that_breaks(the_case.problem.load, checked));
     }
     case Verdict::kUndecided: break;
   }

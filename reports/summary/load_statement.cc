@@ -343,6 +343,48 @@ nlohmann::json to_json(const LoadStatement& statement) {
           {"text", lines(statement)}};
 }
 
+std::string witness_load_text(const LoadText& load, const nlohmann::json& choices) {
+  const auto text = [](const nlohmann::json& x) { return x.get<std::string>(); };
+  const auto vector = [&](const nlohmann::json& list, const char* name, double factor) {
+    std::array<double, 3> v{};
+    for (std::size_t k = 0; k < 3; ++k) v[k] = approx(text(list.at(k))) / factor + 0.0;
+    return fmt::format("({:.4g}, {:.4g}, {:.4g}) {}", v[0], v[1], v[2], name);
+  };
+  const auto largest = [&](const nlohmann::json& list) {
+    double size = 0;
+    for (const nlohmann::json& x : list) size = std::max(size, std::abs(approx(text(x))));
+    return size;
+  };
+  const auto power = [](const PeoplesUnit& unit) { return std::pow(10.0, unit.power); };
+  std::vector<std::string> words;
+  for (std::size_t n = 0; n < load.items.size(); ++n) {
+    const LoadItem& item = load.items[n];
+    const nlohmann::json& choice = choices.at(n);
+    const bool is_moment = std::holds_alternative<Moment>(item.what);
+    const auto unit = [&](double size) { return is_moment ? unit_of_moment(size) : unit_of_force(size); };
+    if (choice.contains("mass_kg")) {
+      const double mass = approx(text(choice.at("mass_kg")));
+      const PeoplesUnit of_mass = unit_of_mass(mass);
+      std::string weight = fmt::format("{} {:.4g} {}", item.name, mass / power(of_mass), of_mass.name);
+      if (const double off = largest(choice.at("offset_m")); off > 0) {
+        const PeoplesUnit length = unit_of_length(off);
+        weight += ", its centre of gravity off by " + vector(choice.at("offset_m"), length.name, power(length));
+      }
+      words.push_back(std::move(weight));
+    } else if (choice.contains("vector")) {
+      const PeoplesUnit shown = unit(largest(choice.at("vector")));
+      words.push_back(fmt::format("{} {}", item.name, vector(choice.at("vector"), shown.name, power(shown))));
+    } else if (choice.contains("amount")) {
+      const double amount = approx(text(choice.at("amount")));
+      const PeoplesUnit shown = unit(std::abs(amount));
+      words.push_back(fmt::format("{} {:.4g} {}", item.name, amount / power(shown) + 0.0, shown.name));
+    } else {
+      words.push_back(fmt::format("{}: case {}", item.name, choice.at("case").get<std::size_t>() + 1));
+    }
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
 std::string load_text(const LoadText& load) { return fmt::format("{}", fmt::join(lines(load_statement(load)), " ")); }
 
 }  // namespace taut

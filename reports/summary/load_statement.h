@@ -46,4 +46,8 @@ struct LoadStatement {
 /// with items, as one paragraph.
 [[nodiscard]] std::string load_text(const LoadText& load);
 
+/// The load of each item under which a limit is violated, rounded: "payload 11.76 t, its centre of gravity off by …;
+/// wind (28.9, 7.9, 0) kN". @param choices  `loads` of a certificate's witness
+[[nodiscard]] std::string witness_load_text(const LoadText& load, const nlohmann::json& choices);
+
 }  // namespace taut

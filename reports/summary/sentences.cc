@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certificate/worst_loads.h"
 #include "certify/undecided.h"
 #include "problem/decimal.h"
 #include "reports/summary/hints.h"
@@ -201,6 +202,10 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
     result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
                                  place_text(scene, position(witness.at)), point_text(certificate, witness.at),
                                  pose_at(position(witness.at)), machine));
+    if (certificate.witness->loads) {
+      result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
+                                   witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
+    }
   }
   if (certificate.path.segments() == 0) {
     result.emplace_back("Every path of the query passes this pose, so that none is feasible.");

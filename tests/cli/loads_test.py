@@ -5,14 +5,17 @@
 Usage: loads_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
 import json
+import math
 import os
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
+from fractions import Fraction
 
 TAUT, CHECK, SOURCE = (os.path.abspath(argument) for argument in sys.argv[1:4])
+CASES = os.path.join(SOURCE, "cases")
 
 CRANE = """\
 taut: 1
@@ -37,6 +40,27 @@ load:
     - {name: platform, mass: 8, at: [0, 0, 0]}
     - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}
     - {name: wind, force: 6, direction: horizontal, at: [0, 0, -1]}"""
+
+
+def command(*arguments):
+    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, check=False)
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def solve(matrix, right):
+    """Gauss's elimination."""
+    rows = [row + [x] for row, x in zip(matrix, right)]
+    for k in range(len(rows)):
+        pivot = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i, row in enumerate(rows):
+            if i != k:
+                rows[i] = [x - row[k] * y for x, y in zip(row, rows[k])]
+    return [row[-1] for row in rows]
 
 
 class Loads(unittest.TestCase):
@@ -80,6 +104,65 @@ class Loads(unittest.TestCase):
         self.assertRegex(said.stderr, r"^taut: warning: crane\.yaml:9:\d+: load\.ellipsoid\.diagonal: .*only 0\.408")
         self.assertEqual(self.run_on(load.replace("KIND", "semi_axes"), "show").stderr, "")
         self.assertEqual(len(json.loads(self.run_on(load.replace("KIND", "diagonal"), "show", "--json").stdout)["warnings"]), 1)
+
+    def test_a_proved_crane_is_proved_again_for_its_case_and_path(self):
+        case = os.path.join(CASES, "cranes", "portal-20t.yaml")
+        out = os.path.join(self.folder.name, "out")
+        said = command(TAUT, "plan", case, "--out", out)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertIn("19.76 to 20.24 t", said.stdout)
+        again = command(CHECK, os.path.join(out, "certificate.json"), case, "--path", os.path.join(out, "path.csv"))
+        self.assertEqual(again.returncode, 0, again.stdout)
+        for old, new in (("mass_tolerance: 2 %", "mass_tolerance: 1 %"), ("force: 6,", "force: 5,"), ("50 mm}", "49 mm}")):
+            other = os.path.join(self.folder.name, "other.yaml")
+            with open(case, encoding="utf-8") as file:
+                text = file.read()
+            self.assertIn(old, text)
+            with open(other, "w", encoding="utf-8") as file:
+                file.write(text.replace(old, new))
+            self.assertEqual(command(CHECK, os.path.join(out, "certificate.json"), other).returncode, 1, new)
+
+    def test_a_refutation_names_a_load_that_breaks_the_limit(self):
+        case = os.path.join(CASES, "cranes", "portal-20t-gust.yaml")
+        said = command(TAUT, "plan", case, "--out", os.path.join(self.folder.name, "out"))
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        self.assertRegex(said.stdout, r"A load that breaks the limit there: platform 8 t; payload 11\.76 t, its centre of "
+                                      r"gravity off by \(-19\.\d+, 46\.\d+, 0\) mm; wind \(28\.\d+, 7\.\d+, 0\) kN\.")
+        report = command(TAUT, "report", os.path.join(self.folder.name, "out", "certificate.json"), "--text").stdout
+        self.assertIn("A load that breaks the limit there", report)
+        with open(os.path.join(self.folder.name, "out", "certificate.json"), encoding="utf-8") as file:
+            certificate = json.load(file)
+        witness, robot = certificate["witness"], certificate["problem"]["robot"]
+        platform, payload, wind = witness["loads"]
+        # Each part is in its set, exactly.
+        self.assertEqual(platform, {"mass_kg": "8000", "offset_m": ["0", "0", "0"]})
+        self.assertEqual(Fraction(payload["mass_kg"]), Fraction(12000) * 98 / 100)
+        self.assertLessEqual(sum(Fraction(x) ** 2 for x in payload["offset_m"]), Fraction(50, 1000) ** 2)
+        self.assertEqual(Fraction(wind["vector"][2]), 0)
+        self.assertLessEqual(sum(Fraction(x) ** 2 for x in wind["vector"]), 30000 ** 2)
+        # The tension that they cause at waypoint 0, (-4, 0, 6) m turned by -6 degrees, by moments about the origin.
+        c, d = math.cos(math.radians(-6)), math.sin(math.radians(-6))
+
+        def at(point):
+            return [-4 + c * point[0] - d * point[1], d * point[0] + c * point[1], 6 + point[2]]
+
+        def numbers(texts):
+            return [float(Fraction(x)) for x in texts]
+
+        columns = []
+        for base, end in zip(robot["base_anchors_m"], robot["platform_anchors_m"]):
+            base, end = numbers(base), at(numbers(end))
+            length = math.dist(base, end)
+            pull = [(end[k] - base[k]) / length for k in range(3)]
+            columns.append(pull + cross(base, pull))
+        centre = [x + y for x, y in zip(at([0, 0, -1.2]), numbers(payload["offset_m"]))]
+        forces = [(at([0, 0, 0]), [0, 0, -9.81 * 8000]), (centre, [0, 0, -9.81 * float(payload["mass_kg"])]),
+                  (at([0, 0, -1]), numbers(wind["vector"]))]
+        wrench = [sum(column) for column in zip(*(force + cross(point, force) for point, force in forces))]
+        tension = solve([list(row) for row in zip(*columns)], wrench)[witness["cable"] - 1]
+        low, high = (float(x) for x in witness["value"])
+        self.assertAlmostEqual(tension, low, delta=1e-6 * abs(low))
+        self.assertLess(high, 2000)
 
     def test_a_load_that_makes_no_sense_is_refused_and_nothing_is_written(self):
         for change, expected in (
