@@ -158,7 +158,11 @@ class ShareSearch {
   /// @param guesses  for each segment, the share that floating point expects
   ShareSearch(Problem problem, Uncertainty of, const std::vector<Segment>& segments, std::vector<double> guesses,
               const std::stop_token& stop)
-      : problem_(std::move(problem)), of_(std::move(of)), segments_(segments), guesses_(std::move(guesses)), stop_(stop) {}
+      : problem_(std::move(problem)),
+        of_(std::move(of)),
+        segments_(segments),
+        guesses_(std::move(guesses)),
+        stop_(stop) {}
 
   /// The largest share, at least `lower`, which is known to be proved, and below `upper`. Nothing where `stop` ended
   /// the search.

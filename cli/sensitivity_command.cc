@@ -10,12 +10,12 @@
 
 #include "app/plan.h"
 #include "app/sensitivity.h"
+#include "base/sanitize.h"
 #include "cli/console.h"
 #include "cli/headroom_output.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
 #include "problem/decimal.h"
-#include "base/sanitize.h"
 #include "reports/summary/headroom_summary.h"
 
 namespace taut {
@@ -135,8 +135,8 @@ void print_derivatives(const Problem& problem, const Sensitivity& found, const D
   for (std::size_t i = 0; i < std::min(rows, found.derivatives.size()); ++i) {
     const Derivative& d = found.derivatives[i];
     const double step = natural_step(problem, d.parameter);
-    fmt::print("  {:<36} {:>+11.4g} {} per {}\n", words(d.parameter), unit.approx(d.value * step),
-               unit.name(), step_text(d.parameter, step, units));
+    fmt::print("  {:<36} {:>+11.4g} {} per {}\n", words(d.parameter), unit.approx(d.value * step), unit.name(),
+               step_text(d.parameter, step, units));
   }
 }
 
@@ -176,8 +176,9 @@ void print_changes(const Sensitivity& found, const DisplayUnits& units) {
   for (const ProvedChange& change : found.changes) {
     const Change::Kind kind = change.change.kind;
     const std::string result =
-        change.value         ? fmt::format("{} to {}: proved with this change{}", value_text(kind, change.before, units),
-                                           value_text(kind, *change.value, units), change.is_complete ? "" : " (a smaller may do)")
+        change.value
+            ? fmt::format("{} to {}: proved with this change{}", value_text(kind, change.before, units),
+                          value_text(kind, *change.value, units), change.is_complete ? "" : " (a smaller may do)")
         : change.is_complete ? "no change was found that proves the path"
                              : "none was found before the time was over";
     fmt::print("  {:<36} {}\n", change_words(change.change), result);
@@ -222,12 +223,9 @@ json to_json(const Problem& problem, const CaseSensitivity& found) {
   const bool length = s.tightest && !s.tightest->singular && is_length(s.tightest->budget.id);
   for (const Derivative& d : s.derivatives) derivatives.push_back(derivative_json(problem, d, length));
   for (const ProvedChange& change : s.changes) changes.push_back(change_json(change));
-  return {{"command", "sensitivity"},
-          {"verdict", verdict_text(found.verdict)},
-          {"segments", found.segments},
-          {"headroom", taut::to_json(found.headroom)},
-          {"derivatives", derivatives},
-          {"changes", changes}};
+  return {{"command", "sensitivity"},   {"verdict", verdict_text(found.verdict)},
+          {"segments", found.segments}, {"headroom", taut::to_json(found.headroom)},
+          {"derivatives", derivatives}, {"changes", changes}};
 }
 
 void print(const Problem& problem, const CaseSensitivity& found, const CaseUnits& case_units, std::size_t rows) {

@@ -275,7 +275,8 @@ double loss_of(const MarginBudget& budget, const Uncertainty& uncertainty) {
   switch (uncertainty.kind) {
     case UncertaintyKind::kAll: return budget.all_losses();
     case UncertaintyKind::kLoadItem: {
-      const auto found = std::ranges::find(budget.loss_by_item, uncertainty.item, [](const auto& x) { return x.first; });
+      const auto found =
+          std::ranges::find(budget.loss_by_item, uncertainty.item, [](const auto& x) { return x.first; });
       return found == budget.loss_by_item.end() ? 0 : found->second;
     }
     default: return budget.loss.at(static_cast<std::size_t>(uncertainty.kind));
@@ -295,7 +296,7 @@ double MarginBudget::share(const Uncertainty& uncertainty) const {
 
 struct MarginDifferentiator::Data {
   Model<double> plain;
-  std::vector<Vector3<double>> places;  ///< of items
+  std::vector<Vector3<double>> places;                               ///< of items
   std::vector<std::pair<std::string, LoadModel<double>>> deviating;  ///< items that do, each alone
   Model<Inner<double>> model;
   Model<Inner<Outer>> varied;

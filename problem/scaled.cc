@@ -213,9 +213,8 @@ std::vector<std::string> deviating_items(const LoadText& load) {
 bool is_stated(const Problem& problem, const Uncertainty& uncertainty) {
   const LoadText& load = problem.load;
   switch (uncertainty.kind) {
-    case UncertaintyKind::kWrenchSet: return load.ellipsoid || std::ranges::any_of(load.items, [](const LoadItem& item) {
-                                               return deviates(item);
-                                             });
+    case UncertaintyKind::kWrenchSet:
+      return load.ellipsoid || std::ranges::any_of(load.items, [](const LoadItem& item) { return deviates(item); });
     case UncertaintyKind::kLoadItem: {
       const std::vector<std::string> names = deviating_items(load);
       return std::ranges::find(names, uncertainty.item) != names.end();

@@ -415,7 +415,7 @@ Html assumptions(const Problem& problem) {
 
 Html headroom(const ReportContext& scene) {
   if (!scene.illustration.headroom) return {};
-  const std::vector<std::string> sentences = 
+  const std::vector<std::string> sentences =
       headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
   if (sentences.empty()) return {};
   Html body;

@@ -147,7 +147,9 @@ bool is_lower(MarginId margin) {
   return margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
 }
 
-std::string quantity(double x, const DisplayUnit& unit) { return fmt::format("{:.4g} {}", unit.approx(x), unit.name()); }
+std::string quantity(double x, const DisplayUnit& unit) {
+  return fmt::format("{:.4g} {}", unit.approx(x), unit.name());
+}
 
 std::string place_of(const Headroom& headroom, std::size_t segment, double s) {
   switch (headroom.subject) {
@@ -199,8 +201,8 @@ std::string item_size_text(const ProvableShare& share, const Problem& problem, c
   constexpr double kTonne = 1000;
   const bool is_heavy = upper >= kTonne;
   const double unit = is_heavy ? kTonne : 1;
-  std::string result = fmt::format("{} to {} {}", rounded_up(lower / unit), rounded_down(upper / unit),
-                                   is_heavy ? "t" : "kg");
+  std::string result =
+      fmt::format("{} to {} {}", rounded_up(lower / unit), rounded_down(upper / unit), is_heavy ? "t" : "kg");
   if (const double reach = from_rational<double>(weight->at_tolerance); reach > 0) {
     result += fmt::format(", its centre of gravity within {} {}", units.length.down(reach, 3), units.length.name());
   }
@@ -273,14 +275,15 @@ std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& unit
   const double left = budget.left();
   return fmt::format(
       "{}: {}. The nominal machine has {} there; of that take: {}. {} (to first order, in floating point).", begin,
-      margin, amount(budget.nominal), losses_text(budget, unit), left > 0 ? amount(left) + " are left" : amount(-left) + " are missing");
+      margin, amount(budget.nominal), losses_text(budget, unit),
+      left > 0 ? amount(left) + " are left" : amount(-left) + " are missing");
 }
 
 std::string nominal_sentence(const Headroom& headroom, const RobotText& robot, const DisplayUnits& units) {
   if (!headroom.nominal_provable) return "";
   if (*headroom.nominal_provable) return " The nominal machine, under the nominal load, is proved.";
   if (!headroom.nominal_violation) return " Not even the nominal machine, under the nominal load, could be proved.";
-  return fmt::format(" The nominal machine itself breaks a limit: {}.", 
+  return fmt::format(" The nominal machine itself breaks a limit: {}.",
                      violation_text(*headroom.nominal_violation, robot, units));
 }
 

@@ -95,8 +95,8 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       path_sha256(scene.certificate.path_sha256),
       footer_sha256(scene.certificate.footer_sha256) {
   closest = closest_text(scene, use);
-  if (scene.illustration.headroom) headroom = 
-      headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+  if (scene.illustration.headroom)
+    headroom = headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
 }
 
 std::string document_number(const std::string& footer_sha256) {
