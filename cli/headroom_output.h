@@ -8,6 +8,7 @@
 #include <string>
 
 #include "certify/headroom.h"
+#include "problem/units.h"
 
 namespace taut {
 
