@@ -71,7 +71,8 @@ std::string load_that_breaks(const LoadText& load, const checker::CheckResult& c
   if (!checked.theorem || !checked.theorem->witness().is_object()) return "";
   const nlohmann::json& witness = checked.theorem->witness();
   if (!witness.contains("loads")) return "";
-  return fmt::format("\nA load that breaks the limit there: {}.", sanitize(witness_load_text(load, witness.at("loads"))));
+  return fmt::format("\nA load that breaks the limit there: {}.",
+                     sanitize(witness_load_text(load, witness.at("loads"))));
 }
 
 ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}

@@ -203,8 +203,9 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
                                  place_text(scene, position(witness.at)), point_text(certificate, witness.at),
                                  pose_at(position(witness.at)), machine));
     if (certificate.witness->loads) {
-      result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
-                                   witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
+      result.push_back(
+          fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
+                      witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
     }
   }
   if (certificate.path.segments() == 0) {
