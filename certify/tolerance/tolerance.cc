@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/tolerance/tolerance.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "certify/tolerance/extremal_load.h"
+#include "problem/decimal.h"
 
 namespace taut {
 
@@ -545,6 +549,10 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
     model.wrench(static_cast<int>(i)) = ScalarTraits<I>::from_decimal(text.wrench[i]);
   }
   model.load_point = decimal(text.load_point_m);
+  const auto is_nothing = [](const DecimalText& x) { return Decimal::parse(x).sign() == 0; };
+  if (!problem.load.items.empty() && !(is_nothing(text.load_point_m) && std::ranges::all_of(text.wrench, is_nothing))) {
+    throw std::logic_error("tolerances of the load beside items");
+  }
   model.position = decimal(text.position_m);
   model.orientation = above(evaluate_constant<I>(text.orientation_rad));
   model.length_controlled = text.cable_length_m.has_value();
