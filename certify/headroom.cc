@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/input_error.h"
@@ -44,10 +45,27 @@ std::vector<Segment> segments_of(const Prover& prover, const Path& path) {
 
 // ---- Where it is tight, in floating point ---------------------------------------------------------------------------
 
-/// The less, the tighter: beyond a limit negative, else the share of all uncertainties that is left room for.
+/// The less, the tighter: beyond a limit negative, else the share of all uncertainties that is left room for; above all
+/// shares, where nothing that is uncertain counts, by how far it is from the limit.
 double tightness(const MarginBudget& budget) {
-  if (!(budget.nominal > 0)) return budget.nominal / std::max(std::abs(budget.limit), 1e-300) - 1e-9;
-  return budget.share(UncertaintyKind::kAll);
+  constexpr double kAboveAllShares = 1e12;
+  const double relative = budget.nominal / std::max({std::abs(budget.limit), std::abs(budget.quantity), 1e-300});
+  if (!(budget.nominal > 0)) return relative - 1e-9;
+  const double share = budget.share(UncertaintyKind::kAll);
+  return std::isfinite(share) ? share : kAboveAllShares * (1 + relative);
+}
+
+/// Whether cables can balance the load only because of rounding, if at all: tensions far beyond the greatest limit.
+bool is_as_good_as_singular(std::span<const MarginBudget> budgets) {
+  constexpr double kFarBeyond = 1e6;
+  double limit = 0;
+  double tension = 0;
+  for (const MarginBudget& budget : budgets) {
+    if (budget.id.kind == MarginKind::kLengthMin || budget.id.kind == MarginKind::kLengthMax) continue;
+    limit = std::max(limit, std::abs(budget.limit));
+    tension = std::max(tension, std::abs(budget.quantity));
+  }
+  return tension > kFarBeyond * limit;
 }
 
 struct SegmentSamples {
@@ -99,7 +117,7 @@ class Sampling {
       const RigidPose at = pose(k, s);
       const double determinant = prover_.sampler().statics(at).determinant;
       const auto budgets = differentiator_.budgets(at);
-      if (!budgets || determinant * last_determinant < 0) {
+      if (!budgets || determinant * last_determinant < 0 || is_as_good_as_singular(*budgets)) {
         result.least.assign(asked_.size(), 0);
         result.tightness = -kInfinite;
         result.tightest = {k, s, true, {}};

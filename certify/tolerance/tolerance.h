@@ -37,8 +37,9 @@ struct ToleranceModel {
   bool length_controlled = false;  ///< under any law; under that of cable lengths all machines are
 };
 
-/// Nothing where the problem states no tolerances. Where loads are items, those of load point and load have to be 0: the
-/// bounds below take the items' wrenches to be about a point of the platform that stays where it is. At working_precision(); for Interval under run_upward().
+/// Nothing where the problem states no tolerances. Where loads are items, those of load point and load have to be 0:
+/// the bounds below take the items' wrenches to be about a point of the platform that stays where it is. At
+/// working_precision(); for Interval under run_upward().
 template <class I>
 [[nodiscard]] std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem);
 

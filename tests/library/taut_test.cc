@@ -419,9 +419,9 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::Certificate), 16U);
   EXPECT_EQ(sizeof(taut::Theorem), 16U);
   EXPECT_EQ(sizeof(taut::Progress), 24U);
-  EXPECT_EQ(sizeof(taut::PlanOptions), 160U);
+  EXPECT_EQ(sizeof(taut::PlanOptions), 168U);
   EXPECT_EQ(sizeof(taut::ProveOptions), 56U);
-  EXPECT_EQ(sizeof(taut::AuditOptions), 96U);
+  EXPECT_EQ(sizeof(taut::AuditOptions), 104U);
   EXPECT_EQ(sizeof(taut::CheckResult), 144U);
   EXPECT_EQ(sizeof(taut::CheckOptions), 72U);
   EXPECT_EQ(sizeof(taut::ReportOptions), 120U);
