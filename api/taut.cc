@@ -18,6 +18,7 @@
 #include "app/prove.h"
 #include "app/recheck.h"
 #include "app/report.h"
+#include "app/sensitivity_json.h"
 #include "base/files.h"
 #include "base/input_error.h"
 #include "case/case_file.h"
@@ -522,16 +523,24 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
 
 // --- What taut does --------------------------------------------------------------------------------------------------
 
+namespace {
+
+void require_plan(const Case& the_case) {
+  try {
+    require_plannable(the_case.content().the_case);
+  } catch (const FieldError& error) {
+    const std::string& file = the_case.content().file;
+    throw taut::InputError(fmt::format("{}: {}", file, error.what()), {file, 0, error.field()});
+  }
+}
+
+}  // namespace
+
 Certificate plan(const Case& the_case, const PlanOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
   Certificate result = prove_within(ErrorCode::kCase, [&] {
+    require_plan(the_case);
     taut::Case planned = the_case.content().the_case;
-    try {
-      require_plannable(planned);
-    } catch (const FieldError& error) {
-      const std::string& file = the_case.content().file;
-      throw taut::InputError(fmt::format("{}: {}", file, error.what()), {file, 0, error.field()});
-    }
     require_seconds(options.budget_seconds, "budget_seconds");
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
@@ -545,9 +554,12 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     const auto progress = [&](const PlanProgress& at) {
       relay.report({"planning", static_cast<std::size_t>(at.charts), 0});
     };
-    PlannedCase made = plan_case(
-        planned, planner, {options.grow, key ? &*key : nullptr, options.max_check_seconds, options.headroom_seconds},
-        progress, relay.token());
+    PlannedCase made = plan_case(planned, planner,
+                                 {.grow = options.grow,
+                                  .key = key ? &*key : nullptr,
+                                  .max_seconds = options.max_check_seconds,
+                                  .headroom_seconds = options.headroom_seconds},
+                                 progress, relay.token());
     if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
       write_whole({{options.save_atlas, planner.atlas_bytes()}});
     }
@@ -612,6 +624,48 @@ Certificate audit(const Case& the_case, const Table& table, const AuditOptions& 
 
 Certificate audit(const Case& the_case, const AuditOptions& options) {
   return audit_input(the_case, PathInput(std::string()), options);
+}
+
+namespace {
+
+std::string sensitivity_of(const Case& the_case, const PathInput& path, const SensitivityOptions& options) {
+  ProgressBridge relay(options.progress, options.stop);
+  const auto progress = [&](const char* stage, std::size_t done, std::size_t all) { relay.report({stage, done, all}); };
+  const auto work = [&]() -> std::string {
+    require_seconds(options.budget_seconds, "budget_seconds");
+    const Case::Content& content = the_case.content();
+    nlohmann::json found;
+    if (!path.name.empty() || content.the_case.audit) {
+      AuditRequest request{path, std::nullopt};
+      if (options.interpolation) request.law = inner(*options.interpolation);
+      request = resolved(request, content.the_case, content.file);
+      PathSource source(content.the_case.problem, request.path, request.law);
+      found = to_json(source.problem(),
+                      audit_sensitivity(content.the_case, source, options.budget_seconds, progress, relay.token()));
+    } else {
+      require_plan(the_case);
+      found = to_json(content.the_case.problem,
+                      plan_sensitivity(content.the_case, options.budget_seconds, progress, relay.token()));
+    }
+    if (relay.token().stop_requested()) throw Interrupted("interrupted");
+    return found.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  };
+  try {
+    return prove_within(ErrorCode::kPath, work);
+  } catch (const Interrupted&) {
+    relay.rethrow();
+    throw;
+  }
+}
+
+}  // namespace
+
+std::string sensitivity(const Case& the_case, const SensitivityOptions& options) {
+  return sensitivity_of(the_case, PathInput(std::string()), options);
+}
+
+std::string sensitivity(const Case& the_case, const std::string& path_file, const SensitivityOptions& options) {
+  return sensitivity_of(the_case, PathInput(path_file), options);
 }
 
 CheckResult check(const std::string& certificate_text, const CheckOptions& options) {

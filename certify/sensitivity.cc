@@ -230,6 +230,16 @@ std::vector<Candidate> candidates(const Problem& problem, const Sensitivity& fou
 
 }  // namespace
 
+std::string_view unit(Change::Kind kind) {
+  switch (kind) {
+    case Change::Kind::kTensionLower:
+    case Change::Kind::kTensionUpper: return "N";
+    case Change::Kind::kWrench:
+    case Change::Kind::kMass: return "1";
+    default: return "m";
+  }
+}
+
 Problem with_change(Problem problem, const Change& change, const Decimal& value) {
   using Kind = Change::Kind;
   switch (change.kind) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "certify/headroom.h"
@@ -34,6 +35,9 @@ struct Change {
   std::string item{};
 };
 
+/// "N" of a tension limit, "m" of a coordinate or a length limit, "1" of a factor.
+[[nodiscard]] std::string_view unit(Change::Kind kind);
+
 /// The problem with this change, exactly. Of limits, those of cables that have room already are left as they are.
 /// @throws InputError where the result is no problem
 [[nodiscard]] Problem with_change(Problem problem, const Change& change, const Decimal& value);
@@ -53,8 +57,8 @@ struct Sensitivity {
 };
 
 /// The step of a parameter that people think of, in the parameter's unit: 1 mm of a coordinate; 1 % of a tolerance, of
-/// the weight, of a mass, of the range between two limits; of a component of w0 1 % of its force, or of that at the platform's
-/// radius.
+/// the weight, of a mass, of the range between two limits; of a component of w0 1 % of its force, or of that at the
+/// platform's radius.
 [[nodiscard]] double natural_step(const Problem& problem, const DesignParameter& parameter);
 
 /// Differentiates what is left of the least margin, at the place where it is tightest; and of a path that is not proved

@@ -311,14 +311,15 @@ PYBIND11_MODULE(_taut, module) {
   module.def(
       "plan",
       [](const taut::Case& the_case, double budget_seconds, const std::string& atlas, const std::string& save_atlas,
-         bool grow, const std::string& signing_key, double max_check_seconds, const py::object& progress) {
+         bool grow, const std::string& signing_key, double max_check_seconds, double headroom_seconds,
+         const py::object& progress) {
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
-          return taut::plan(the_case,
-                            {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop, max_check_seconds});
+          return taut::plan(the_case, {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop,
+                                       max_check_seconds, headroom_seconds});
         });
       },
       "case"_a, "budget_seconds"_a, "atlas"_a, "save_atlas"_a, "grow"_a, "signing_key"_a, "max_check_seconds"_a,
-      "progress"_a);
+      "headroom_seconds"_a, "progress"_a);
 
   module.def(
       "prove",
@@ -334,34 +335,38 @@ PYBIND11_MODULE(_taut, module) {
       "max_check_seconds"_a);
 
   const auto audit_options = [](const std::optional<std::string>& interpolation, long max_bits,
-                                const std::string& signing_key, double max_check_seconds) {
+                                const std::string& signing_key, double max_check_seconds, double headroom_seconds) {
     taut::AuditOptions options;
     if (interpolation) options.interpolation = interpolation_of(*interpolation);
     options.max_bits = max_bits;
     options.signing_key_pem = signing_key;
     options.max_check_seconds = max_check_seconds;
+    options.headroom_seconds = headroom_seconds;
     return options;
   };
   module.def(
       "audit_file",
       [=](const taut::Case& the_case, const std::optional<std::string>& file,
           const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
-          double max_check_seconds, const py::object& progress) {
-        taut::AuditOptions options = audit_options(interpolation, max_bits, signing_key, max_check_seconds);
+          double max_check_seconds, double headroom_seconds, const py::object& progress) {
+        taut::AuditOptions options =
+            audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
           return file ? taut::audit(the_case, *file, options) : taut::audit(the_case, options);
         });
       },
-      "case"_a, "file"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a, "max_check_seconds"_a, "progress"_a);
+      "case"_a, "file"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a, "max_check_seconds"_a, "headroom_seconds"_a,
+      "progress"_a);
   module.def(
       "audit_table",
       [=](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
           const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
-          double max_check_seconds, const py::object& progress) {
+          double max_check_seconds, double headroom_seconds, const py::object& progress) {
         const taut::Table table = {std::move(columns), {values.data(), values.data() + values.size()}};
-        taut::AuditOptions options = audit_options(interpolation, max_bits, signing_key, max_check_seconds);
+        taut::AuditOptions options =
+            audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
@@ -369,7 +374,22 @@ PYBIND11_MODULE(_taut, module) {
         });
       },
       "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a,
-      "max_check_seconds"_a, "progress"_a);
+      "max_check_seconds"_a, "headroom_seconds"_a, "progress"_a);
+
+  module.def(
+      "sensitivity",
+      [](const taut::Case& the_case, const std::optional<std::string>& file,
+         const std::optional<std::string>& interpolation, double budget_seconds, const py::object& progress) {
+        return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
+          taut::SensitivityOptions options;
+          if (interpolation) options.interpolation = interpolation_of(*interpolation);
+          options.budget_seconds = budget_seconds;
+          options.progress = callback;
+          options.stop = stop;
+          return file ? taut::sensitivity(the_case, *file, options) : taut::sensitivity(the_case, options);
+        });
+      },
+      "case"_a, "file"_a, "interpolation"_a, "budget_seconds"_a, "progress"_a);
 
   module.def(
       "check",

@@ -283,8 +283,8 @@ class TAUT_EXPORT Certificate {
 // --- What taut does --------------------------------------------------------------------------------------------------
 
 struct Progress {
-  const char* stage = "";  ///< "planning" or "auditing"
-  std::size_t done = 0;    ///< charts made, or segments judged
+  const char* stage = "";  ///< "planning", "auditing", "seeking provable shares" or "trying changes"
+  std::size_t done = 0;    ///< charts made, segments judged, shares found, or changes tried
   std::size_t total = 0;   ///< 0: nobody knows
 };
 
@@ -347,6 +347,21 @@ struct AuditOptions {
                                             const std::string& name = "table");
 /// The path that the case itself names.
 [[nodiscard]] TAUT_EXPORT Certificate audit(const Case& the_case, const AuditOptions& options = {});
+
+struct SensitivityOptions {
+  std::optional<Interpolation> interpolation;  ///< of a path file; nothing: as the file suggests
+  double budget_seconds = 60;                  ///< for what follows the plan: shares and changes
+  ProgressCallback progress = {};
+  std::stop_token stop = {};
+};
+
+/// What to change so that the path is proved, as JSON (docs/sensitivity.md): `taut sensitivity`. The path is that which
+/// the case names, else a plan; where none is found, the straight way through the query's waypoints.
+/// @throws InputError; Interrupted.
+[[nodiscard]] TAUT_EXPORT std::string sensitivity(const Case& the_case, const SensitivityOptions& options = {});
+/// Of the path in a file.
+[[nodiscard]] TAUT_EXPORT std::string sensitivity(const Case& the_case, const std::string& path_file,
+                                                  const SensitivityOptions& options = {});
 
 enum class Outcome {
   kAccepted,   ///< the claim, "proved" or "refuted", was proved again

@@ -30,17 +30,19 @@ from ._errors import InputError, InternalError, Interrupted, UntrustworthyMachin
 
 __all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", "Interrupted", "Margins", "Path",
            "Place", "Samples", "Stretch", "Theorem", "UntrustworthyMachine", "Witness", "audit", "check", "plan",
-           "prove", "report"]
+           "prove", "report", "sensitivity"]
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
-#: Called at most twenty times a second, in the calling thread, with the stage ("planning" or "auditing"), the number of
-#: charts or segments that are done, and their total (0: unknown). An exception that it raises ends the work and reaches
-#: the caller.
+#: Called at most twenty times a second, in the calling thread, with the stage ("planning", "auditing", "seeking provable
+#: shares" or "trying changes"), the number of charts, segments, shares or changes that are done, and their total (0:
+#: unknown). An exception that it raises ends the work and reaches the caller.
 Progress = Callable[[str, int, int], Any]
 FileName = Union[str, "os.PathLike[str]"]
 #: Default time limit of the checker [s].
 CHECK_SECONDS = 300.0
+#: Default time limit for finding what stands in the way of a proof, or how far it reaches [s].
+HEADROOM_SECONDS = 30.0
 
 
 # --- Cases and paths --------------------------------------------------------------------------------------------------
@@ -314,7 +316,8 @@ class Certificate:
 
 def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
          save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
-         max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
+         max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
+         progress: Optional[Progress] = None) -> Certificate:
     """Plans through the case's query and proves the path: `taut plan`.
 
     :param budget_seconds: time limit for planning and proving; 0: the case's own
@@ -323,9 +326,10 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
     :param grow: make all charts that can be reached before they are saved
     :param signing_key: PEM of an Ed25519 private key that signs the certificate
     :param max_check_seconds: time limit of the checker, after which the certificate is unchecked
+    :param headroom_seconds: time limit for Certificate.headroom; 0: it is not sought
     """
     return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key,
-                                      max_check_seconds, progress))
+                                      max_check_seconds, headroom_seconds, progress))
 
 
 def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,
@@ -363,7 +367,8 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
 def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], ArrayLike] = None, *,
           columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None,
           max_bits: int = 4096, signing_key: str = "", name: str = "table",
-          max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
+          max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
+          progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or lists every stretch that is not proved, with the reason: `taut audit`.
 
     :param path: a path file or a certificate.json (docs/audits.md); None: the one that the case names; a mapping from
@@ -371,13 +376,14 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     :param columns: names and units of an array's columns, "phi[deg]", "px[m]", "qw" (docs/audits.md)
     :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
     :param name: name of a table, for messages and the certificate
+    :param headroom_seconds: time limit for Certificate.headroom; 0: it is not sought
     """
     if path is None or isinstance(path, (str, os.PathLike)):
         if columns is not None:
             raise TypeError("columns are an array's: a file has its own")
         file = None if path is None else os.fspath(path)
         return Certificate._of(_taut.audit_file(case._case, file, interpolation, max_bits, signing_key,
-                                                max_check_seconds, progress))
+                                                max_check_seconds, headroom_seconds, progress))
     if isinstance(path, Mapping):
         if columns is not None:
             raise TypeError("columns are an array's: a mapping has its own")
@@ -389,7 +395,21 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     if values.shape[1] != len(columns):
         raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
     return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation,
-                                             max_bits, signing_key, max_check_seconds, progress))
+                                             max_bits, signing_key, max_check_seconds, headroom_seconds, progress))
+
+
+def sensitivity(case: Case, path: Optional[FileName] = None, *, interpolation: Optional[str] = None,
+                budget_seconds: float = 60.0, progress: Optional[Progress] = None) -> dict[str, Any]:
+    """What to change so that the path is proved: `taut sensitivity`. For the dict see docs/sensitivity.md.
+
+    :param path: a path file; None: the path that the case names, else a plan; where none is found, the straight way
+        through the query's waypoints
+    :param interpolation: as in audit()
+    :param budget_seconds: time limit of what follows the plan
+    """
+    file = None if path is None else os.fspath(path)
+    found: dict[str, Any] = json.loads(_taut.sensitivity(case._case, file, interpolation, budget_seconds, progress))
+    return found
 
 
 @dataclasses.dataclass(frozen=True)

@@ -15,6 +15,7 @@ import unittest
 TAUT, CHECK, SOURCE = (os.path.abspath(argument) for argument in sys.argv[1:4])
 CASES = os.path.join(SOURCE, "cases")
 TUTORIAL = os.path.join(CASES, "tutorial", "04-tolerances.yaml")
+GUST = os.path.join(CASES, "cranes", "portal-20t-gust.yaml")
 LOOSE = os.path.join(CASES, "audits", "robot1-cable-lengths-too-loose.yaml")
 
 
@@ -40,6 +41,7 @@ def changed(text, change):
     """The case with a change typed as a person would."""
     kind, value = change["change"], change["value"]
     if kind in ("tension_lower", "tension_upper"):
+        value = f"{float(value) / (1000 if 'force: kN,' in text else 1):.12g}"
         lower, upper = re.search(r"  tension: \[([^,]*), ([^\]]*)\]", text).groups()
         limits = f"[{value}, {upper}]" if kind == "tension_lower" else f"[{lower}, {value}]"
         return re.sub(r"  tension: \[[^\]]*\]", f"  tension: {limits}", text)
@@ -47,8 +49,12 @@ def changed(text, change):
         if "  mass: 102" in text:
             return text.replace("  mass: 102", f"  mass: {102 * float(value):.12g}")
         return re.sub(r"wrench: \[0, 0, 1, 0, 0, 0\]  ", f"wrench: [0, 0, {value}, 0, 0, 0]  ", text)
+    if kind == "mass":
+        mass = rf"(name: {change['item']}, mass: )([\d.]+)"
+        return re.sub(mass, lambda found: found.group(1) + f"{float(found.group(2)) * float(value):.12g}", text)
     found, rows = anchors(text, kind + "s")
-    rows[change["cable"] - 1]["xyz".index(change["axis"])] = f"{1000 * float(value):.10g}"
+    to_units = 1 if "length: m," in text else 1000
+    rows[change["cable"] - 1]["xyz".index(change["axis"])] = f"{to_units * float(value):.10g}"
     typed = kind + "s: [" + ", ".join("[" + ", ".join(row) + "]" for row in rows) + "]"
     return text[:found.start()] + typed + text[found.end():]
 
@@ -93,6 +99,34 @@ class Sensitivity(unittest.TestCase):
             return
         tighter = text.replace("mass: 25}", f"mass: {25 * float(load['share']):.9g}}}")
         self.assertEqual(run(TAUT, "plan", self.write(tighter), "--out", self.folder.name).returncode, 0)
+
+    def test_shares_and_changes_of_load_items_are_proved_when_they_are_typed(self):
+        text = text_of(GUST)
+        code, found = self.json("sensitivity", self.write(text), "--rows", "100")
+        self.assertEqual((code, found["verdict"], found["headroom"]["subject"]), (0, "refuted", "straight way"))
+        shares = {(share["of"], share["item"]): float(share["share"]) for share in found["headroom"]["shares"]}
+        self.assertEqual(set(shares), {("all", None), ("wrench_set", None), ("load_item", "payload"),
+                                       ("load_item", "wind")})
+        self.assertEqual(shares["load_item", "payload"], 0)
+
+        def with_deviations(payload, wind):
+            return (text.replace("force: 30", f"force: {30 * wind:.9g}")
+                    .replace("mass_tolerance: 2 %", f"mass_tolerance: {2 * payload:.9g} %")
+                    .replace("at_tolerance: 50 mm", f"at_tolerance: {50 * payload:.9g} mm"))
+
+        together, wind = shares["all", None], shares["load_item", "wind"]
+        for typed, code in ((with_deviations(together, together), 0), (with_deviations(1, wind), 0),
+                            (with_deviations(1, 1.1 * wind), 1)):
+            self.assertNotEqual(typed, text)
+            said = run(TAUT, "plan", self.write(typed), "--out", self.folder.name, "--headroom", "0")
+            self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        slight = with_deviations(1, 1.1 * wind)
+        _, found = self.json("sensitivity", self.write(slight))
+        proved = [change for change in found["changes"] if change["value"] is not None]
+        self.assertIn("mass", {change["change"] for change in proved})
+        for change in proved:
+            said = run(TAUT, "plan", self.write(changed(slight, change)), "--out", self.folder.name, "--headroom", "0")
+            self.assertEqual(said.returncode, 0, f"{change}\n{said.stdout}{said.stderr}")
 
     def test_an_audit_says_what_stands_in_its_way_and_so_does_its_report(self):
         path = os.path.join(CASES, "audits", "robot1-cable-lengths.csv")

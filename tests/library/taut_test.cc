@@ -422,6 +422,7 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::PlanOptions), 168U);
   EXPECT_EQ(sizeof(taut::ProveOptions), 56U);
   EXPECT_EQ(sizeof(taut::AuditOptions), 104U);
+  EXPECT_EQ(sizeof(taut::SensitivityOptions), 56U);
   EXPECT_EQ(sizeof(taut::CheckResult), 144U);
   EXPECT_EQ(sizeof(taut::CheckOptions), 72U);
   EXPECT_EQ(sizeof(taut::ReportOptions), 120U);
@@ -449,6 +450,9 @@ TEST(Stop, EndsEverythingSoon) {
   taut::ReportOptions report_options;
   report_options.stop = stop.get_token();
   EXPECT_THROW(static_cast<void>(taut::report(whole, report_options)), taut::Interrupted);
+  taut::SensitivityOptions sensitivity_options;
+  sensitivity_options.stop = stop.get_token();
+  EXPECT_THROW(static_cast<void>(taut::sensitivity(robot, sensitivity_options)), taut::Interrupted);
 }
 
 TEST(Stop, MayComeFromProgress) {

@@ -294,6 +294,30 @@ class Audits(unittest.TestCase):
             taut.audit(self.case)  # which names no path
 
 
+class Sensitivities(unittest.TestCase):
+    def test_are_those_of_the_command(self):
+        for case, arguments, path in ((ROBOT1, [], None), (BRIDGING, [], None),
+                                      (ROBOT1, ["--audit", os.path.join(CASES, "audits", "robot1-planned.csv")],
+                                       os.path.join(CASES, "audits", "robot1-planned.csv"))):
+            said = json.loads(subprocess.run([TAUT, "sensitivity", case, *arguments, "--json"], capture_output=True,
+                                             check=True, timeout=300).stdout)
+            for key in ("command", "elapsed_seconds", "exit_code", "files"):
+                del said[key]
+            self.assertEqual(taut.sensitivity(taut.Case.load(case), path), said)
+
+    def test_of_what_is_wrong_says_where(self):
+        with self.assertRaisesRegex(taut.InputError, "budget_seconds: got -1"):
+            taut.sensitivity(taut.Case.load(ROBOT1), budget_seconds=-1)
+        with self.assertRaisesRegex(taut.InputError, "nowhere.csv"):
+            taut.sensitivity(taut.Case.load(ROBOT1), "nowhere.csv")
+
+    def test_shares_are_sought_as_long_as_is_asked(self):
+        case = taut.Case.load(os.path.join(CASES, "tutorial", "04-tolerances.yaml"))
+        self.assertEqual(taut.plan(case).headroom["shares"][0]["of"], "all")
+        self.assertIsNone(taut.plan(case, headroom_seconds=0).headroom)
+        self.assertIsNone(taut.audit(taut.Case.load(BRIDGING), headroom_seconds=0).headroom)
+
+
 class Documents(unittest.TestCase):
     def test_what_the_documents_show_runs(self):
         for document, count in ((os.path.join("docs", "library.md"), 1), ("README.md", 1)):
