@@ -73,6 +73,11 @@ std::string excerpt(std::string_view text) {
   return sanitize_up_to(kMaxBytes, text);
 }
 
+std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
 std::size_t valid_utf8_prefix(std::string_view text) {
   const auto invalid = static_cast<std::size_t>(utf8::find_invalid(text.begin(), text.end()) - text.begin());
   return std::min(invalid, text.find('\0'));

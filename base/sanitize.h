@@ -22,4 +22,7 @@ namespace taut {
 /// Size of the longest prefix of `text` that is valid UTF-8 without the character NUL [bytes].
 [[nodiscard]] std::size_t valid_utf8_prefix(std::string_view text);
 
+/// How many characters a text in UTF-8 has.
+[[nodiscard]] std::size_t characters(std::string_view text);
+
 }  // namespace taut

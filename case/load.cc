@@ -180,7 +180,7 @@ class ItemReader {
   [[nodiscard]] Rational read_at_tolerance(const Map& item) const;
   [[nodiscard]] DiscOfVectors horizontal(RationalText radius) const;
   /// What a force up to `magnitude` adds where its point is known to a tolerance only: a moment in any direction.
-  void add_moment_of_tolerance(const Map& item, const std::string& name, const Rational& magnitude);
+  void add_moment_of_tolerance(const Map& item, const VectorSet& moments_at_one_metre, Axes axes);
   void add(const Field& item, const std::string& name, decltype(LoadItem::what) what);
 
   const Units& units_;
@@ -204,8 +204,8 @@ void ItemReader::read_item(const Field& field) {
   const Field name = field.open_map("a map with a name").at("name");
   name_ = name.text("a name");
   const bool is_line = std::ranges::none_of(name_, [](unsigned char c) { return c < ' ' || c == 127; });
-  if (name_.size() > kMaxItemNameBytes || !is_line) {
-    name.fail(fmt::format("a name of 1 to {} characters on one line", kMaxItemNameBytes));
+  if (characters(name_) > kMaxItemName || !is_line) {
+    name.fail(fmt::format("a name of 1 to {} characters on one line", kMaxItemName));
   }
   if (!names_.insert(name_).second) {
     name.complain(fmt::format("got '{}' twice, expected a name of its own for each item", excerpt(name_)));
@@ -342,12 +342,6 @@ Rational ItemReader::read_at_tolerance(const Map& item) const {
   return tolerance;
 }
 
-void ItemReader::add_moment_of_tolerance(const Map& item, const std::string& name, const Rational& magnitude) {
-  const Rational radius = magnitude * read_at_tolerance(item);
-  if (radius == 0) return;
-  add(item.field(), name + ", moment", Moment{BallOfVectors{text_of(item.field(), radius)}, Axes::kWorld});
-}
-
 /// The greatest magnitude of a vector in the set.
 Rational greatest(const VectorSet& set) {
   if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
@@ -358,10 +352,32 @@ Rational greatest(const VectorSet& set) {
   return parse_rational(disc ? disc->radius : std::get<BallOfVectors>(set).radius);
 }
 
+/// The set with every vector so many times as long. @pre factor >= 0, and the set is a ball or a disc
+VectorSet scaled(VectorSet set, const Field& field, const Rational& factor) {
+  auto* disc = std::get_if<DiscOfVectors>(&set);
+  RationalText& radius = disc ? disc->radius : std::get<BallOfVectors>(set).radius;
+  radius = text_of(field, parse_rational(radius) * factor);
+  return set;
+}
+
+/// The moments of the forces in the set at levers of up to 1 m in any direction, or slightly more of them: all are at
+/// right angles to their force, and so for forces along one direction in one plane.
+VectorSet moments_at_one_metre(const Field& field, const VectorSet& forces) {
+  const RationalText radius = text_of(field, greatest(forces));
+  if (const auto* segment = std::get_if<SegmentOfVectors>(&forces)) return DiscOfVectors{radius, segment->direction};
+  return BallOfVectors{radius};
+}
+
+void ItemReader::add_moment_of_tolerance(const Map& item, const VectorSet& moments_at_one_metre, Axes axes) {
+  const Rational tolerance = read_at_tolerance(item);
+  if (tolerance == 0) return;
+  add(item.field(), name_ + ", moment", Moment{scaled(moments_at_one_metre, item.field(), tolerance), axes});
+}
+
 void ItemReader::read_force(const Map& item) {
   const VectorSet set = read_set(item, item.at("force"), units_[Dimension::kForce]);
   add(item.field(), name_, Force{set, read_axes(item), read_at(item)});
-  add_moment_of_tolerance(item, name_, greatest(set));
+  add_moment_of_tolerance(item, moments_at_one_metre(item.field(), set), read_axes(item));
 }
 
 void ItemReader::read_moment(const Map& item) {
@@ -393,7 +409,8 @@ void ItemReader::read_box(const Map& item, bool is_force) {
     square += size * size;
   }
   if (square == 0) box.fail("a box that contains more than zero");
-  if (is_force) add_moment_of_tolerance(item, name_, root_above(square));
+  if (!is_force) return;
+  add_moment_of_tolerance(item, BallOfVectors{text_of(item.field(), root_above(square))}, Axes::kWorld);
 }
 
 void ItemReader::read_wind(const Map& item) {
@@ -411,7 +428,7 @@ void ItemReader::read_wind(const Map& item) {
   const Rational density = typed ? read_positive(*typed, Dimension::kDensity) : Rational(5, 4);
   const Rational force = density * area * speed * speed / 2;
   add(item.field(), name_, Force{horizontal(text_of(item.at("wind"), force)), Axes::kWorld, read_at(item)});
-  add_moment_of_tolerance(item, name_, force);
+  add_moment_of_tolerance(item, BallOfVectors{text_of(item.field(), force)}, Axes::kWorld);
 }
 
 void ItemReader::read_wrenches(const Map& item) {
@@ -450,6 +467,13 @@ void ItemReader::accelerate(const Map& item) {
   std::ranges::copy_if(load_.items, std::back_inserter(weights),
                        [](const LoadItem& other) { return std::holds_alternative<Weight>(other.what); });
   if (weights.empty()) field.complain("got an acceleration, but no item with a mass, expected one");
+  const bool has_wrench = load_.ellipsoid || std::ranges::any_of(load_.items, [](const LoadItem& other) {
+                            return std::holds_alternative<LoadCases>(other.what);
+                          });
+  if (has_wrench) {
+    warnings_.push_back(
+        field.remark("accelerates the items with a mass; what is stated as a wrench has none, and is not accelerated"));
+  }
   name_ = item.at("name").node().Scalar();
   for (const LoadItem& payload : weights) {
     const Weight& weight = std::get<Weight>(payload.what);

@@ -11,13 +11,13 @@
 #include "app/plan.h"
 #include "app/sensitivity.h"
 #include "app/sensitivity_json.h"
-#include "base/sanitize.h"
 #include "cli/console.h"
 #include "cli/headroom_output.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
 #include "problem/decimal.h"
 #include "reports/summary/headroom_summary.h"
+#include "reports/summary/load_statement.h"
 
 namespace taut {
 namespace {
@@ -36,7 +36,7 @@ std::string words(const Parameter& p) {
     case Kind::kLoadPoint: return fmt::format("load point, {}", kAxes.at(p.axis));
     case Kind::kWrench: return fmt::format("wrench, {} {}", p.axis < 3 ? "force" : "moment", kAxes.at(p.axis));
     case Kind::kWeight: return "weight of the load (w0 as a whole)";
-    case Kind::kMass: return fmt::format("mass of '{}'", sanitize(p.uncertainty.item));
+    case Kind::kMass: return fmt::format("mass of {}", quoted_name(p.uncertainty.item));
     case Kind::kTensionLower: return fmt::format("lower tension limit of cable {}", cable);
     case Kind::kTensionUpper: return fmt::format("upper tension limit of cable {}", cable);
     case Kind::kLengthLower: return fmt::format("lower length limit of cable {}", cable);
@@ -45,7 +45,7 @@ std::string words(const Parameter& p) {
   }
   switch (p.uncertainty.kind) {
     case UncertaintyKind::kWrenchSet: return "deviations of the load";
-    case UncertaintyKind::kLoadItem: return fmt::format("deviations of '{}'", sanitize(p.uncertainty.item));
+    case UncertaintyKind::kLoadItem: return fmt::format("deviations of {}", quoted_name(p.uncertainty.item));
     default: return fmt::format("tolerance {}", taut::name(p.uncertainty.kind));
   }
 }
@@ -93,7 +93,7 @@ std::string change_words(const Change& change) {
     case Kind::kLengthLower: return "lower length limit, all cables";
     case Kind::kLengthUpper: return "upper length limit, all cables";
     case Kind::kWrench: return "weight of the load (w0 as a whole)";
-    case Kind::kMass: return fmt::format("mass of '{}'", sanitize(change.item));
+    case Kind::kMass: return fmt::format("mass of {}", quoted_name(change.item));
     case Kind::kBaseAnchor: return fmt::format("base anchor {}, {}", change.index + 1, kAxes.at(change.axis));
     case Kind::kPlatformAnchor: break;
   }

@@ -77,6 +77,13 @@ struct LoadsAtPose {
 template <class S, class K>
 [[nodiscard]] LoadsAtPose<S> loads_at(const LoadModel<K>& model, const Eigen::Matrix<S, 3, 3>& r_WP);
 
+/// The nominal wrench of the whole load at an orientation: w0, and that of the items.
+template <class K>
+[[nodiscard]] Eigen::Matrix<K, 6, 1> nominal_wrench(const LoadModel<K>& items, const Eigen::Matrix<K, 6, 1>& w0,
+                                                    const Eigen::Matrix<K, 3, 3>& r_WP) {
+  return w0 + loads_at(items, r_WP).nominal;
+}
+
 /// How far y w may be below and above y w_nom.
 template <class S>
 struct DensityRange {

@@ -213,9 +213,9 @@ void validate_names(const std::vector<LoadItem>& items) {
     const std::string& name = items[k].name;
     const std::string where = fmt::format("load.items[{}].name", k);
     const bool is_line = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 127; });
-    if (name.empty() || name.size() > kMaxItemNameBytes || !is_line || valid_utf8_prefix(name) != name.size()) {
+    if (name.empty() || characters(name) > kMaxItemName || !is_line || valid_utf8_prefix(name) != name.size()) {
       throw FieldError(where, "'" + excerpt(name) + "'",
-                       fmt::format("expected a name of 1 to {} characters on one line", kMaxItemNameBytes));
+                       fmt::format("expected a name of 1 to {} characters on one line", kMaxItemName));
     }
     if (!seen.insert(name).second) {
       throw FieldError(where, "'" + excerpt(name) + "' twice", "expected a name of its own for each item");

@@ -50,6 +50,8 @@ json numbers(const Values& values) {
 json point(const Vector3<double>& p) { return numbers(std::array{p(0), p(1), p(2)}); }
 
 json robot(const Model<double>& model) {
+  const Vector6<double> nominal =
+      nominal_wrench(model.loads, model.wrench, Matrix3<double>(Matrix3<double>::Identity()));
   json base = json::array();
   json platform = json::array();
   json tension = json::array();
@@ -63,7 +65,7 @@ json robot(const Model<double>& model) {
   return {{"base", base},
           {"platform", platform},
           {"load_point", point(model.p_PM)},
-          {"force", point(Vector3<double>(model.wrench.head<3>()))},
+          {"force", point(Vector3<double>(nominal.head<3>()))},
           {"tension", tension},
           {"length", length}};
 }

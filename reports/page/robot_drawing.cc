@@ -120,7 +120,7 @@ std::string robot_drawing(const CaseSummary& summary) {
   const Pose<double>& pose = summary.waypoints.front().pose;
   const Matrix3<double> turn = rotation(pose.phi, pose.theta, pose.sigma);
   const Vector3<double> load = pose.p_WP + turn * model.p_PM;
-  const Vector3<double> force = model.wrench.head<3>();
+  const Vector3<double> force = nominal_wrench(model.loads, model.wrench, turn).head<3>();
   const bool pulls = force.norm() > 0;
   const Vector3<double> down = pulls ? Vector3<double>(force.normalized()) : Vector3<double>(-Vector3<double>::UnitZ());
 

@@ -51,10 +51,14 @@ Html formulas(const Certificate& certificate) {
                 "<p>y(s) <span class=\"up\">the only</span> y <span class=\"up\">with</span> C(ℓ<sub>k</sub>(s) + "
                 "N<sub>k</sub>(s) y) = 0, |y<sub>i</sub>| ≤ r<sub>k</sub></p>\n",
                 curve);
-  const Html path = html(
-      "{}<p>K <span class=\"up\">=</span> {{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 "
-      "}}</p>\n",
-      motion);
+  const LoadText& load = certificate.problem.load;
+  const Html ellipsoid = html("{{ w : (w − w<sub>0</sub>)<sup>T</sup> E (w − w<sub>0</sub>) ≤ 1 }}");
+  const Html items = html(
+      "K<sub>1</sub> + … + K<sub>{}</sub>, <span class=\"up\">the items of the load, in the axes of the world about "
+      "the load point</span>",
+      load.items.size());
+  const Html set = load.items.empty() ? ellipsoid : load.ellipsoid ? items + html(" + ") + ellipsoid : items;
+  const Html path = html("{}<p>K <span class=\"up\">=</span> {}</p>\n", motion, set);
   if (certificate.verdict == Verdict::kRefuted) {
     return html(
         "<div class=\"formulas\">{}"
@@ -69,14 +73,18 @@ Html formulas(const Certificate& certificate) {
       "<span class=\"up\">at the pose</span> γ<sub>k</sub>(s){}:</p>\n"
       "<p>&emsp;det J ≠ 0, &emsp; J f = w ⟹ f<sub>lo,i</sub> &lt; f<sub>i</sub> &lt; f<sub>hi,i</sub>, &emsp; "
       "d<sub>lo,i</sub> &lt; d<sub>i</sub> &lt; d<sub>hi,i</sub></p>\n"
-      "<p><span class=\"up\">which is the same as</span>&ensp; f<sub>lo,i</sub> &lt; f<sub>0,i</sub> − v<sub>i</sub>, "
-      "&ensp; f<sub>0,i</sub> + v<sub>i</sub> &lt; f<sub>hi,i</sub>, &ensp;<span class=\"up\">where</span>&ensp; "
-      "f<sub>0</sub> = J<sup>−1</sup> w<sub>0</sub>, &ensp; B = J<sup>T</sup> E J, &ensp; v<sub>i</sub> = "
-      "√(B<sup>−1</sup>)<sub>ii</sub></p></div>\n",
+      "<p><span class=\"up\">which is the same as</span>&ensp; {}</p></div>\n",
       path, certificate.segments.empty() ? 0 : certificate.segments.size() - 1,
       certificate.problem.tolerances ? html("∀ <span class=\"up\">deviations within the tolerances</span> &ensp;")
                                      : Html(),
-      certificate.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html());
+      certificate.problem.tolerances ? html("<span class=\"up\">, moved by the deviation</span>") : Html(),
+      load.items.empty()
+          ? html("f<sub>lo,i</sub> &lt; f<sub>0,i</sub> − v<sub>i</sub>, &ensp; f<sub>0,i</sub> + v<sub>i</sub> &lt; "
+                 "f<sub>hi,i</sub>, &ensp;<span class=\"up\">where</span>&ensp; f<sub>0</sub> = J<sup>−1</sup> "
+                 "w<sub>0</sub>, &ensp; B = J<sup>T</sup> E J, &ensp; v<sub>i</sub> = √(B<sup>−1</sup>)<sub>ii</sub>")
+          : html("f<sub>lo,i</sub> &lt; <span class=\"up\">min</span><sub>w ∈ K</sub> (J<sup>−1</sup> w)<sub>i</sub>, "
+                 "&ensp; <span class=\"up\">max</span><sub>w ∈ K</sub> (J<sup>−1</sup> w)<sub>i</sub> &lt; "
+                 "f<sub>hi,i</sub>"));
 }
 
 /// "0.5 mm", or six of them.
@@ -118,7 +126,7 @@ Html items_table(const LoadText& load) {
   std::vector<std::vector<Html>> rows;
   for (const auto& [name, words] : statement.items) rows.push_back({html("<bdi>{}</bdi>", name), html("{}", words)});
   return html("<p>{} {}</p>\n", statement.total, statement.spread) +
-         table(html("What the load consists of; K is the sum. Numbers with many digits are rounded outward"),
+         table(html("What the load consists of; K is the sum. Ranges with many digits are rounded inward"),
                {{html("Item")}, {html("What it is")}}, rows);
 }
 
@@ -347,33 +355,37 @@ Html theorem(const Certificate& certificate) {
   const auto row = [](const Html& symbol, const Html& meaning, const Html& unit) {
     return std::vector<Html>{html("<i>{}</i>", symbol), meaning, unit};
   };
-  const Html symbols = table(
-      html("Symbols of the claim"), columns,
-      {row(html("γ<sub>k</sub>(s)"), html("pose of the platform at the point s of segment k"), html("")),
-       row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
-           html("m, rad")),
-       row(html("p, R"),
-           html("position of the platform's origin; its orientation R = R<sub>z</sub>(φ) R<sub>y</sub>(θ) "
-                "R<sub>z</sub>(σ − φ)"),
-           html("m, rad")),
-       row(html("a<sub>i</sub>, b<sub>i</sub>"),
-           html("anchors of cable i on the base (world axes) and on the platform (platform axes)"), html("m")),
-       row(html("d<sub>i</sub>"), html("length of cable i, |p + R b<sub>i</sub> − a<sub>i</sub>|"), html("m")),
-       row(html("u<sub>i</sub>"), html("direction of cable i, from base to platform"), html("1")),
-       row(html("J"),
-           html("force Jacobian: column i is (u<sub>i</sub> ; (R (b<sub>i</sub> − p<sub>m</sub>)) × u<sub>i</sub>), "
-                "about the load point"),
-           html("1, m")),
-       row(html("f<sub>i</sub>"), html("tension of cable i"), html("N")),
-       row(html("w, w<sub>0</sub>"),
-           html("wrench (force, moment about the load point) that the cables balance; its centre value"),
-           html("N, N·m")),
-       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches of the load"),
-           html("1/N², 1/(N·m)²")),
-       row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
-           html("least and greatest tension of cable i over all wrenches in K"), html("N")),
-       row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
-           html("limits of tension and length; they are themselves excluded"), html("N, m"))});
+  std::vector<std::vector<Html>> rows = {
+      row(html("γ<sub>k</sub>(s)"), html("pose of the platform at the point s of segment k"), html("")),
+      row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
+          html("m, rad")),
+      row(html("p, R"),
+          html("position of the platform's origin; its orientation R = R<sub>z</sub>(φ) R<sub>y</sub>(θ) "
+               "R<sub>z</sub>(σ − φ)"),
+          html("m, rad")),
+      row(html("a<sub>i</sub>, b<sub>i</sub>"),
+          html("anchors of cable i on the base (world axes) and on the platform (platform axes)"), html("m")),
+      row(html("d<sub>i</sub>"), html("length of cable i, |p + R b<sub>i</sub> − a<sub>i</sub>|"), html("m")),
+      row(html("u<sub>i</sub>"), html("direction of cable i, from base to platform"), html("1")),
+      row(html("J"),
+          html("force Jacobian: column i is (u<sub>i</sub> ; (R (b<sub>i</sub> − p<sub>m</sub>)) × u<sub>i</sub>), "
+               "about the load point"),
+          html("1, m")),
+      row(html("f<sub>i</sub>"), html("tension of cable i"), html("N")),
+      row(html("w"), html("wrench (force, moment about the load point) that the cables balance"), html("N, N·m")),
+      row(html("K"), html("the set of all wrenches of the load"), html("N, N·m")),
+      row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
+          html("limits of tension and length; they are themselves excluded"), html("N, m"))};
+  const LoadText& load = certificate.problem.load;
+  if (load.ellipsoid) {
+    rows.push_back(
+        row(html("w<sub>0</sub>, E"), html("centre and matrix of the load ellipsoid"), html("N, N·m; 1/N², 1/(N·m)²")));
+  }
+  if (load.items.empty()) {
+    rows.push_back(row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
+                       html("least and greatest tension of cable i over all wrenches in K"), html("N")));
+  }
+  const Html symbols = table(html("Symbols of the claim"), columns, rows);
   return section("theorem", "What is claimed",
                  html("<blockquote>{}</blockquote>\n{}{}", certificate.claim, formulas(certificate),
                       folded(false, html("Symbols"), symbols)));

@@ -113,7 +113,8 @@ Html still_picture(const ReportContext& scene) {
     views.emplace_back(html("Waypoint {} (goal)", path.waypoints.size() - 1), static_cast<double>(path.segments()));
   }
 
-  const Camera camera(scene.sampler.model().wrench);
+  const Model<double>& model = scene.sampler.model();
+  const Camera camera(nominal_wrench(model.loads, model.wrench, Matrix3<double>(Matrix3<double>::Identity())));
   Eigen::AlignedBox2d bounds;
   std::vector<Drawing> drawings;
   for (const auto& [title, position] : views) {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base/sanitize.h"
 #include "problem/decimal.h"
 #include "problem/rational.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
@@ -233,7 +233,7 @@ std::string words(const Uncertainty& of) {
     case UncertaintyKind::kOrientation: return "orientation";
     case UncertaintyKind::kCableLengths: return "cable lengths";
     case UncertaintyKind::kWrenchSet: return "deviations of the load";
-    case UncertaintyKind::kLoadItem: return "'" + sanitize(of.item) + "'";
+    case UncertaintyKind::kLoadItem: return quoted_name(of.item);
     case UncertaintyKind::kAll: break;
   }
   return "all tolerances and deviations of the load";
@@ -249,7 +249,7 @@ std::string losses_text(const MarginBudget& budget, const DisplayUnit& unit) {
     if (kind != UncertaintyKind::kWrenchSet || budget.loss_by_item.empty()) continue;
     std::string items;
     for (const auto& [item, part] : budget.loss_by_item) {
-      items += fmt::format("{}'{}' {}", items.empty() ? "" : ", ", sanitize(item), quantity(part, unit));
+      items += fmt::format("{}{} {}", items.empty() ? "" : ", ", quoted_name(item), quantity(part, unit));
     }
     result += fmt::format(" ({})", items);
   }

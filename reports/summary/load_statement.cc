@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/sanitize.h"
 #include "certify/arithmetic/mp_interval.h"
 #include "kinematics/model.h"
 #include "problem/decimal.h"
@@ -23,25 +24,44 @@ constexpr mpfr_prec_t kBits = 256;  // E may be so close to singular that fewer 
 
 enum class Rounding { kDown, kUp };
 
-/// The number in a unit of 10^power, with four digits, rounded in the direction unless that changes it by less than
+/// The number in a unit of 10^power, with `digits` digits, rounded in the direction unless that changes it by less than
 /// rounding errors.
-std::string number_text(double x, int power, Rounding rounding) {
+std::string number_text(double x, int power, Rounding rounding, int digits = 4) {
   if (x == 0) return "0";
-  const std::string nearest = fmt::format("{:.4g}", x);
+  const std::string nearest = fmt::format("{:.{}g}", x, digits);
   constexpr double kRounding = 1e-12;
   const bool is_near = std::abs(ScalarTraits<double>::from_decimal(nearest) - x) <= kRounding * std::abs(x);
-  const std::string text = is_near ? nearest : rounding == Rounding::kDown ? rounded_down(x) : rounded_up(x);
+  const std::string text = is_near                       ? nearest
+                           : rounding == Rounding::kDown ? rounded_down(x, digits)
+                                                         : rounded_up(x, digits);
   return (Decimal::parse(text) * Decimal::parse(fmt::format("1e{}", -power))).text();
 }
 
-/// The exact number if it has few digits.
-std::string number_text(const Rational& x, int power, Rounding rounding) {
+/// The number in a unit of 10^power, exactly: a decimal, or a fraction such as 1000/3.
+std::string exact_text(const Rational& x, int power) {
+  Rational in_unit = x;
+  for (int k = 0; k < std::abs(power); ++k) in_unit = power > 0 ? Rational(in_unit / 10) : Rational(in_unit * 10);
+  return rational_text(in_unit);
+}
+
+/// Whether the exact number is one that people would write down.
+bool is_short(const Rational& x) {
   const RationalText exact = rational_text(x);
   constexpr std::size_t kShort = 8;
-  if (exact.find('/') == std::string::npos && Decimal::parse(exact).text().size() <= kShort) {
-    return (Decimal::parse(exact) * Decimal::parse(fmt::format("1e{}", -power))).text();
+  return exact.find('/') == std::string::npos && Decimal::parse(exact).text().size() <= kShort;
+}
+
+/// Exactly, if that is short, else rounded in the direction to so many digits.
+std::string number_text(const Rational& x, int power, Rounding rounding, int digits = 4) {
+  if (is_short(x)) return exact_text(x, power);
+  const auto nearest = x.convert_to<double>();
+  const bool down = rounding == Rounding::kDown;
+  for (const std::string& text :
+       {fmt::format("{:.{}g}", nearest, digits), down ? rounded_down(nearest, digits) : rounded_up(nearest, digits)}) {
+    const Rational value = parse_rational(text);
+    if (down ? value <= x : value >= x) return exact_text(value, power);
   }
-  return number_text(x.convert_to<double>(), power, rounding);
+  return exact_text(x, power);
 }
 
 /// A unit of people for a size in SI.
@@ -58,14 +78,41 @@ PeoplesUnit unit_of_force(double newtons) { return newtons >= 1000 ? PeoplesUnit
 PeoplesUnit unit_of_moment(double x) { return x >= 1000 ? PeoplesUnit{"kN·m", 3} : PeoplesUnit{"N·m", 0}; }
 PeoplesUnit unit_of_length(double metres) { return metres >= 1 ? PeoplesUnit{"m", 0} : PeoplesUnit{"mm", -3}; }
 
-/// "11.76 to 12.24 t", "± 6 kN", "8 t"
-template <class Number>
-std::string range_text(const Number& lower, const Number& upper, const PeoplesUnit& unit) {
-  const std::string from = number_text(lower, unit.power, Rounding::kDown);
-  const std::string to = number_text(upper, unit.power, Rounding::kUp);
+std::string joined(const std::string& from, const std::string& to, const PeoplesUnit& unit) {
   if (from == to) return fmt::format("{} {}", from, unit.name);
   if (from == "-" + to) return fmt::format("± {} {}", to, unit.name);
   return fmt::format("{} to {} {}", from, to, unit.name);
+}
+
+/// "11.76 to 12.24 t", "± 6 kN": no more than the range holds, with as many digits as that takes. "8 t": a single
+/// number is exact.
+std::string range_text(const Rational& lower, const Rational& upper, const PeoplesUnit& unit) {
+  if (lower == upper) return fmt::format("{} {}", exact_text(lower, unit.power), unit.name);
+  for (const int digits : {4, 6, 9, 12}) {
+    const std::string from = number_text(lower, unit.power, Rounding::kUp, digits);
+    const std::string to = number_text(upper, unit.power, Rounding::kDown, digits);
+    if (parse_rational(from) < parse_rational(to)) return joined(from, to, unit);
+  }
+  return joined(exact_text(lower, unit.power), exact_text(upper, unit.power), unit);
+}
+
+/// An enclosed range, likewise: to a relative 1e-12. One that is narrower than that is a number.
+std::string range_text(const StatedRange& range, const PeoplesUnit& unit) {
+  constexpr double kNothing = 1e-12;
+  const double size = std::max(std::abs(range.lower), std::abs(range.upper));
+  if (range.upper - range.lower <= kNothing * size) {
+    return fmt::format("{} {}", number_text(0.5 * (range.lower + range.upper), unit.power, Rounding::kDown), unit.name);
+  }
+  const auto end = [&](double x, Rounding rounding, int digits) {  // 0 but for the enclosure's width is 0
+    return std::abs(x) <= kNothing * size ? "0" : number_text(x, unit.power, rounding, digits);
+  };
+  std::string from, to;
+  for (const int digits : {4, 6, 9, 12}) {
+    from = end(range.lower, Rounding::kUp, digits);
+    to = end(range.upper, Rounding::kDown, digits);
+    if (parse_rational(from) < parse_rational(to)) break;
+  }
+  return joined(from, to, unit);
 }
 
 double approx(const RationalText& text) { return from_rational<double>(text); }
@@ -74,7 +121,7 @@ std::string point_text(const RationalVector& point) {
   double size = 0;
   for (const RationalText& x : point) size = std::max(size, std::abs(approx(x)));
   const PeoplesUnit unit = size == 0 ? PeoplesUnit{"m", 0} : unit_of_length(size);
-  const auto text = [&](const RationalText& x) { return number_text(parse_rational(x), unit.power, Rounding::kUp); };
+  const auto text = [&](const RationalText& x) { return exact_text(parse_rational(x), unit.power); };
   return fmt::format("({}, {}, {}) {}", text(point[0]), text(point[1]), text(point[2]), unit.name);
 }
 
@@ -97,7 +144,7 @@ std::string direction_text(const RationalVector& direction) {
 
 /// Whether v is a multiple of what is vertical: of gravity, or of z where there is none.
 bool is_vertical(const RationalVector& v, const RationalVector& gravity) {
-  const bool has_gravity = gravity != RationalVector{"0", "0", "0"};
+  const bool has_gravity = std::ranges::any_of(gravity, [](const RationalText& x) { return parse_rational(x) != 0; });
   const RationalVector up = has_gravity ? gravity : RationalVector{"0", "0", "1"};
   std::array<Rational, 3> a, b;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -126,7 +173,7 @@ std::string set_text(const VectorSet& set, Axes axes, const RationalVector& grav
                 ? "in any horizontal direction"
                 : fmt::format("in any direction at right angles to the one {}{}", direction_text(disc->normal), frame);
   }
-  return fmt::format("{} of up to {} {} {}", what, number_text(parse_rational(radius), shown.power, Rounding::kUp),
+  return fmt::format("{} of up to {} {} {}", what, number_text(parse_rational(radius), shown.power, Rounding::kDown),
                      shown.name, where);
 }
 
@@ -138,8 +185,21 @@ std::string weight_text(const Weight& weight) {
   }
   const PeoplesUnit length = unit_of_length(approx(weight.at_tolerance));
   return text + fmt::format(", centre of gravity within {} {} of {}",
-                            number_text(parse_rational(weight.at_tolerance), length.power, Rounding::kUp), length.name,
-                            point_text(weight.at));
+                            number_text(parse_rational(weight.at_tolerance), length.power, Rounding::kDown),
+                            length.name, point_text(weight.at));
+}
+
+/// "force (0, 0, -5) kN, moment (0, 0, 1) kN·m": every number exactly.
+std::string exact_wrench_text(const std::array<RationalText, 6>& wrench) {
+  const auto vector = [&](std::size_t first) -> std::string {
+    double size = 0;
+    for (std::size_t k = first; k < first + 3; ++k) size = std::max(size, std::abs(approx(wrench[k])));
+    if (size == 0) return first == 0 ? "no force" : "no moment";
+    const PeoplesUnit unit = first == 0 ? unit_of_force(size) : unit_of_moment(size);
+    const auto text = [&](std::size_t k) { return exact_text(parse_rational(wrench[first + k]), unit.power); };
+    return fmt::format("{} ({}, {}, {}) {}", first == 0 ? "force" : "moment", text(0), text(1), text(2), unit.name);
+  };
+  return vector(0) + ", " + vector(3);
 }
 
 std::string item_text(const LoadItem& item, const RationalVector& gravity) {
@@ -151,16 +211,32 @@ std::string item_text(const LoadItem& item, const RationalVector& gravity) {
     return set_text(moment->set, moment->axes, gravity, false);
   }
   const auto& cases = std::get<LoadCases>(item.what);
-  const std::string frame = cases.axes == Axes::kPlatform ? ", in the axes of the platform" : "";
-  if (cases.wrenches.size() == 1) return fmt::format("a wrench about {}{}", point_text(cases.at), frame);
-  return fmt::format("{} load cases about {}, and all between them{}", cases.wrenches.size(), point_text(cases.at),
-                     frame);
+  const std::string about = fmt::format("about {}{}", point_text(cases.at),
+                                        cases.axes == Axes::kPlatform ? ", in the axes of the platform" : "");
+  if (cases.wrenches.size() == 1) return fmt::format("{} {}", exact_wrench_text(cases.wrenches[0]), about);
+  std::vector<std::string> each;
+  for (const auto& wrench : cases.wrenches) {
+    each.push_back(fmt::format("{}: {}", each.size() + 1, exact_wrench_text(wrench)));
+  }
+  return fmt::format("{} load cases {}, and all between them: {}", cases.wrenches.size(), about, fmt::join(each, "; "));
+}
+
+Axes axes_of(const LoadItem& item) {
+  if (const auto* force = std::get_if<Force>(&item.what)) return force->axes;
+  if (const auto* moment = std::get_if<Moment>(&item.what)) return moment->axes;
+  const auto* cases = std::get_if<LoadCases>(&item.what);
+  return cases ? cases->axes : Axes::kWorld;
 }
 
 // --- The whole ---------------------------------------------------------------------------------------------------
 
+/// All weights together.
+struct MassRange {
+  Rational lower = 0, upper = 0;
+};
+
 /// Sets mass_kg and centre_of_gravity_m, if there are weights.
-void add_masses(const LoadText& load, LoadStatement& result) {
+MassRange add_masses(const LoadText& load, LoadStatement& result) {
   Rational lower = 0, upper = 0, doubled = 0;
   std::array<Rational, 3> moment{};
   bool is_any = false;
@@ -174,15 +250,17 @@ void add_masses(const LoadText& load, LoadStatement& result) {
     doubled += both;
     for (std::size_t k = 0; k < 3; ++k) moment[k] += both * parse_rational(weight->at[k]);
   }
-  if (!is_any) return;
+  if (!is_any) return {};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   StatedRange mass{lower.convert_to<double>(), upper.convert_to<double>()};
   if (Rational(mass.lower) > lower) mass.lower = std::nextafter(mass.lower, -kInfinity);
   if (Rational(mass.upper) < upper) mass.upper = std::nextafter(mass.upper, kInfinity);
   result.mass_kg = mass;
-  if (doubled == 0) return;
-  std::array<double, 3>& centre = result.centre_of_gravity_m.emplace();
-  for (std::size_t k = 0; k < 3; ++k) centre[k] = Rational(moment[k] / doubled).convert_to<double>();
+  if (doubled != 0) {
+    std::array<double, 3>& centre = result.centre_of_gravity_m.emplace();
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = Rational(moment[k] / doubled).convert_to<double>();
+  }
+  return {lower, upper};
 }
 
 /// Sets nominal and extremes: support functions in the directions of the axes, in multiprecision intervals.
@@ -232,7 +310,7 @@ std::string vector_text(const std::array<double, 6>& wrench, std::size_t first) 
   return fmt::format("a {} of ({:.6g}, {:.6g}, {:.6g}) {}", what, v[0] + 0.0, v[1] + 0.0, v[2] + 0.0, unit.name);
 }
 
-std::string total_text(const LoadText& load, const LoadStatement& s) {
+std::string total_text(const LoadText& load, const MassRange& mass, const LoadStatement& s) {
   const std::string nominal = fmt::format("{} and {} about the load point {}", vector_text(s.nominal, 0),
                                           vector_text(s.nominal, 3), point_text(load.point_m));
   if (!s.mass_kg) {
@@ -254,8 +332,8 @@ std::string total_text(const LoadText& load, const LoadStatement& s) {
     centre = fmt::format(", nominally with the centre of gravity at ({:.4g}, {:.4g}, {:.4g}) {} of the platform",
                          c[0] / factor, c[1] / factor, c[2] / factor, unit.name);
   }
-  return fmt::format("In all {}{}: {}.", range_text(s.mass_kg->lower, s.mass_kg->upper, unit_of_mass(s.mass_kg->upper)),
-                     centre, nominal);
+  return fmt::format("In all {}{}: {}.", range_text(mass.lower, mass.upper, unit_of_mass(s.mass_kg->upper)), centre,
+                     nominal);
 }
 
 std::string spread_text(const LoadStatement& s) {
@@ -269,7 +347,7 @@ std::string spread_text(const LoadStatement& s) {
     std::string text = first == 0 ? "force" : "moment";
     for (std::size_t k = 0; k < 3; ++k) {
       const StatedRange& range = s.extremes[first + k];
-      text += fmt::format("{} {} {}", k == 0 ? "" : ",", kAxes[k], range_text(range.lower, range.upper, unit));
+      text += fmt::format("{} {} {}", k == 0 ? "" : ",", kAxes[k], range_text(range, unit));
     }
     return text;
   };
@@ -301,11 +379,23 @@ std::string ellipsoid_text(const LoadStatement& alone, bool is_diagonal) {
 
 }  // namespace
 
+std::string quoted_name(const std::string& name) {
+  std::string result = "'";
+  for (const char c : sanitize(name)) {
+    if (c == '\'') {
+      result += "’";
+    } else {
+      result += c;
+    }
+  }
+  return result + "'";
+}
+
 LoadStatement load_statement(const LoadText& load) {
   LoadStatement result;
-  add_masses(load, result);
+  const MassRange mass = add_masses(load, result);
   add_wrenches(load, result);
-  result.total = total_text(load, result);
+  result.total = total_text(load, mass, result);
   result.spread = spread_text(result);
   for (const LoadItem& item : load.items) result.items.emplace_back(item.name, item_text(item, load.gravity_m_s2));
   if (load.ellipsoid) {
@@ -324,7 +414,7 @@ LoadStatement load_statement(const LoadText& load) {
 
 std::vector<std::string> lines(const LoadStatement& statement) {
   std::vector<std::string> result = {statement.total, statement.spread};
-  for (const auto& [name, words] : statement.items) result.push_back(fmt::format("{}: {}.", name, words));
+  for (const auto& [name, words] : statement.items) result.push_back(fmt::format("{}: {}.", quoted_name(name), words));
   return result;
 }
 
@@ -360,12 +450,14 @@ std::string witness_load_text(const LoadText& load, const nlohmann::json& choice
   for (std::size_t n = 0; n < load.items.size(); ++n) {
     const LoadItem& item = load.items[n];
     const nlohmann::json& choice = choices.at(n);
+    const std::string name = quoted_name(item.name);
+    const char* const frame = axes_of(item) == Axes::kPlatform ? " in the axes of the platform" : "";
     const bool is_moment = std::holds_alternative<Moment>(item.what);
     const auto unit = [&](double size) { return is_moment ? unit_of_moment(size) : unit_of_force(size); };
     if (choice.contains("mass_kg")) {
       const double mass = approx(text(choice.at("mass_kg")));
       const PeoplesUnit of_mass = unit_of_mass(mass);
-      std::string weight = fmt::format("{} {:.4g} {}", item.name, mass / power(of_mass), of_mass.name);
+      std::string weight = fmt::format("{} {:.4g} {}", name, mass / power(of_mass), of_mass.name);
       if (const double off = largest(choice.at("offset_m")); off > 0) {
         const PeoplesUnit length = unit_of_length(off);
         weight += ", its centre of gravity off by " + vector(choice.at("offset_m"), length.name, power(length));
@@ -373,15 +465,16 @@ std::string witness_load_text(const LoadText& load, const nlohmann::json& choice
       words.push_back(std::move(weight));
     } else if (choice.contains("vector")) {
       const PeoplesUnit shown = unit(largest(choice.at("vector")));
-      words.push_back(fmt::format("{} {}", item.name, vector(choice.at("vector"), shown.name, power(shown))));
+      words.push_back(fmt::format("{} {}{}", name, vector(choice.at("vector"), shown.name, power(shown)), frame));
     } else if (choice.contains("amount")) {
       const double amount = approx(text(choice.at("amount")));
       const PeoplesUnit shown = unit(std::abs(amount));
-      words.push_back(fmt::format("{} {:.4g} {}", item.name, amount / power(shown) + 0.0, shown.name));
+      words.push_back(fmt::format("{} {:.4g} {}", name, amount / power(shown) + 0.0, shown.name));
     } else {
-      words.push_back(fmt::format("{}: case {}", item.name, choice.at("case").get<std::size_t>() + 1));
+      words.push_back(fmt::format("{} case {}", name, choice.at("case").get<std::size_t>() + 1));
     }
   }
+  if (load.ellipsoid) words.emplace_back("and of the ellipsoid the wrench that is worst for this cable");
   return fmt::format("{}", fmt::join(words, "; "));
 }
 

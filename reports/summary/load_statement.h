@@ -15,7 +15,8 @@
 
 namespace taut {
 
-/// A range of numbers, rounded outward.
+/// A range of numbers, rounded outward: for machines. In words ranges are rounded inward, so that no load is said to be
+/// covered that is not.
 struct StatedRange {
   double lower = 0;
   double upper = 0;
@@ -38,6 +39,9 @@ struct LoadStatement {
 /// @throws InputError for numbers beyond the range of binary64, and for an ellipsoid all but singular.
 [[nodiscard]] LoadStatement load_statement(const LoadText& load);
 
+/// An item's name between quotes, which none of its own characters can end: what stands outside of them is ours.
+[[nodiscard]] std::string quoted_name(const std::string& name);
+
 /// Total, spread and items: a sentence each.
 [[nodiscard]] std::vector<std::string> lines(const LoadStatement& statement);
 [[nodiscard]] nlohmann::json to_json(const LoadStatement& statement);
@@ -46,8 +50,8 @@ struct LoadStatement {
 /// with items, as one paragraph.
 [[nodiscard]] std::string load_text(const LoadText& load);
 
-/// The load of each item under which a limit is violated, rounded: "payload 11.76 t, its centre of gravity off by …;
-/// wind (28.9, 7.9, 0) kN". @param choices  `loads` of a certificate's witness
+/// The load of each item under which a limit is violated, rounded: "'payload' 11.76 t, its centre of gravity off by
+/// …; 'wind' (28.9, 7.9, 0) kN". @param choices  `loads` of a certificate's witness
 [[nodiscard]] std::string witness_load_text(const LoadText& load, const nlohmann::json& choices);
 
 }  // namespace taut

@@ -42,7 +42,7 @@ std::string quantity(const DecimalText& value, bool length, const DisplayUnits& 
   return fmt::format("{} {}", units.of(length).exact(value), units.of(length).name());
 }
 
-/// A number of a witness, rounded to as few digits as tell it from the limit, in the direction that keeps the sentence
+/// A number of a witness, rounded to as few digits as show it beyond the limit, in the direction that keeps the sentence
 /// true.
 std::string shortened(const PathWitness& witness, const DecimalText& value, bool up, const DisplayUnits& units) {
   const double x = number(value);
@@ -51,7 +51,8 @@ std::string shortened(const PathWitness& witness, const DecimalText& value, bool
     const Decimal rounded = Decimal::parse(text);
     // `x` was rounded to nearest: a last check.
     const bool is_true = up ? rounded >= Decimal::parse(value) : rounded <= Decimal::parse(value);
-    if (is_true && rounded != Decimal::parse(witness.limit)) {
+    const Decimal limit = Decimal::parse(witness.limit);
+    if (is_true && (up ? rounded < limit : rounded > limit)) {
       return quantity(text, is_length(witness), units);
     }
   }

@@ -124,6 +124,16 @@ TEST(LoadItems, AreLoadCases) {
   EXPECT_EQ(get<LoadCases>(read_with_platform("{name: hook, wrench: [0, 0, -1, 0, 0, 0]}"), 1).wrenches.size(), 1U);
 }
 
+TEST(LoadItems, OfAForceInOneDirectionMakeNoMomentAboutIt) {
+  const LoadText load =
+      read_with_platform("{name: hook, force: [60, 60], direction: [0, 0, -2], axes: P, at_tolerance: 0.5}");
+  const auto& moment = get<Moment>(load, 2);
+  const auto& disc = std::get<DiscOfVectors>(moment.set);
+  EXPECT_EQ(disc.radius, "30000");
+  EXPECT_THAT(disc.normal, ElementsAre("0", "0", "-2"));
+  EXPECT_EQ(moment.axes, Axes::kPlatform);
+}
+
 TEST(LoadItems, MayIncludeOneEllipsoid) {
   const LoadText load = read_with_platform(
       "{name: paper, wrench: [0, 0, -1, 0, 0, 0], ellipsoid: {semi_axes: [6, 1/7, 100 N, 0.02, 0.02, 0.02]}}");
@@ -187,7 +197,9 @@ TEST(LoadItems, OfEveryKindMakeOneLoad) {
   const Rational radius = parse_rational(std::get<BallOfVectors>(get<Moment>(load, 11).set).radius);
   EXPECT_GE(radius * radius, 600);
   EXPECT_LE(radius * radius, Rational(600) * (1 + Rational(1, 100'000'000'000)));
-  EXPECT_THAT(every_kind.warnings, ElementsAre(HasSubstr("load.items[payload].inertia: is not used")));
+  EXPECT_THAT(every_kind.warnings,
+              ElementsAre(HasSubstr("load.items[payload].inertia: is not used"),
+                          HasSubstr("load.items[swing].acceleration: accelerates the items with a mass")));
   EXPECT_EQ(problem_from_json(to_json(every_kind.problem)).load.items, load.items);
 }
 

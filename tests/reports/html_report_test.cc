@@ -177,6 +177,25 @@ TEST(HtmlReport, PrintsClaimAndDigestsAsTheCertificateStatesThem) {
   EXPECT_THAT(page, HasSubstr("taut 0.1.0"));
 }
 
+TEST(HtmlReport, StatesTheSetOfLoadsThatIsMeant) {
+  EXPECT_THAT(page_of("proved"), AllOf(HasSubstr("E (w − w<sub>0</sub>) ≤ 1"), HasSubstr("v<sub>i</sub> = √(B")));
+  nlohmann::json certificate = sample::proved();
+  auto& load = certificate["problem"]["load"];
+  load["items"] = nlohmann::json::parse(R"([
+      {"name": "block", "weight": {"mass_kg": ["0.1", "0.1"], "at_m": ["0", "0", "0"], "at_tolerance_m": "0"}},
+      {"name": "push", "force": {"ball": {"radius": "0.01"}, "axes": "W", "at_m": ["0", "0", "0"]}}])");
+  load["gravity_m_s2"] = {"0", "0", "9.81"};
+  load["wrench"] = {"0", "0", "0", "0", "0", "0"};
+  const std::string with_ellipsoid = html_report(sample::scene(certificate), {});
+  EXPECT_THAT(with_ellipsoid,
+              AllOf(HasSubstr("K<sub>1</sub> + … + K<sub>2</sub>"), HasSubstr("E (w − w<sub>0</sub>)"),
+                    HasSubstr("<sub>w ∈ K</sub> (J<sup>−1</sup> w)<sub>i</sub>"), Not(HasSubstr("v<sub>i</sub>"))));
+  load.erase("ellipsoid");
+  load.erase("wrench");
+  EXPECT_THAT(html_report(sample::scene(certificate), {}),
+              AllOf(HasSubstr("K<sub>1</sub> + … + K<sub>2</sub>"), Not(HasSubstr("w<sub>0</sub>"))));
+}
+
 TEST(HtmlReport, PrintsExactNumbersOfRobotAndPath) {
   const std::string& page = page_of("proved");
   EXPECT_THAT(page, HasSubstr("(-190.5256, -110, 0)"));

@@ -29,10 +29,10 @@ TEST(LoadStatement, SaysTheExampleCranesLoadInTonnesAndKilonewtons) {
   EXPECT_EQ(s.total,
             "In all 19.76 to 20.24 t, nominally with the centre of gravity at (0, 0, -720) mm of the platform: a force "
             "of 196.2 kN along −z and no moment about the load point (0, 0, 0) m.");
-  EXPECT_THAT(s.spread, HasSubstr("force x ± 6 kN, y ± 6 kN, z -198.6 to -193.8 kN; moment x "));
-  EXPECT_THAT(lines(s), ElementsAre(s.total, s.spread, "platform: 8 t, centre of gravity at (0, 0, 0) m.",
-                                    "payload: 11.76 to 12.24 t, centre of gravity within 50 mm of (0, 0, -1.2) m.",
-                                    "wind: a force of up to 6 kN in any horizontal direction, at (0, 0, -1) m."));
+  EXPECT_THAT(s.spread, HasSubstr("force x ± 6 kN, y ± 6 kN, z -198.5 to -193.9 kN; moment x "));
+  EXPECT_THAT(lines(s), ElementsAre(s.total, s.spread, "'platform': 8 t, centre of gravity at (0, 0, 0) m.",
+                                    "'payload': 11.76 to 12.24 t, centre of gravity within 50 mm of (0, 0, -1.2) m.",
+                                    "'wind': a force of up to 6 kN in any horizontal direction, at (0, 0, -1) m."));
 }
 
 TEST(LoadStatement, EnclosesTheExtremesOfEachComponent) {
@@ -70,8 +70,48 @@ TEST(LoadStatement, SaysItemsOfEveryKind) {
           std::pair("twist",
                     "a moment of up to 5 N·m in any direction at right angles to the one along x of the "
                     "platform"),
-          std::pair("cases", "2 load cases about (0, 0, 0) m, and all between them, in the axes of the platform"),
-          std::pair("third", "333.3 to 333.4 kg, centre of gravity at (0, 0, 0) m")));
+          std::pair(
+              "cases",
+              "2 load cases about (0, 0, 0) m, in the axes of the platform, and all between them: 1: force (0, 0, -5) "
+              "N, no moment; 2: force (1, 0, -5) N, no moment"),
+          std::pair("third", "1000/3 kg, centre of gravity at (0, 0, 0) m")));
+}
+
+TEST(LoadStatement, NeverSaysMoreThanIsCovered) {
+  LoadText load = example_crane();
+  load.items = {{"exact", Weight{"12345.678", "12345.678", {"1/3", "0", "0.123456789"}, "1/30"}},
+                {"near", Weight{"20000", "20001", {"0", "0", "0"}, "0"}},
+                {"thirds", Weight{"1000/3", "2000/3", {"0", "0", "0"}, "0"}},
+                {"narrow", Weight{"1000.123456781", "1000.123456789", {"0", "0", "0"}, "0"}},
+                {"wind", Force{DiscOfVectors{"20000/3", {"0", "0", "1"}}, Axes::kWorld, {"0", "0", "0"}}},
+                {"hook", LoadCases{{{"0", "0", "-60000.5", "0", "12", "0"}}, Axes::kWorld, {"0", "0", "-1"}}}};
+  const LoadStatement s = load_statement(load);
+  EXPECT_THAT(s.items, ElementsAre(std::pair("exact",
+                                             "12.345678 t, centre of gravity within 33.33 mm of "
+                                             "(1000/3, 0, 123.456789) mm"),
+                                   std::pair("near", "20 to 20.001 t, centre of gravity at (0, 0, 0) m"),
+                                   std::pair("thirds", "333.4 to 666.6 kg, centre of gravity at (0, 0, 0) m"),
+                                   std::pair("narrow",
+                                             "1.000123456781 to 1.000123456789 t, centre of gravity at "
+                                             "(0, 0, 0) m"),
+                                   std::pair("wind",
+                                             "a force of up to 6.666 kN in any horizontal direction, at "
+                                             "(0, 0, 0) m"),
+                                   std::pair("hook",
+                                             "force (0, 0, -60.0005) kN, moment (0, 12, 0) N·m about (0, 0, "
+                                             "-1) m")));
+}
+
+TEST(LoadStatement, CallsNoOtherPlaneHorizontal) {
+  LoadText load = example_crane();
+  load.gravity_m_s2 = {"0.0", "0", "0"};
+  load.items = {{"wind", Force{DiscOfVectors{"5", {"1", "0", "0"}}, Axes::kWorld, {"0", "0", "0"}}}};
+  EXPECT_THAT(load_statement(load).items[0].second, HasSubstr("at right angles to the one along x"));
+}
+
+TEST(LoadStatement, QuotesNamesSoThatTheyCannotGoOn) {
+  EXPECT_EQ(quoted_name("wind': a force of up to 30 kN. 'x"), "'wind’: a force of up to 30 kN. ’x'");
+  EXPECT_EQ(quoted_name("a\u202Eb"), "'a\\xe2\\x80\\xaeb'");
 }
 
 TEST(LoadStatement, SaysThatAnEllipsoidTakesFromOneComponentWhatItGivesAnother) {
