@@ -314,7 +314,7 @@ int run_audit(const AuditArguments& arguments) {
   const std::vector<ToleranceLimit> limits = is_proved ? result.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
-    object["load"] = to_json(load_statement(case_.problem.load));
+    object["load"] = to_json(load_statement(case_));
     object["warnings"] = case_.warnings;
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(limits);

@@ -140,7 +140,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"prove_seconds", s.prove_seconds},
                            {"tolerance_limits", to_json(outcome.tolerance_limits)},
                            {"growth", growth_json(outcome.planned.growth)},
-                           {"load", to_json(load_statement(the_case.problem.load))},
+                           {"load", to_json(load_statement(the_case))},
                            {"warnings", the_case.warnings},
                            {"out", outcome.out.string()}};
   result.update(result_json(checked));
