@@ -128,7 +128,7 @@ class Init(InFolder):
         made = self.init(cables=cables, bodies=bodies)
         self.assertEqual(made.returncode, 0, made.stderr)
         text = text_of(self.case)
-        self.assertIn("point: [0.1, -2e-3, 0.30000000000000000001]", text)
+        self.assertIn("mass: 1.0, at: [0.1, -2e-3, 0.30000000000000000001]}", text)
         self.assertIn("- [-0.65, 0.431, 0.30000000000000000001]", text)
         self.assertEqual(self.init(bodies=bodies).returncode, 0)
         self.assertNotIn("0.431", text_of(self.case), "from the joint, nothing is added")
@@ -232,10 +232,11 @@ class Init(InFolder):
                 ("the parent '1'", "<num>0</num>", "<num>1</num>"), ("no <mass>", "<mass>1.0</mass>", ""),
                 ("<springs>", "<links ", "<springs/><links "),
                 ("the case made from it", 'q_initial="0 0 1.5', 'q_initial="0 0 9'),
-                ("got '1e999'", ">1.0</mass>", ">1e999</mass>"),
-                ("the case made from it", ">1.0</mass>", ">1e299</mass>")):
+                ("got '1e999'", ">1.0</mass>", ">1e999</mass>")):
             with self.subTest(message):
                 self.refused(message, bodies=self.edited(self.bodies, old, new))
+        self.refused("the case made from it", bodies=self.edited(self.bodies, ">1.0</mass>", ">1e299</mass>"),
+                     units=("--units", "length=m,force=N,mass=t"))
         self.refused("no attribute 'q_max'", bodies=re.sub(' q_max="[^"]*"', "", self.bodies))
 
     def test_files_that_are_no_xml_or_too_much_of_it(self):
