@@ -398,7 +398,7 @@ EllipsoidText around(const std::vector<Matrix6>& parts, const std::array<Rationa
   give_up();
 }
 
-/// A ten-thousandth of the greatest force among the items, and the moment of that at the arm.
+/// A ten-thousandth of the greatest forces of all items together, and the moment of that at the arm.
 std::array<Rational, 2> thickness_of(const LoadText& load, double arm_m) {
   const double gravity = norm_above(values(load.gravity_m_s2)).convert_to<double>();
   double force = 0, moment = 0;
@@ -407,12 +407,14 @@ std::array<Rational, 2> thickness_of(const LoadText& load, double arm_m) {
                           [&](const Force& x) { force += greatest(x.set).convert_to<double>(); },
                           [&](const Moment& x) { moment += greatest(x.set).convert_to<double>(); },
                           [&](const LoadCases& x) {
-                            double most = 0;
+                            Rational most = 0, most_moment = 0;
                             for (const auto& w : x.wrenches) {
                               const Vector6 v = values(w);
-                              most = std::max(most, norm_above({v[0], v[1], v[2]}).convert_to<double>());
+                              most = std::max(most, norm_above({v[0], v[1], v[2]}));
+                              most_moment = std::max(most_moment, norm_above({v[3], v[4], v[5]}));
                             }
-                            force += most;
+                            force += most.convert_to<double>();
+                            moment += most_moment.convert_to<double>();
                           }},
                item.what);
   }
@@ -444,7 +446,7 @@ std::array<DecimalText, 3> centre_of(const LoadText& load) {
 
 }  // namespace
 
-LoadText ellipsoid_around_items(const LoadText& load, double arm_m) {
+LoadText ellipsoid_around_items(const LoadText& load, double arm_m) try {
   LoadText result;
   result.point_m = centre_of(load);
   const std::array<Rational, 2> thickness = thickness_of(load, arm_m);
@@ -453,6 +455,10 @@ LoadText ellipsoid_around_items(const LoadText& load, double arm_m) {
   for (std::size_t k = 0; k < 6; ++k) result.wrench[k] = rational_text(sum.centre()[k]);
   result.ellipsoid = around(sum.parts(), thickness);
   return result;
+} catch (const InputError&) {  // of a number beyond the range of decimals
+  give_up();
+} catch (const CGAL::Failure_exception&) {
+  give_up();
 }
 
 }  // namespace taut::case_fields

@@ -244,6 +244,27 @@ TEST(AroundItems, OfTheCraneIsNearlyTheSmallestInVolume) {
   RecordProperty("mean_axis_of_the_smallest", fmt::format("{:.4f}", mean_axis));
 }
 
+TEST(AroundItems, ContainsManyLoadCases) {
+  Random random(4);
+  LoadText load = crane_load();
+  LoadCases cases;
+  for (int j = 0; j < 64; ++j) {
+    auto& w = cases.wrenches.emplace_back();
+    for (RationalText& x : w) x = fmt::format("{:.3f}", uniform(random, -5000, 5000));
+  }
+  cases.at = {"0", "0", "-1"};
+  load.items.push_back({"cases", cases});
+  const double share = greatest_share(load, random, 100);
+  EXPECT_LE(share, 1 + kRounding);
+  EXPECT_GE(share, 0.6);
+}
+
+TEST(AroundItems, AreRefusedIfTheirSizesAreTooFarApart) {
+  LoadText load = crane_load();
+  load.items.push_back({"speck", Force{BallOfVectors{"1e290"}, Axes::kWorld, {"0", "0", "0"}}});
+  EXPECT_THROW(static_cast<void>(ellipsoid_around_items(load, 1.5)), FieldError);
+}
+
 double semi_axis(const LoadText& load, int k) { return 1 / std::sqrt(Ellipsoid(load).e(k, k)); }
 
 TEST(AroundItems, ByHand) {
