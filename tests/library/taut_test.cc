@@ -84,7 +84,7 @@ TEST(Case, SaysTheLoadAndWhatMayNotBeMeant) {
   EXPECT_THAT(taut::Case::parse(text).load_statement(), testing::Contains(HasSubstr("the load is one ellipsoid")));
   text.insert(text.find("mass_tolerance"), "inertia: {box: [1, 1, 1]}, ");
   EXPECT_THAT(taut::Case::parse(text, "crane.yaml").warnings(),
-              testing::ElementsAre(AllOf(testing::StartsWith("crane.yaml:18:"), HasSubstr("is not used"))));
+              testing::ElementsAre(AllOf(testing::StartsWith("crane.yaml:19:"), HasSubstr("is not used"))));
 }
 
 TEST(Case, ThatIsWrongSaysWhere) {
