@@ -36,6 +36,7 @@
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
 
 namespace taut::v0 {
@@ -364,6 +365,12 @@ std::array<std::array<double, 2>, 6> Case::tension_limits_N() const {
 std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
   return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
 }
+
+std::vector<std::string> Case::load_statement() const {
+  return within(ErrorCode::kCase, [&] { return lines(taut::load_statement(content_->the_case)); });
+}
+
+std::vector<std::string> Case::warnings() const { return content_->the_case.warnings; }
 
 std::string Case::summary() const {
   return within(ErrorCode::kCase, [&] { return to_text(CaseSummary(content_->the_case)); });

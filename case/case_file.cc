@@ -19,6 +19,7 @@
 
 #include "base/input_error.h"
 #include "base/sanitize.h"
+#include "case/around_items.h"
 #include "case/fields.h"
 #include "case/load.h"
 #include "problem/decimal.h"
@@ -447,6 +448,7 @@ Case read_case(const Field& root) {
   result.problem.name = read_name(map.at("name"));
   result.problem.robot = read_robot(map.at("robot"), units);
   result.problem.load = read_load(map.at("load"), units, result.warnings);
+  if (is_around_items(map.at("load"))) result.items_in_ellipsoid = result.problem.load;
   if (const auto field = map.find("tolerances")) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
   }
@@ -529,6 +531,18 @@ std::string leading_comment(const std::string& text) {
   return comment;
 }
 
+/// The mean distance of the platform's anchors from its origin [m].
+double arm_of(const RobotText& robot) {
+  double sum = 0;
+  for (const auto& anchor : robot.platform_anchors_m) {
+    std::array<double, 3> b{};
+    std::ranges::transform(anchor, b.begin(),
+                           [](const DecimalText& x) { return ScalarTraits<double>::from_decimal(x); });
+    sum += std::hypot(b[0], b[1], b[2]);
+  }
+  return sum > 0 ? sum / kCables : 1;
+}
+
 Case parse(const std::string& text, const std::string& name, const CaseCheck& check) {
   Places places(name);
   if (text.size() > kMaxFileBytes) {
@@ -538,6 +552,10 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
   try {
     Case result = read_case(Field(places, only_document(text, name), ""));
     validate(result.problem);
+    if (result.items_in_ellipsoid) {
+      result.problem.load = ellipsoid_around_items(*result.items_in_ellipsoid, arm_of(result.problem.robot));
+      validate(result.problem);
+    }
     if (check) check(result);
     result.description = leading_comment(text);
     return result;

@@ -66,6 +66,8 @@ struct Case {
   Expectation expect = Expectation::kNone;
   std::vector<Bound> bounds;  ///< expected besides the verdict
   std::optional<AuditedPath> audit;
+  /// The items as the case states them, where problem.load is an ellipsoid around them.
+  std::optional<LoadText> items_in_ellipsoid;
   /// What may not be meant as it was typed, each with its place; for people, before a verdict.
   std::vector<std::string> warnings;
   std::string description;  ///< the file's leading comment block, for reports

@@ -166,7 +166,7 @@ Rational read_rational(const Field& field, const Unit& bare) {
                   bare.dimension == Dimension::kArea || bare.dimension == Dimension::kAcceleration ? "an" : "a",
                   dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
   const auto [value, unit] = read_with_unit(field, bare, expected);
-  return exact_value(field, value, expected) * unit.factor.rational();
+  return exact_value(field, value, expected) * unit.factor.rational() / unit.divisor;
 }
 
 std::optional<Rational> read_percentage(const Field& field) {

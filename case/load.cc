@@ -62,7 +62,16 @@ struct Ellipsoid {
   std::array<Rational, 6> typed;  ///< of the diagonal, in the case's units
 };
 
+constexpr const char* kAroundItems = "around_items";
+
+bool says_around_items(const Field& ellipsoid) {
+  return ellipsoid.node().IsScalar() && ellipsoid.node().Scalar() == kAroundItems;
+}
+
 Ellipsoid read_ellipsoid(const Field& field, const Units& units) {
+  if (says_around_items(field)) {
+    field.complain(fmt::format("got '{0}' without 'items', expected items, or E itself", kAroundItems));
+  }
   const Map map = field.map({"semi_axes", "diagonal", "matrix"});
   if (map.entries().size() != 1) {
     field.complain(
@@ -500,6 +509,12 @@ Decimal read_acceleration(const Field& field) {
   return Decimal::parse(read_quantity(field, si_unit(Dimension::kAcceleration)));
 }
 
+/// Under no force and no moment every tension is 0, which no limit allows.
+void require_a_load(const std::array<DecimalText, 6>& wrench, const Field& field) {
+  const bool is_zero = std::ranges::all_of(wrench, [](const DecimalText& x) { return Decimal::parse(x).sign() == 0; });
+  if (is_zero) field.fail("a load that keeps the cables taut: a force or a moment other than zero");
+}
+
 std::array<DecimalText, 6> read_mass_or_wrench(const Map& load, const Units& units) {
   const auto typed = load.find("wrench");
   const auto mass_field = load.find("mass");
@@ -509,7 +524,9 @@ std::array<DecimalText, 6> read_mass_or_wrench(const Map& load, const Units& uni
   }
   if (typed) {
     if (const auto gravity = load.find("gravity")) gravity->fail("'gravity' only together with 'mass' or 'items'");
-    return read_wrench(*typed, units);
+    const std::array<DecimalText, 6> wrench = read_wrench(*typed, units);
+    require_a_load(wrench, *typed);
+    return wrench;
   }
   std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};
   const Decimal mass = Decimal::parse(read_quantity(*mass_field, units[Dimension::kMass]));
@@ -518,6 +535,7 @@ std::array<DecimalText, 6> read_mass_or_wrench(const Map& load, const Units& uni
   for (std::size_t k = 0; k < 3; ++k) {
     wrench[k] = in_field(gravity[k], [&] { return (mass * read_acceleration(gravity[k])).text(); });
   }
+  require_a_load(wrench, load.at("gravity"));
   return wrench;
 }
 
@@ -531,14 +549,20 @@ std::optional<Ellipsoid> read_items(const Map& map, const Field& items, const Un
     wrench->complain(
         "got a wrench beside 'items' without an ellipsoid, expected it as an item: {name: …, wrench: […]}");
   }
+  const bool around_items = field && says_around_items(*field);
   std::optional<Ellipsoid> ellipsoid;
-  if (field) {
+  if (around_items) {
+    if (wrench) wrench->complain("got a wrench beside 'ellipsoid: around_items', expected it as one of the items");
+  } else if (field) {
     ellipsoid = read_ellipsoid(*field, units);
     load.ellipsoid = ellipsoid->matrix;
     if (wrench) load.wrench = read_wrench(*wrench, units);
   }
   ItemReader reader(units, load, warnings);
   reader.read(items);
+  if (around_items && reader.ellipsoid()) {
+    field->complain("got 'around_items' and an item that is an ellipsoid, expected one or the other");
+  }
   return reader.ellipsoid() ? reader.ellipsoid() : ellipsoid;
 }
 
@@ -562,6 +586,11 @@ LoadText read_load(const Field& field, const Units& units, std::vector<std::stri
   }
   if (ellipsoid) warn_of_semi_axes(*ellipsoid, load, units, warnings);
   return load;
+}
+
+bool is_around_items(const Field& load) {
+  const auto ellipsoid = load.map(kLoadKeys).find("ellipsoid");
+  return ellipsoid && says_around_items(*ellipsoid);
 }
 
 void read_load_tolerance(const Map& tolerances, const Field& load, const Units& units, TolerancesText& result) {

@@ -13,6 +13,9 @@ namespace taut::case_fields {
 /// Reads `load`. What may not be meant as it was typed is added to `warnings`.
 [[nodiscard]] LoadText read_load(const Field& field, const Units& units, std::vector<std::string>& warnings);
 
+/// Whether `load`, which read_load() has read, asks for one ellipsoid instead of its items.
+[[nodiscard]] bool is_around_items(const Field& load);
+
 /// Reads the tolerance of the wrench w0 from `tolerances`, where it is that of the mass in `load` or of the wrench
 /// itself.
 void read_load_tolerance(const Map& tolerances, const Field& load, const Units& units, TolerancesText& result);

@@ -104,7 +104,17 @@ struct Densities {
   std::array<SlopeForm<I>, kCables> radius;                 ///< |Z_i|
 };
 
-/// C (w0 + w) and C L.
+/// C itself.
+template <class I>
+typename InverseBound<I>::template Columns<6> identity_columns(const InverseBound<I>& inverse) {
+  typename InverseBound<I>::template Columns<6> x;
+  for (std::size_t k = 0; k < 6; ++k) {
+    for (std::size_t j = 0; j < 6; ++j) x[k][j] = I(inverse.c()(static_cast<int>(k), static_cast<int>(j)));
+  }
+  return x;
+}
+
+/// C (w0 + w), and C L or, where there is no ellipsoid, C.
 template <class I>
 typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& model, const InverseBound<I>& inverse,
                                                              const Vector6<I>& w) {
@@ -116,6 +126,10 @@ typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& mod
     for (int l = 0; l < 6; ++l) kappa = kappa + c(row, l) * w(l);
     x[k][0] = kappa;
     for (int j = 0; j < 6; ++j) {
+      if (!model.has_ellipsoid) {
+        x[k][static_cast<std::size_t>(j) + 1] = I(c(row, j));
+        continue;
+      }
       I entry = c(row, j) * model.ellipsoid_root(j, j);
       if (!model.ellipsoid_is_diagonal) {
         for (int l = 0; l < j; ++l) entry = entry + c(row, l) * model.ellipsoid_root(l, j);
@@ -126,18 +140,18 @@ typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& mod
   return x;
 }
 
-/// Adds what items do (kinematics/loads.h), `remaining` the nominal wrench less that of `densities`.
-template <class I>
+/// D^-1 B over a box.
+template <class I, std::size_t N>
+using Forms = std::array<std::array<SlopeForm<I>, N>, kCables>;
+
+/// Adds what items do (kinematics/loads.h). The last columns of `forms` are D^-1; `remaining` is the nominal wrench less
+/// that of `densities`.
+template <class I, std::size_t N>
 void add_items(const Model<I>& model, const LoadsAtPose<SlopeForm<I>>& loads, const Vector6<SlopeForm<I>>& remaining,
-               const InverseBound<I>& inverse, const I& offset, Densities<I>& densities) {
-  typename InverseBound<I>::template Columns<6> identity;  // C I
-  for (std::size_t k = 0; k < 6; ++k) {
-    for (std::size_t j = 0; j < 6; ++j) identity[k][j] = I(inverse.c()(static_cast<int>(k), static_cast<int>(j)));
-  }
-  const auto rows = inverse.times(identity);
+               const Forms<I, N>& forms, const I& offset, Densities<I>& densities) {
   for (std::size_t i = 0; i < kCables; ++i) {
     Vector6<SlopeForm<I>> y;
-    for (int j = 0; j < 6; ++j) y(j) = rows[i][static_cast<std::size_t>(j)];
+    for (int j = 0; j < 6; ++j) y(j) = forms[i][N - 6 + static_cast<std::size_t>(j)];
     SlopeForm<I>& nominal = densities.nominal[i];
     for (int j = 0; j < 6; ++j) nominal = nominal + y(j) * remaining(j);
     nominal.tighten(offset);
@@ -147,6 +161,23 @@ void add_items(const Model<I>& model, const LoadsAtPose<SlopeForm<I>>& loads, co
     densities.below[i].tighten(offset);
     densities.above[i].tighten(offset);
   }
+}
+
+/// Sets root and radius; the last columns of `forms` are D^-1 L. Returns false where a radius may be 0.
+template <class I>
+bool set_radius(const Forms<I, 7>& forms, const I& offset, Densities<I>& densities) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    SlopeForm<I> square(0.0);
+    for (std::size_t j = 1; j < 7; ++j) {
+      square = square + sqr(forms[i][j]);
+      densities.root[i][j - 1] = forms[i][j].range;
+    }
+    square.tighten(offset);
+    if (!certainly_positive(square.range)) return false;
+    densities.radius[i] = sqrt(square);
+    densities.radius[i].tighten(offset);
+  }
+  return true;
 }
 
 /// The items' nominal wrench depends on the pose: what it is near the midpoint, a constant, is multiplied by D^-1 as w0
@@ -166,27 +197,20 @@ Densities<I> enclose_densities(const Model<I>& model, const Matrix3<SlopeForm<I>
       remaining(j) = loads.nominal(j) - near;
     }
   }
-  const auto forms = inverse.times(loaded_columns(model, inverse, w));
-  std::array<SlopeForm<I>, 6> squares;
-  squares.fill(SlopeForm<I>(0.0));
-  for (std::size_t i = 0; i < 6; ++i) {
-    result.nominal[i] = forms[i][0];
-    for (std::size_t j = 1; j < 7; ++j) {
-      squares[i] = squares[i] + sqr(forms[i][j]);
-      result.root[i][j - 1] = forms[i][j].range;
-    }
+  const Forms<I, 7> forms = inverse.times(loaded_columns(model, inverse, w));
+  for (std::size_t i = 0; i < kCables; ++i) result.nominal[i] = forms[i][0];
+  if (model.has_ellipsoid) {
+    if (!set_radius(forms, offset, result)) return result;  // the box is too wide
+  } else {
+    for (auto& row : result.root) row.fill(I(0.0));
+    result.radius.fill(SlopeForm<I>(0.0));
   }
-  for (std::size_t i = 0; i < 6; ++i) {
-    result.radius[i] = SlopeForm<I>(0.0);
-    if (model.has_ellipsoid) {
-      squares[i].tighten(offset);
-      if (!certainly_positive(squares[i].range)) return result;  // the box is too wide
-      result.radius[i] = sqrt(squares[i]);
-      result.radius[i].tighten(offset);
-    }
-    result.below[i] = result.above[i] = result.radius[i];
+  result.below = result.above = result.radius;
+  if (!model.loads.empty() && model.has_ellipsoid) {
+    add_items(model, loads, remaining, inverse.times(identity_columns(inverse)), offset, result);
+  } else if (!model.loads.empty()) {
+    add_items(model, loads, remaining, forms, offset, result);
   }
-  if (!model.loads.empty()) add_items(model, loads, remaining, inverse, offset, result);
   result.are_enclosed = true;
   return result;
 }

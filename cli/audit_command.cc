@@ -315,7 +315,7 @@ int run_audit(const AuditArguments& arguments) {
 
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
-    object["load"] = to_json(load_statement(case_.problem.load));
+    object["load"] = to_json(load_statement(case_));
     object["warnings"] = case_.warnings;
     object["out"] = out.string();
     object["headroom"] = headroom_json(result.headroom);

@@ -234,11 +234,6 @@ struct Round {
   int mantissa = 1;
   int exponent = 0;
   [[nodiscard]] double value() const { return mantissa * std::pow(10.0, exponent); }
-  /// 1/value^2, exactly.
-  [[nodiscard]] std::string inverse_square() const {
-    const int digits = mantissa == 1 ? 1 : mantissa == 2 ? 25 : 4;
-    return fmt::format("{}e{}", digits, -2 * exponent - (mantissa == 1 ? 0 : 2));
-  }
 };
 
 Round rounded_down(double value) {
@@ -367,15 +362,16 @@ class CaseText {
     arm_m *= approx(robot_.units.length.factor.text());
     const Round force = rounded_down(kAssumedShare * weight_N / approx(robot_.units.force.factor.text()));
     const Round moment = rounded_down(kAssumedShare * weight_N * (arm_m > 0 ? arm_m : 1));
-    const std::string f = force.inverse_square();
-    const std::string m = moment.inverse_square();
     case_.not_said.push_back(
         fmt::format("how much the load may differ: forces by {:g} {}, moments by {:g} N*m (some 1 % of the weight)",
                     force.value(), robot_.units.force.name, moment.value()));
+    const std::string centre = bracketed(body_.center_of_mass);
     return fmt::format(
-        "load:\n  point: {}   # com_location\n  mass: {}\n  gravity: [0, 0, -{}]   # m/s^2\n"
-        "  ellipsoid: {{diagonal: [{}, {}, {}, {}, {}, {}]}}   # MISSING: 1/{:g}^2 and 1/{:g}^2\n\n",
-        bracketed(body_.center_of_mass), body_.mass, kGravity, f, f, f, m, m, m, force.value(), moment.value());
+        "load:\n  gravity: [0, 0, -{}]   # m/s^2\n  items:\n"
+        "    - {{name: platform, mass: {}, at: {}}}   # mass and com_location\n"
+        "    - {{name: any force, force: {:g}, direction: any, at: {}}}   # MISSING: put what else pulls here\n"
+        "    - {{name: any moment, moment: {:g}, direction: any}}   # MISSING: and what else turns\n\n",
+        kGravity, body_.mass, centre, force.value(), centre, moment.value());
   }
 
   std::string space_section() {
@@ -393,7 +389,7 @@ class CaseText {
   }
 
   std::string query_section() {
-    const std::string planner = "\nplanner: {strategy: astar, cost: parameters, max_seconds: 1}\n";
+    const std::string planner = "\nplanner: {strategy: astar, cost: travel, max_seconds: 1}\n";
     if (!body_.start) {
       case_.not_said.push_back("where to start (q_initial): this case has no query; add one to plan");
       return "# MISSING: poses to go through. Remove the # and put them in:\n# query:\n#   waypoints:\n"

@@ -63,8 +63,11 @@ void complain(std::string_view message) {
 void announce(const Case& the_case, bool json) {
   for (const std::string& warning : the_case.warnings) complain("warning: " + warning);
   if (json) return;
-  const LoadStatement load = load_statement(the_case.problem.load);
-  fmt::print("Load: {}\n      {}\n", sanitize(load.total), sanitize(load.spread));
+  const char* before = "Load: ";
+  for (const std::string& line : brief_lines(load_statement(the_case))) {
+    fmt::print("{}{}\n", before, sanitize(line));
+    before = "      ";
+  }
 }
 
 std::string load_that_breaks(const LoadText& load, const checker::CheckResult& checked) {

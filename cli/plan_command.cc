@@ -139,7 +139,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"prove_seconds", s.prove_seconds},
                            {"headroom", headroom_json(outcome.planned.headroom)},
                            {"growth", growth_json(outcome.planned.growth)},
-                           {"load", to_json(load_statement(the_case.problem.load))},
+                           {"load", to_json(load_statement(the_case))},
                            {"warnings", the_case.warnings},
                            {"out", outcome.out.string()}};
   result.update(result_json(checked));

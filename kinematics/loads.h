@@ -65,9 +65,9 @@ struct LoadsAtPose {
   using Vector = Eigen::Matrix<S, 3, 1>;
   using Wrench = Eigen::Matrix<S, 6, 1>;
   struct Item {
-    Vector lever;                    ///< r
-    Vector direction;                ///< u or γ
-    Wrench line;                     ///< about P_m: of the force or moment `direction`; of load cases the mean
+    Vector lever;      ///< r
+    Vector direction;  ///< u or γ
+    Wrench line;  ///< about P_m: of the force or moment `direction`, but of balls and discs; of load cases the mean
     std::vector<Wrench> deviations;  ///< of load cases from their mean, about P_m
   };
   std::vector<Item> items;

@@ -12,8 +12,9 @@ template <class A, class B>
   return Eigen::Matrix<S, 3, 1>(a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0));
 }
 
-template <class S>
-[[nodiscard]] S dot(const Eigen::Matrix<S, 3, 1>& a, const Eigen::Matrix<S, 3, 1>& b) {
+/// b may be of constants, which are cheaper.
+template <class S, class B>
+[[nodiscard]] S dot(const Eigen::Matrix<S, 3, 1>& a, const Eigen::Matrix<B, 3, 1>& b) {
   return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
 }
 
@@ -153,6 +154,7 @@ template <class S, class K>
 LoadsAtPose<S> loads_at(const LoadModel<K>& model, const Eigen::Matrix<S, 3, 3>& r_WP) {
   using namespace loads_detail;
   using Kind = typename LoadModel<K>::Kind;
+  using Shape = typename LoadModel<K>::Shape;
   LoadsAtPose<S> result;
   result.nominal.setConstant(S(0.0));
   result.items.reserve(model.items.size());
@@ -168,8 +170,12 @@ LoadsAtPose<S> loads_at(const LoadModel<K>& model, const Eigen::Matrix<S, 3, 3>&
       continue;
     }
     at.direction = in_world(r_WP, item.axes, item.direction);
-    const Eigen::Matrix<S, 3, 1> turning =
-        item.kind == Kind::kMoment ? at.direction : Eigen::Matrix<S, 3, 1>(cross(at.lever, at.direction));
+    if (item.shape == Shape::kBall || item.shape == Shape::kDisc) continue;
+    Eigen::Matrix<S, 3, 1> turning = at.direction;
+    if (item.kind != Kind::kMoment) {
+      turning = item.axes == Axes::kWorld ? Eigen::Matrix<S, 3, 1>(cross(at.lever, item.direction))
+                                          : Eigen::Matrix<S, 3, 1>(cross(at.lever, at.direction));
+    }
     for (int k = 0; k < 3; ++k) {
       at.line(k) = item.kind == Kind::kMoment ? S(0.0) : at.direction(k);
       at.line(3 + k) = turning(k);
@@ -178,6 +184,27 @@ LoadsAtPose<S> loads_at(const LoadModel<K>& model, const Eigen::Matrix<S, 3, 3>&
   }
   return result;
 }
+
+namespace loads_detail {
+
+/// y w for the wrench w of the force or moment `direction` of an item.
+template <class S, class K>
+[[nodiscard]] S along(const typename LoadModel<K>::Item& item, const typename LoadsAtPose<S>::Item& here,
+                      const Eigen::Matrix<S, 3, 1>& y_force, const Eigen::Matrix<S, 3, 1>& y_moment) {
+  const Eigen::Matrix<S, 3, 1> turning(here.line(3), here.line(4), here.line(5));
+  if (item.kind == LoadModel<K>::Kind::kMoment) return dot(y_moment, turning);
+  const S moved = item.axes == Axes::kWorld ? dot(y_force, item.direction) : dot(y_force, here.direction);
+  return moved + dot(y_moment, turning);
+}
+
+/// g − (g·n) n
+template <class S, class N>
+[[nodiscard]] Eigen::Matrix<S, 3, 1> across(const Eigen::Matrix<S, 3, 1>& g, const Eigen::Matrix<N, 3, 1>& n) {
+  const S along_n = dot(g, n);
+  return {g(0) - along_n * n(0), g(1) - along_n * n(1), g(2) - along_n * n(2)};
+}
+
+}  // namespace loads_detail
 
 template <class S, class K>
 DensityRange<S> density_range(const LoadModel<K>& model, const LoadsAtPose<S>& at, const Eigen::Matrix<S, 6, 1>& y) {
@@ -196,8 +223,8 @@ DensityRange<S> density_range(const LoadModel<K>& model, const LoadsAtPose<S>& a
     switch (item.kind) {
       case Model::Kind::kWeight: {
         if (!item.varies && !item.swings) break;
-        const S a = dot(y, here.line);
-        const S b = item.swings ? S(norm(Vector(cross(here.direction, y_moment))) * item.reach) : S(0.0);
+        const S a = along<S, K>(item, here, y_force, y_moment);
+        const S b = item.swings ? S(norm(Vector(cross(y_moment, item.direction))) * item.reach) : S(0.0);
         const S mean = b * item.nominal;
         add(mean + absolute(S(a - b)) * item.radius, mean + absolute(S(a + b)) * item.radius);
         break;
@@ -205,7 +232,7 @@ DensityRange<S> density_range(const LoadModel<K>& model, const LoadsAtPose<S>& a
       case Model::Kind::kForce:
       case Model::Kind::kMoment: {
         if (item.shape == Model::Shape::kSegment) {
-          const S a = dot(y, here.line);
+          const S a = along<S, K>(item, here, y_force, y_moment);
           const S size = absolute(a) * item.radius, shift = a * item.offset;
           add(size - shift, size + shift);
           break;
@@ -213,8 +240,7 @@ DensityRange<S> density_range(const LoadModel<K>& model, const LoadsAtPose<S>& a
         Vector g = y_moment;
         if (item.kind == Model::Kind::kForce) g = Vector(y_force + cross(y_moment, here.lever));
         if (item.shape == Model::Shape::kDisc) {
-          const S along = dot(g, here.direction);
-          for (int k = 0; k < 3; ++k) g(k) = g(k) - along * here.direction(k);
+          g = item.axes == Axes::kWorld ? across(g, item.direction) : across(g, here.direction);
         }
         const S size = norm(g) * item.radius;
         add(size, size);

@@ -42,6 +42,7 @@ const std::vector<Unit>& units() {
         {Dimension::kSpeed, "m/s", d("1")},
         {Dimension::kSpeed, "cm/s", d("1e-2")},
         {Dimension::kSpeed, "mm/s", d("1e-3")},
+        {Dimension::kSpeed, "km/h", d("1e3"), false, 3600},
         {Dimension::kDensity, "kg/m^3", d("1")},
     };
     // Moments have no units with inches or feet: E divides by the moment's unit, and 1/0.0254 is no decimal.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Units of a case file, as exact decimal factors to SI.
+// Units of a case file, as exact factors to SI.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,14 @@ enum class Dimension { kLength, kForce, kMoment, kMass, kAngle, kTime, kAccelera
 /// The number of dimensions that have a unit in `units:`.
 inline constexpr std::size_t kDimensionsOfUnits = 6;
 
-/// A unit of known dimension: value in SI = value · factor, except that a degree is pi/180.
+/// A unit of known dimension: value in SI = value · factor / divisor, except that a degree is pi/180. Units of
+/// dimensions up to kTime have the divisor 1.
 struct Unit {
   Dimension dimension;
   std::string name;
   Decimal factor;
   bool is_degree = false;
+  int divisor = 1;
 };
 
 /// "length", "force", …: for the first ones, the keys of `units:`.
@@ -47,12 +49,13 @@ struct CaseUnits {
 /// parenthesis or a number.
 [[nodiscard]] std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text);
 
-/// Converts a decimal from `unit` to SI: canonical text, or "(34)*pi/180" for degrees. @throws InputError
+/// Converts a decimal from `unit` (divisor 1) to SI: canonical text, or "(34)*pi/180" for degrees. @throws InputError
 [[nodiscard]] std::string decimal_to_si(const std::string& text, const Unit& unit);
-/// Converts an expression from `unit` to SI: "(x)*0.001"; the text itself if the factor is one.
+/// Converts an expression from `unit` to SI: "(x)*0.001"; the text itself if the factor is one. @pre the divisor
+/// is 1
 [[nodiscard]] std::string expression_to_si(const std::string& text, const Unit& unit);
 /// Converts an SI expression to `unit`: "(1000*px)", "(px/0.0254)". @pre the text is a name or in parentheses, and the
-/// unit is not degrees.
+/// unit is not degrees and has the divisor 1.
 [[nodiscard]] std::string expression_from_si(const std::string& text, const Unit& unit);
 
 }  // namespace taut

@@ -282,6 +282,8 @@ PYBIND11_MODULE(_taut, module) {
       .def_property_readonly("description", &taut::Case::description)
       .def_property_readonly("parameters", &taut::Case::parameters)
       .def_property_readonly("query_waypoints", &taut::Case::query_waypoints)
+      .def_property_readonly("load_statement", &taut::Case::load_statement)
+      .def_property_readonly("warnings", &taut::Case::warnings)
       .def("summary", &taut::Case::summary)
       .def("summary_json", &taut::Case::summary_json)
       .def("drawing_svg", &taut::Case::drawing_svg)

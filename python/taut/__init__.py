@@ -94,6 +94,19 @@ class Case:
         """Lower and upper limit of each cable, (6, 2), rounded: for plots."""
         return self._case.length_limits_m
 
+    @property
+    def load_statement(self) -> list[str]:
+        """The load as it was understood, in kg, t, N, kN, N m and m, a sentence each, as `taut show` prints it.
+
+        Read it before you rely on a verdict: a slip of units shows there. Its numbers are summary_data()["load"].
+        """
+        return self._case.load_statement
+
+    @property
+    def warnings(self) -> list[str]:
+        """What may not be meant as it was typed, each with its place: what the commands print as warnings."""
+        return self._case.warnings
+
     def summary(self) -> str:
         """How the case was understood, as `taut show` prints it.
 

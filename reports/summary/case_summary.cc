@@ -195,7 +195,7 @@ std::string to_text(const CaseSummary& summary) {
       problem.name, units.length.name(), units.force.name(), units.moment.name());
   text += robot_text(problem.robot, units) + "\n";
   text += "Load\n";
-  for (const std::string& line : lines(load_statement(problem.load))) text += "  " + line + "\n";
+  for (const std::string& line : lines(load_statement(summary.source))) text += "  " + line + "\n";
   text += axes_text(summary.sampler.model(), units) + "\n";
   text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances, units));
   text += space_text(problem.space) + "\n";
@@ -235,7 +235,7 @@ nlohmann::json to_json(const CaseSummary& summary) {
                          {"cables", cables}});
   }
   return {{"problem", to_json(summary.source.problem)},
-          {"load", to_json(load_statement(summary.source.problem.load))},
+          {"load", to_json(load_statement(summary.source))},
           {"warnings", summary.source.warnings},
           {"path_law", law_text(summary.source)},
           {"waypoints", waypoints}};

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/sanitize.h"
+#include "case/case_file.h"
 #include "certify/arithmetic/mp_interval.h"
 #include "kinematics/model.h"
 #include "problem/decimal.h"
@@ -412,9 +413,45 @@ LoadStatement load_statement(const LoadText& load) {
   return result;
 }
 
-std::vector<std::string> lines(const LoadStatement& statement) {
-  std::vector<std::string> result = {statement.total, statement.spread};
+LoadStatement load_statement(const Case& the_case) {
+  LoadStatement result = load_statement(the_case.problem.load);
+  if (the_case.items_in_ellipsoid) {
+    LoadText items = *the_case.items_in_ellipsoid;
+    items.point_m = the_case.problem.load.point_m;
+    result.around_items = std::make_shared<const LoadStatement>(load_statement(items));
+  }
+  return result;
+}
+
+namespace {
+
+constexpr const char* kInsteadOfItems =
+    "In place of these items, the load is one ellipsoid, the smallest that was found to contain every sum of them in "
+    "every orientation of the platform. It contains other loads besides, and what is proved or refuted is about all "
+    "of it.";
+
+void add_lines(const LoadStatement& statement, bool with_items, std::vector<std::string>& result) {
+  if (statement.around_items) {
+    add_lines(*statement.around_items, with_items, result);
+    result.emplace_back(kInsteadOfItems);
+  }
+  result.push_back(statement.total);
+  result.push_back(statement.spread);
+  if (!with_items) return;
   for (const auto& [name, words] : statement.items) result.push_back(fmt::format("{}: {}.", quoted_name(name), words));
+}
+
+}  // namespace
+
+std::vector<std::string> lines(const LoadStatement& statement) {
+  std::vector<std::string> result;
+  add_lines(statement, true, result);
+  return result;
+}
+
+std::vector<std::string> brief_lines(const LoadStatement& statement) {
+  std::vector<std::string> result;
+  add_lines(statement, false, result);
   return result;
 }
 
@@ -430,6 +467,7 @@ nlohmann::json to_json(const LoadStatement& statement) {
           {"nominal_wrench", statement.nominal},
           {"extreme_wrenches", std::move(extremes)},
           {"items", std::move(items)},
+          {"around_items", statement.around_items ? to_json(*statement.around_items) : json()},
           {"text", lines(statement)}};
 }
 

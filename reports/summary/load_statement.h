@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@
 #include "problem/problem.h"
 
 namespace taut {
+
+struct Case;
 
 /// A range of numbers, rounded outward: for machines. In words ranges are rounded inward, so that no load is said to be
 /// covered that is not.
@@ -33,17 +36,25 @@ struct LoadStatement {
   std::string total;   ///< "In all 19.76 to 20.24 t, …", or the nominal wrench where there are no weights
   std::string spread;  ///< the extremes of each component
   std::vector<std::pair<std::string, std::string>> items;  ///< name and words: "payload", "11.76 to 12.24 t, …"
+
+  /// What was said of the items, about the same load point, where K is an ellipsoid that was made around them.
+  std::shared_ptr<const LoadStatement> around_items;
 };
 
 /// @pre the load is valid.
 /// @throws InputError for numbers beyond the range of binary64, and for an ellipsoid all but singular.
 [[nodiscard]] LoadStatement load_statement(const LoadText& load);
 
+/// The same of a case, whose K may be an ellipsoid around its items.
+[[nodiscard]] LoadStatement load_statement(const Case& the_case);
+
 /// An item's name between quotes, which none of its own characters can end: what stands outside of them is ours.
 [[nodiscard]] std::string quoted_name(const std::string& name);
 
-/// Total, spread and items: a sentence each.
+/// Total, spread and items: a sentence each. Items that an ellipsoid was made around come first.
 [[nodiscard]] std::vector<std::string> lines(const LoadStatement& statement);
+/// The same without the items one by one.
+[[nodiscard]] std::vector<std::string> brief_lines(const LoadStatement& statement);
 [[nodiscard]] nlohmann::json to_json(const LoadStatement& statement);
 
 /// The centre load of a problem without items and by how much each component may differ from it, or the lines of one

@@ -85,7 +85,9 @@ class Init(InFolder):
                 have = [float(pair[1]) for pair in problem["robot"]["tension_N"]]
                 self.assertEqual(have, [float(x) for x in highest])
                 mass = float(re.search(r"<mass>(.*)</mass>", text_of(cables.replace("cables", "bodies"))).group(1))
-                self.assertAlmostEqual(float(problem["load"]["wrench"][2]), -9.81 * mass, delta=1e-9 * mass)
+                weight = problem["load"]["items"][0]["weight"]
+                self.assertEqual([float(x) for x in weight["mass_kg"]], [mass, mass])
+                self.assertEqual(problem["load"]["gravity_m_s2"], ["0", "0", "-9.81"])
                 published = text_of(os.path.join(folder, "as-published.yaml"))
                 published = re.sub(r"expect:.*\n", "", published[published.index("robot:"):])
                 ours = text_of(self.case)
@@ -110,7 +112,7 @@ class Init(InFolder):
         self.assertEqual(float(metres["problem"]["robot"]["base_anchors_m"][0][0]), -3)
         self.assertEqual(float(small["problem"]["robot"]["base_anchors_m"][0][0]), -0.003)
         self.assertEqual(float(small["problem"]["robot"]["tension_N"][0][1]), 1e6)
-        self.assertEqual(float(small["problem"]["load"]["wrench"][2]), -9.81e-3)
+        self.assertEqual(small["problem"]["load"]["items"][0]["weight"]["mass_kg"], ["0.001", "0.001"])
         for units, message in (((), "--units: got none"), (("--units", "length=m"), "both length=UNIT and force=UNIT"),
                                (("--units", "length=N,force=N"), "'N' for length"),
                                (("--units", "length=m,force=N,force=N"), "'force' twice"),
@@ -126,7 +128,7 @@ class Init(InFolder):
         made = self.init(cables=cables, bodies=bodies)
         self.assertEqual(made.returncode, 0, made.stderr)
         text = text_of(self.case)
-        self.assertIn("point: [0.1, -2e-3, 0.30000000000000000001]", text)
+        self.assertIn("mass: 1.0, at: [0.1, -2e-3, 0.30000000000000000001]}", text)
         self.assertIn("- [-0.65, 0.431, 0.30000000000000000001]", text)
         self.assertEqual(self.init(bodies=bodies).returncode, 0)
         self.assertNotIn("0.431", text_of(self.case), "from the joint, nothing is added")
@@ -230,10 +232,11 @@ class Init(InFolder):
                 ("the parent '1'", "<num>0</num>", "<num>1</num>"), ("no <mass>", "<mass>1.0</mass>", ""),
                 ("<springs>", "<links ", "<springs/><links "),
                 ("the case made from it", 'q_initial="0 0 1.5', 'q_initial="0 0 9'),
-                ("got '1e999'", ">1.0</mass>", ">1e999</mass>"),
-                ("the case made from it", ">1.0</mass>", ">1e299</mass>")):
+                ("got '1e999'", ">1.0</mass>", ">1e999</mass>")):
             with self.subTest(message):
                 self.refused(message, bodies=self.edited(self.bodies, old, new))
+        self.refused("the case made from it", bodies=self.edited(self.bodies, ">1.0</mass>", ">1e299</mass>"),
+                     units=("--units", "length=m,force=N,mass=t"))
         self.refused("no attribute 'q_max'", bodies=re.sub(' q_max="[^"]*"', "", self.bodies))
 
     def test_files_that_are_no_xml_or_too_much_of_it(self):

@@ -164,6 +164,31 @@ class Loads(unittest.TestCase):
         self.assertAlmostEqual(tension, low, delta=1e-6 * abs(low))
         self.assertLess(high, 2000)
 
+    def test_an_ellipsoid_around_items_takes_their_place(self):
+        around = ITEMS.replace("  items:", "  ellipsoid: around_items\n  items:")
+        said = self.run_on(around, "show").stdout
+        for words in ("In all 19.76 to 20.24 t", "payload: 11.76 to 12.24 t", "the load is one ellipsoid, the smallest",
+                      "about the load point (0, 0, -720) mm", "ellipsoid: differs from the nominal load in"):
+            self.assertIn(words, said)
+        load = json.loads(self.run_on(around, "show", "--json").stdout)["load"]
+        self.assertEqual(load["around_items"]["mass_kg"], [19760, 20240])
+        self.assertIsNone(load["mass_kg"])
+        for outer, inner in zip(load["extreme_wrenches"], load["around_items"]["extreme_wrenches"]):
+            self.assertLess(outer[0], inner[0])
+            self.assertGreater(outer[1], inner[1])
+        self.assertIsNone(json.loads(self.run_on(ITEMS, "show", "--json").stdout)["load"]["around_items"])
+        said = self.run_on(around, "plan", "--out", "out")
+        self.assertIn("In place of these items, the load is one ellipsoid", said.stdout)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        certificate = os.path.join(self.folder.name, "out", "certificate.json")
+        with open(certificate, encoding="utf-8") as file:
+            stated = json.load(file)["problem"]["load"]
+        self.assertEqual(sorted(stated), ["ellipsoid", "point_m", "wrench"])
+        case = os.path.join(self.folder.name, "crane.yaml")
+        self.assertEqual(command(CHECK, certificate, case).returncode, 0)
+        self.run_on(ITEMS, "show")  # the items themselves are another problem
+        self.assertEqual(command(CHECK, certificate, case).returncode, 1)
+
     def test_a_load_that_makes_no_sense_is_refused_and_nothing_is_written(self):
         for change, expected in (
                 ((r"mass: 12,", "mass: -12,"), r"crane\.yaml:13:\d+: load\.items\[payload\]\.mass: got '-12', expected a mass"),

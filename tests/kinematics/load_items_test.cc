@@ -99,6 +99,10 @@ TEST(LoadItems, OfWindAreItsPressureOnTheArea) {
   EXPECT_EQ(std::get<DiscOfVectors>(get<Force>(thin, 1).set).radius, "2880");
   EXPECT_EQ(thin.items[2].name, "gust, moment");
   EXPECT_EQ(get<Moment>(thin, 2), (Moment{BallOfVectors{"288"}, Axes::kWorld}));
+  const LoadText fast = read_with_platform("{name: gust, wind: {drag_area: 12 m^2, speed: 72 km/h}}");
+  EXPECT_EQ(get<Force>(fast, 1), get<Force>(load, 1));
+  const LoadText odd = read_with_platform("{name: gust, wind: {drag_area: 1 m^2, speed: 50 km/h}}");
+  EXPECT_EQ(std::get<DiscOfVectors>(get<Force>(odd, 1).set).radius, "78125/648");  // 1.25/2 · (500/36)²
 }
 
 TEST(LoadItems, OfAnAccelerationActOnEveryMassWhereverItStands) {
@@ -268,6 +272,13 @@ TEST(LoadItems, AreRefusedWithPlaceNameAndValue) {
       {"{name: a, force_box: [[1, 0], [0, 0], [0, 0]]}", "got [1, 0], expected lower <= upper"},
       {"{name: a, wind: {drag_area: 12 m, speed: 20}}", "got '12 m', expected an area: a number"},
       {"{name: a, wind: {drag_area: 12, speed: 0}}", "got '0', expected a speed above zero"},
+      {"{name: a, wind: {drag_area: 12, speed: 40 kn}}", "or with one of the units m/s, cm/s, mm/s, km/h"},
+      {"{name: a, wind: {drag_area: 12, speed: -20}}", "got '-20', expected a speed above zero"},
+      {"{name: a, wind: {drag_area: -12, speed: 20}}", "got '-12', expected an area above zero"},
+      {"{name: a, mass: [-1, 2]}", "load.items[a].mass: got [-1, 2], expected 0 <= lower <= upper"},
+      {"{name: a, mass: 0}", "load.items[a].mass: got '0', expected a mass above zero"},
+      {"{name: a, mass: 3, mass_tolerance: -1}", "got '-1', expected a tolerance from 0 to the mass itself"},
+      {"{name: a, mass: 3, wind: {drag_area: 12, speed: 20}}", "got mass, wind in one item, expected exactly one"},
       {"{name: a, wrenches: []}", "expected a list of 1 to 64 wrenches"},
       {"{name: a, wrench: [0, 0, 1, 0, 0, 0], ellipsoid: {semi_axes: [1, 1, 0, 1, 1, 1]}}",
        "got '0', expected a force above zero"},
@@ -289,9 +300,48 @@ TEST(LoadItems, AreRefusedWhereTheWholeIsNoLoad) {
   expect_rejected(crane("load: {gravity: [0, 0, -9.81], items: [{name: s, acceleration: 1}]}\n"),
                   "no item with a mass");
   expect_rejected(crane("load: {gravity: [0, 0, -9.81], mass: 3, items: [{name: a, mass: 3}]}\n"), "beside 'items'");
+  const std::string sphere = "ellipsoid: {semi_axes: [1, 1, 1, 1, 1, 1]}";
+  expect_rejected(crane("load: {wrench: [0, 0, 0, 0, 0, 0], " + sphere + "}\n"),
+                  "load.wrench: got [0, 0, 0, 0, 0, 0], expected a load that keeps the cables taut");
+  expect_rejected(crane("load: {mass: 3, gravity: [0, 0, 0], " + sphere + "}\n"),
+                  "load.gravity: got [0, 0, 0], expected a load that keeps the cables taut");
+  expect_rejected(crane("load: {mass: -3, gravity: [0, 0, -9.81], " + sphere + "}\n"),
+                  "load.mass: got '-3', expected a mass above zero");
+  expect_rejected(crane("load: {gravity: [0, 0, 9.81], items: [{name: a, mass: 3}, {name: b, force: [50, 60], "
+                        "direction: [0, 0, -1]}]}\n"),
+                  "got a nominal force of -2.557e+04 N along gravity, expected a downward load");
+  expect_rejected(crane("load: {gravity: [0, 0, -9.81], mass: 3, ellipsoid: around_items}\n"),
+                  "load.ellipsoid: got 'around_items' without 'items', expected items, or E itself");
+  const std::string around = "load:\n  gravity: [0, 0, -9.81]\n  ellipsoid: around_items\n";
+  expect_rejected(crane(around), "got neither of 'wrench' and 'mass', expected one of them, or 'items'");
+  expect_rejected(crane(around + "  wrench: [0, 0, 1, 0, 0, 0]\n  items:\n" + kPlatform),
+                  "load.wrench: got a wrench beside 'ellipsoid: around_items', expected it as one of the items");
+  expect_rejected(
+      crane(around + "  items:\n" + kPlatform + "    - {name: e, wrench: [0, 0, -1, 0, 0, 0], " + sphere + "}\n"),
+      "load.ellipsoid: got 'around_items' and an item that is an ellipsoid, expected one or the other");
+  expect_rejected(crane(around + "  items:\n    - {name: a, mass: 3, mass_tolerance: 4}\n"), "load.items[a]");
+  expect_rejected(crane(around + "  items:\n    - {name: wind, force: 6, direction: horizontal}\n"),
+                  "got a load whose nominal force is zero");
+  expect_rejected(crane("load: {gravity: [0, 0, -9.81], ellipsoid: arround_items, items: [{name: a, mass: 3}]}\n"),
+                  "load.ellipsoid: got 'arround_items', expected");
   expect_rejected(crane("load: {items: []}\n"), "load.items: got [], expected a list of items");
   expect_rejected(crane(kGravity + kPlatform, "tolerances: {mass: 1}\n"), "got a tolerance of a load that has items");
   expect_rejected(crane(kGravity + kPlatform, "tolerances: {load_point: 1}\n"), "'mass_tolerance' or 'at_tolerance'");
+}
+
+TEST(LoadItems, MayBeReplacedByAnEllipsoidAroundThem) {
+  const std::string items =
+      kPlatform + "    - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}\n";
+  const Case plain = parse_case(crane(kGravity + items), "crane.yaml");
+  EXPECT_FALSE(plain.items_in_ellipsoid);
+  const Case around =
+      parse_case(crane("load:\n  gravity: [0, 0, -9.81]\n  ellipsoid: around_items\n  items:\n" + items), "crane.yaml");
+  ASSERT_TRUE(around.items_in_ellipsoid);
+  EXPECT_EQ(to_json(*around.items_in_ellipsoid), to_json(plain.problem.load));
+  EXPECT_TRUE(around.problem.load.items.empty());
+  ASSERT_TRUE(around.problem.load.ellipsoid);
+  EXPECT_THAT(around.problem.load.point_m, ElementsAre("0", "0", "-0.72"));
+  EXPECT_THAT(around.problem.load.wrench, ElementsAre("0", "0", "-196200", "0", "0", "0"));
 }
 
 TEST(LoadItems, StateTolerancesInTheSingularToo) {

@@ -25,6 +25,7 @@ namespace {
 
 using taut::Certificate;
 using taut::Verdict;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -68,6 +69,22 @@ TEST(Case, SaysWhatItIsAbout) {
   EXPECT_THAT(robot.description(), HasSubstr("Turning straight from q_s to q_g"));
   EXPECT_EQ(robot.tension_limits_N()[5], (std::array<double, 2>{0.05, 0.5}));
   EXPECT_EQ(robot.length_limits_m()[0], (std::array<double, 2>{0.1, 0.55}));
+}
+
+TEST(Case, SaysTheLoadAndWhatMayNotBeMeant) {
+  const taut::Case crane = taut::Case::load(kCases + "cranes/portal-20t.yaml");
+  EXPECT_THAT(
+      crane.load_statement(),
+      testing::ElementsAre(HasSubstr("In all 19.76 to 20.24 t"), HasSubstr("Extremes of"), HasSubstr("platform: 8 t"),
+                           HasSubstr("payload: 11.76 to"), HasSubstr("wind: a force of up to 6 kN")));
+  for (const std::string& line : crane.load_statement()) EXPECT_THAT(crane.summary(), HasSubstr(line));
+  EXPECT_TRUE(crane.warnings().empty());
+  std::string text = content_of(kCases + "cranes/portal-20t.yaml");
+  text.insert(text.find("  items:"), "  ellipsoid: around_items\n");
+  EXPECT_THAT(taut::Case::parse(text).load_statement(), testing::Contains(HasSubstr("the load is one ellipsoid")));
+  text.insert(text.find("mass_tolerance"), "inertia: {box: [1, 1, 1]}, ");
+  EXPECT_THAT(taut::Case::parse(text, "crane.yaml").warnings(),
+              testing::ElementsAre(AllOf(testing::StartsWith("crane.yaml:19:"), HasSubstr("is not used"))));
 }
 
 TEST(Case, ThatIsWrongSaysWhere) {

@@ -71,6 +71,10 @@ class Cases(unittest.TestCase):
             self.assertEqual({"command": "show", **case.summary_data()}, json.loads(said.stdout))
             with open(drawing, encoding="utf-8") as file:
                 self.assertEqual(case._repr_svg_(), file.read())
+            for line in case.load_statement:
+                self.assertIn(line, case.summary())
+            self.assertEqual(case.load_statement, case.summary_data()["load"]["text"])
+        self.assertEqual(case.warnings, [])
         bridging = taut.Case.load(BRIDGING)
         self.assertIsNone(bridging._repr_svg_())
         self.assertRaises(taut.InputError, bridging.drawing_svg)
@@ -81,6 +85,14 @@ class Cases(unittest.TestCase):
         reference = taut.plan(taut.Case.load(ROBOT1))
         self.assertEqual(planned.path.waypoints.tolist(), reference.path.waypoints.tolist())
         self.assertEqual(planned.theorem.margins, reference.theorem.margins)
+
+    def test_warns_of_what_may_not_be_meant(self):
+        robot = copy.deepcopy(ROBOT)
+        robot["units"]["force"] = "mN"
+        robot["load"] = {"mass": 0.1, "gravity": [0, 0, 9.81], "ellipsoid": {"diagonal": [20, 20, 20, 1, 1, 1]}}
+        warnings = taut.Case(robot, "crane").warnings
+        self.assertEqual(len(warnings), 1)
+        self.assertRegex(warnings[0], r"^crane:\d+:\d+: load\.ellipsoid\.diagonal: these numbers look like semi-axes")
 
     def test_of_text(self):
         with open(ROBOT1, encoding="utf-8") as file:
