@@ -162,7 +162,8 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   problem_.query.clear();
   const nlohmann::json& space = certificate["problem"]["space"];
   if (space != to_json(problem_).at("space")) {
-    problem_.space = coordinate_space();
+    problem_.space = coordinate_space(problem_.space.angles);
+    if (space != to_json(problem_).at("space")) problem_.space = coordinate_space();
     if (space != to_json(problem_).at("space")) {
       throw InputError(path_ + ": problem.space: got another than the case's, expected a path in the space of the case",
                        {path_});

@@ -205,7 +205,7 @@ class PathFile::Implementation {
  public:
   Implementation(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space,
                  PathFileOptions options)
-      : lines_(std::move(text), name), space_(space), options_(options) {
+      : lines_(std::move(text), name), space_(space), options_(options), pose_names_(pose_names(space.angles.kind)) {
     for (const Parameter& parameter : space.parameters) parameter_names_.push_back(parameter.name);
     std::string_view first;
     if (!lines_.next(first)) lines_.fail("got no rows, expected a path: a header and a row for each pose");
@@ -348,7 +348,7 @@ class PathFile::Implementation {
     header_.format = names.front() == "waypoint" ? PathFormat::kTautWaypoints : PathFormat::kTautControlPoints;
     const bool is_of_poses = contains(names, "x.px") && !is_parameter("px");  // an audited path in pose coordinates
     header_.form = is_of_poses ? PathForm::kAngles : PathForm::kParameters;
-    const std::vector<std::string> coordinates = is_of_poses ? names_of(kPoseNames) : parameter_names_;
+    const std::vector<std::string> coordinates = is_of_poses ? pose_names_ : parameter_names_;
     for (const std::string& coordinate : coordinates) {
       for (const std::string& name : {"x." + coordinate, "half_turns." + coordinate}) {
         if (!contains(names, name)) {
@@ -366,7 +366,7 @@ class PathFile::Implementation {
     const Unit one = si_unit(Dimension::kLength);
     for (std::size_t i = 0; i < titles.size(); ++i) {
       const std::string& name = names[i];
-      const bool is_pose = contains(names_of(kPoseNames), name);
+      const bool is_pose = contains(pose_names_, name);
       if (is_time(name)) {
         add(Column::Role::kTime, 0, titles[i], unit_of(titles[i], Quantity::kTime));
       } else if (const auto x = index_behind(name, "x.")) {
@@ -391,7 +391,7 @@ class PathFile::Implementation {
 
   [[nodiscard]] std::vector<PoseColumns> pose_columns() const {
     return {{PathForm::kParameters, parameter_names_, "the case's parameters"},
-            {PathForm::kAngles, names_of(kPoseNames), "position and tilt-and-torsion angles"},
+            {PathForm::kAngles, pose_names_, fmt::format("position and {}", angles_text(space_.angles.kind))},
             {PathForm::kQuaternion, names_of(kQuaternionNames), "position and quaternion"}};
   }
 
@@ -445,8 +445,8 @@ class PathFile::Implementation {
     if (pose.form == PathForm::kQuaternion) return at < 3 ? Quantity::kLength : Quantity::kPure;
     if (pose.form == PathForm::kAngles) return at < 3 ? Quantity::kLength : Quantity::kAngle;
     const Parameter& parameter = space_.parameters[at];
-    for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-      if (parameter.name == kPoseNames[i] && space_.pose[i] == kPoseNames[i]) {
+    for (std::size_t i = 0; i < pose_names_.size(); ++i) {
+      if (parameter.name == pose_names_[i] && space_.pose[i] == pose_names_[i]) {
         return i < 3 ? Quantity::kLength : Quantity::kAngle;
       }
     }
@@ -474,7 +474,10 @@ class PathFile::Implementation {
         unknown.push_back(excerpt(name));
       }
     }
-    if (!unknown.empty()) fail("", fmt::format("got the unknown column '{}', expected {}", unknown.front(), choices));
+    if (!unknown.empty()) {
+      const std::string hint = angles_hint(unknown.front(), space_.angles.kind);
+      fail("", fmt::format("got the unknown column '{}', {}expected {}", unknown.front(), hint, choices));
+    }
     std::vector<std::string> missing;
     for (const std::string& name : nearest != nullptr ? nearest->names : std::vector<std::string>{}) {
       if (!contains(seen, name)) missing.push_back(name);
@@ -597,7 +600,7 @@ class PathFile::Implementation {
 
   [[nodiscard]] int read_half_turns(const Column& column, std::string_view cell) const {
     const bool turns = header_.form == PathForm::kAngles
-                           ? column.name == "half_turns.phi" || column.name == "half_turns.sigma"
+                           ? is_turn(space_.angles.kind, column.index)
                            : space_.parameters[column.index].kind == ParameterKind::kPeriodic;
     return read_whole(column, cell, turns ? kMaxHalfTurns : 0,
                       turns ? fmt::format("a whole number of at most {} either way", kMaxHalfTurns)
@@ -626,6 +629,7 @@ class PathFile::Implementation {
   SpaceText space_;
   PathFileOptions options_;
   std::vector<std::string> parameter_names_;
+  std::vector<std::string> pose_names_;  ///< px, py, pz and the case's angles
   PathHeader header_;
   std::vector<Column> columns_;
   char delimiter_ = ',';

@@ -40,6 +40,7 @@ class PathSummary {
   [[nodiscard]] std::vector<double> values(const PathRow& row) const;
 
   PathHeader header_;
+  AngleKind angles_;
   PoseSampler sampler_;
   std::vector<bool> is_angle_;
   std::size_t rows_ = 0;

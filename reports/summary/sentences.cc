@@ -150,7 +150,9 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
 std::vector<std::string> refuted_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const PathWitness& witness = certificate.witness->violation;
-  const auto pose_at = [&](double position) { return pose_text(scene.sampler.at(certificate.path, position).pose); };
+  const auto pose_at = [&](double position) {
+    return pose_text(certificate.problem.space.angles.kind, scene.sampler.at(certificate.path, position).pose);
+  };
   std::vector<std::string> result;
   if (witness.singular) {
     result.push_back(
@@ -202,9 +204,10 @@ std::vector<std::string> undecided_details(const ReportContext& scene) {
     const double from = *open.segment + (open.box ? open.box->first.approx() : 0.0);
     const std::string box =
         open.box ? fmt::format(", from s = {} to s = {}", open.box->first.text(), open.box->second.text()) : "";
-    result.push_back(fmt::format("What is open begins {}, on {}{}. The pose there, rounded: {}.",
-                                 place_text(scene, from), segment_text(scene.certificate, *open.segment), box,
-                                 pose_text(scene.sampler.at(scene.certificate.path, from).pose)));
+    result.push_back(fmt::format(
+        "What is open begins {}, on {}{}. The pose there, rounded: {}.", place_text(scene, from),
+        segment_text(scene.certificate, *open.segment), box,
+        pose_text(scene.certificate.problem.space.angles.kind, scene.sampler.at(scene.certificate.path, from).pose)));
   }
   if (!scene.certificate.stretches.empty()) {
     result.push_back(
@@ -234,7 +237,9 @@ std::string motion_text(const ReportContext& scene) {
            "plan.";
   }
   const auto segments = static_cast<double>(path.segments());
-  const auto pose = [&](double position) { return pose_text(scene.sampler.at(path, position).pose); };
+  const auto pose = [&](double position) {
+    return pose_text(scene.certificate.problem.space.angles.kind, scene.sampler.at(path, position).pose);
+  };
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
   std::string text =
       fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",

@@ -112,16 +112,40 @@ std::string point_text(const Certificate& certificate, const PathPoint& point) {
   return fmt::format("waypoint {}, {}", point.index, waypoint_text(certificate, waypoint));
 }
 
-std::string pose_text(const Pose<double>& pose) {
+std::vector<std::string> angle_symbols(AngleKind kind) {
+  switch (kind) {
+    case AngleKind::kTiltAndTorsion: return {"φ", "θ", "σ"};
+    case AngleKind::kRollPitchYaw: return {"roll", "pitch", "yaw"};
+    case AngleKind::kZyz: return {"α", "β", "γ"};
+    case AngleKind::kAxis: break;
+  }
+  return {"turn"};
+}
+
+std::string rotation_formula(const AnglesText& angles) {
+  switch (angles.kind) {
+    case AngleKind::kTiltAndTorsion: return "tilt φ, θ and torsion σ, with R = Rz(φ) Ry(θ) Rz(σ − φ)";
+    case AngleKind::kRollPitchYaw: return "roll, pitch and yaw, with R = Rz(yaw) Ry(pitch) Rx(roll)";
+    case AngleKind::kZyz: return "Euler’s angles α, β, γ, with R = Rz(α) Ry(β) Rz(γ)";
+    case AngleKind::kAxis: break;
+  }
+  return fmt::format("a turn about the fixed axis ({})", fmt::join(angles.axis, ", "));
+}
+
+std::string pose_text(AngleKind angles, const Pose<double>& pose) {
   // To a micrometre and a thousandth of a degree.
   const auto text = [](double x) {
     constexpr double kLargest = 1e9;
     if (!(std::abs(x) < kLargest)) return fmt::format("{:.4g}", x);
     return fmt::format("{:.12g}", std::round(x * 1000) / 1000 + 0.0);
   };
-  return fmt::format("p = ({}, {}, {}) mm, φ = {}°, θ = {}°, σ = {}°", text(pose.p_WP(0) * 1000),
-                     text(pose.p_WP(1) * 1000), text(pose.p_WP(2) * 1000), text(pose.phi * kDegrees),
-                     text(pose.theta * kDegrees), text(pose.sigma * kDegrees));
+  std::string result = fmt::format("p = ({}, {}, {}) mm", text(pose.p_WP(0) * 1000), text(pose.p_WP(1) * 1000),
+                                   text(pose.p_WP(2) * 1000));
+  const std::vector<std::string> symbols = angle_symbols(angles);
+  for (std::size_t c = 0; c < symbols.size(); ++c) {
+    result += fmt::format(", {} = {}°", symbols[c], text(pose.angles[c] * kDegrees));
+  }
+  return result;
 }
 
 std::string distance_text(double metres) {

@@ -39,7 +39,12 @@ namespace taut {
 /// "s = 3/8 of segment 1, …"
 [[nodiscard]] std::string point_text(const Certificate& certificate, const PathPoint& point);
 /// "p = (0, 0, 350) mm, φ = …": rounded.
-[[nodiscard]] std::string pose_text(const Pose<double>& pose);
+[[nodiscard]] std::string pose_text(AngleKind angles, const Pose<double>& pose);
+
+/// The signs of a pose's angles: φ, θ, σ; roll, pitch, yaw; α, β, γ; turn.
+[[nodiscard]] std::vector<std::string> angle_symbols(AngleKind kind);
+/// "tilt φ, θ and torsion σ, with R = Rz(φ) Ry(θ) Rz(σ − φ)"
+[[nodiscard]] std::string rotation_formula(const AnglesText& angles);
 
 /// "4.2 m", "12 mm": rounded.
 [[nodiscard]] std::string distance_text(double metres);

@@ -71,7 +71,7 @@ class Readout {
     const p = samples.p.map((column) => fixed(between(column, where) * lengthUnit.factor, 1));
     const angles = samples.angles.map((column) => fixed(degrees(between(column, where)), 2));
     this.pose.textContent =
-      `p = (${p.join(", ")}) ${lengthUnit.name}; φ, θ, σ = ${angles.map((a) => `${a}°`).join(", ")}`;
+      `p = (${p.join(", ")}) ${lengthUnit.name}; ${samples.angle_names.join(", ")} = ${angles.map((a) => `${a}°`).join(", ")}`;
     this.rows.forEach((row, i) => {
       const f = between(samples.tension[i], where);
       const v = between(samples.tension_radius[i], where);
