@@ -30,9 +30,11 @@
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "kinematics/pose_conversion.h"
+#include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
+#include "reports/summary/display_units.h"
 #include "reports/summary/samples.h"
 
 namespace taut::v0 {
@@ -475,6 +477,19 @@ std::string Certificate::path_csv() const {
   });
 }
 
+std::string Certificate::controller_csv(double step_m) const {
+  return within(ErrorCode::kUse, [&] {
+    if (verdict() != Verdict::kProved) {
+      throw taut::InputError(
+          "controller_csv: got a certificate without a theorem that the path is proved, expected a "
+          "proved one: what is not proved is not for a machine to follow");
+    }
+    const ControllerStep step = read_controller_step(fmt::format("{:.17f} m", step_m), "controller_csv");
+    return taut::controller_csv(content_->stated.problem, content_->stated.path,
+                                {step.metres, fmt::format("{:.12g} mm", 1e3 * step_m)}, content_->checked.sha256);
+  });
+}
+
 std::size_t Certificate::segments() const { return content_->stated.path.segments(); }
 std::size_t Certificate::boxes() const { return content_->boxes; }
 
@@ -491,8 +506,8 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
       copy.is_singular = !sample.statics.regular;
       copy.length_m = sample.statics.length;
       for (std::size_t i = 0; i < copy.length_m.size() && !copy.is_singular; ++i) {
-        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.tension_radius[i];
-        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.tension_radius[i];
+        copy.tension_lower_N[i] = sample.statics.tension[i] - sample.statics.tension_below[i];
+        copy.tension_upper_N[i] = sample.statics.tension[i] + sample.statics.tension_above[i];
       }
     }
     return result;
@@ -538,8 +553,9 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
   return prove_within(ErrorCode::kPath, [&] {
     require_seconds(options.max_check_seconds, "max_check_seconds");
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    const taut::Certificate certificate =
-        prove_waypoints(the_case.content().the_case.problem, inner(path), options.max_bits, options.stop);
+    const taut::Case& about = the_case.content().the_case;
+    taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
+    certificate.illustration = {{"kind", "proof"}, {"units", to_json(about.units)}};
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
                                options.stop);
@@ -553,15 +569,15 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
   const auto work = [&] {
     const Case::Content& content = the_case.content();
     require_seconds(options.max_check_seconds, "max_check_seconds");
-    AuditRequest request{path, std::nullopt, options.allow_repeats};
+    AuditRequest request{path, std::nullopt};
     if (options.interpolation) request.law = inner(*options.interpolation);
     request = resolved(request, content.the_case, content.file);
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
-    PathSource source(content.the_case.problem, request.path, request.law, {request.allow_repeats});
+    PathSource source(content.the_case.problem, request.path, request.law);
     std::string text;
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(
-        source, {options.max_bits, temporary_folder(), key ? &*key : nullptr},
+        source, {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

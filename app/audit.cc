@@ -11,6 +11,8 @@
 #include "app/audit_batch.h"
 #include "app/tolerance_table.h"
 #include "base/input_error.h"
+#include "planner/time_budget.h"
+#include "reports/summary/display_units.h"
 
 namespace taut {
 namespace {
@@ -27,7 +29,7 @@ class BatchWriter {
       : elaborator_(elaborator),
         problem_(source.problem()),
         law_(source.law()),
-        tightens_(source.segments() <= kMostTightened),
+        tightens_(source.segments() <= kMostReported),
         has_times_(source.has_times()),
         has_tubes_(!source.problem().space.constraints.empty()),
         has_pose_tubes_(source.law() == Interpolation::kCableLengths),
@@ -177,8 +179,6 @@ class BatchWriter {
     open_.reset();
   }
 
-  static constexpr std::size_t kMostTightened = 5000;  ///< segments
-
   const Elaborator& elaborator_;
   const Problem& problem_;
   Interpolation law_;
@@ -269,7 +269,6 @@ AuditRequest resolved(AuditRequest request, const Case& the_case, const std::str
   const auto& named = *the_case.audit;
   request.path = (std::filesystem::path(case_path).parent_path() / named.file).string();
   if (!request.law && !named.interpolation.empty()) request.law = audit_laws().at(named.interpolation);
-  request.allow_repeats = request.allow_repeats || named.allow_repeats;
   return request;
 }
 
@@ -286,13 +285,17 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.verdict = audit.verdict;
   ending.margins = audit.margins;
   ending.source = source.source();
+  ending.illustration = {{"kind", "audit"}, {"units", to_json(options.units)}};
   if (audit.verdict == Verdict::kRefuted) ending.witness = first_witness(audit);
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);
   if (audit.verdict == Verdict::kProved && source.problem().tolerances && audit.segments <= kMostReported) {
-    audit.tolerance_limits = tolerance_limits(source.problem(), source.whole_path(), stop);
+    const TimeBudget budget(kGrowthSeconds, stop);
+    audit.tolerance_limits = tolerance_limits(source.problem(), source.whole_path(), budget.token());
     audit.interrupted = stop.stop_requested();
     if (audit.interrupted) return audit;
-    ending.illustration = {{"kind", "audit"}, {"tolerance_limits", to_json(audit.tolerance_limits)}};
+    if (!audit.tolerance_limits.empty()) {
+      ending.illustration["tolerance_limits"] = to_json(audit.tolerance_limits);
+    }
   }
   CertificateWriter::Sign sign;
   if (options.key != nullptr) sign = [&](const std::string& digest) { return options.key->signature(digest); };

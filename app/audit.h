@@ -23,9 +23,11 @@
 
 namespace taut {
 
-/// For longer paths it is not tried how far tolerances could grow, which takes some tens of proofs of the whole path
-/// and all of it in memory; nor is a report made of them unless somebody asks for one.
-inline constexpr std::size_t kMostReported = 5'000;
+/// The segments of the longest path of which a report is made unless somebody asks for one: memory for it grows with
+/// the path. Its least margins are stated more sharply, too, and it is tried how far tolerances could grow.
+inline constexpr std::size_t kMostReported = 20'000;
+/// What that trial may take, which is some tens of proofs of the whole path [s].
+inline constexpr double kGrowthSeconds = 30;
 
 /// The laws that may be asked for, by their names.
 [[nodiscard]] const std::map<std::string, Interpolation>& audit_laws();
@@ -34,7 +36,6 @@ inline constexpr std::size_t kMostReported = 5'000;
 struct AuditRequest {
   PathInput path = std::string();    ///< without a name: that of the case
   std::optional<Interpolation> law;  ///< nothing: as the file suggests
-  bool allow_repeats = false;
 };
 
 /// Completes a request that names no path by what the case's own `audit` says.
@@ -46,6 +47,7 @@ struct AuditOptions {
   long max_bits = 4096;             ///< the greatest precision of the prover
   std::filesystem::path folder;     ///< for temporary files
   const SigningKey* key = nullptr;  ///< null: the certificate is not signed
+  CaseUnits units{};                ///< in which the report shows results
 };
 
 /// Where in a path file a point of the path is.
@@ -70,11 +72,12 @@ struct Audit {
   std::size_t segments = 0;
   std::size_t boxes = 0;
   long boxes_judged = 0;
-  std::optional<Margins> margins;                  ///< of the whole path; only if proved
-  std::size_t stretches_violated = 0;              ///< with a proved violation
-  std::size_t stretches_open = 0;                  ///< without
-  std::vector<AuditedStretch> stretches;           ///< the first of them
-  std::vector<ToleranceLimit> tolerance_limits{};  ///< where the path is proved and the case states tolerances
+  std::optional<Margins> margins;         ///< of the whole path; only if proved
+  std::size_t stretches_violated = 0;     ///< with a proved violation
+  std::size_t stretches_open = 0;         ///< without
+  std::vector<AuditedStretch> stretches;  ///< the first of them
+  /// Where the path is proved and the case states tolerances, and they were found in time.
+  std::vector<ToleranceLimit> tolerance_limits{};
   double seconds = 0;
 };
 

@@ -11,8 +11,10 @@
 #include <sstream>
 #include <utility>
 
+#include "app/path_hints.h"
 #include "base/files.h"
 #include "base/input_error.h"
+#include "base/plural.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
 #include "certificate/certificate_reader.h"
@@ -79,41 +81,14 @@ class DigestedStream : private std::streambuf, public std::istream {
   Sha256& digest_;
 };
 
-std::string names(const Problem& problem) {
-  std::vector<std::string> list;
-  for (const Parameter& parameter : problem.space.parameters) list.push_back(parameter.name);
-  return fmt::format("{}", fmt::join(list, ", "));
-}
-
-/// What the law means, in a sentence.
-std::string meaning(Interpolation law, const Problem& problem) {
-  switch (law) {
-    case Interpolation::kStraight:
-      return fmt::format(
-          "straight: between two waypoints {} each go from value to value at a constant rate, all at once{}",
-          names(problem), problem.space.constraints.empty() ? "" : ", and from there onto the constraints");
-    case Interpolation::kCubicBSpline:
-      return fmt::format("spline: {} follow a cubic B-spline of which these are the control points", names(problem));
-    case Interpolation::kGeodesic:
-      return "geodesic: between two waypoints the platform's origin moves straight, and the platform turns about one "
-             "axis, the "
-             "shorter way, both at constant rates";
-    case Interpolation::kCableLengths: break;
-  }
-  return "cable-lengths: between two waypoints the length of each cable changes at a constant rate, all at once; the "
-         "pose is the one "
-         "that the lengths imply";
-}
-
 }  // namespace
 
-PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law,
-                       PathFileOptions options)
-    : input_(kept_if_pipe(std::move(input))), case_problem_(problem), options_(options) {
+PathSource::PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law)
+    : input_(kept_if_pipe(std::move(input))), case_problem_(problem) {
   if (!input_.text && is_certificate_name(path_)) {
     read_certificate_path(law);
     waypoints_ = certificate_->waypoints.size();
-    description_ = fmt::format("a certificate's path, {} waypoint{}\n", waypoints_, waypoints_ == 1 ? "" : "s");
+    description_ = fmt::format("a certificate's path, {}\n", plural(waypoints_, "waypoint"));
   } else {
     PathFile file = open_file();
     header_ = file.header();
@@ -121,16 +96,17 @@ PathSource::PathSource(const Problem& problem, PathInput input, std::optional<In
     WaypointMaker maker(problem, *header_, law_, path_);
     problem_ = maker.problem();
     PathSummary summary(problem, *header_);
-    for (PathRow row; file.next(row);) summary.add(row);
+    for (PathRow row; file.next(row);) {
+      if (summary.rows() == 0) column_hint_ = column_hint(PoseSampler(problem), *header_, row);
+      summary.add(row);
+    }
     waypoints_ = summary.rows();
     description_ = summary.text();
-    if (file.repeats_dropped() > 0)
-      description_ += fmt::format("  {} repeated rows were dropped\n", file.repeats_dropped());
   }
   if (waypoints_ < control_points(law_) && (waypoints_ != 1 || law_ == Interpolation::kCubicBSpline)) {
-    throw InputError(
-        fmt::format("{}: got {} waypoints, expected at least {} of a spline", path_, waypoints_, control_points(law_)),
-        {path_});
+    throw InputError(fmt::format("{}: got {}, expected at least {} of a spline", path_, plural(waypoints_, "waypoint"),
+                                 control_points(law_)),
+                     {path_});
   }
   stays_ = waypoints_ == 1;
   if (stays_) description_ += "  one pose only: the platform stays there\n";
@@ -191,16 +167,30 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
 }
 
 PathFile PathSource::open_file() const {
-  if (!input_.text) return {path_, case_problem_.space, options_};
-  return {std::make_unique<std::istringstream>(*input_.text), path_, case_problem_.space, options_};
+  if (!input_.text) return {path_, case_problem_.space};
+  return {std::make_unique<std::istringstream>(*input_.text), path_, case_problem_.space};
 }
 
 Path PathSource::whole_path() const {
-  PathSource again(case_problem_, input_, law_, options_);
+  PathSource again(case_problem_, input_, law_);
   if (again.sha256_ != sha256_) throw InputError(path_ + ": the file was changed while it was read", {path_});
   Path path;
   path.interpolation = law_;
-  for (SourceWaypoint waypoint; again.next(waypoint);) path.waypoints.push_back(waypoint.waypoint);
+  for (SourceWaypoint waypoint; again.next(waypoint);) {
+    path.waypoints.push_back(waypoint.waypoint);
+    if (waypoint.time_s) path.times.push_back(waypoint.time_s->text());
+  }
+  return path;
+}
+
+Path PathSource::first_segment() const {
+  PathSource again(case_problem_, input_, law_);
+  Path path;
+  path.interpolation = law_;
+  SourceWaypoint waypoint;
+  while (path.waypoints.size() < control_points(law_) && again.next(waypoint)) {
+    path.waypoints.push_back(waypoint.is_copy ? path.waypoints.back() : waypoint.waypoint);
+  }
   return path;
 }
 
@@ -213,7 +203,7 @@ void PathSource::open() {
     text = std::make_unique<std::ifstream>(path_, std::ios::binary);
   }
   file_ = std::make_unique<PathFile>(std::make_unique<DigestedStream>(std::move(text), digest_), path_,
-                                     case_problem_.space, options_);
+                                     case_problem_.space);
   maker_ = std::make_unique<WaypointMaker>(case_problem_, *header_, law_, path_);
 }
 
@@ -260,6 +250,13 @@ bool PathSource::next(SourceWaypoint& result) {
   return true;
 }
 
+std::string PathSource::swapped_lengths(double most_m) const {
+  const auto swapped = maker_->exchanged_lengths(most_m);
+  if (!swapped) return "";
+  return fmt::format(" (With {} and {} exchanged they would agree: are these columns swapped?)",
+                     header_->coordinates[swapped->first].name, header_->coordinates[swapped->second].name);
+}
+
 void PathSource::require_start(std::size_t line) const {
   constexpr double kMostOff = 0.02;  // of the platform's size; beyond, it may be the start of another assembly
   const double size = make_model<double>(case_problem_).characteristic_length;
@@ -267,15 +264,15 @@ void PathSource::require_start(std::size_t line) const {
   if (off <= kMostOff * size) return;
   throw InputError(
       fmt::format(
-          "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row, expected "
+          "{}:{}: got a start pose whose cables' lengths differ by up to {:.4g} m from those of this row{}, expected "
           "the pose that has them, to within {:.4g} m",
-          path_, line, off, kMostOff * size),
+          path_, line, off, swapped_lengths(kMostOff * size), kMostOff * size),
       {path_, line});
 }
 
 std::string PathSource::description() const {
   std::string text =
-      fmt::format("Read {}: {}Interpolation {}.\n", sanitize(path_), description_, meaning(law_, problem_));
+      fmt::format("Read {}: {}Interpolation {}.\n", sanitize(path_), description_, law_sentence(law_, problem_));
   if (maker_ && maker_->is_converted()) {
     text +=
         "The file's poses were converted to this form in floating point: what is proved is about the converted "
@@ -286,11 +283,12 @@ std::string PathSource::description() const {
 
 std::string PathSource::remarks() const {
   constexpr double kLargeError = 1e-3;
-  std::string text;
+  std::string text = column_hint_;
   if (maker_ && maker_->start_error_m() > kLargeError) {
     text += fmt::format(
-        "The start pose has cable lengths up to {:.4g} m from those of the first row; the pose next to it was taken.\n",
-        maker_->start_error_m());
+        "The start pose has cable lengths up to {:.4g} m from those of the first row; the pose next to it was "
+        "taken.{}\n",
+        maker_->start_error_m(), swapped_lengths(maker_->start_error_m() / 10));
   }
   if (maker_ && maker_->lost_line()) {
     text += fmt::format(

@@ -41,13 +41,15 @@ class PathSource {
   /// waypoint.
   /// @param law  how to join the waypoints; nothing for the file's usual way.
   /// @throws InputError
-  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law, PathFileOptions options);
+  PathSource(const Problem& problem, PathInput input, std::optional<Interpolation> law);
   ~PathSource();
   PathSource(const PathSource&) = delete;
   PathSource& operator=(const PathSource&) = delete;
 
   /// Reads the whole path once more. @throws InputError where the file changed meanwhile.
   [[nodiscard]] Path whole_path() const;
+  /// The first segment of the path, read once more.
+  [[nodiscard]] Path first_segment() const;
 
   /// The case's problem without its query, in the case's space or in the space of all poses.
   [[nodiscard]] const Problem& problem() const { return problem_; }
@@ -64,7 +66,8 @@ class PathSource {
 
   /// Lines of text: what was read, how it is joined, and what that means.
   [[nodiscard]] std::string description() const;
-  /// What is odd about the poses that cable lengths imply, once all waypoints were read; may be empty.
+  /// What is odd about the file's columns and, once all waypoints were read, about the poses that cable lengths imply;
+  /// may be empty.
   [[nodiscard]] std::string remarks() const;
   /// A certificate's `source`.
   [[nodiscard]] PathOrigin source() const;
@@ -75,6 +78,9 @@ class PathSource {
   void require_unchanged();
   /// @throws InputError where the start pose is plainly not one with the first row's lengths.
   void require_start(std::size_t line) const;
+  /// " (With l2 and l5 exchanged they would agree: …)" where the start pose then has the first row's lengths to within
+  /// `most_m`; else empty.
+  [[nodiscard]] std::string swapped_lengths(double most_m) const;
   void read_certificate_path(std::optional<Interpolation> law);
 
   PathInput input_;
@@ -82,13 +88,13 @@ class PathSource {
   bool stays_ = false;  ///< one pose, which takes no time
   Problem case_problem_;
   Problem problem_;
-  PathFileOptions options_;
   Interpolation law_ = Interpolation::kStraight;
   std::size_t waypoints_ = 0;
   std::string sha256_;
   Sha256 digest_;  ///< of what file_ has read
   bool is_unchanged_ = false;
   std::string description_;
+  std::string column_hint_;
   std::optional<Path> certificate_;  ///< the path of one
   std::unique_ptr<PathFile> file_;
   std::unique_ptr<WaypointMaker> maker_;

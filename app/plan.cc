@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/plan.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
 #include "app/illustration.h"
 #include "app/tolerance_table.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
 #include "kinematics/navigation_manifold.h"
+#include "planner/time_budget.h"
+#include "reports/summary/display_units.h"
 
 namespace taut {
 
@@ -13,16 +19,59 @@ void require_plannable(const Case& the_case) {
   if (the_case.problem.query.empty()) {
     throw FieldError("query", "", "expected the key 'query': what to plan (a case without is for taut audit)");
   }
-  require_query_on_constraints(the_case.problem, the_case.length_unit);
+  require_query_on_constraints(the_case.problem, the_case.units.length);
 }
+
+namespace {
+
+/// Extrapolates from an atlas that grew by `grown` charts in `seconds`. A chart costs more the more there are: about as
+/// the logarithm of their number.
+GrowthEstimate estimated(const Case& the_case, const Planner& planner, int grown, double seconds) {
+  const auto charts = static_cast<double>(planner.atlas().size());
+  const auto most = static_cast<double>(the_case.planner.max_charts);
+  const double per_chart = seconds / std::max(1, grown) * std::log2(std::max(2.0, most)) / std::log2(charts + 2);
+  const double bytes_per_chart = static_cast<double>(planner.atlas_bytes().size()) / charts;
+  return {the_case.planner.max_charts, std::max(0.0, most - charts) * per_chart, most * bytes_per_chart};
+}
+
+Growth grow(const Case& the_case, Planner& planner, const PlannedCaseOptions& options, const Progress& progress,
+            const std::stop_token& stop) {
+  constexpr double kTrySeconds = 0.2;
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const int before = planner.atlas().size();
+  const TimeBudget budget(options.grow_seconds, stop);
+  Growth growth;
+  bool is_announced = !options.announce_growth;
+  const bool is_whole = planner.grow_atlas(
+      [&](const PlanProgress& at) {
+        ++growth.complete_charts;
+        if (!is_announced && seconds() > kTrySeconds && at.charts > before) {
+          is_announced = true;
+          options.announce_growth(estimated(the_case, planner, at.charts - before, seconds()));
+        }
+        if (progress) progress(at);
+      },
+      budget.token());
+  growth.charts = planner.atlas().size();
+  // Each call came before a chart was tried; the last of a growth that ended early was not.
+  growth.complete_charts = is_whole ? growth.charts : std::max(0, growth.complete_charts - 1);
+  growth.seconds = seconds();
+  growth.time_is_up = !is_whole && budget.token().stop_requested() && !stop.stop_requested();
+  return growth;
+}
+
+}  // namespace
 
 PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                       const Progress& progress, const std::stop_token& stop) {
   PlannedCase result;
   result.plan = planner.plan(progress, stop);
-  if (options.grow) result.whole_atlas = planner.grow_atlas(progress, stop);
+  if (options.grow) result.growth = grow(the_case, planner, options, progress, stop);
   const Plan& plan = result.plan;
   nlohmann::json illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
+  illustration["units"] = to_json(the_case.units);
   if (plan.proof.verdict == Verdict::kProved && the_case.problem.tolerances) {
     result.tolerance_limits = tolerance_limits(the_case.problem, plan.path, stop);
     illustration["tolerance_limits"] = to_json(result.tolerance_limits);

@@ -2,6 +2,8 @@
 // Plans a case, and has the checker prove the certificate of the plan.
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -18,18 +20,37 @@ namespace taut {
 /// @throws InputError where there is not.
 void require_plannable(const Case& the_case);
 
+/// What growing an atlas to the case's max_charts may cost, from the first charts; it may end before.
+struct GrowthEstimate {
+  int most_charts = 0;
+  double seconds = 0;
+  double file_bytes = 0;
+};
+
+/// What growing an atlas came to. A chart is complete if everything around it was looked at.
+struct Growth {
+  int charts = 0;
+  int complete_charts = 0;
+  double seconds = 0;
+  bool time_is_up = false;
+  [[nodiscard]] bool is_whole() const { return charts > 0 && complete_charts == charts; }
+};
+
 struct PlannedCase {
   Plan plan;
-  bool whole_atlas = false;                      ///< whether the atlas was grown until nothing was left
+  std::optional<Growth> growth;                  ///< where it was asked for
   std::vector<ToleranceLimit> tolerance_limits;  ///< where the path is proved and the case states tolerances
   std::string text;                              ///< of certificate.json
   checker::CheckResult checked;                  ///< what the checker says of it: the verdict
 };
 
 struct PlannedCaseOptions {
-  bool grow = false;                   ///< the atlas, before it is drawn and stored
-  const SigningKey* key = nullptr;     ///< null: the certificate is not signed
-  double max_seconds = kCheckSeconds;  ///< that the checker may take
+  bool grow = false;                                              ///< the atlas, before it is drawn and stored
+  const SigningKey* key = nullptr;                                ///< null: the certificate is not signed
+  double max_seconds = kCheckSeconds;                             ///< that the checker may take
+  double grow_seconds = std::numeric_limits<double>::infinity();  ///< that growing the atlas may take
+  /// Called once while the atlas grows, unless that ends at once.
+  std::function<void(const GrowthEstimate&)> announce_growth{};
 };
 
 /// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it

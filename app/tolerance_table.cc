@@ -18,19 +18,18 @@ const char* unit(ToleranceKind kind) {
   }
 }
 
-/// The units that people read: millimetres and degrees.
+/// The units that people read.
 struct Shown {
-  const char* unit;
+  std::string unit;
   double factor;  ///< from SI
 };
 
-Shown shown(ToleranceKind kind) {
-  constexpr double kMillimetres = 1000;
+Shown shown(ToleranceKind kind, const DisplayUnits& units) {
   constexpr double kDegrees = 57.295779513082320;  // 180/π, to within an ulp
   switch (kind) {
     case ToleranceKind::kLoad: return {unit(kind), 1};
-    case ToleranceKind::kOrientation: return {"deg", kDegrees};
-    default: return {"mm", kMillimetres};
+    case ToleranceKind::kOrientation: return {units.in_degrees ? "deg" : "rad", units.in_degrees ? kDegrees : 1};
+    default: return {units.length.name(), units.length.approx(1)};
   }
 }
 
@@ -45,12 +44,12 @@ std::string below(double x) {
 
 }  // namespace
 
-std::string tolerance_table(const std::vector<ToleranceLimit>& limits) {
+std::string tolerance_table(const std::vector<ToleranceLimit>& limits, const DisplayUnits& units) {
   if (limits.empty()) return "";
   std::string lines = "Tolerances, and how far each could grow alone with the path still proved:\n";
   for (const ToleranceLimit& limit : limits) {
     constexpr double kBelow = 1 - 1e-15;  // for the rounding of the factor and of the products
-    const auto [unit, factor] = shown(limit.kind);
+    const auto [unit, factor] = shown(limit.kind, units);
     lines += fmt::format("  {:<17} {:>10.4g}  up to {:>8} {}\n", name(limit.kind), factor * limit.stated,
                          below(kBelow * factor * limit.proved), unit);
   }

@@ -82,7 +82,7 @@ class WrenchFeasibleManifold final : public Manifold {
     for (int i = 0; i < 3; ++i) put(r_WP(i, 0), std::sqrt(0.5));
     for (int i = 0; i < 3; ++i) put(r_WP(i, 1), std::sqrt(0.5));
     for (int j = 0; j < m_; ++j) put_parameter(j, parameters[static_cast<std::size_t>(j)], put);
-    if (!put_slacks(geometry, put)) return false;
+    if (!put_slacks(r_WP, geometry, put)) return false;
     return orthonormalise(frame);
   }
 
@@ -145,56 +145,23 @@ class WrenchFeasibleManifold final : public Manifold {
     }
   }
 
+  using Cables = std::array<Jet<double, N>, kCables>;
+  struct Densities {
+    Cables nominal, below, above;  ///< [N/m]
+  };
+
   /// The κ log of the slack variables and their derivatives; false where a margin is within the clearance or D is
   /// singular.
   template <class Put>
-  bool put_slacks(const CableGeometry<Jet<double, N>>& geometry, Put&& put) const {
+  bool put_slacks(const Matrix3<Jet<double, N>>& r_WP, const CableGeometry<Jet<double, N>>& geometry, Put&& put) const {
     using J = Jet<double, N>;
-    std::array<J, kCables> lengths;
+    Cables lengths;
     for (std::size_t i = 0; i < kCables; ++i) {
       lengths[i] = length(geometry.p_AB_W[i]);
       if (!(model_.length_lower[i] < lengths[i].value && lengths[i].value < model_.length_upper[i])) return false;
     }
-    Matrix6<double> d;
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) d(i, j) = geometry.force_density(i, j).value;
-    }
-    Matrix6<double> y;
-    double determinant = 0;
-    if (!invert(d, y, determinant)) return false;
-    const Vector6<double> density = y * model_.wrench;
-    Matrix6<double> z;
-    if (model_.ellipsoid_is_diagonal) {
-      z.noalias() = y * model_.ellipsoid_root.diagonal().asDiagonal();
-    } else {
-      z.noalias() = y * model_.ellipsoid_root;
-    }
-    const Matrix6<double> zz = z * z.transpose();
-    std::array<J, kCables> densities;  // λ_i
-    std::array<J, kCables> radii;      // |z_i| = v_ii / d_i
-    for (int i = 0; i < kCables; ++i) {
-      const auto c = static_cast<std::size_t>(i);
-      densities[c].value = density[i];
-      radii[c].value = std::sqrt(zz(i, i));
-      const double margin_low = lengths[c].value * (density[i] - radii[c].value) - model_.tension_lower[c];
-      const double margin_high = model_.tension_upper[c] - lengths[c].value * (density[i] + radii[c].value);
-      if (!(margin_low > 0 && margin_high > 0)) return false;
-    }
-    for (std::size_t k = 0; k < N; ++k) {
-      if (static_cast<int>(k) >= n_) break;
-      // λ' = −Y D' λ and |z_i|' = z_i·z_i'/|z_i| with Z' = −Y D' Z.
-      Matrix6<double> slope;
-      for (int i = 0; i < 6; ++i) {
-        for (int j = 0; j < 6; ++j) slope(i, j) = geometry.force_density(i, j).partial[k];
-      }
-      const Matrix6<double> m = y * slope;
-      const Vector6<double> density_slope = m * density;
-      for (int i = 0; i < kCables; ++i) {
-        const auto c = static_cast<std::size_t>(i);
-        densities[c].partial[k] = -density_slope[i];
-        radii[c].partial[k] = -m.row(i).dot(zz.col(i)) / radii[c].value;
-      }
-    }
+    Densities densities;
+    if (!put_densities(r_WP, geometry, lengths, densities)) return false;
     bool clear = true;
     const auto put_margin = [&](const J& relative) {
       if (!(relative.value > weights_.clearance)) {
@@ -210,12 +177,109 @@ class WrenchFeasibleManifold final : public Manifold {
     }
     for (std::size_t i = 0; i < kCables && clear; ++i) {
       const double half = 0.5 * (model_.tension_upper[i] - model_.tension_lower[i]);
-      const J low = lengths[i] * (densities[i] - radii[i]) - model_.tension_lower[i];
-      const J high = -(lengths[i] * (densities[i] + radii[i])) + model_.tension_upper[i];
+      const J low = lengths[i] * (densities.nominal[i] - densities.below[i]) - model_.tension_lower[i];
+      const J high = -(lengths[i] * (densities.nominal[i] + densities.above[i])) + model_.tension_upper[i];
       put_margin(low * (1.0 / half));
       if (clear) put_margin(high * (1.0 / half));
     }
     return clear;
+  }
+
+  /// Derivatives are computed where tensions are within their limits; false where they are not, or D is singular.
+  bool put_densities(const Matrix3<Jet<double, N>>& r_WP, const CableGeometry<Jet<double, N>>& geometry,
+                     const Cables& lengths, Densities& densities) const {
+    Matrix6<double> d;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) d(i, j) = geometry.force_density(i, j).value;
+    }
+    Matrix6<double> y;
+    double determinant = 0;
+    if (!invert(d, y, determinant)) return false;
+    if (!model_.loads.empty()) return put_item_densities(r_WP, geometry, y, lengths, densities);
+    const Vector6<double> density = y * model_.wrench;
+    const Matrix6<double> z = ellipsoid_rows(y);
+    const Matrix6<double> zz = z * z.transpose();
+    for (int i = 0; i < kCables; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      densities.nominal[c].value = density[i];
+      densities.above[c].value = std::sqrt(zz(i, i));  // |z_i| = v_ii / d_i
+      densities.below[c].value = densities.above[c].value;
+    }
+    if (!are_within_limits(lengths, densities)) return false;
+    for (std::size_t k = 0; k < N; ++k) {
+      if (static_cast<int>(k) >= n_) break;
+      // λ' = −Y D' λ and |z_i|' = z_i·z_i'/|z_i| with Z' = −Y D' Z.
+      const Matrix6<double> m = y * slope(geometry, k);
+      const Vector6<double> density_slope = m * density;
+      for (int i = 0; i < kCables; ++i) {
+        const auto c = static_cast<std::size_t>(i);
+        densities.nominal[c].partial[k] = -density_slope[i];
+        densities.above[c].partial[k] = -m.row(i).dot(zz.col(i)) / densities.above[c].value;
+        densities.below[c].partial[k] = densities.above[c].partial[k];
+      }
+    }
+    return true;
+  }
+
+  /// Where K is a sum of items, with or without an ellipsoid: from the jets of Y' = −Y D' Y.
+  bool put_item_densities(const Matrix3<Jet<double, N>>& r_WP, const CableGeometry<Jet<double, N>>& geometry,
+                          const Matrix6<double>& y, const Cables& lengths, Densities& densities) const {
+    using J = Jet<double, N>;
+    Matrix6<J> inverse;
+    for (int i = 0; i < 36; ++i) inverse(i) = J(y(i));
+    for (std::size_t k = 0; k < N; ++k) {
+      if (static_cast<int>(k) >= n_) break;
+      const Matrix6<double> change = y * slope(geometry, k) * y;
+      for (int i = 0; i < 36; ++i) inverse(i).partial[k] = -change(i);
+    }
+    const LoadsAtPose<J> loads = loads_at(model_.loads, r_WP);
+    for (int i = 0; i < kCables; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      const Vector6<J> row = inverse.row(i).transpose();
+      J nominal(0.0);
+      for (int j = 0; j < 6; ++j) nominal = nominal + row(j) * (loads.nominal(j) + model_.wrench(j));
+      J radius(0.0);
+      for (int j = 0; model_.has_ellipsoid && j < 6; ++j) {
+        J entry = row(0) * model_.ellipsoid_root(0, j);
+        for (int l = 1; l <= j; ++l) entry = entry + row(l) * model_.ellipsoid_root(l, j);
+        radius = radius + sqr(entry);
+      }
+      if (model_.has_ellipsoid) radius = sqrt(radius);
+      const DensityRange<J> range = density_range(model_.loads, loads, row);
+      densities.nominal[c] = nominal;
+      densities.below[c] = radius + range.below;
+      densities.above[c] = radius + range.above;
+    }
+    return are_within_limits(lengths, densities);
+  }
+
+  [[nodiscard]] bool are_within_limits(const Cables& lengths, const Densities& densities) const {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const double length = lengths[i].value;
+      const double nominal = densities.nominal[i].value;
+      const double low = length * (nominal - densities.below[i].value) - model_.tension_lower[i];
+      const double high = model_.tension_upper[i] - length * (nominal + densities.above[i].value);
+      if (!(low > 0 && high > 0)) return false;
+    }
+    return true;
+  }
+
+  /// Y L.
+  [[nodiscard]] Matrix6<double> ellipsoid_rows(const Matrix6<double>& y) const {
+    Matrix6<double> z;
+    if (model_.ellipsoid_is_diagonal) {
+      z.noalias() = y * model_.ellipsoid_root.diagonal().asDiagonal();
+    } else {
+      z.noalias() = y * model_.ellipsoid_root;
+    }
+    return z;
+  }
+
+  /// The derivative of D in the k-th direction.
+  static Matrix6<double> slope(const CableGeometry<Jet<double, N>>& geometry, std::size_t k) {
+    Matrix6<double> result;
+    for (int i = 0; i < 36; ++i) result(i) = geometry.force_density(i).partial[k];
+    return result;
   }
 
   /// Gram–Schmidt on the columns of dx/dv = Φ T, where v are coordinates along the columns of the lift L. Replaces L by

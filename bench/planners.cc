@@ -97,8 +97,8 @@ class Poses {
     const Statics<double> at = statics(model_, evaluate_pose(pose_, q));
     if (!at.regular) return false;
     for (std::size_t i = 0; i < kCables; ++i) {
-      const double low = at.tension[i] - at.tension_radius[i];
-      const double high = at.tension[i] + at.tension_radius[i];
+      const double low = at.tension[i] - at.tension_below[i];
+      const double high = at.tension[i] + at.tension_above[i];
       if (!(model_.tension_lower[i] < low && high < model_.tension_upper[i] && model_.length_lower[i] < at.length[i] &&
             at.length[i] < model_.length_upper[i])) {
         return false;

@@ -45,8 +45,8 @@ class Sampler {
     if (!at.regular) return -1;
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < kCables; ++i) {
-      least = std::min({least, at.tension[i] - at.tension_radius[i] - model_.tension_lower[i],
-                        model_.tension_upper[i] - at.tension[i] - at.tension_radius[i],
+      least = std::min({least, at.tension[i] - at.tension_below[i] - model_.tension_lower[i],
+                        model_.tension_upper[i] - at.tension[i] - at.tension_above[i],
                         at.length[i] - model_.length_lower[i], model_.length_upper[i] - at.length[i]});
     }
     return least;

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <numeric>
 #include <optional>
 #include <regex>
 #include <set>
@@ -20,6 +19,8 @@
 
 #include "base/input_error.h"
 #include "base/sanitize.h"
+#include "case/fields.h"
+#include "case/load.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
 #include "problem/units.h"
@@ -27,299 +28,9 @@
 namespace taut {
 namespace {
 
+using namespace case_fields;
+
 constexpr std::size_t kMaxFileBytes = 1 << 20;  // a case has about a page; a much larger file is a mistake
-
-// --- Fields: nodes of the file that know their place ---------------------------------------------------------------
-
-bool is_list_of_scalars(const YAML::Node& node) {
-  return node.IsSequence() && node.size() <= 6 &&
-         std::all_of(node.begin(), node.end(), [](const YAML::Node& item) { return item.IsScalar(); });
-}
-
-std::string describe(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + excerpt(node.Scalar()) + "'";
-  if (node.IsMap()) return "a map";
-  if (is_list_of_scalars(node)) {
-    std::string items;
-    for (const YAML::Node& item : node) items += (items.empty() ? "" : ", ") + excerpt(item.Scalar());
-    return "[" + items + "]";
-  }
-  return node.IsSequence() ? fmt::format("a list of {}", node.size()) : "nothing";
-}
-
-/// The file's name and the places of its fields.
-class Places {
- public:
-  explicit Places(std::string file) : file_(std::move(file)) {}
-
-  void remember(const std::string& path, const YAML::Node& node) {
-    nodes_.erase(path);  // assignment of YAML nodes would alter the tree
-    nodes_.emplace(path, node);
-  }
-
-  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& path, const std::string& message) const {
-    const std::string place = mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
-    throw InputError(
-        path.empty() ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, path, message),
-        {file_, mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1, path});
-  }
-
-  /// Reports the error at the place of the problem's field, or of the closest field around it.
-  [[noreturn]] void fail(const FieldError& error) const {
-    std::string path = error.field();
-    if (path.starts_with("space.")) {
-      const std::string on_surface = "space.surface" + path.substr(std::string("space").size());
-      if (nodes_.contains(on_surface)) path = on_surface;
-    }
-    const std::string constraints = "space.constraints";
-    if (path.starts_with(constraints)) path.replace(0, constraints.size(), "space.implicit");
-    std::string known = path;
-    while (!known.empty() && !nodes_.contains(known)) {
-      known.erase(std::min(known.find_last_of(".["), known.size() - 1));
-    }
-    const auto node = nodes_.find(known);
-    std::string seen = error.seen();
-    if (!seen.empty() && known == path && (node->second.IsScalar() || is_list_of_scalars(node->second))) {
-      seen = describe(node->second);
-    }
-    fail(node == nodes_.end() ? YAML::Mark::null_mark() : node->second.Mark(), path,
-         seen.empty() ? error.expected() : fmt::format("got {}, {}", seen, error.expected()));
-  }
-
- private:
-  std::string file_;
-  std::map<std::string, YAML::Node> nodes_;
-};
-
-class Map;
-
-class Field {
- public:
-  Field(Places& places, const YAML::Node& node, std::string path)
-      : places_(&places), node_(node), path_(std::move(path)) {
-    places_->remember(path_, node_);
-  }
-
-  [[nodiscard]] const YAML::Node& node() const { return node_; }
-  [[nodiscard]] const std::string& path() const { return path_; }
-
-  [[noreturn]] void fail(const std::string& expected) const {
-    complain(fmt::format("got {}, expected {}", describe(node_), expected));
-  }
-  [[noreturn]] void complain(const std::string& message) const { places_->fail(node_.Mark(), path_, message); }
-  /// Makes the field known under another path of the problem, too.
-  void remember_as(const std::string& path) const { places_->remember(path, node_); }
-
-  [[nodiscard]] std::string text(const std::string& expected) const {
-    if (!node_.IsScalar() || node_.Scalar().empty()) fail(expected);
-    return node_.Scalar();
-  }
-
-  [[nodiscard]] std::vector<Field> list(const std::string& expected) const {
-    if (!node_.IsSequence()) fail(expected);
-    std::vector<Field> items;
-    for (const YAML::Node& item : node_) items.emplace_back(*places_, item, fmt::format("{}[{}]", path_, items.size()));
-    return items;
-  }
-  [[nodiscard]] std::vector<Field> list(std::size_t size, const std::string& expected) const {
-    if (!node_.IsSequence() || node_.size() != size) fail(expected);
-    return list(expected);
-  }
-
-  /// A map with any keys.
-  [[nodiscard]] Map open_map(const std::string& expected) const;
-  /// A map that has no other keys than `keys`.
-  [[nodiscard]] Map map(const std::vector<std::string>& keys) const;
-  /// `hint` may say what an unknown key is: text that ends with a space.
-  [[nodiscard]] Map map(const std::vector<std::string>& keys,
-                        const std::function<std::string(const std::string& key)>& hint) const;
-
- private:
-  Places* places_;
-  YAML::Node node_;
-  std::string path_;
-};
-
-std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
-
-class Map {
- public:
-  Map(Field field, std::vector<std::pair<std::string, Field>> entries)
-      : field_(std::move(field)), entries_(std::move(entries)) {}
-
-  [[nodiscard]] const Field& field() const { return field_; }
-  [[nodiscard]] const std::vector<std::pair<std::string, Field>>& entries() const& { return entries_; }
-  void entries() && = delete;  // would dangle
-
-  [[nodiscard]] std::optional<Field> find(const std::string& key) const {
-    for (const auto& [name, field] : entries_) {
-      if (name == key) return field;
-    }
-    return std::nullopt;
-  }
-  [[nodiscard]] Field at(const std::string& key) const {
-    if (const auto field = find(key)) return *field;
-    field_.complain(fmt::format("got no '{0}', expected the key '{0}'", key));
-  }
-
- private:
-  Field field_;
-  std::vector<std::pair<std::string, Field>> entries_;
-};
-
-Map Field::open_map(const std::string& expected) const {
-  if (!node_.IsMap()) fail(expected);
-  std::vector<std::pair<std::string, Field>> entries;
-  std::set<std::string> seen;
-  for (const auto& entry : node_) {
-    if (!entry.first.IsScalar()) places_->fail(entry.first.Mark(), path_, "got a compound key, expected a word");
-    const std::string& key = entry.first.Scalar();
-    if (!seen.insert(key).second) {
-      places_->fail(entry.first.Mark(), path_, fmt::format("got '{}' twice, expected each key once", excerpt(key)));
-    }
-    entries.emplace_back(key, Field(*places_, entry.second, path_.empty() ? key : path_ + "." + key));
-  }
-  return {*this, std::move(entries)};
-}
-
-/// Number of insertions, deletions and replacements that turn one word into the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
-}
-
-Map Field::map(const std::vector<std::string>& keys) const { return map(keys, {}); }
-
-Map Field::map(const std::vector<std::string>& keys,
-               const std::function<std::string(const std::string& key)>& hint_for) const {
-  Map result = open_map("a map with the keys " + join(keys));
-  for (const auto& entry : node_) {
-    const std::string& key = entry.first.Scalar();
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    const std::string shown = excerpt(key);
-    const std::string& nearest = *std::min_element(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(a, shown) < edit_distance(b, shown);
-    });
-    constexpr std::size_t kTypingSlip = 3;
-    std::string hint = hint_for ? hint_for(key) : "";
-    if (hint.empty() && edit_distance(nearest, shown) <= kTypingSlip) {
-      hint = fmt::format("did you mean '{}'? ", nearest);
-    }
-    places_->fail(entry.first.Mark(), path_,
-                  fmt::format("got the unknown key '{}', {}expected {}", shown, hint, join(keys)));
-  }
-  return result;
-}
-
-// --- Values --------------------------------------------------------------------------------------------------------
-
-/// Calls `read`; an InputError ("got …, expected …") that it throws is reported at the field.
-template <class Read>
-auto in_field(const Field& field, Read read) {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    field.complain(message.starts_with("got ")
-                       ? fmt::format("got {}{}", describe(field.node()), message.substr(message.rfind(", expected")))
-                       : message);
-  }
-}
-
-Decimal read_decimal(const Field& field) {
-  const std::string text = field.text("a decimal number such as 0.05 or 1e-4");
-  return in_field(field, [&] { return Decimal::parse(text); });
-}
-
-/// The value that the field names.
-template <class T>
-T read_choice(const Field& field, const std::vector<std::pair<std::string, T>>& choices) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : choices) names.push_back(name);
-  const std::string expected = "one of " + join(names);
-  const std::string text = field.text(expected);
-  for (const auto& [name, value] : choices) {
-    if (name == text) return value;
-  }
-  field.fail(expected);
-}
-
-/// The units of bare numbers.
-class Units {
- public:
-  Units() = default;
-  explicit Units(const Map& map) {
-    for (std::size_t i = 0; i < units_.size(); ++i) {
-      const auto dimension = static_cast<Dimension>(i);
-      const auto field = map.find(dimension_name(dimension));
-      if (!field) continue;
-      const std::string expected = "one of " + unit_names(dimension);
-      const auto unit = find_unit(field->text(expected));
-      if (!unit || unit->dimension != dimension) field->fail(expected);
-      units_[i] = *unit;
-    }
-  }
-  [[nodiscard]] const Unit& operator[](Dimension dimension) const {
-    return units_[static_cast<std::size_t>(dimension)];
-  }
-
- private:
-  std::array<Unit, 5> units_ = {si_unit(Dimension::kLength), si_unit(Dimension::kForce), si_unit(Dimension::kMoment),
-                                si_unit(Dimension::kMass), si_unit(Dimension::kAngle)};
-};
-
-/// The field's text without its unit, and the unit, which is `bare` if the text has none.
-std::pair<std::string, Unit> read_with_unit(const Field& field, const Unit& bare, const std::string& expected) {
-  auto [value, unit] = split_unit(field.text(expected));
-  if (unit && unit->dimension != bare.dimension) field.fail(expected);
-  return {value, unit.value_or(bare)};
-}
-
-/// A decimal in SI, such as "350 mm" → "0.35".
-DecimalText read_quantity(const Field& field, const Unit& bare) {
-  const std::string expected = fmt::format("a {}: a decimal number, bare ({}) or with one of the units {}",
-                                           dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
-  const auto [value, unit] = read_with_unit(field, bare, expected);
-  if (value.find(' ') != std::string::npos) field.fail(expected);  // an unknown unit, or more than one number
-  return in_field(field, [&, v = value, u = unit] { return decimal_to_si(v, u); });
-}
-
-bool is_decimal(const std::string& text) {
-  try {
-    static_cast<void>(Decimal::parse(text));
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-/// The names that an expression may mention.
-struct Names {
-  std::vector<std::string> parameters;
-  std::map<std::string, DecimalText> constants;
-};
-
-/// An expression in SI: "zs - rs*sin(alpha2)" → "(zs - rs*sin(alpha2))*0.001".
-ExpressionText read_expression(const Field& field, const Unit& bare, const Names& names) {
-  const std::string expected =
-      fmt::format("a number or {}expression, bare ({}) or with one of the units {}",
-                  names.parameters.empty() ? "constant " : "", bare.name, unit_names(bare.dimension));
-  const auto [value, unit] = read_with_unit(field, bare, expected);
-  return in_field(field, [&, v = value, u = unit]() -> ExpressionText {
-    if (is_decimal(v)) return decimal_to_si(v, u);
-    static_cast<void>(
-        ExpressionTape({v}, names.parameters, names.constants));  // its complaints are about what was typed
-    return expression_to_si(v, u);
-  });
-}
 
 // --- Sections ------------------------------------------------------------------------------------------------------
 
@@ -358,113 +69,39 @@ RobotText read_robot(const Field& field, const Units& units) {
           .length_m = read_limits(map.at("length"), units[Dimension::kLength])};
 }
 
-/// A wrench's unit: forces first, then moments.
-const Unit& wrench_unit(const Units& units, std::size_t i) {
-  return units[i < 3 ? Dimension::kForce : Dimension::kMoment];
-}
-
-std::array<DecimalText, 6> read_wrench(const Map& load, const Units& units) {
-  std::array<DecimalText, 6> wrench;
-  const auto typed = load.find("wrench");
-  const auto mass_field = load.find("mass");
-  if (typed.has_value() == mass_field.has_value()) {
-    load.field().complain(
-        fmt::format("got {} of 'wrench' and 'mass', expected one of them", typed ? "both" : "neither"));
-  }
-  if (typed) {
-    if (const auto gravity = load.find("gravity")) gravity->fail("'gravity' only together with 'mass'");
-    const std::vector<Field> entries = typed->list(6, "a list of three forces and three moments");
-    for (std::size_t i = 0; i < 6; ++i) wrench[i] = read_quantity(entries[i], wrench_unit(units, i));
-    return wrench;
-  }
-  const Decimal mass = Decimal::parse(read_quantity(*mass_field, units[Dimension::kMass]));
-  if (mass.sign() <= 0) mass_field->fail("a mass above zero");
-  const std::vector<Field> gravity = load.at("gravity").list(3, "a list of three accelerations in m/s^2");
-  for (std::size_t k = 0; k < 3; ++k) {
-    wrench[k] = in_field(gravity[k], [&] { return (mass * read_decimal(gravity[k])).text(); });
-    wrench[k + 3] = "0";
-  }
-  return wrench;
-}
-
-std::array<std::array<DecimalText, 6>, 6> read_ellipsoid(const Field& field, const Units& units) {
-  std::array<std::array<DecimalText, 6>, 6> ellipsoid;
-  const auto read_entry = [&](const Field& entry, std::size_t i, std::size_t j) {
-    const Decimal per_i = wrench_unit(units, i).factor.reciprocal_of_power_of_ten();
-    const Decimal per_j = wrench_unit(units, j).factor.reciprocal_of_power_of_ten();
-    const Decimal value = read_decimal(entry);
-    return in_field(entry, [&] { return (value * per_i * per_j).text(); });
-  };
-  const Map map = field.map({"diagonal", "matrix"});
-  if (map.entries().size() != 1)
-    field.complain(fmt::format("got {} keys, expected either 'diagonal' or 'matrix'", map.entries().size()));
-  if (const auto diagonal = map.find("diagonal")) {
-    const std::vector<Field> entries = diagonal->list(6, "a list of six numbers");
-    for (auto& row : ellipsoid) row.fill("0");
-    for (std::size_t i = 0; i < 6; ++i) ellipsoid[i][i] = read_entry(entries[i], i, i);
-    return ellipsoid;
-  }
-  const std::vector<Field> rows = map.at("matrix").list(6, "a list of six rows");
-  for (std::size_t i = 0; i < 6; ++i) {
-    const std::vector<Field> entries = rows[i].list(6, "a row of six numbers");
-    for (std::size_t j = 0; j < 6; ++j) ellipsoid[i][j] = read_entry(entries[j], i, j);
-  }
-  return ellipsoid;
-}
-
-LoadText read_load(const Field& field, const Units& units) {
-  const Map map = field.map({"point", "wrench", "mass", "gravity", "ellipsoid"});
-  LoadText load;
-  load.point_m.fill("0");
-  if (const auto point = map.find("point")) {
-    const std::vector<Field> coordinates = point->list(3, "a point: a list of three lengths");
-    for (std::size_t k = 0; k < 3; ++k) load.point_m[k] = read_quantity(coordinates[k], units[Dimension::kLength]);
-  }
-  load.wrench = read_wrench(map, units);
-  load.ellipsoid = read_ellipsoid(map.at("ellipsoid"), units);
-  return load;
-}
-
 /// Reads one quantity for all six cables, or six quantities.
 std::array<DecimalText, kCables> read_for_each_cable(const Field& field, const Unit& unit) {
+  const bool is_one = field.node().IsScalar();
+  const std::vector<Field> entries =
+      is_one ? std::vector<Field>(kCables, field) : field.list(kCables, "a quantity, or six of them");
+  // Problems speak of base_anchors and platform_anchors, which cases may write without the s.
+  const std::string path = field.path() + (field.path().ends_with("anchor") ? "s" : "");
   std::array<DecimalText, kCables> result;
-  if (field.node().IsScalar()) {
-    result.fill(read_quantity(field, unit));
-    for (std::size_t i = 0; i < kCables; ++i) field.remember_as(fmt::format("{}[{}]", field.path(), i));
-    return result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result[i] = read_quantity(entries[i], unit);
+    entries[i].remember_as(fmt::format("{}[{}]", path, i));
   }
-  const std::vector<Field> entries = field.list(kCables, "a quantity, or six of them");
-  for (std::size_t i = 0; i < kCables; ++i) result[i] = read_quantity(entries[i], unit);
   return result;
 }
 
-/// Reads the tolerance of the wrench w0, which is given as a tolerance of the mass or of the wrench itself.
-void read_load_tolerance(const Map& map, const Field& load, const Units& units, TolerancesText& tolerances) {
-  const auto mass = map.find("mass");
-  const auto wrench = map.find("wrench");
-  if (mass && wrench) map.field().complain("got both of 'mass' and 'wrench', expected one of them");
-  if (wrench) {
-    const std::vector<Field> entries = wrench->list(6, "a list of three forces and three moments");
-    for (std::size_t i = 0; i < 6; ++i) tolerances.wrench[i] = read_quantity(entries[i], wrench_unit(units, i));
-  }
-  if (!mass) return;
-  const auto gravity = load.map({"point", "wrench", "mass", "gravity", "ellipsoid"}).find("gravity");
-  if (!gravity) mass->fail("a tolerance of the mass only where 'load' has 'mass' and 'gravity'; else use 'wrench'");
-  const Decimal amount = Decimal::parse(read_quantity(*mass, units[Dimension::kMass]));
-  if (amount.sign() < 0) mass->fail("a tolerance >= 0");
-  const std::vector<Field> acceleration = gravity->list(3, "a list of three accelerations in m/s^2");
-  for (std::size_t k = 0; k < 3; ++k) {
-    tolerances.wrench[k] = in_field(acceleration[k], [&] { return (amount * read_decimal(acceleration[k])).text(); });
-  }
+/// The entry under either of two names of one key.
+std::optional<Field> find_either(const Map& map, const std::string& one, const std::string& other) {
+  const auto first = map.find(one), second = map.find(other);
+  if (first && second) second->complain(fmt::format("got both of '{}' and '{}', expected one of them", one, other));
+  return first ? first : second;
 }
 
 TolerancesText read_tolerances(const Field& field, const Field& load, const Units& units) {
-  const Map map = field.map(
-      {"base_anchors", "platform_anchors", "load_point", "mass", "wrench", "position", "orientation", "cable_length"});
+  const Map map = field.map({"base_anchor", "platform_anchor", "load_point", "mass", "wrench", "position",
+                             "orientation", "cable_length", "base_anchors", "platform_anchors"});
   const Unit& length = units[Dimension::kLength];
   TolerancesText result;
-  if (const auto entry = map.find("base_anchors")) result.base_anchor_m = read_for_each_cable(*entry, length);
-  if (const auto entry = map.find("platform_anchors")) result.platform_anchor_m = read_for_each_cable(*entry, length);
+  if (const auto entry = find_either(map, "base_anchor", "base_anchors")) {
+    result.base_anchor_m = read_for_each_cable(*entry, length);
+  }
+  if (const auto entry = find_either(map, "platform_anchor", "platform_anchors")) {
+    result.platform_anchor_m = read_for_each_cable(*entry, length);
+  }
   if (const auto entry = map.find("load_point")) result.load_point_m = read_quantity(*entry, length);
   read_load_tolerance(map, load, units, result);
   if (const auto entry = map.find("position")) result.position_m = read_quantity(*entry, length);
@@ -832,16 +469,13 @@ void read_expectation(const Field& field, const Units& units, Case& result) {
 }
 
 AuditedPath read_audited_path(const Field& field) {
-  const Map map = field.map({"path", "interpolation", "allow_repeats"});
+  const Map map = field.map({"path", "interpolation"});
   AuditedPath result;
   result.file = map.at("path").text("the name of a path file, seen from the case file");
   if (const auto law = map.find("interpolation")) {
     const std::vector<std::string> laws = {"straight", "geodesic", "cable-lengths"};
     result.interpolation = law->text("one of " + join(laws));
     if (std::ranges::find(laws, result.interpolation) == laws.end()) law->fail("one of " + join(laws));
-  }
-  if (const auto allow = map.find("allow_repeats")) {
-    result.allow_repeats = read_choice<bool>(*allow, {{"true", true}, {"false", false}});
   }
   return result;
 }
@@ -862,16 +496,17 @@ Case read_case(const Field& root) {
     version.fail("1, the case format that this version reads");
   }
   Units units;
-  if (const auto field = map.find("units")) units = Units(field->map({"length", "force", "moment", "mass", "angle"}));
+  if (const auto field = map.find("units"))
+    units = Units(field->map({"length", "force", "moment", "mass", "angle", "time"}));
   Case result;
   result.problem.name = read_name(map.at("name"));
   result.problem.robot = read_robot(map.at("robot"), units);
-  result.problem.load = read_load(map.at("load"), units);
+  result.problem.load = read_load(map.at("load"), units, result.warnings);
   if (const auto field = map.find("tolerances")) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
   }
   result.problem.space = coordinate_space();
-  result.length_unit = units[Dimension::kLength];
+  result.units = units.all();
   const auto query = map.find("query");
   if (query || map.find("space")) {
     const Space space = read_space(map.at("space"), units);
@@ -895,6 +530,20 @@ void require_utf8(const std::string& text, const Places& places) {
   mark.column = static_cast<int>(utf8::distance(before.begin() + static_cast<std::ptrdiff_t>(line), before.end()));
   places.fail(mark, "",
               fmt::format("got the byte 0x{:02X}, expected UTF-8 text", static_cast<unsigned char>(text[wrong])));
+}
+
+/// Of text that is not YAML: names the first tab among the blanks that begin a line, which is what most often is wrong.
+void refuse_tabs(const std::string& text, const Places& places) {
+  YAML::Mark mark;
+  mark.line = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); ++mark.line) {
+    const std::size_t content = line.find_first_not_of(" \t\r");
+    const std::size_t tab = line.find('\t');
+    if (content == std::string::npos || line[content] == '#' || tab >= content) continue;
+    mark.column = static_cast<int>(tab);
+    places.fail(mark, "", "got a tab at the beginning of the line, expected blanks: YAML forbids tabs in indentation");
+  }
 }
 
 /// Ignores all events.
@@ -950,6 +599,7 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
   } catch (const FieldError& error) {
     places.fail(error);
   } catch (const YAML::Exception& error) {
+    refuse_tabs(text, places);
     places.fail(error.mark, "", fmt::format("got text that is not YAML ({}), expected a case file", error.msg));
   }
 }

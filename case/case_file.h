@@ -57,7 +57,6 @@ inline constexpr std::array<const char*, 10> kBoundQuantities = {
 struct AuditedPath {
   std::string file;           ///< relative to the case file
   std::string interpolation;  ///< empty: as the file suggests
-  bool allow_repeats = false;
 };
 
 /// A case file's content. The space is coordinate_space() if the file has none; a case without a query is for audits.
@@ -67,8 +66,10 @@ struct Case {
   Expectation expect = Expectation::kNone;
   std::vector<Bound> bounds;  ///< expected besides the verdict
   std::optional<AuditedPath> audit;
-  std::string description;                         ///< the file's leading comment block, for reports
-  Unit length_unit = si_unit(Dimension::kLength);  ///< of lengths typed without a unit, for messages
+  /// What may not be meant as it was typed, each with its place; for people, before a verdict.
+  std::vector<std::string> warnings;
+  std::string description;  ///< the file's leading comment block, for reports
+  CaseUnits units;          ///< of numbers typed without one, for messages and results
 };
 
 /// A further check of a case. It throws FieldError, to which the reader adds the place in the file.

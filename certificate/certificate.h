@@ -42,6 +42,9 @@ struct Witness {
   std::vector<checker::MotionBox> motion;     ///< boxes over which only the motion is shown
   std::vector<checker::InnerPose> way_poses;  ///< how a deviation is followed as it grows; none if it leads nowhere
   std::vector<checker::Box> way_boxes;        ///< likewise
+  /// One load of each item under which the limit is violated; none where the load is an ellipsoid alone, the limit one
+  /// of a length, or no load was found that can be written down.
+  std::optional<std::vector<checker::LoadChoice>> loads = std::nullopt;
 };
 
 /// A part of an audited path that is not proved. Next to it, the path is proved or ends.

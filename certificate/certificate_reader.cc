@@ -19,6 +19,7 @@
 #include "checker/format/strict_json.h"
 #include "checker/kernel/errors.h"
 #include "problem/decimal.h"
+#include "problem/rational.h"
 
 namespace taut {
 
@@ -284,6 +285,31 @@ std::optional<MarginKind> read_kind(const JsonCursor& kind) {
   kind.fail("one of singular, tension_min, tension_max, length_min, length_max");
 }
 
+mpq_class rational(const JsonCursor& value) {
+  try {
+    return mpq_class(parse_rational(value.text()).str());
+  } catch (const FieldError&) {
+    throw;
+  } catch (const InputError&) {  // names no place
+    value.fail("a decimal number, or a fraction a/b, in a string");
+  }
+}
+
+checker::ExactVector rational_vector(const JsonCursor& list) {
+  const std::vector<JsonCursor> elements = list.elements(3);
+  return {rational(elements[0]), rational(elements[1]), rational(elements[2])};
+}
+
+checker::LoadChoice read_load(const JsonCursor& load) {
+  if (load.contains("mass_kg")) {
+    return checker::WeightChoice{rational(load.at("mass_kg")), rational_vector(load.at("offset_m"))};
+  }
+  if (load.contains("vector")) return checker::VectorChoice{rational_vector(load.at("vector"))};
+  if (load.contains("amount")) return checker::AmountChoice{rational(load.at("amount"))};
+  constexpr std::int64_t kMostIndex = std::numeric_limits<int>::max();
+  return checker::CaseChoice{static_cast<std::size_t>(load.at("case").integer(0, kMostIndex))};
+}
+
 Witness read_witness(const JsonCursor& witness, const Path& path) {
   Witness result;
   PathWitness& violation = result.violation;
@@ -305,6 +331,10 @@ Witness read_witness(const JsonCursor& witness, const Path& path) {
   violation.value_upper = decimal(value[1]);
   violation.limit = decimal(witness.at("limit"));
   result.at_box = read_proof_at(witness.at("proof"), violation.at);
+  if (witness.contains("loads")) {
+    std::vector<checker::LoadChoice>& loads = result.loads.emplace();
+    for (const JsonCursor& load : witness.at("loads").elements()) loads.push_back(read_load(load));
+  }
   if (witness.contains("deviation")) {
     const JsonCursor deviation = witness.at("deviation");
     violation.deviation = std::make_shared<const Deviation>(read_deviation(deviation));

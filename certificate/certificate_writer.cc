@@ -13,6 +13,7 @@
 
 #include "base/input_error.h"
 #include "base/sha256.h"
+#include "certificate/worst_loads.h"
 #include "checker/format/claims.h"
 #include "checker/format/writer.h"
 
@@ -32,13 +33,10 @@ void append_hex_floats(std::string& text, std::span<const double> values) {
   text += ']';
 }
 
-const char* claim_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kProved: return checker::kProvedClaim;
-    case Verdict::kRefuted: return checker::kRefutedClaim;
-    case Verdict::kUndecided: break;
-  }
-  return checker::kUndecidedClaim;
+std::string claim_of(Verdict verdict, bool has_items) {
+  if (verdict == Verdict::kUndecided) return checker::kUndecidedClaim;
+  const std::string claim = verdict == Verdict::kProved ? checker::kProvedClaim : checker::kRefutedClaim;
+  return has_items ? claim + checker::kItemsClause : claim;
 }
 
 json hex_floats(std::span<const double> values) {
@@ -179,6 +177,7 @@ json to_json(const Witness& witness) {
   result["value"] = {violation.value_lower, violation.value_upper};
   result["limit"] = violation.limit;
   result["proof"] = checker::proof_to_json(witness.at_box);
+  if (witness.loads) result["loads"] = to_json(*witness.loads);
   if (violation.deviation) {
     checker::WitnessDeviation way;
     way.poses = witness.way_poses;
@@ -287,7 +286,7 @@ void CertificateWriter::emit_path(const Write& write) const {
 /// Writes all but the footer, the signature and the brace at the end.
 void CertificateWriter::emit(const Certificate& rest, const Write& write, const std::string& path_digest) const {
   const bool is_undecided = rest.verdict == Verdict::kUndecided;
-  write("{\"claim\":" + canonical(claim_of(rest.verdict)));
+  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_["load"].contains("items"))));
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical({{"name", "taut"}, {"version", TAUT_VERSION}}));
   write(",\"illustration\":" + canonical(rest.illustration));
   write(",\"margins\":" + canonical(rest.margins ? to_json(*rest.margins) : json::object()));

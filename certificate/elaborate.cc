@@ -9,10 +9,12 @@
 #include <limits>
 
 #include "certificate/implied_motion.h"
+#include "certificate/worst_loads.h"
 #include "certify/arithmetic/rounding.h"
 #include "checker/format/cursor.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
+#include "checker/kernel/deviant.h"
 #include "checker/near_waypoints.h"
 #include "checker/witness.h"
 
@@ -236,8 +238,10 @@ class Elaborator::Search {
       if (!place_deviation(witness, bits)) return false;
       const auto value =
           violating_value(witnessed_quantity(machine, elaborator_.problem_, path_, witness), found, bits);
-      if (value) std::tie(result.violation.value_lower, result.violation.value_upper) = *value;
-      return value.has_value();
+      if (!value) return false;
+      std::tie(result.violation.value_lower, result.violation.value_upper) = *value;
+      name_loads(machine, found, bits, witness, result);
+      return true;
     });
     if (!is_violated) return std::nullopt;
     result.at_box = witness.at_box;
@@ -249,6 +253,25 @@ class Elaborator::Search {
   }
 
  private:
+  /// For a violated limit of tension: states loads of the items under which it is violated, if these are found.
+  void name_loads(const checker::Machine& machine, const PathWitness& found, int bits, checker::Witness witness,
+                  Witness& result) const {
+    const checker::Problem& problem = elaborator_.problem_;
+    const bool is_least = found.margin.kind == MarginKind::kTensionMin;
+    if (problem.items.empty() || !(is_least || found.margin.kind == MarginKind::kTensionMax)) return;
+    try {
+      const checker::Geometry stated = commanded_geometry(machine, problem, path_, 0, witness.at_box);
+      const checker::Geometry there =
+          witness.deviation ? deviant(machine, problem, stated, *witness.deviation).geometry : stated;
+      witness.loads = worst_loads(problem, there, witness.cable, is_least);
+      const auto value = violating_value(witnessed_quantity(machine, problem, path_, witness), found, bits);
+      if (!value) return;
+      std::tie(result.violation.value_lower, result.violation.value_upper) = *value;
+      result.loads = std::move(witness.loads);
+    } catch (const checker::Undefined&) {
+    }
+  }
+
   /// A part of the segment that is still to be covered, and how the kernel is asked about it.
   struct Task {
     mpq_class begin, end;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
-#include "certify/arithmetic/neumann.h"
+#include "certify/inverse_bound.h"
 #include "certify/motion/length_controlled_motion.h"
 #include "kinematics/statics.h"
 
@@ -51,6 +51,7 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
   const PrecisionScope precision(kEllipsoidPrecision);
   Model<MpInterval> fine;
   set_ellipsoid(problem.load, fine);
+  model.has_ellipsoid = true;
   model.ellipsoid_is_diagonal = false;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
@@ -60,16 +61,6 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
   }
   return result;
 }
-
-namespace {
-
-/// row += factor * other, for an exact factor.
-template <class Point, class I>
-void add_multiple(std::array<I, 6>& row, const Point& factor, const std::array<I, 6>& other) {
-  for (std::size_t j = 0; j < 6; ++j) row[j] = row[j] + factor * other[j];
-}
-
-}  // namespace
 
 // ---- The box --------------------------------------------------------------------------------------------------------
 
@@ -95,13 +86,109 @@ template <class I>
 void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
   for (std::size_t i = 0; i < kCables; ++i) {
     const int cable = static_cast<int>(i);
-    box.low[i] = box.length[i] * (box.density[i] - box.tension_radius[i]);
-    box.high[i] = box.length[i] * (box.density[i] + box.tension_radius[i]);
+    box.low[i] = box.length[i] * (box.density[i] - box.below[i]);
+    box.high[i] = box.length[i] * (box.density[i] + box.above[i]);
     box.low[i].tighten(box.offset);
     box.high[i].tighten(box.offset);
     box.margins.add({MarginKind::kTensionMin, cable}, box.low[i] - model.tension_lower[i]);
     box.margins.add({MarginKind::kTensionMax, cable}, -box.high[i] + model.tension_upper[i]);
   }
+}
+
+/// Force densities λ = D^-1 w over a box, for all wrenches of K.
+template <class I>
+struct Densities {
+  bool are_enclosed = false;
+  std::array<SlopeForm<I>, kCables> nominal, below, above;  ///< of the nominal wrench, and how far K moves it
+  Square<I> root;                                           ///< the rows Z_i of D^-1 L over T, of the ellipsoid
+  std::array<SlopeForm<I>, kCables> radius;                 ///< |Z_i|
+};
+
+/// C (w0 + w) and C L.
+template <class I>
+typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& model, const InverseBound<I>& inverse,
+                                                             const Vector6<I>& w) {
+  typename InverseBound<I>::template Columns<7> x;
+  const auto& c = inverse.c();
+  for (std::size_t k = 0; k < 6; ++k) {
+    const int row = static_cast<int>(k);
+    I kappa(0.0);
+    for (int l = 0; l < 6; ++l) kappa = kappa + c(row, l) * w(l);
+    x[k][0] = kappa;
+    for (int j = 0; j < 6; ++j) {
+      I entry = c(row, j) * model.ellipsoid_root(j, j);
+      if (!model.ellipsoid_is_diagonal) {
+        for (int l = 0; l < j; ++l) entry = entry + c(row, l) * model.ellipsoid_root(l, j);
+      }
+      x[k][static_cast<std::size_t>(j) + 1] = entry;
+    }
+  }
+  return x;
+}
+
+/// Adds what items do (kinematics/loads.h), `remaining` the nominal wrench less that of `densities`.
+template <class I>
+void add_items(const Model<I>& model, const LoadsAtPose<SlopeForm<I>>& loads, const Vector6<SlopeForm<I>>& remaining,
+               const InverseBound<I>& inverse, const I& offset, Densities<I>& densities) {
+  typename InverseBound<I>::template Columns<6> identity;  // C I
+  for (std::size_t k = 0; k < 6; ++k) {
+    for (std::size_t j = 0; j < 6; ++j) identity[k][j] = I(inverse.c()(static_cast<int>(k), static_cast<int>(j)));
+  }
+  const auto rows = inverse.times(identity);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    Vector6<SlopeForm<I>> y;
+    for (int j = 0; j < 6; ++j) y(j) = rows[i][static_cast<std::size_t>(j)];
+    SlopeForm<I>& nominal = densities.nominal[i];
+    for (int j = 0; j < 6; ++j) nominal = nominal + y(j) * remaining(j);
+    nominal.tighten(offset);
+    const DensityRange<SlopeForm<I>> range = density_range(model.loads, loads, y);
+    densities.below[i] = densities.below[i] + range.below;
+    densities.above[i] = densities.above[i] + range.above;
+    densities.below[i].tighten(offset);
+    densities.above[i].tighten(offset);
+  }
+}
+
+/// The items' nominal wrench depends on the pose: what it is near the midpoint, a constant, is multiplied by D^-1 as w0
+/// is, so that what cancels between its components does so before it is enclosed.
+template <class I>
+Densities<I> enclose_densities(const Model<I>& model, const Matrix3<SlopeForm<I>>& r_WP, const InverseBound<I>& inverse,
+                               const I& offset) {
+  Densities<I> result;
+  LoadsAtPose<SlopeForm<I>> loads;
+  Vector6<SlopeForm<I>> remaining;
+  Vector6<I> w = model.wrench;
+  if (!model.loads.empty()) {
+    loads = loads_at(model.loads, r_WP);
+    for (int j = 0; j < 6; ++j) {
+      const I near(ProofScalarTraits<I>::point(loads.nominal(j).at_mid));
+      w(j) = w(j) + near;
+      remaining(j) = loads.nominal(j) - near;
+    }
+  }
+  const auto forms = inverse.times(loaded_columns(model, inverse, w));
+  std::array<SlopeForm<I>, 6> squares;
+  squares.fill(SlopeForm<I>(0.0));
+  for (std::size_t i = 0; i < 6; ++i) {
+    result.nominal[i] = forms[i][0];
+    for (std::size_t j = 1; j < 7; ++j) {
+      squares[i] = squares[i] + sqr(forms[i][j]);
+      result.root[i][j - 1] = forms[i][j].range;
+    }
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    result.radius[i] = SlopeForm<I>(0.0);
+    if (model.has_ellipsoid) {
+      squares[i].tighten(offset);
+      if (!certainly_positive(squares[i].range)) return result;  // the box is too wide
+      result.radius[i] = sqrt(squares[i]);
+      result.radius[i].tighten(offset);
+    }
+    result.below[i] = result.above[i] = result.radius[i];
+  }
+  if (!model.loads.empty()) add_items(model, loads, remaining, inverse, offset, result);
+  result.are_enclosed = true;
+  return result;
 }
 
 /// How far a deviation may change a margin.
@@ -131,8 +218,6 @@ MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segmen
 template <class I>
 BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
                             int continuation_steps) {
-  using Point = typename ProofScalarTraits<I>::Point;
-  using Upper = UpperOf<I>;
   const Model<I>& model = problem.model;
   const double radius = box.radius();
   const EnclosedBox<I> s = enclose<I>(box);
@@ -151,120 +236,23 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   }
   add_length_margins(model, result);
 
-  // C ≈ D(m)^-1.
-  Matrix6<Point> mid;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) mid(i, j) = ProofScalarTraits<I>::point(geometry.force_density(i, j).at_mid);
-  }
-  Matrix6<Point> c;
-  Point unused_determinant;
-  if (!invert(mid, c, unused_determinant)) return result;
-
-  // A0 = C D(m), A1 = C S; N0, N; Q0, Q: (a), (b).
-  Square<I> a0;
-  Square<I> a1;
-  Square<I> d_mid;
-  Square<I> d_slope;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      const SlopeForm<I>& entry = geometry.force_density(static_cast<int>(i), static_cast<int>(j));
-      d_mid[i][j] = entry.at_mid;
-      d_slope[i][j] = entry.slope;
-    }
-  }
-  Square<Upper> n0;
-  Square<Upper> n;
-  Square<Upper> a1_magnitude;
-  for (std::size_t i = 0; i < 6; ++i) {
-    a0[i].fill(I(0.0));
-    a1[i].fill(I(0.0));
-    for (std::size_t k = 0; k < 6; ++k) {
-      const Point& factor = c(static_cast<int>(i), static_cast<int>(k));
-      add_multiple(a0[i], factor, d_mid[k]);
-      add_multiple(a1[i], factor, d_slope[k]);
-    }
-    for (std::size_t j = 0; j < 6; ++j) {
-      n0[i][j] = Upper(magnitude(a0[i][j] - I(i == j ? 1.0 : 0.0)));
-      a1_magnitude[i][j] = Upper(magnitude(a1[i][j]));
-      n[i][j] = n0[i][j] + Upper(radius) * a1_magnitude[i][j];
-    }
-  }
-  Square<Upper> q0;
-  Square<Upper> q;
-  if (!neumann_bound<I>(n0, q0) || !neumann_bound<I>(n, q)) return result;
-
-  // W = |A1| Q0 + Q (|A1| + |A1| Q0): (c).
-  Square<Upper> w = upper_product(a1_magnitude, q0);
-  Square<Upper> sum = w;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) sum[i][j] += a1_magnitude[i][j];
-  }
-  const Square<Upper> second = upper_product(q, sum);
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) w[i][j] += second[i][j];
-  }
-
-  // Columns x of C B: κ = C w0 first, then C L. P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is
-  // enclosed by A1 times numbers x̂ near x, and |A1| times bounds of x − x̂.
-  constexpr std::size_t kColumns = 7;
-  std::array<std::array<I, kColumns>, 6> x;
-  std::array<std::array<I, kColumns>, 6> drift;  // A1 x̂
-  std::array<std::array<Upper, kColumns>, 6> x_magnitude;
-  std::array<std::array<Upper, kColumns>, 6> x_error;
-  for (auto& row : drift) row.fill(I(0.0));
-  for (std::size_t k = 0; k < 6; ++k) {
-    const int row = static_cast<int>(k);
-    I kappa(0.0);
-    for (int l = 0; l < 6; ++l) kappa = kappa + c(row, l) * model.wrench(l);
-    x[k][0] = kappa;
-    for (int j = 0; j < 6; ++j) {
-      I entry = c(row, j) * model.ellipsoid_root(j, j);
-      if (!model.ellipsoid_is_diagonal) {
-        for (int l = 0; l < j; ++l) entry = entry + c(row, l) * model.ellipsoid_root(l, j);
-      }
-      x[k][static_cast<std::size_t>(j) + 1] = entry;
-    }
-    for (std::size_t j = 0; j < kColumns; ++j) {
-      const Point near = ProofScalarTraits<I>::point(x[k][j]);
-      x_magnitude[k][j] = Upper(magnitude(x[k][j]));
-      x_error[k][j] = Upper(magnitude(x[k][j] - I(near)));
-      for (std::size_t i = 0; i < 6; ++i) drift[i][j] = drift[i][j] + near * a1[i][k];
-    }
-  }
-  const auto mid_error = upper_product(q0, x_magnitude);
-  const auto slope_error = upper_product(w, x_magnitude);
-  const auto drift_error = upper_product(a1_magnitude, x_error);
-  Square<I> root;  // the rows of Z = P C L over T
-  std::array<SlopeForm<I>, 6> squares;
-  squares.fill(SlopeForm<I>(0.0));
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < kColumns; ++j) {
-      SlopeForm<I> value;
-      value.at_mid = x[i][j] + ProofScalarTraits<I>::symmetric(mid_error[i][j]);
-      value.slope = ProofScalarTraits<I>::symmetric(slope_error[i][j] + drift_error[i][j]) - drift[i][j];
-      value.range = value.at_mid + ProofScalarTraits<I>::symmetric(Upper(radius) * Upper(magnitude(value.slope)));
-      if (j == 0) {
-        result.density[i] = value;
-      } else {
-        squares[i] = squares[i] + sqr(value);
-        root[i][j - 1] = value.range;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    squares[i].tighten(offset);
-    if (!certainly_positive(squares[i].range)) return result;  // the box is too wide
-    result.tension_radius[i] = sqrt(squares[i]);
-    result.tension_radius[i].tighten(offset);
+  InverseBound<I> inverse;
+  if (!inverse.set(geometry.force_density, radius)) return result;
+  const Densities<I> densities = enclose_densities(model, motion.r_WP, inverse, offset);
+  if (!densities.are_enclosed) return result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    result.density[i] = densities.nominal[i];
+    result.below[i] = densities.below[i];
+    result.above[i] = densities.above[i];
   }
   result.regular = true;
   add_tension_margins(model, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
 
   const bool held = is_length_controlled(problem, segment);
-  result.disturbance =
-      disturbance<I>({model, motion, geometry, result.length, result.density, result.tension_radius, root, c, q, held},
-                     *problem.tolerance, continuation_steps);
+  result.disturbance = disturbance<I>({model, motion, geometry, result.length, result.density, densities.radius,
+                                       densities.root, inverse.c(), inverse.q(), held},
+                                      *problem.tolerance, continuation_steps);
   if (!result.disturbance) return result;
   for (auto& margin : result.margins) {
     margin.disturbed = margin.disturbed + ProofScalarTraits<I>::symmetric(change_of(margin.id, *result.disturbance));
@@ -308,6 +296,9 @@ MarginId weakest(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure)
   return weakest;
 }
 
+/// More than this is not claimed of the factor by which K may grow.
+constexpr double kMostGrowth = 1e6;
+
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
                  int continuation_steps) {
@@ -323,7 +314,8 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     case Status::kKnown: break;
   }
 
-  verdict.tension_N = verdict.length_m = verdict.wrench_scale = std::numeric_limits<double>::infinity();
+  verdict.tension_N = verdict.length_m = std::numeric_limits<double>::infinity();
+  verdict.wrench_scale = kMostGrowth;
   bool all_positive = true;
   bool midpoint_positive = true;
   bool refuted = false;
@@ -356,10 +348,14 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
       if (bound > 0) {
         // (f0 − f_lo)/v = 1 + (f0 − v − f_lo)/v, and likewise above.
         const auto n = static_cast<std::size_t>(id.cable);
-        I tension_radius = enclosure.length[n].range * enclosure.tension_radius[n].range;
-        if (enclosure.disturbance)
-          tension_radius = tension_radius + ProofScalarTraits<I>::symmetric(enclosure.disturbance->tension_radius(n));
-        const I scale = I(1.0) + I(bound) / I(upper_bound(tension_radius));
+        const bool is_low = id.kind == MarginKind::kTensionMin;
+        I reach = enclosure.length[n].range * (is_low ? enclosure.below[n] : enclosure.above[n]).range;
+        if (enclosure.disturbance) {
+          reach = reach + ProofScalarTraits<I>::symmetric(enclosure.disturbance->tension_reach(n, is_low ? 0 : 1));
+        }
+        const double most = upper_bound(reach);
+        if (!(most > bound / (2 * kMostGrowth))) continue;  // K is nearly a single wrench
+        const I scale = I(1.0) + I(bound) / I(most);
         verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
       }
     } else {

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The heart: enclosures of lengths, tensions and margins over one box of one segment.
 //
-// Let T be a box of s with midpoint m and radius r, D(t) the force-density matrix along the segment, C any
-// approximation of D(m)^-1. With A0 = C D(m) and A1 ⊇ C S, S the slopes of D from m (slope_form.h), entry by entry
-//   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                      (a)
-// If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
-//   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                               (b)
-// As D^-1 = P C, the force densities λ = P C w and the rows of Z = P C L have the slopes from m
-//   −P(t) (C S) P(m) C w,   −P(t) (C S) P(m) C L,   P(t) (C S) P(m) in A1 ± W,   W = |A1| Q0 + Q (|A1| + |A1| Q0),  (c)
-// where Q0 is (b) of N0 = |I − A0|: a bound of |P(m) − I|. Values at m from Q0, so centred forms of λ and Z, and of the
-// tensions
-//   f0_i = d_i λ_i,  v_ii = d_i |Z_i|,
-// and of the margins  f0_i − v_ii − f_lo, f_hi − f0_i − v_ii, d_i − d_lo, d_hi − d_i.
-// Proof of each step: docs/theory.md, "A box".
+// Over a box T with midpoint m, D^-1 is enclosed with its slopes (inverse_bound.h). Hence centred forms of the densities
+// λ = D^-1 w of the nominal wrench, of how far K moves them (the rows of D^-1 L for an ellipsoid, kinematics/loads.h for
+// items), of the least and the greatest tension, d_i times these, and of the margins
+//   low_i − f_lo, f_hi − high_i, d_i − d_lo, d_hi − d_i.
+// Proof of each step: docs/theory.md, "A box" and "Loads".
 #pragma once
 
 #include <algorithm>
@@ -78,14 +71,14 @@ struct MarginList {
 /// What is known over one box, of the undisturbed machine but for `disturbance`.
 template <class I>
 struct BoxEnclosure {
-  typename MotionEnclosure<I>::Status motion;        ///< nothing below is set where the motion is unproved
-  bool regular = false;                              ///< ρ < 1: J is non-singular on all of T, given positive lengths
-  std::array<SlopeForm<I>, kCables> length;          ///< d_i [m]
-  std::array<SlopeForm<I>, kCables> density;         ///< λ_i [N/m]; this and what follows only where regular
-  std::array<SlopeForm<I>, kCables> tension_radius;  ///< v_ii / d_i [N/m]
-  std::array<SlopeForm<I>, kCables> low, high;       ///< f0_i − v_ii, f0_i + v_ii [N]
-  I offset;                                          ///< contains t − m for all t in T
-  MarginList<I> margins;                             ///< those of lengths, and where regular those of tensions
+  typename MotionEnclosure<I>::Status motion;      ///< nothing below is set where the motion is unproved
+  bool regular = false;                            ///< ρ < 1: J is non-singular on all of T, given positive lengths
+  std::array<SlopeForm<I>, kCables> length;        ///< d_i [m]
+  std::array<SlopeForm<I>, kCables> density;       ///< λ_i [N/m]; this and what follows only where regular
+  std::array<SlopeForm<I>, kCables> below, above;  ///< how far K moves it down and up; of an ellipsoid v_ii / d_i
+  std::array<SlopeForm<I>, kCables> low, high;     ///< the least and the greatest tension over K [N]
+  I offset;                                        ///< contains t − m for all t in T
+  MarginList<I> margins;                           ///< those of lengths, and where regular those of tensions
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of
   /// T, and for every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<DeviationBounds<I>> disturbance;

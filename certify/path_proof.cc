@@ -59,7 +59,7 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   const SegmentProof proof = prover.prove(still, 0, stop);
   if (proof.verdict == Verdict::kProved) return std::nullopt;
   if (!prover.is_admissible(still)) {
-    undecided = Reason::at_pose(Undecided::kWaypointRange);
+    undecided = Reason::at_pose(Undecided::kWaypointRange, prover.range_violation(still));
     return std::nullopt;
   }
   const BoxVerdict verdict = prover.judge(still, whole);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/prover.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -72,6 +75,20 @@ bool has_joined_pieces(const Segment& segment) {
 
 }  // namespace
 
+namespace {
+
+/// "px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad)": how a value lies to its range.
+std::string range_text(const Parameter& parameter, double x, const std::array<double, 2>& range) {
+  constexpr double kRounding = 1e-14;  // relative: some tens of units in the last place
+  const double end = x < range[0] ? range[0] : range[1];
+  const bool is_at_end = std::abs(x - end) <= kRounding * std::max(1.0, std::abs(end));
+  return fmt::format("{} is {}{}, its range is from {} to {} (SI: m, rad)", parameter.name, x,
+                     is_at_end ? " and so, but for rounding, at an end of its range" : "", parameter.range_lower,
+                     parameter.range_upper);
+}
+
+}  // namespace
+
 bool Prover::is_admissible(const Segment& segment) const {
   const auto is_finite = [](double x) { return std::isfinite(x); };
   return std::ranges::all_of(segment.controls(),
@@ -94,6 +111,21 @@ bool Prover::certainly_in_ranges(const Waypoint& waypoint) const {
   return true;
 }
 
+std::string Prover::range_violation(const Segment& segment) const {
+  if (has_poses(segment.law)) return "";
+  const auto& ranges = model().motion.ranges;
+  for (const Waypoint* waypoint : segment.controls()) {
+    for (std::size_t j = 0; j < std::min(ranges.size(), waypoint->x.size()); ++j) {
+      const double x = waypoint->x[j];
+      if (ranges[j][0] <= x && x <= ranges[j][1]) continue;
+      const Parameter& parameter = problem_.space.parameters[j];
+      if (parameter.kind != ParameterKind::kRange) continue;
+      return fmt::format(": {}", range_text(parameter, x, ranges[j]));
+    }
+  }
+  return "";
+}
+
 BoxVerdict Prover::judge(const Segment& segment, const DyadicBox& box) const {
   BoxVerdict verdict;
   for (const int continuation_steps : {1, kMostContinuationSteps}) {
@@ -108,11 +140,12 @@ BoxVerdict Prover::judge(const Segment& segment, const DyadicBox& box) const {
 
 namespace {
 
-/// The survey of a segment that is not admissible.
-SegmentSurvey open_survey(Interpolation law) {
+/// The survey of a segment that is not admissible; `range_violation` as Prover's.
+SegmentSurvey open_survey(Interpolation law, const std::string& range_violation) {
   SegmentSurvey survey;
   survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
-  const Reason reason = has_poses(law) ? Undecided::kNoMotion : Undecided::kWaypointRange;
+  const Reason reason =
+      has_poses(law) ? Reason(Undecided::kNoMotion) : Reason(Undecided::kWaypointRange, range_violation);
   survey.boxes.push_back({{}, SurveyedBox::Kind::kOpen, {}, reason});
   return survey;
 }
@@ -144,7 +177,7 @@ SegmentProof to_proof(SegmentSurvey survey) {
 }  // namespace
 
 SegmentProof Prover::prove(const Segment& segment, double clearance, const std::stop_token& stop) const {
-  if (!is_admissible(segment)) return to_proof(open_survey(segment.law));
+  if (!is_admissible(segment)) return to_proof(open_survey(segment.law, range_violation(segment)));
   SegmentWalk walk(*this, segment, clearance, SegmentWalk::Extent::kToFirstFailure, stop);
   SegmentProof proof = to_proof(walk.run());
   if (proof.verdict != Verdict::kUndecided) return proof;
@@ -158,7 +191,7 @@ SegmentProof Prover::prove(const Segment& segment, double clearance, const std::
 }
 
 SegmentSurvey Prover::survey(const Segment& segment, const std::stop_token& stop) const {
-  if (!is_admissible(segment)) return open_survey(segment.law);
+  if (!is_admissible(segment)) return open_survey(segment.law, range_violation(segment));
   return SegmentWalk(*this, segment, 0, SegmentWalk::Extent::kWhole, stop).run();
 }
 

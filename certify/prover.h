@@ -75,6 +75,9 @@ class Prover {
   [[nodiscard]] MpInterval quantity_at_mid(const Segment& segment, const DyadicBox& box, MarginId margin,
                                            const Deviation& deviation) const;
 
+  /// Of a segment that is not admissible because of a range: ": px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad)".
+  /// Empty where there is no such parameter.
+  [[nodiscard]] std::string range_violation(const Segment& segment) const;
   /// Whether all control points are such as the law asks for, and certainly in their ranges where it runs through
   /// parameters.
   [[nodiscard]] bool is_admissible(const Segment& segment) const;

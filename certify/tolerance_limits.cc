@@ -165,8 +165,10 @@ const char* name(ToleranceKind kind) {
 
 std::vector<ToleranceLimit> tolerance_limits(const Problem& problem, const Path& path, const std::stop_token& stop) {
   std::vector<ToleranceKind> kinds = {ToleranceKind::kBaseAnchors, ToleranceKind::kPlatformAnchors,
-                                      ToleranceKind::kLoadPoint,   ToleranceKind::kLoad,
-                                      ToleranceKind::kPosition,    ToleranceKind::kOrientation};
+                                      ToleranceKind::kPosition, ToleranceKind::kOrientation};
+  if (problem.load.items.empty()) {  // items have their own tolerances
+    kinds.insert(kinds.begin() + 2, {ToleranceKind::kLoadPoint, ToleranceKind::kLoad});
+  }
   if (problem.tolerances && problem.tolerances->cable_length_m) kinds.push_back(ToleranceKind::kCableLengths);
   const double length = make_model<double>(problem).characteristic_length;
   std::vector<ToleranceLimit> limits(kinds.size());

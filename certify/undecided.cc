@@ -42,9 +42,10 @@ UndecidedWords words(Undecided reason) {
 
 Reason::Reason(Undecided reason, std::string_view behind) : text_(words(reason).words) { text_ += behind; }
 
-Reason Reason::at_pose(Undecided reason) {
+Reason Reason::at_pose(Undecided reason, std::string_view behind) {
   Reason result;
   result.text_ = words(reason).at_pose;
+  result.text_ += behind;
   return result;
 }
 

@@ -49,7 +49,7 @@ class Reason {
   Reason(Undecided reason,
          std::string_view behind = {});  // NOLINT(google-explicit-constructor): is one, without a place
   /// The words for a single pose. @pre There are such words.
-  [[nodiscard]] static Reason at_pose(Undecided reason);
+  [[nodiscard]] static Reason at_pose(Undecided reason, std::string_view behind = {});
   [[nodiscard]] Reason preceded_by(std::string_view before) const;
 
   [[nodiscard]] const std::string& text() const { return text_; }

@@ -3,9 +3,9 @@
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
 // arithmetic, and no search. To believe "accepted", read in this order: theorem.h; in kernel/ (the mathematics)
-// errors.h, ball.h, mean_value_form.h, expression.h, linear.h, statement.h, machine.h, zero.h, motion.h, deviation.h,
-// box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of which poses);
-// then format/ (that the numbers are those of the file); format/signature.h if it matters who wrote it.
+// errors.h, ball.h, mean_value_form.h, expression.h, linear.h, statement.h, loads.h, machine.h, zero.h, motion.h,
+// deviation.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of
+// which poses); then format/ (that the numbers are those of the file); format/signature.h if it matters who wrote it.
 #pragma once
 
 #include <memory>

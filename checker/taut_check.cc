@@ -48,7 +48,7 @@ constexpr std::array<LawNames, 4> kLawNames = {
      {"cable-lengths", taut::Interpolation::kCableLengths, Law::kCableLengths},
      {"cubic-b-spline", taut::Interpolation::kCubicBSpline, Law::kCubicBSpline}}};
 
-/// The path of a path file, read as `taut audit` does, repeated rows left out.
+/// The path of a path file, read as `taut audit` does.
 /// @param interpolation  "straight", "geodesic" or "cable-lengths"; empty: the law that such a file usually has
 /// @throws InputError naming file, line and column.
 ExpectedPath read_expected_path(const std::string& text, const std::string& name, const taut::Problem& problem,
@@ -56,7 +56,7 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
   if (is_certificate_name(name)) {
     throw InputError(name + ": got the name of a certificate, expected a path file, such as path.csv", {name});
   }
-  PathFile file(std::make_unique<std::istringstream>(text), name, problem.space, {.allow_repeats = true});
+  PathFile file(std::make_unique<std::istringstream>(text), name, problem.space);
   const auto* const named = std::ranges::find(kLawNames, interpolation, &LawNames::option);
   WaypointMaker maker(problem, file.header(), named == kLawNames.end() ? usual_law(file.header()) : named->of_file,
                       name);
@@ -151,17 +151,11 @@ nlohmann::json to_json(const CheckResult& result, double seconds) {
   nlohmann::json verdict;  // null unless it is known
   if (result.theorem) verdict = result.theorem->verdict() == Theorem::Verdict::kProved ? "proved" : "refuted";
   if (result.outcome == Outcome::kUndecided) verdict = "undecided";
-  return {{"outcome", name(result.outcome)},
-          {"message", result.message},
-          {"verdict", verdict},
-          {"audit", result.is_audit},
-          {"segments", result.counts.segments},
-          {"boxes", result.counts.boxes},
-          {"bits", result.counts.bits},
-          {"not_compared", result.not_compared},
-          {"sha256", result.sha256},
-          {"signature", signature},
-          {"seconds", seconds}};
+  return {{"command", "check"},           {"outcome", name(result.outcome)}, {"message", result.message},
+          {"verdict", verdict},           {"audit", result.is_audit},        {"segments", result.counts.segments},
+          {"boxes", result.counts.boxes}, {"bits", result.counts.bits},      {"not_compared", result.not_compared},
+          {"sha256", result.sha256},      {"signature", signature},          {"exit_code", exit_code(result.outcome)},
+          {"elapsed_seconds", seconds}};
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {

@@ -4,15 +4,12 @@
 namespace taut::checker {
 namespace {
 
-/// f0 - v, f0 + v, or d of the witness's cable.
+/// The least or the largest tension, or the length, of the witness's cable.
 Ball quantity(const Machine& machine, const Geometry& geometry, const Witness& witness) {
   const MeanValueForm& length = geometry.length[witness.cable];
   if (witness.kind == WitnessKind::kLengthMin || witness.kind == WitnessKind::kLengthMax) return length.range();
-  const Tensions tensions = machine.tensions(Inverse(geometry.D));
-  const MeanValueForm& tension_radius = tensions.tension_radius[witness.cable];
-  const MeanValueForm& density = tensions.density[witness.cable];
-  return (length * (witness.kind == WitnessKind::kTensionMin ? density - tension_radius : density + tension_radius))
-      .range();
+  const Tensions tensions = machine.tensions(geometry, Inverse(geometry.D));
+  return (length * tensions.extreme(witness.cable, witness.kind == WitnessKind::kTensionMin ? 0 : 1)).range();
 }
 
 Box at_place(const PathPoint& place, Box how) {
@@ -31,16 +28,19 @@ Ball determinant_at(const Machine& machine, const Problem& problem, const Path& 
 Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
   const Geometry stated =
       commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
-  if (!witness.deviation) return quantity(machine, stated, witness);
-  const Deviant deviates = deviant(machine, problem, stated, *witness.deviation);
+  if (!witness.loads && !witness.deviation) return quantity(machine, stated, witness);
+  const Problem loaded = witness.loads ? acting(problem, *witness.loads) : problem;
+  if (!witness.deviation) return quantity(Machine(loaded), stated, witness);
+  const Deviant deviates = deviant(machine, loaded, stated, *witness.deviation);
   return quantity(deviates.machine, deviates.geometry, witness);
 }
 
 void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
   const Ball seen = witnessed_quantity(machine, problem, path, witness);
   for (const Ball& excess : {seen - Ball(witness.value_lower), Ball(witness.value_upper) - seen}) {
-    if (certainly_negative(excess)) throw Rejected("false: the value of the witness");
-    if (!certainly_nonnegative(excess)) throw Undefined("the value of the witness");
+    if (certainly_negative(excess)) throw Rejected("the tension or length at the witness is outside the stated bounds");
+    if (!certainly_nonnegative(excess))
+      throw Undefined("the tension or length at the witness may be outside the stated bounds");
   }
 }
 

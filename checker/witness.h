@@ -3,7 +3,8 @@
 //
 // A limit kind: at the pose of the path (shown by kernel/motion.h, at one place), for the machine as the problem states
 // it or with the deviation that the witness states (kernel/deviant.h), the named quantity is within `value`, which lies
-// beyond the limit. That the motion of the path leads to this pose is shown by confirm.cc.
+// beyond the limit. Where the witness states a load of each item, a tension is that under these loads (and, of the
+// ellipsoid, the worst). That the motion of the path leads to this pose is shown by confirm.cc.
 #pragma once
 
 #include "checker/format/witness.h"
@@ -15,8 +16,10 @@ namespace taut::checker {
 [[nodiscard]] Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path,
                                   const PathPoint& place, const Box& how);
 
-/// f0 - v, f0 + v [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre not kSingular
-/// @throws Rejected where the deviation is not within the tolerances; Undefined where the quantity can't be enclosed.
+/// The least or largest tension [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre not
+/// kSingular
+/// @throws Rejected where the deviation is not within the tolerances, or a load not in its item; Undefined where the
+/// quantity can't be enclosed.
 [[nodiscard]] Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path,
                                       const Witness& witness);
 

@@ -6,18 +6,26 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/audit.h"
 #include "app/recheck.h"
 #include "app/report.h"
 #include "app/tolerance_table.h"
 #include "base/files.h"
+#include "base/plural.h"
 #include "base/sanitize.h"
 #include "base/sha256.h"
 #include "case/case_file.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
+#include "cli/output.h"
 #include "cli/report_command.h"
+#include "cli/result_folder.h"
+#include "path_io/controller_csv.h"
+#include "reports/summary/display_units.h"
+#include "reports/summary/hints.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
@@ -38,45 +46,51 @@ std::string text(const PathPoint& point, const FilePlace& place, const char* pla
 /// The last point of a violation, which may reach from one point to another.
 const PathPoint& end_of(const PathWitness& violation) { return violation.singular ? violation.to : violation.at; }
 
-std::string text(const AuditedStretch& audited, const char* place_name) {
+std::string text(const AuditedStretch& audited, const Case& the_case, const char* place_name) {
+  const RobotText& robot = the_case.problem.robot;
+  const DisplayUnits units(the_case.units);
   const Stretch& stretch = audited.stretch;
   std::string lines = fmt::format("  from {}\n    to {}\n", text(stretch.begin, audited.begin, place_name),
                                   text(stretch.end, audited.end, place_name));
   if (!stretch.violations) return lines + fmt::format("    open: {}\n", with_code(stretch.reason));
   const PathWitness& first = stretch.violations->first.violation;
   const PathWitness& last = stretch.violations->second.violation;
-  lines += fmt::format("    violated from {}: {}\n", text(first.at, audited.first, place_name), violation_text(first));
-  return lines +
-         fmt::format("              to {}: {}\n", text(end_of(last), audited.last, place_name), violation_text(last));
+  lines += fmt::format("    violated from {}: {}\n", text(first.at, audited.first, place_name),
+                       violation_text(first, robot, units));
+  return lines + fmt::format("              to {}: {}\n", text(end_of(last), audited.last, place_name),
+                             violation_text(last, robot, units));
 }
 
-std::string counted(std::size_t n, std::string_view what) {
-  const bool hisses = what.ends_with('x') || what.ends_with("ch");
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : hisses ? "es" : "s");
-}
-
-std::string sentence(const Audit& audit) {
+std::string sentence(const Audit& audit, const DisplayUnits& units) {
   switch (audit.verdict) {
     case Verdict::kProved:
       return fmt::format(
           "proved: the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} "
-          "in {}.\n"
-          "Proved margins: tension {} N, length {} m, wrench_scale {}.",
-          counted(audit.segments, "segment"), counted(audit.boxes, "box"), audit.margins->tension_N,
-          audit.margins->length_m, audit.margins->wrench_scale);
+          "in {}.\n{}",
+          plural(audit.segments, "segment"), plural(audit.boxes, "box"),
+          margins_text(audit.margins->tension_N, audit.margins->length_m, audit.margins->wrench_scale, units));
     case Verdict::kRefuted:
-      return fmt::format("refuted: {} of the path {} proved violations{}; all the rest is proved.",
-                         counted(audit.stretches_violated, "stretch"), audit.stretches_violated == 1 ? "has" : "have",
+      return fmt::format("refuted: {} of the path {} proved violations{}; {}.",
+                         plural(audit.stretches_violated, "stretch"), audit.stretches_violated == 1 ? "has" : "have",
                          audit.stretches_open == 0
                              ? ""
-                             : fmt::format(", and {} could not be decided", counted(audit.stretches_open, "other")));
+                             : fmt::format(", and {} could not be decided", plural(audit.stretches_open, "other")),
+                         audit.boxes > 0 ? "all the rest is proved" : "no part of the path is proved");
     case Verdict::kUndecided: break;
   }
   return fmt::format("undecided: {} of the path could not be decided; nothing is claimed of the path.",
-                     counted(audit.stretches_open, "stretch"));
+                     plural(audit.stretches_open, "stretch"));
 }
 
-void print_stretches(const Audit& audit, const PathSource& source) {
+/// What may be wrong with the case, if the path is infeasible from its beginning and suggests it; else empty.
+std::string hint(const Audit& audit, const PathSource& source) {
+  if (audit.verdict != Verdict::kRefuted || audit.stretches.empty()) return "";
+  const PathPoint& begin = audit.stretches.front().stretch.begin;
+  if (begin.index != 0 || begin.s != Dyadic{0, 0}) return "";
+  return reversed_load_hint(source.problem(), source.first_segment());
+}
+
+void print_stretches(const Audit& audit, const Case& the_case, const PathSource& source) {
   if (audit.verdict == Verdict::kProved) {
     fmt::print("{}\n", source.problem().tolerances
                            ? "This holds for every deviation within the case's tolerances."
@@ -84,21 +98,25 @@ void print_stretches(const Audit& audit, const PathSource& source) {
   }
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
-  for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], source.place_name()));
+  for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], the_case, source.place_name()));
   const std::size_t all = audit.stretches_violated + audit.stretches_open;
   if (all > shown) fmt::print("  … and {} more, in certificate.json\n", all - shown);
 }
 
-void print(const Audit& audit, const PathSource& source, const checker::CheckResult& checked) {
+void print(const Audit& audit, const Case& the_case, const PathSource& source, const checker::CheckResult& checked) {
   fmt::print("{}", source.remarks());
   const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
   if (is_unchecked) {
     fmt::print("UNCHECKED: {}. Nothing is claimed of the path.\n", checked.message);
   } else {
-    fmt::print("{}\n", sentence(audit));
-    print_stretches(audit, source);
+    fmt::print("{}\n", sentence(audit, DisplayUnits(the_case.units)));
+    print_stretches(audit, the_case, source);
+    if (const std::string load = load_that_breaks(the_case.problem.load, checked); !load.empty()) {
+      fmt::print("{}\n", load.substr(1));
+    }
+    if (const std::string may_be = hint(audit, source); !may_be.empty()) fmt::print("{}\n", may_be);
   }
-  fmt::print("Audited {} in {:.3g} s, {:.4g} a second.\n", counted(audit.segments, "segment"), audit.seconds,
+  fmt::print("Audited {} in {:.3g} s, {:.4g} a second.\n", plural(audit.segments, "segment"), audit.seconds,
              static_cast<double>(audit.segments) / audit.seconds);
 }
 
@@ -137,24 +155,34 @@ nlohmann::json stretches_json(const Audit& audit, const PathSource& source) {
   return stretches;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 /// Verdict, margins and witness are the checker's; what is unchecked says nothing of stretches.
 nlohmann::json summary(const Audit& audit, const PathSource& source, const checker::CheckResult& checked) {
   const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
   const auto if_checked = [&](const auto& value) { return is_unchecked ? nlohmann::json() : nlohmann::json(value); };
-  return {{"verdict", verdict_name(checked)},
-          {"interpolation", interpolation_name(source.law())},
-          {"waypoints", source.waypoints()},
-          {"segments", audit.segments},
-          {"boxes", audit.boxes},
-          {"boxes_judged", audit.boxes_judged},
-          {"margins", checked.theorem ? checked.theorem->margins() : nlohmann::json::object()},
-          {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
-          {"stretches_violated", if_checked(audit.stretches_violated)},
-          {"stretches_open", if_checked(audit.stretches_open)},
-          {"stretches", if_checked(stretches_json(audit, source))},
-          {"seconds", audit.seconds},
-          {"read", source.description()},
-          {"remarks", source.remarks()}};
+  nlohmann::json result = {{"command", "audit"},
+                           {"interpolation", interpolation_name(source.law())},
+                           {"waypoints", source.waypoints()},
+                           {"segments", audit.segments},
+                           {"boxes", audit.boxes},
+                           {"boxes_judged", audit.boxes_judged},
+                           {"stretches_violated", if_checked(audit.stretches_violated)},
+                           {"stretches_open", if_checked(audit.stretches_open)},
+                           {"stretches", if_checked(stretches_json(audit, source))},
+                           {"prove_seconds", audit.seconds},
+                           {"read", source.description()}};
+  result.update(result_json(checked));
+  std::vector<std::string> messages = lines_of(source.remarks());
+  if (is_unchecked) messages.push_back(fmt::format("UNCHECKED: {}. Nothing is claimed of the path.", checked.message));
+  if (!is_unchecked) messages.push_back(hint(audit, source));
+  result["messages"] = messages_json(messages);
+  return result;
 }
 
 std::string progress_text(std::size_t done, std::size_t all, double seconds) {
@@ -162,6 +190,25 @@ std::string progress_text(std::size_t done, std::size_t all, double seconds) {
   return fmt::format("auditing: {} of {} segments ({:.0f} %), {:.4g} a second, {:.0f} s left", done, all,
                      100.0 * static_cast<double>(done) / static_cast<double>(all), rate,
                      static_cast<double>(all - done) / rate);
+}
+
+/// What the results are about.
+ResultInputs inputs_of(const AuditArguments& arguments, const AuditRequest& request) {
+  ResultInputs inputs("audit");
+  inputs.add_file("case", arguments.case_path);
+  inputs.add_file("path", request.path.name);
+  if (request.law) inputs.add("interpolation", interpolation_name(*request.law));
+  return inputs;
+}
+
+/// controller.csv, where it is asked for and the path is proved.
+std::optional<NewFile> controller_file(const std::filesystem::path& out, const std::optional<ControllerStep>& step,
+                                       const PathSource& source, const checker::CheckResult& checked) {
+  if (!step || exit_code(checked) != kProvedExit) return std::nullopt;
+  NewFile file(out / "controller.csv");
+  file.write(controller_csv(source.problem(), source.whole_path(), *step, checked.sha256));
+  file.finish();
+  return file;
 }
 
 }  // namespace
@@ -175,31 +222,40 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
   command
       .add_option("--interpolation", arguments.law, "what happens between waypoints (default: as the file suggests)")
       ->check(CLI::IsMember(names));
-  command.add_option("--out", arguments.out, "directory for the results (default: out/PATH's name)");
+  command.add_option("--out", arguments.out,
+                     "directory for the results (default: a new one, out/CASE-audit-PATH, or that of these files)");
+  command.add_option("--step", arguments.step,
+                     "write controller.csv, too, if the path is proved: the platform travels at most so far from row "
+                     "to row, for example 10mm");
   constexpr int kLeastBits = 128;
   constexpr int kMostBits = 1 << 20;
   command.add_option("--bits", arguments.bits, "precision beyond which the prover gives up (default: 4096)")
       ->check(CLI::Range(kLeastBits, kMostBits));
-  command.add_flag("--allow-repeats", arguments.allow_repeats, "drop rows that repeat the pose of the row before");
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
 int run_audit(const AuditArguments& arguments) {
+  const Stopwatch stopwatch;
   const Case case_ = load_case(arguments.case_path);
   const std::optional<Interpolation> law =
       arguments.law.empty() ? std::nullopt : std::optional(audit_laws().at(arguments.law));
-  const AuditRequest request = resolved({arguments.path, law, arguments.allow_repeats}, case_, arguments.case_path);
+  const AuditRequest request = resolved({arguments.path, law}, case_, arguments.case_path);
+  const std::optional<ControllerStep> step =
+      arguments.step.empty() ? std::nullopt : std::optional(read_controller_step(arguments.step, "--step"));
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
-  PathSource source(case_.problem, request.path, request.law, {request.allow_repeats});
+  PathSource source(case_.problem, request.path, request.law);
   if (!arguments.json) fmt::print("{}", source.description());
+  announce(case_, arguments.json);
   std::fflush(stdout);
 
-  const std::filesystem::path out = out_folder(arguments.out, request.path.name);
-  make_directories(out);
-  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+  const ResultInputs inputs = inputs_of(arguments, request);
+  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+  const std::filesystem::path out =
+      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(request.path.name), inputs);
+  for (const char* name : kResultFiles) {
     for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
       require_another(out / name, read);
     }
@@ -220,7 +276,7 @@ int run_audit(const AuditArguments& arguments) {
       });
     };
     result = audit_path(
-        source, {arguments.bits, out, key ? &*key : nullptr},
+        source, {arguments.bits, out, key ? &*key : nullptr, case_.units},
         [&](std::string_view text) {
           digest.update(text);
           size += text.size();
@@ -229,8 +285,7 @@ int run_audit(const AuditArguments& arguments) {
         [&](std::string_view text) { csv.write(text); }, progress, interruption.token());
   }
   if (result.interrupted) {
-    complain("interrupted: nothing was written");
-    return kUndecidedExit;
+    return report_interruption("audit", "interrupted: nothing was written", arguments.json);
   }
   certificate.finish();
   csv.write(certificate_line(digest.hex()));
@@ -248,8 +303,10 @@ int run_audit(const AuditArguments& arguments) {
     report->finish();
     files.push_back(&*report);
   }
+  std::optional<NewFile> controller = controller_file(out, step, source, checked);
+  if (controller) files.push_back(&*controller);
   files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
-  std::vector<std::filesystem::path> remove_first = {out / "path.csv"};
+  std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
   if (!report) remove_first.push_back(report_path);  // of an earlier audit
   rename_into_place(files, remove_first);
 
@@ -257,14 +314,25 @@ int run_audit(const AuditArguments& arguments) {
   const std::vector<ToleranceLimit> limits = is_proved ? result.tolerance_limits : std::vector<ToleranceLimit>();
   if (arguments.json) {
     nlohmann::json object = summary(result, source, checked);
+    object["load"] = to_json(load_statement(case_.problem.load));
+    object["warnings"] = case_.warnings;
     object["out"] = out.string();
     object["tolerance_limits"] = to_json(limits);
-    object["recheck"] = to_json(checked);
-    fmt::print("{}\n", object.dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
+    std::vector<std::filesystem::path> written = {out / "certificate.json"};
+    if (report) written.push_back(report_path);
+    if (controller) written.push_back(out / "controller.csv");
+    written.push_back(out / "path.csv");
+    add_ending(object, stopwatch, exit_code(checked), written);
+    print_json(object);
   } else {
-    print(result, source, checked);
-    fmt::print("{}{}\n", tolerance_table(limits), sentence(checked));
-    fmt::print("Written to {}: path.csv, certificate.json{}\n", sanitize(out.string()), report ? ", report.html" : "");
+    print(result, case_, source, checked);
+    const bool has_not_grown = is_proved && source.problem().tolerances && limits.empty();
+    if (has_not_grown && result.segments <= kMostReported) {
+      fmt::print("How far each tolerance could grow alone was not found out within {} s.\n", kGrowthSeconds);
+    }
+    fmt::print("{}{}\n", tolerance_table(limits, DisplayUnits(case_.units)), sentence(checked));
+    fmt::print("Written to {}: path.csv, {}certificate.json{}\n", sanitize(out.string()),
+               controller ? "controller.csv, " : "", report ? ", report.html" : "");
     if (!report) {
       fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
                  sanitize((out / "certificate.json").string()));

@@ -14,9 +14,9 @@ struct AuditArguments {
   std::string path;  ///< empty: the case's
   std::string law;   ///< empty: the file's own
   std::string out;
+  std::string step;  ///< of controller.csv; empty: none is written
   std::string key;   ///< file of the private key that signs, or empty
   long bits = 4096;  ///< of the prover's last rung
-  bool allow_repeats = false;
   bool json = false;
   double max_seconds = kCheckSeconds;  ///< that the checker may take
 };

@@ -9,11 +9,13 @@
 #include <csignal>
 #include <cstdio>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "app/recheck.h"
 #include "base/files.h"
 #include "base/sanitize.h"
 #include "checker/arguments.h"
+#include "reports/summary/load_statement.h"
 
 namespace taut {
 namespace {
@@ -40,11 +42,6 @@ void add_max_seconds_option(CLI::App& command, double& max_seconds) {
       ->check(checker::complain_of_seconds);
 }
 
-std::filesystem::path out_folder(const std::string& wanted, const std::string& file) {
-  return wanted.empty() ? std::filesystem::path("out") / std::filesystem::path(file).stem()
-                        : std::filesystem::path(wanted);
-}
-
 std::optional<SigningKey> load_signing_key(const std::string& path) {
   if (path.empty()) return std::nullopt;
   constexpr std::size_t kMaxKeyBytes = std::size_t{1} << 16U;  // an Ed25519 key in PEM has 119
@@ -63,10 +60,28 @@ void complain(std::string_view message) {
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
 }
 
+void announce(const Case& the_case, bool json) {
+  for (const std::string& warning : the_case.warnings) complain("warning: " + warning);
+  if (json) return;
+  const LoadStatement load = load_statement(the_case.problem.load);
+  fmt::print("Load: {}\n      {}\n", sanitize(load.total), sanitize(load.spread));
+}
+
+std::string load_that_breaks(const LoadText& load, const checker::CheckResult& checked) {
+  if (!checked.theorem || !checked.theorem->witness().is_object()) return "";
+  const nlohmann::json& witness = checked.theorem->witness();
+  if (!witness.contains("loads")) return "";
+  return fmt::format("\nA load that breaks the limit there: {}.",
+                     sanitize(witness_load_text(load, witness.at("loads"))));
+}
+
 ProgressLine::ProgressLine(bool wanted) : enabled_(wanted && ::isatty(STDERR_FILENO) == 1) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::clear() {
   if (shown_) static_cast<void>(std::fputs("\r\033[K", stderr));
+  shown_ = false;
 }
 
 bool ProgressLine::is_due() {

@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
 
+#include "case/case_file.h"
 #include "certificate/signature.h"
 #include "checker/check.h"
 
@@ -24,9 +24,6 @@ enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInput
 /// "--max-seconds" of plan, audit and report: the checker's budget.
 void add_max_seconds_option(CLI::App& command, double& max_seconds);
 
-/// The folder for results: `wanted`, or out/NAME after the name of `file` if `wanted` is empty.
-[[nodiscard]] std::filesystem::path out_folder(const std::string& wanted, const std::string& file);
-
 /// The key that signs certificates, if any was asked for. Warns where others than its owner may read it.
 /// @throws InputError as SigningKey
 [[nodiscard]] std::optional<SigningKey> load_signing_key(const std::string& path);
@@ -35,6 +32,13 @@ void add_max_seconds_option(CLI::App& command, double& max_seconds);
 /// changes no exit code.
 void complain(std::string_view message);
 
+/// Says on the screen what load was understood: its total and its extremes; and on stderr what may not be meant as it was
+/// typed. With `json`, on stderr only.
+void announce(const Case& the_case, bool json);
+
+/// "\nA load that breaks the limit there: …", where the checker confirmed a witness that names one; else empty.
+[[nodiscard]] std::string load_that_breaks(const LoadText& load, const checker::CheckResult& checked);
+
 /// A line on stderr that overwrites itself, on a terminal only.
 class ProgressLine {
  public:
@@ -42,6 +46,8 @@ class ProgressLine {
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+  /// Removes the line, so that something else may be printed.
+  void clear();
   /// Calls `text()` and shows what it returns, ten times a second at most.
   template <class Text>
   void show(Text text) {

@@ -28,7 +28,7 @@ Explanation explained(Undecided reason) {
           "last place. A path from elsewhere that leaves the range.",
           "Widen the range a little, or move the waypoint inside.",
           "undecided: waypoint 0 of the query: it lies outside the closed range of a parameter, or its nearest "
-          "binary64 does [U1].");
+          "binary64 does: px is 1.7, its range is from -1.5 to 1.1 (SI: m, rad) [U1].");
     case Undecided::kParameterRange:
       return entry(
           "The motion leaves the range of a parameter, or may",
@@ -182,7 +182,8 @@ Explanation explained(ErrorCode code) {
     case ErrorCode::kCase:
       return entry(
           "The case is wrong",
-          "The case file can't be used. The message names line and field, what was seen and what was expected.",
+          "The case file, or the robot's file from which taut init should make one, can't be used. The message names "
+          "line and field, what was seen and what was expected.",
           "A misspelt key. A unit of another kind of quantity. Limits in the wrong order. An ellipsoid that is not "
           "positive definite. A query outside its space.",
           "docs/case-format.md describes every key. taut show prints what was understood, and taut init writes a case "
@@ -193,7 +194,7 @@ Explanation explained(ErrorCode code) {
           "The path file is wrong", "The path to be audited can't be read, or does not fit the case.",
           "A column without a unit or with an unknown name. A row with a missing number. A repeated pose. Lengths "
           "whose first row is not at the start pose.",
-          "docs/audits.md describes the formats of path files. --allow-repeats drops repeated rows.",
+          "docs/audits.md describes the formats of path files.",
           "taut: path.csv:2: theta: got 'x', expected a decimal number such as 0.05 or 1e-4 [E4]");
     case ErrorCode::kCertificate:
       return entry(

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,18 +14,26 @@
 #include "app/report.h"
 #include "app/tolerance_table.h"
 #include "base/files.h"
+#include "base/plural.h"
 #include "base/sanitize.h"
 #include "certificate/signature.h"
 #include "certify/undecided.h"
 #include "cli/console.h"
 #include "cli/number_option.h"
+#include "cli/output.h"
+#include "cli/result_folder.h"
+#include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
+#include "reports/summary/display_units.h"
+#include "reports/summary/hints.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
 namespace {
 
-std::string plan_sentence(const Plan& plan, const checker::CheckResult& checked) {
+std::string plan_sentence(const Case& the_case, const Plan& plan, const checker::CheckResult& checked) {
+  const DisplayUnits units(the_case.units);
   const PathProof& proof = plan.proof;
   if (checked.outcome == checker::Outcome::kUnchecked) {
     return fmt::format("UNCHECKED: {}. Nothing is claimed of the path.", checked.message);
@@ -37,12 +44,13 @@ std::string plan_sentence(const Plan& plan, const checker::CheckResult& checked)
   switch (proof.verdict) {
     case Verdict::kProved: {
       const checker::Theorem& theorem = checked.theorem.value();
+      const bool is_spline = plan.path.interpolation == Interpolation::kCubicBSpline;
       const auto margin = [&](const char* key) { return theorem.margins().at(key).get<std::string>(); };
       return fmt::format(
-          "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} {}segments in "
-          "{} boxes.\nProved margins: tension {} N, length {} m, wrench_scale {}.",
-          theorem.counts().segments, plan.path.interpolation == Interpolation::kCubicBSpline ? "spline " : "",
-          theorem.counts().boxes, margin("tension_N"), margin("length_m"), margin("wrench_scale"));
+          "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} in {}.\n{}",
+          plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
+          plural(theorem.counts().boxes, "box"),
+          margins_text(margin("tension_N"), margin("length_m"), margin("wrench_scale"), units));
     }
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;
@@ -50,11 +58,18 @@ std::string plan_sentence(const Plan& plan, const checker::CheckResult& checked)
                                     ? fmt::format("at waypoint {} of the query", *plan.refuted_waypoint)
                                 : w.at.on_segment ? fmt::format("on segment {} of the path", w.at.index)
                                                   : fmt::format("at waypoint {} of the path", w.at.index);
-      return fmt::format("refuted: {} {}.", where, violation_text(w));
+      return fmt::format("refuted: {} {}.{}", where, violation_text(w, the_case.problem.robot, units),
+                         load_that_breaks(the_case.problem.load, checked));
     }
     case Verdict::kUndecided: break;
   }
   return fmt::format("undecided: {}.", with_code(proof.reason.text()));
+}
+
+/// What may be wrong with the case, if its first infeasible waypoint suggests it; else empty.
+std::string hint(const Case& the_case, const Plan& plan) {
+  if (!plan.refuted_waypoint) return "";
+  return reversed_load_hint(the_case.problem, plan.path);
 }
 
 /// What the search knows of its path.
@@ -73,7 +88,7 @@ void require_others(const PlanArguments& arguments, const std::filesystem::path&
     require_writable(arguments.save_atlas);
     for (const std::string& file : read) require_another(arguments.save_atlas, file);
   }
-  for (const char* name : {"path.csv", "certificate.json", "report.html"}) {
+  for (const char* name : kResultFiles) {
     for (const std::string& file : read) require_another(out / name, file);
     for (const std::string& file : {arguments.atlas, arguments.save_atlas}) require_another(out / name, file);
   }
@@ -89,75 +104,139 @@ struct Outcome {
   [[nodiscard]] bool is_proved() const { return exit_code(planned.checked) == kProvedExit; }
 };
 
-nlohmann::json summary(const Outcome& outcome) {
-  const PlanStatistics& s = outcome.planned.plan.statistics;
-  const checker::CheckResult& checked = outcome.planned.checked;
-  const auto if_proved = [&](double x) { return outcome.is_proved() ? nlohmann::json(x) : nlohmann::json(); };
-  const bool is_undecided = checked.outcome == checker::Outcome::kUndecided;
-  return {{"verdict", verdict_name(checked)},
-          {"segments", checked.counts.segments},
-          {"boxes", checked.counts.boxes},
-          {"charts", s.charts},
-          {"charts_stored", s.charts_stored},
-          {"nodes_expanded", s.nodes_expanded},
-          {"edges_checked", s.edges_checked},
-          {"edges_rejected", s.edges_rejected},
-          {"cost", s.cost},
-          {"cost_found", s.cost_found},
-          {"cost_unit", s.cost_unit},
-          {"cost_measure", s.cost_measure},
-          {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nlohmann::json()},
-          {"budget_spent", s.budget_spent},
-          {"length_m", if_proved(outcome.lengths.length_m)},
-          {"angle_rad", if_proved(outcome.lengths.angle_rad)},
-          {"plan_seconds", s.plan_seconds},
-          {"smooth_seconds", s.smooth_seconds},
-          {"prove_seconds", s.prove_seconds},
-          {"tolerance_limits", to_json(outcome.tolerance_limits)},
-          {"margins", checked.theorem ? checked.theorem->margins() : nlohmann::json::object()},
-          {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
-          {"undecided", is_undecided ? checked.certificate->at("undecided") : nlohmann::json()},
-          {"recheck", to_json(checked)},
-          {"out", outcome.out.string()}};
+/// Null unless --grow was asked for.
+nlohmann::json growth_json(const std::optional<Growth>& growth) {
+  if (!growth) return {};
+  return {{"charts", growth->charts},
+          {"complete_charts", growth->complete_charts},
+          {"whole", growth->is_whole()},
+          {"elapsed_seconds", growth->seconds},
+          {"time_is_up", growth->time_is_up}};
 }
 
-void print_search(const Outcome& outcome) {
+nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
+  const Plan& plan = outcome.planned.plan;
+  const PlanStatistics& s = plan.statistics;
+  const checker::CheckResult& checked = outcome.planned.checked;
+  const auto if_proved = [&](double x) { return outcome.is_proved() ? nlohmann::json(x) : nlohmann::json(); };
+  nlohmann::json result = {{"command", "plan"},
+                           {"segments", checked.counts.segments},
+                           {"boxes", checked.counts.boxes},
+                           {"charts", s.charts},
+                           {"charts_stored", s.charts_stored},
+                           {"nodes_expanded", s.nodes_expanded},
+                           {"edges_checked", s.edges_checked},
+                           {"edges_rejected", s.edges_rejected},
+                           {"cost", s.cost},
+                           {"cost_found", s.cost_found},
+                           {"cost_unit", s.cost_unit},
+                           {"cost_measure", s.cost_measure},
+                           {"within_factor", std::isfinite(s.factor) ? nlohmann::json(s.factor) : nlohmann::json()},
+                           {"budget_spent", s.budget_spent},
+                           {"length_m", if_proved(outcome.lengths.length_m)},
+                           {"angle_rad", if_proved(outcome.lengths.angle_rad)},
+                           {"plan_seconds", s.plan_seconds},
+                           {"smooth_seconds", s.smooth_seconds},
+                           {"prove_seconds", s.prove_seconds},
+                           {"tolerance_limits", to_json(outcome.tolerance_limits)},
+                           {"growth", growth_json(outcome.planned.growth)},
+                           {"load", to_json(load_statement(the_case.problem.load))},
+                           {"warnings", the_case.warnings},
+                           {"out", outcome.out.string()}};
+  result.update(result_json(checked));
+  const bool is_proved = outcome.is_proved();
+  result["messages"] = messages_json({is_proved ? "" : plan_sentence(the_case, plan, checked), hint(the_case, plan)});
+  return result;
+}
+
+void print_search(const Outcome& outcome, const DisplayUnits& units) {
   const PlanStatistics& s = outcome.planned.plan.statistics;
   if (s.charts == 0) return;
   const std::string unit = s.cost_unit.empty() ? "" : " " + s.cost_unit;
   const bool has_path = outcome.is_proved() || s.cost_found > 0;
-  fmt::print("{} charts, {} expanded; {} edges looked at, {} refused{}.\n", s.charts, s.nodes_expanded, s.edges_checked,
-             s.edges_rejected,
+  fmt::print("{}, {} expanded; {} looked at, {} refused{}.\n", plural(static_cast<std::size_t>(s.charts), "chart"),
+             s.nodes_expanded, plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected,
              has_path ? fmt::format("; cost {:.4g}{}, shortened from {:.4g}{}", s.cost, unit, s.cost_found, unit) : "");
   if (outcome.is_proved()) {
-    fmt::print("On its way the platform's origin moves {:.4g} m, and the platform turns {:.4g} rad.\n",
-               outcome.lengths.length_m, outcome.lengths.angle_rad);
+    fmt::print("On its way the platform's origin moves {:.4g} {}, and the platform turns {}.\n",
+               units.length.approx(outcome.lengths.length_m), units.length.name(),
+               units.angle(outcome.lengths.angle_rad));
   }
   fmt::print("Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n", 1e3 * s.plan_seconds,
              1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
   if (outcome.is_proved()) fmt::print("{}.\n", length_sentence(s));
-  fmt::print("{}", tolerance_table(outcome.tolerance_limits));
+  fmt::print("{}", tolerance_table(outcome.tolerance_limits, units));
+}
+
+/// What growing the atlas will cost, at most.
+std::string growth_announcement(const GrowthEstimate& estimate, double most_seconds) {
+  constexpr double kMegabyte = 1e6;
+  return fmt::format(
+      "Growing the atlas to all charts that can be reached, {} at most (planner.max_charts): as it begins, these would "
+      "take about {:.2g} s and a file of {:.2g} MB. It ends after {:.6g} s (--grow-seconds) with what there is.",
+      estimate.most_charts, estimate.seconds, estimate.file_bytes / kMegabyte, most_seconds);
+}
+
+/// What a saved atlas holds.
+std::string atlas_sentence(const PlannedCase& planned, int charts, const std::string& file) {
+  const std::string written = fmt::format("Atlas of {}", plural(static_cast<std::size_t>(charts), "chart"));
+  if (!planned.growth) return fmt::format("{} written to {}", written, sanitize(file));
+  const Growth& growth = *planned.growth;
+  if (growth.is_whole()) return fmt::format("{}, all that can be reached, written to {}", written, sanitize(file));
+  return fmt::format(
+      "{}, NOT all that can be reached, written to {}: growing ended after {:.3g} s {}, with {} complete", written,
+      sanitize(file), growth.seconds,
+      growth.time_is_up ? "(--grow-seconds)" : "(planner.max_charts, or an interruption)",
+      plural(static_cast<std::size_t>(growth.complete_charts), "chart"));
 }
 
 /// Plans, with a progress line.
 PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& arguments,
                  const std::optional<SigningKey>& key, const std::stop_token& stop) {
   ProgressLine line(!arguments.json);
+  std::optional<Stopwatch> growing;
   const auto progress = [&](const PlanProgress& at) {
-    line.show([&] { return fmt::format("planning: {} charts", at.charts); });
+    line.show([&] {
+      const std::string charts = plural(static_cast<std::size_t>(at.charts), "chart");
+      return growing ? fmt::format("growing the atlas: {}, {:.0f} of at most {:.6g} s", charts, growing->seconds(),
+                                   arguments.grow_seconds)
+                     : "planning: " + charts;
+    });
   };
-  return plan_case(the_case, planner, {arguments.grow, key ? &*key : nullptr, arguments.max_seconds}, progress, stop);
+  PlannedCaseOptions options;
+  options.grow = arguments.grow;
+  options.key = key ? &*key : nullptr;
+  options.max_seconds = arguments.max_seconds;
+  options.grow_seconds = arguments.grow_seconds;
+  options.announce_growth = [&](const GrowthEstimate& estimate) {
+    growing.emplace();
+    if (arguments.json) return;
+    line.clear();
+    fmt::print("{}\n", growth_announcement(estimate, arguments.grow_seconds));
+    std::fflush(stdout);
+  };
+  return plan_case(the_case, planner, options, progress, stop);
 }
 
 }  // namespace
 
 void add_plan_options(CLI::App& command, PlanArguments& arguments) {
   command.add_option("CASE", arguments.case_path, "case file (docs/case-format.md)")->required();
-  command.add_option("--out", arguments.out, "directory for the results (default: out/CASE's name)");
+  command.add_option("--out", arguments.out,
+                     "directory for the results (default: a new one, out/CASE's name, or this case's own)");
+  command.add_option("--step", arguments.step,
+                     "how far the platform travels between two rows of controller.csv at most (default: 10 mm)");
   command.add_option("--atlas", arguments.atlas, "begin with the charts of this file (docs/atlas-file.md)");
   CLI::Option* save_atlas = command.add_option("--save-atlas", arguments.save_atlas, "write all charts into this file");
-  command.add_flag("--grow", arguments.grow, "make all charts that can be reached before they are saved")
-      ->needs(save_atlas);
+  CLI::Option* grow =
+      command.add_flag("--grow", arguments.grow, "make all charts that can be reached before they are saved");
+  grow->needs(save_atlas);
+  command
+      .add_option(
+          "--grow-seconds", arguments.grow_seconds,
+          fmt::format("what --grow may take before it saves what it has (default: {:.0f})", arguments.grow_seconds))
+      ->check(positive_number("a number of seconds above 0"))
+      ->needs(grow);
   command.add_option("--budget", arguments.budget_seconds, "seconds for planning and proving, before the case's own")
       ->check(positive_number("a number of seconds above 0"));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
@@ -166,17 +245,22 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
 }
 
 int run_plan(const PlanArguments& arguments) {
+  const Stopwatch stopwatch;
   Case case_ = load_case(arguments.case_path, require_plannable);
   if (arguments.budget_seconds > 0) {
     case_.planner.max_seconds = arguments.budget_seconds;
     case_.planner.has_budget = true;
   }
-  const std::filesystem::path out = out_folder(arguments.out, arguments.case_path);
+  const ControllerStep step = read_controller_step(arguments.step, "--step");
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
-  require_others(arguments, out);
   Planner planner(case_, arguments.atlas);
-  make_directories(out);
+  ResultInputs inputs("plan");
+  inputs.add_file("case", arguments.case_path);
+  const std::filesystem::path out =
+      make_result_folder(arguments.out, std::filesystem::path(arguments.case_path).stem().string(), inputs);
+  require_others(arguments, out);
+  announce(case_, arguments.json);
 
   const Interruption interruption;
   const PlannedCase planned = plan(case_, planner, arguments, key, interruption.token());
@@ -186,26 +270,30 @@ int run_plan(const PlanArguments& arguments) {
                                     {out / "report.html", make_report(checked, {"", "", date}, ReportForm::kPage)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
-  // What is not proved is not for a machine to follow: path.csv goes first, and comes back last.
-  const std::array<std::filesystem::path, 1> path_file = {out / "path.csv"};
-  if (outcome.is_proved()) {
+  if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
     outcome.lengths = planner.measure(planned.plan.path);
     outcome.tolerance_limits = planned.tolerance_limits;
-    files.push_back({path_file[0], path_csv(case_.problem, planned.plan.path, checked.sha256)});
+    const Path& path = planned.plan.path;
+    files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
+    files.push_back({out / "path.csv", path_csv(case_.problem, path, checked.sha256)});  // last
   }
-  write_whole(files, path_file);
+  write_whole(files, outdated_results(out, inputs));
 
   if (arguments.json) {
-    fmt::print("{}\n", summary(outcome).dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
+    nlohmann::json result = summary(case_, outcome);
+    std::vector<std::filesystem::path> written;
+    for (const FileContent& file : files) written.push_back(file.path);
+    add_ending(result, stopwatch, exit_code(checked), written);
+    print_json(result);
     return exit_code(checked);
   }
-  fmt::print("{}\n", plan_sentence(planned.plan, checked));
-  print_search(outcome);
+  fmt::print("{}\n", plan_sentence(case_, planned.plan, checked));
+  if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) fmt::print("{}\n", may_be);
+  print_search(outcome, DisplayUnits(case_.units));
   fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
-             outcome.is_proved() ? "path.csv, " : "");
+             outcome.is_proved() ? "path.csv, controller.csv, " : "");
   if (saves_atlas) {
-    fmt::print("Atlas of {} charts{} written to {}\n", planner.atlas().size(),
-               planned.whole_atlas ? ", all that can be reached," : "", sanitize(arguments.save_atlas));
+    fmt::print("{}\n", atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
   }
   return exit_code(checked);
 }

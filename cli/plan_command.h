@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/recheck.h"
+#include "path_io/controller_csv.h"
 
 namespace taut {
 
@@ -14,8 +15,10 @@ struct PlanArguments {
   std::string out;
   std::string atlas;
   std::string save_atlas;
-  std::string key;  ///< file of the private key that signs, or empty
+  std::string step = ControllerStep().text;  ///< of controller.csv
+  std::string key;                           ///< file of the private key that signs, or empty
   bool grow = false;
+  double grow_seconds = 300;  ///< that growing the atlas may take
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
   double max_seconds = kCheckSeconds;  ///< that the checker may take

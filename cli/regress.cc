@@ -138,9 +138,7 @@ std::vector<std::string> command_for(const Case& declared, const fs::path& file,
                                      const fs::path& out) {
   std::vector<std::string> command = {own_program(), declared.audit ? "audit" : "plan", file.string(), "--max-seconds",
                                       fmt::format("{}", options.most_seconds)};
-  if (declared.audit) {
-    if (declared.audit->allow_repeats) command.emplace_back("--allow-repeats");
-  } else if (options.budget) {
+  if (!declared.audit && options.budget) {
     command.insert(command.end(), {"--budget", fmt::format("{}", *options.budget)});
   }
   command.insert(command.end(), {"--json", "--out", out.string()});
@@ -410,17 +408,31 @@ std::string junit_text(const std::string& suite_name, const std::vector<Regresse
   return text.str();
 }
 
+namespace {
+
+/// The unit of a quantity of kBoundQuantities, as keys of JSON end in it.
+std::string unit_suffix(const std::string& quantity) {
+  if (quantity == "tension_margin") return "_N";
+  if (quantity == "length_margin" || quantity == "length") return "_m";
+  return quantity == "angle" ? "_rad" : "";
+}
+
+}  // namespace
+
 json to_json(const RegressedCase& regressed) {
   json result = {{"case", regressed.name},
                  {"as_declared", regressed.is_as_declared()},
                  {"expected", regressed.expected},
                  {"differences", regressed.differences},
                  {"error", regressed.error.empty() ? json() : json(regressed.error)},
-                 {"seconds", regressed.seconds},
+                 {"elapsed_seconds", regressed.seconds},
+                 {"measured", json::object()},
                  {"verdict", nullptr}};
   if (!regressed.measurement) return result;
   result["verdict"] = regressed.measurement->verdict;
-  for (const auto& [quantity, value] : regressed.measurement->quantities) result["measured"][quantity] = value;
+  for (const auto& [quantity, value] : regressed.measurement->quantities) {
+    result["measured"][quantity + unit_suffix(quantity)] = value;
+  }
   return result;
 }
 

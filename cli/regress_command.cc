@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "base/sanitize.h"
 #include "cli/console.h"
 #include "cli/number_option.h"
+#include "cli/output.h"
 
 namespace taut {
 namespace {
@@ -88,7 +88,7 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments) {
 }
 
 int run_regress(RegressArguments arguments) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const std::vector<std::filesystem::path> files = find_cases(arguments.folder);
   std::optional<Baseline> baseline;
   if (!arguments.baseline.empty() && !arguments.update) {
@@ -111,8 +111,9 @@ int run_regress(RegressArguments arguments) {
         interruption.token());
   }
   if (cases.size() < files.size()) {
-    complain(fmt::format("interrupted after {} of {} cases: nothing was written", cases.size(), files.size()));
-    return kUndecidedExit;
+    return report_interruption(
+        "regress", fmt::format("interrupted after {} of {} cases: nothing was written", cases.size(), files.size()),
+        arguments.json);
   }
   std::vector<std::string> gone;
   if (baseline) gone = compare(*baseline, cases);
@@ -126,25 +127,24 @@ int run_regress(RegressArguments arguments) {
 
   const auto as_declared = std::ranges::count_if(cases, [](const RegressedCase& c) { return c.is_as_declared(); });
   const int code = exit_code(cases, gone);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (arguments.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const RegressedCase& regressed : cases) list.push_back(to_json(regressed));
-    fmt::print("{}\n", nlohmann::json{{"cases", list},
-                                      {"gone", gone},
-                                      {"as_declared", as_declared},
-                                      {"seconds", seconds.count()},
-                                      {"exit_code", code}}
-                           .dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
+    nlohmann::json document = {{"command", "regress"}, {"cases", list}, {"gone", gone}, {"as_declared", as_declared}};
+    std::vector<std::filesystem::path> paths;
+    for (const FileContent& file : written) paths.push_back(file.path);
+    add_ending(document, stopwatch, code, paths);
+    print_json(document);
     return code;
   }
   print_table(cases);
   const auto on_budget = std::ranges::count_if(cases, &RegressedCase::has_budget);
   if (baseline && on_budget > 0) {
-    fmt::print("{} of them plan on a budget: only their verdicts are compared with the baseline.\n", on_budget);
+    fmt::print("{} on a budget: only the verdict is compared with the baseline.\n",
+               on_budget == 1 ? "1 of them plans" : fmt::format("{} of them plan", on_budget));
   }
   for (const std::string& name : gone) fmt::print("{}: is in the baseline, and is no more\n", sanitize(name));
-  fmt::print("{} of {} cases as declared, in {:.1f} s.\n", as_declared, cases.size(), seconds.count());
+  fmt::print("{} of {} cases as declared, in {:.1f} s.\n", as_declared, cases.size(), stopwatch.seconds());
   for (const FileContent& file : written) fmt::print("Written: {}\n", sanitize(file.path.string()));
   return code;
 }

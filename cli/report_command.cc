@@ -14,6 +14,7 @@
 #include "certificate/certificate_reader.h"
 #include "certify/arithmetic/rounding.h"
 #include "cli/console.h"
+#include "cli/output.h"
 #include "cli/pdf.h"
 
 namespace taut {
@@ -33,6 +34,11 @@ std::optional<Rendered> render(const ReportArguments& arguments, const checker::
                           : arguments.json     ? ReportForm::kJson
                                                : ReportForm::kPage;
   std::string page = make_report(checked, options, form);
+  if (form == ReportForm::kJson) {
+    nlohmann::json document = nlohmann::json::parse(page);
+    document["command"] = "report";
+    page = json_text(document);
+  }
   if (form != ReportForm::kPage) return Rendered{std::move(page), nullptr};
   if (!arguments.pdf) return Rendered{std::move(page), "report.html"};
   std::optional<std::string> pdf = print_to_pdf(page, stop);
@@ -75,7 +81,13 @@ int run_report(const ReportArguments& arguments) {
                      {arguments.certificate_path});
   }
   if (checked.outcome == checker::Outcome::kRejected) {
-    fmt::print(stderr, "taut: {}: {}. No report is made of it.\n", arguments.certificate_path, sentence(checked));
+    const std::string message =
+        fmt::format("{}: {}. No report is made of it.", arguments.certificate_path, sentence(checked));
+    complain(message);
+    if (arguments.json && arguments.out.empty()) {
+      print_json(error_json("report", sanitize(message), text(ErrorCode::kCertificate), kRefutedExit,
+                            {arguments.certificate_path}));
+    }
     return kRefutedExit;
   }
   const ReportOptions options{arguments.document, arguments.revision, date};
@@ -83,8 +95,7 @@ int run_report(const ReportArguments& arguments) {
     return render(arguments, checked, options, interruption.token());
   });
   if (!made || interruption.token().stop_requested()) {
-    complain("interrupted: nothing was written");
-    return kUndecidedExit;
+    return report_interruption("report", "interrupted: nothing was written", arguments.json && arguments.out.empty());
   }
   const Rendered& rendered = *made;
   if (arguments.out.empty() && rendered.file_name == nullptr) {

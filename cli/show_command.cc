@@ -10,6 +10,7 @@
 #include "base/sanitize.h"
 #include "case/case_file.h"
 #include "cli/console.h"
+#include "cli/output.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
 
@@ -28,10 +29,13 @@ int run_show(const ShowArguments& arguments) {
   }
   if (!arguments.out.empty()) require_another(arguments.out, arguments.case_path);
   const Case case_ = load_case(arguments.case_path);
+  for (const std::string& warning : case_.warnings) complain("warning: " + warning);
   const CaseSummary summary(case_);
   if (!arguments.out.empty()) write_whole({{arguments.out, robot_drawing(summary)}});
   if (arguments.json) {
-    fmt::print("{}\n", to_json(summary).dump(1, ' ', true, nlohmann::json::error_handler_t::replace));
+    nlohmann::json document = to_json(summary);
+    document["command"] = "show";
+    print_json(document);
   } else {
     fmt::print("{}", sanitize_lines(to_text(summary)));
     if (!arguments.out.empty()) fmt::print("\nWritten: {}\n", sanitize(arguments.out));

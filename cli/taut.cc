@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/input_error.h"
+#include "base/nearest.h"
 #include "base/process.h"
 #include "base/sanitize.h"
 #include "certify/arithmetic/rounding.h"
@@ -18,6 +24,7 @@
 #include "cli/doctor_command.h"
 #include "cli/explain_command.h"
 #include "cli/init_command.h"
+#include "cli/output.h"
 #include "cli/pdf.h"
 #include "cli/plan_command.h"
 #include "cli/regress_command.h"
@@ -27,19 +34,74 @@
 namespace taut {
 namespace {
 
+/// Whether JSON is expected on standard output. That of a report may go to a file instead.
+bool wants_json(int argc, char** argv) {
+  const std::vector<std::string_view> arguments(argv + 1, argv + argc);
+  const bool is_for_a_file = arguments.front() == "report" && std::ranges::any_of(arguments, [](std::string_view text) {
+                               return text == "--out" || text.starts_with("--out=");
+                             });
+  return !is_for_a_file && std::ranges::find(arguments, "--json") != arguments.end();
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(known->get_name());
+  }
+  return names;
+}
+
+/// "got the unknown option '--buget', did you mean '--budget'?": about the first argument that `command` does not take.
+std::string unexpected(const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining();
+  const auto option = std::ranges::find_if(rest, [](const std::string& text) { return text.starts_with("-"); });
+  if (option == rest.end()) {
+    return rest.empty() ? "" : fmt::format("got '{}', expected no further argument", excerpt(rest.front()));
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* taken : command.get_options()) {
+    for (const std::string& name : taken->get_lnames()) known.push_back("--" + name);
+  }
+  const std::optional<std::string> nearest = nearest_word(*option, known);
+  return fmt::format("got the unknown option '{}', {}", excerpt(*option),
+                     nearest ? fmt::format("did you mean '{}'?", *nearest) : "expected one that --help lists");
+}
+
+/// "got 'pln', did you mean 'plan'? Expected a command: plan audit …"
+std::string no_command(const CLI::App& app, const std::string& seen) {
+  const std::vector<std::string> names = command_names(app);
+  const std::string expected = fmt::format("xpected a command: {}", fmt::join(names, " "));
+  if (seen.empty()) return "e" + expected;
+  const std::optional<std::string> nearest = nearest_word(seen, names);
+  return nearest ? fmt::format("got '{}', did you mean '{}'? E{}", excerpt(seen), *nearest, expected)
+                 : fmt::format("got '{}', e{}", excerpt(seen), expected);
+}
+
+/// What is wrong with the command line.
+std::string usage_message(const CLI::App& app, const CLI::Error& error, const std::string& first) {
+  const CLI::App* command = nullptr;
+  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (known->parsed()) command = known;
+  }
+  if (command == nullptr && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return no_command(app, first);
+  if (command != nullptr && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    if (const std::string message = unexpected(*command); !message.empty()) return message;
+  }
+  return error.what();
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Plans motions of cable-driven hexapods and proves what it plans.", "taut");
   app.set_version_flag("--version", std::string("taut ") + TAUT_VERSION);
   app.require_subcommand(1);
   app.failure_message([argc, argv](const CLI::App* failed, const CLI::Error& error) {
-    std::string message = error.what();
+    const std::string message = usage_message(*failed, error, argc > 1 ? argv[1] : "");
+    if (argc > 1 && wants_json(argc, argv)) {
+      print_json(error_json(sanitize(argv[1]), sanitize(message), text(ErrorCode::kUse), kBadInputExit, {}));
+    }
     std::string command;
     for (const CLI::App* known : failed->get_subcommands({})) {
       if (known->parsed()) command = " " + known->get_name();
-    }
-    if (command.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-      message = argc > 1 ? fmt::format("got '{}', expected a command:", argv[1]) : "expected a command:";
-      for (const CLI::App* known : failed->get_subcommands({})) message += " " + known->get_name();
     }
     return fmt::format("{} [{}]\nRun with --help for more information: {}{} --help\n", sanitize(message),
                        text(ErrorCode::kUse), failed->get_name(), command);
@@ -61,9 +123,9 @@ int run(int argc, char** argv) {
   CLI::App* regress_command = app.add_subcommand("regress", "run every case of a folder against what it declares");
   add_regress_options(*regress_command, regress_arguments);
 
-  std::string new_path;
-  CLI::App* init_command = app.add_subcommand("init", "write a commented case to begin from");
-  init_command->add_option("FILE", new_path, "case file to write")->required();
+  InitArguments init_arguments;
+  CLI::App* init_command = app.add_subcommand("init", "write a commented case to begin from, or a CASPR robot's");
+  add_init_options(*init_command, init_arguments);
   CLI::App* doctor_command = app.add_subcommand("doctor", "look whether this machine can be trusted with proofs");
 
   ReportArguments report_arguments;
@@ -95,7 +157,7 @@ int run(int argc, char** argv) {
   }
   if (*show_command) return with_error_code(ErrorCode::kCase, [&] { return run_show(show_arguments); });
   if (*explain_command) return run_explain(explain_arguments);
-  if (*init_command) return run_init(new_path);
+  if (*init_command) return run_init(init_arguments);
   if (*doctor_command) return run_doctor();
   if (*regress_command) return with_error_code(ErrorCode::kRegress, [&] { return run_regress(regress_arguments); });
   rounding_self_test();
@@ -110,8 +172,13 @@ static void prepare() { taut::prepare_process("taut", taut::kInternalCode); }
 [[gnu::section(".preinit_array"), gnu::used]] static void (*const prepare_first)() = prepare;
 
 int main(int argc, char** argv) {
-  const auto failed = [](const std::exception& error, const auto& code, int exit_code) {
-    taut::complain(fmt::format("{} [{}]", error.what(), code));
+  const auto failed = [&](const std::string& message, const auto& code, int exit_code,
+                          const taut::InputPlace& place = {}) {
+    taut::complain(fmt::format("{} [{}]", message, code));
+    if (argc > 1 && taut::wants_json(argc, argv)) {
+      taut::print_json(taut::error_json(taut::sanitize(argv[1]), taut::sanitize(message), code, exit_code, place));
+      std::fflush(stdout);
+    }
     return exit_code;
   };
   try {
@@ -119,17 +186,18 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw std::runtime_error("could not write to standard output");
     return code;
   } catch (const taut::InputError& error) {
-    return failed(error, taut::text(error.code().value_or(taut::ErrorCode::kUse)), taut::kBadInputExit);
+    return failed(error.what(), taut::text(error.code().value_or(taut::ErrorCode::kUse)), taut::kBadInputExit,
+                  error.place());
   } catch (const std::filesystem::filesystem_error& error) {
-    return failed(error, taut::text(taut::ErrorCode::kFile), taut::kBadInputExit);
+    return failed(error.what(), taut::text(taut::ErrorCode::kFile), taut::kBadInputExit);
   } catch (const taut::BrowserFailed& error) {
-    return failed(error, taut::kBrowserFailedCode, taut::kInternalExit);
+    return failed(error.what(), taut::kBrowserFailedCode, taut::kInternalExit);
   } catch (const taut::UntrustworthyMachine& error) {
-    return failed(error, taut::kUntrustworthyCode, taut::kInternalExit);
+    return failed(error.what(), taut::kUntrustworthyCode, taut::kInternalExit);
   } catch (const std::bad_alloc&) {
     taut::complain(fmt::format("internal failure: out of memory [{}]", taut::kInternalCode));
   } catch (const std::exception& error) {
-    taut::complain(fmt::format("internal failure: {} [{}]", error.what(), taut::kInternalCode));
+    return failed(fmt::format("internal failure: {}", error.what()), taut::kInternalCode, taut::kInternalExit);
   }
   return taut::kInternalExit;
 }

@@ -61,6 +61,17 @@ struct Jet {
     const S root = sqrt(a.value);
     return chain(a, root, S(0.5) / root);
   }
+  // Where these have no derivative, one of those from either side (of a norm at 0: 0).
+  friend Jet absolute(const Jet& a) { return certainly_positive(a.value) ? a : -a; }
+  friend Jet larger(const Jet& a, const Jet& b) { return certainly_positive(a.value - b.value) ? a : b; }
+  friend Jet euclidean_norm(const Jet& x, const Jet& y, const Jet& z) {
+    Jet r(euclidean_norm(x.value, y.value, z.value));
+    if (!certainly_positive(r.value)) return r;
+    for (std::size_t k = 0; k < N; ++k) {
+      r.partial[k] = (x.value * x.partial[k] + y.value * y.partial[k] + z.value * z.partial[k]) / r.value;
+    }
+    return r;
+  }
   friend SinCos<Jet> sincos(const Jet& a) {
     const SinCos<S> sc = sincos(a.value);
     return {chain(a, sc.sin, sc.cos), chain(a, sc.cos, -sc.sin)};

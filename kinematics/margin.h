@@ -39,8 +39,8 @@ template <class S>
 [[nodiscard]] S limited_quantity(const Statics<S>& statics, MarginId margin) {
   const auto i = static_cast<std::size_t>(margin.cable);
   switch (margin.kind) {
-    case MarginKind::kTensionMin: return statics.tension[i] - statics.tension_radius[i];
-    case MarginKind::kTensionMax: return statics.tension[i] + statics.tension_radius[i];
+    case MarginKind::kTensionMin: return statics.tension[i] - statics.tension_below[i];
+    case MarginKind::kTensionMax: return statics.tension[i] + statics.tension_above[i];
     case MarginKind::kLengthMin:
     case MarginKind::kLengthMax: break;
   }

@@ -8,8 +8,10 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "kinematics/loads.h"
 #include "problem/expression.h"
 #include "problem/problem.h"
+#include "problem/rational.h"
 #include "problem/scalar.h"
 
 namespace taut {
@@ -51,6 +53,8 @@ struct Model {
   std::array<S, kCables> tension_lower, tension_upper;  ///< [N]
   std::array<S, kCables> length_lower, length_upper;    ///< [m]
   Vector6<S> wrench;                                    ///< w0 about P_m, axes of W [N, N m]
+  LoadModel<S> loads;                                   ///< K is the sum of these and, if there is one, the ellipsoid
+  bool has_ellipsoid = false;                           ///< else what follows of it is 0
   Matrix6<S> ellipsoid;                                 ///< E
   /// L with E^-1 = L L^T, upper triangular: the semi-axes of K, so that K = {w0 + L z : |z| <= 1}.
   Matrix6<S> ellipsoid_root;
@@ -66,7 +70,8 @@ template <class S>
 
 template <class S>
 [[nodiscard]] Model<S> make_model_without_ellipsoid(const Problem& problem);
-/// Sets `ellipsoid`, `ellipsoid_is_diagonal` and `ellipsoid_root`. @throws InputError as ellipsoid_root.
+/// Sets `has_ellipsoid`, `ellipsoid`, `ellipsoid_is_diagonal` and `ellipsoid_root`. @throws InputError as
+/// ellipsoid_root.
 template <class S>
 void set_ellipsoid(const LoadText& load, Model<S>& model);
 /// Both.

@@ -54,14 +54,17 @@ Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid, bool is_diagonal) {
 
 template <class S>
 Angles<S> make_angles(const AnglesText& text) {
-  Angles<S> angles{text.kind, {}, {}};
+  Angles<S> angles;
+  angles.kind = text.kind;
+  angles.cross.setConstant(S(0.0));
+  angles.square.setConstant(S(0.0));
+  if (text.kind != AngleKind::kAxis) return angles;
   const auto n = [&](int i) { return S(ScalarTraits<S>::from_decimal(text.axis[static_cast<std::size_t>(i)])); };
   const S square = sqr(n(0)) + sqr(n(1)) + sqr(n(2));
   const S norm = sqrt(square);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
-    angles.cross(i, i) = S(0.0);
     angles.cross(j, i) = n(k) / norm;
     angles.cross(i, j) = -(n(k) / norm);
     angles.square(i, i) = -((sqr(n(j)) + sqr(n(k))) / square);
@@ -97,6 +100,7 @@ Model<S> make_model_without_ellipsoid(const Problem& problem) {
   }
   model.characteristic_length = reach;
   for (int i = 0; i < 6; ++i) model.wrench(i) = Traits::from_decimal(problem.load.wrench[static_cast<std::size_t>(i)]);
+  model.loads = make_load_model<S>(problem.load);
   return model;
 }
 
@@ -104,9 +108,9 @@ Model<S> make_model_without_ellipsoid(const Problem& problem) {
 inline bool is_zero(const DecimalText& text) { return text == "0"; }
 
 inline bool has_diagonal_ellipsoid(const LoadText& load) {
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; load.ellipsoid && i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
-      if (i != j && !is_zero(load.ellipsoid[i][j])) return false;
+      if (i != j && !is_zero((*load.ellipsoid)[i][j])) return false;
     }
   }
   return true;
@@ -114,11 +118,17 @@ inline bool has_diagonal_ellipsoid(const LoadText& load) {
 
 template <class S>
 void set_ellipsoid(const LoadText& load, Model<S>& model) {
+  model.has_ellipsoid = load.ellipsoid.has_value();
   model.ellipsoid_is_diagonal = has_diagonal_ellipsoid(load);
+  if (!load.ellipsoid) {
+    model.ellipsoid.setConstant(S(0.0));
+    model.ellipsoid_root.setConstant(S(0.0));
+    return;
+  }
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
-      const DecimalText& text = load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      model.ellipsoid(i, j) = is_zero(text) ? S(0.0) : S(ScalarTraits<S>::from_decimal(text));
+      const DecimalText& text = (*load.ellipsoid)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      model.ellipsoid(i, j) = is_zero(text) ? S(0.0) : S(from_rational<S>(text));
     }
   }
   model.ellipsoid_root = ellipsoid_root(model.ellipsoid, model.ellipsoid_is_diagonal);

@@ -71,8 +71,8 @@ double PoseSampler::clearance(const Statics<double>& statics) const {
   if (!statics.regular) return -1.0;
   double least = 1.0;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const double tension_room = std::min(statics.tension[i] - statics.tension_radius[i] - model_.tension_lower[i],
-                                         model_.tension_upper[i] - statics.tension[i] - statics.tension_radius[i]);
+    const double tension_room = std::min(statics.tension[i] - statics.tension_below[i] - model_.tension_lower[i],
+                                         model_.tension_upper[i] - statics.tension[i] - statics.tension_above[i]);
     const double length_room =
         std::min(statics.length[i] - model_.length_lower[i], model_.length_upper[i] - statics.length[i]);
     least = std::min({least, 2.0 * tension_room / (model_.tension_upper[i] - model_.tension_lower[i]),

@@ -59,11 +59,17 @@ Statics<S> statics(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<
   Matrix6<S> y;
   result.regular = invert(geometry.force_density, y, result.determinant);
   if (!result.regular) return result;
+  Vector6<S> wrench = model.wrench;
+  LoadsAtPose<S> loads;
+  if (!model.loads.empty()) {
+    loads = loads_at(model.loads, r_WP);
+    wrench = wrench + loads.nominal;
+  }
   for (int i = 0; i < kCables; ++i) {
     S density = S(0.0);
     S square = S(0.0);
-    for (int j = 0; j < 6; ++j) density = density + y(i, j) * model.wrench(j);
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < 6; ++j) density = density + y(i, j) * wrench(j);
+    for (int j = 0; model.has_ellipsoid && j < 6; ++j) {
       S component = y(i, j) * model.ellipsoid_root(j, j);
       if (!model.ellipsoid_is_diagonal) {
         for (int k = 0; k < j; ++k) component = component + y(i, k) * model.ellipsoid_root(k, j);
@@ -72,7 +78,13 @@ Statics<S> statics(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<
     }
     const auto n = static_cast<std::size_t>(i);
     result.tension[n] = result.length[n] * density;
-    result.tension_radius[n] = result.length[n] * sqrt(square);
+    const S by_ellipsoid = model.has_ellipsoid ? S(result.length[n] * sqrt(square)) : S(0.0);
+    result.tension_below[n] = result.tension_above[n] = by_ellipsoid;
+    if (!model.loads.empty()) {
+      const DensityRange<S> range = density_range(model.loads, loads, Vector6<S>(y.row(i).transpose()));
+      result.tension_below[n] = by_ellipsoid + result.length[n] * range.below;
+      result.tension_above[n] = by_ellipsoid + result.length[n] * range.above;
+    }
     result.determinant = result.determinant / result.length[n];
   }
   return result;

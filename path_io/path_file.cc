@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "base/input_error.h"
@@ -203,9 +204,8 @@ class Column {
 
 class PathFile::Implementation {
  public:
-  Implementation(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space,
-                 PathFileOptions options)
-      : lines_(std::move(text), name), space_(space), options_(options), pose_names_(pose_names(space.angles.kind)) {
+  Implementation(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space)
+      : lines_(std::move(text), name), space_(space), pose_names_(pose_names(space.angles.kind)) {
     for (const Parameter& parameter : space.parameters) parameter_names_.push_back(parameter.name);
     std::string_view first;
     if (!lines_.next(first)) lines_.fail("got no rows, expected a path: a header and a row for each pose");
@@ -226,35 +226,21 @@ class PathFile::Implementation {
 
   [[nodiscard]] const PathHeader& header() const { return header_; }
   [[nodiscard]] const std::vector<double>& start() const { return start_; }
-  [[nodiscard]] std::size_t repeats_dropped() const { return repeats_dropped_; }
   [[nodiscard]] std::uintmax_t bytes_read() const { return lines_.bytes_read(); }
 
   bool next(PathRow& row) {
-    for (;;) {
-      std::string_view line = first_row_;
-      if (line.empty() && !lines_.next(line)) {
-        if (rows_ == 0) lines_.fail("got a header and no rows, expected a row for each pose");
-        return false;
-      }
-      split(line, delimiter_, cells_);
-      read_row(row);
-      first_row_.clear();
-      const bool may_repeat =
-          header_.format == PathFormat::kTautWaypoints || header_.format == PathFormat::kTautControlPoints;
-      if (rows_++ == 0 || may_repeat || !is_repeated(row)) {
-        previous_ = row;
-        return true;
-      }
-      if (!options_.allow_repeats) {
-        fail("",
-             fmt::format("got the pose of line {} again, expected another: such rows usually come from a broken export "
-                         "(--allow-repeats drops them)",
-                         previous_.line));
-      }
-      previous_.time_s = row.time_s;
-      previous_.line = row.line;
-      ++repeats_dropped_;
+    std::string_view line = first_row_;
+    if (line.empty() && !lines_.next(line)) {
+      if (rows_ == 0) lines_.fail("got a header and no rows, expected a row for each pose");
+      return false;
     }
+    split(line, delimiter_, cells_);
+    read_row(row);
+    first_row_.clear();
+    ++rows_;
+    last_time_s_ = row.time_s;
+    last_line_ = row.line;
+    return true;
   }
 
  private:
@@ -400,9 +386,12 @@ class PathFile::Implementation {
     const auto is_length = [&](const std::string& name) {
       return contains(names_of(kLengthNames), name) && !is_parameter(name);
     };
+    // The place on the planned path, in controller.csv; it says nothing about the pose.
+    const bool has_places =
+        names.size() > 2 && names[0] == "segment" && names[1] == "s" && !is_parameter("segment") && !is_parameter("s");
     std::vector<std::string> coordinates;
     std::vector<std::string> lengths;
-    for (const std::string& name : names) {
+    for (const std::string& name : std::span(names).subspan(has_places ? 2 : 0)) {
       if (is_length(name)) {
         lengths.push_back(name);
       } else if (!is_time(name)) {
@@ -427,7 +416,9 @@ class PathFile::Implementation {
     if (has_lengths && pose != nullptr) header_.start = pose->form;
     for (std::size_t i = 0; i < titles.size(); ++i) {
       const std::string& name = names[i];
-      if (is_time(name)) {
+      if (has_places && i < 2) {
+        add(Column::Role::kIgnored, 0, titles[i], unit_of(titles[i], Quantity::kPure));
+      } else if (is_time(name)) {
         add(Column::Role::kTime, 0, titles[i], unit_of(titles[i], Quantity::kTime));
       } else if (is_length(name)) {
         const auto cable = static_cast<std::size_t>(name[1] - '1');
@@ -574,9 +565,9 @@ class PathFile::Implementation {
 
   [[nodiscard]] Decimal read_time(const Column& column, std::string_view cell) {
     const Decimal time = in_cell(column, cell, [&] { return Decimal::parse(cell) * column.to_si.unit().factor; });
-    if (rows_ > 0 && !(time > *previous_.time_s)) {
+    if (rows_ > 0 && !(time > *last_time_s_)) {
       fail(column.name, fmt::format("got {} s behind the {} s of line {}, expected a later time", excerpt(time.text()),
-                                    excerpt(previous_.time_s->text()), previous_.line));
+                                    excerpt(last_time_s_->text()), last_line_));
     }
     return time;
   }
@@ -615,19 +606,8 @@ class PathFile::Implementation {
                  x[3], x[4], x[5], x[6], norm, kNormTolerance));
   }
 
-  [[nodiscard]] bool is_repeated(const PathRow& row) const {
-    if (row.half_turns != previous_.half_turns) return false;
-    if (row.x == previous_.x) return true;
-    if (header_.form != PathForm::kQuaternion || !std::equal(row.x.begin(), row.x.begin() + 3, previous_.x.begin())) {
-      return false;
-    }
-    return std::equal(row.x.begin() + 3, row.x.end(), previous_.x.begin() + 3,
-                      [](double a, double b) { return a == -b; });
-  }
-
   Lines lines_;
   SpaceText space_;
-  PathFileOptions options_;
   std::vector<std::string> parameter_names_;
   std::vector<std::string> pose_names_;  ///< px, py, pz and the case's angles
   PathHeader header_;
@@ -637,9 +617,9 @@ class PathFile::Implementation {
   std::vector<double> start_;
   std::string first_row_;  ///< the line that told the format, if it is a row
   std::vector<std::string_view> cells_;
-  PathRow previous_;
+  std::optional<Decimal> last_time_s_;
+  std::size_t last_line_ = 0;
   std::size_t rows_ = 0;
-  std::size_t repeats_dropped_ = 0;
 };
 
 namespace {
@@ -659,18 +639,15 @@ std::unique_ptr<std::istream> open(const std::string& path) {
 
 }  // namespace
 
-PathFile::PathFile(const std::string& path, const SpaceText& space, PathFileOptions options)
-    : PathFile(open(path), path, space, options) {}
-PathFile::PathFile(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space,
-                   PathFileOptions options)
-    : self_(std::make_unique<Implementation>(std::move(text), name, space, options)) {}
+PathFile::PathFile(const std::string& path, const SpaceText& space) : PathFile(open(path), path, space) {}
+PathFile::PathFile(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space)
+    : self_(std::make_unique<Implementation>(std::move(text), name, space)) {}
 PathFile::~PathFile() = default;
 PathFile::PathFile(PathFile&&) noexcept = default;
 
 const PathHeader& PathFile::header() const { return self_->header(); }
 bool PathFile::next(PathRow& row) { return self_->next(row); }
 const std::vector<double>& PathFile::start() const { return self_->start(); }
-std::size_t PathFile::repeats_dropped() const { return self_->repeats_dropped(); }
 std::uintmax_t PathFile::bytes_read() const { return self_->bytes_read(); }
 
 namespace {

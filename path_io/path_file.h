@@ -69,21 +69,14 @@ struct PathRow {
   bool operator==(const PathRow&) const = default;
 };
 
-struct PathFileOptions {
-  /// Drops rows that repeat the pose of the row before. Otherwise they are an error, since they usually mean a broken
-  /// export. taut's own files may always repeat waypoints and control points.
-  bool allow_repeats = false;
-};
-
-/// Reads a path file from first row to last. Every fault of the file is an InputError with file, line, column, the
-/// value seen and what was expected.
+/// Reads a path file. A row may repeat the one before: the platform rests. Every fault is an InputError with file,
+/// line, column, the value seen and what was expected.
 class PathFile {
  public:
   /// Opens the file and reads its header. @throws InputError
-  PathFile(const std::string& path, const SpaceText& space, PathFileOptions options = {});
+  PathFile(const std::string& path, const SpaceText& space);
   /// As above, from a stream; `name` stands for the file in messages.
-  PathFile(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space,
-           PathFileOptions options = {});
+  PathFile(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space);
   ~PathFile();
   PathFile(PathFile&&) noexcept;
   PathFile(const PathFile&) = delete;
@@ -99,7 +92,6 @@ class PathFile {
   /// if there is none or the first row has not been read yet.
   [[nodiscard]] const std::vector<double>& start() const;
 
-  [[nodiscard]] std::size_t repeats_dropped() const;
   [[nodiscard]] std::uintmax_t bytes_read() const;
 
  private:

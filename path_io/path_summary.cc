@@ -22,6 +22,8 @@ std::string meaning(PathForm form, AngleKind angles) {
   return "cable lengths";
 }
 
+double number(const Decimal& x) { return ScalarTraits<double>::from_decimal(x.text()); }
+
 const char* meaning(PathFormat format) {
   switch (format) {
     case PathFormat::kTable: return "a table of";
@@ -32,7 +34,30 @@ const char* meaning(PathFormat format) {
   return "a spline's control points, of taut:";
 }
 
+std::string names(const Problem& problem) {
+  std::vector<std::string> list;
+  for (const Parameter& parameter : problem.space.parameters) list.push_back(parameter.name);
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
 }  // namespace
+
+std::string law_sentence(Interpolation law, const Problem& problem) {
+  switch (law) {
+    case Interpolation::kStraight:
+      return fmt::format(
+          "straight: between two waypoints {} each go from value to value at a constant rate, all at once{}",
+          names(problem), problem.space.constraints.empty() ? "" : ", and from there onto the constraints");
+    case Interpolation::kCubicBSpline:
+      return fmt::format("spline: {} follow a cubic B-spline of which these are the control points", names(problem));
+    case Interpolation::kGeodesic:
+      return "geodesic: between two waypoints the platform's origin moves straight, and the platform turns about one "
+             "axis, the shorter way, both at constant rates";
+    case Interpolation::kCableLengths: break;
+  }
+  return "cable-lengths: between two waypoints the length of each cable changes at a constant rate, all at once; the "
+         "pose is the one that the lengths imply";
+}
 
 PathSummary::PathSummary(const Problem& problem, PathHeader header)
     : header_(std::move(header)),
@@ -52,6 +77,21 @@ std::vector<double> PathSummary::values(const PathRow& row) const {
   return result;
 }
 
+void PathSummary::add_rest(const PathRow& row) {
+  if (row.x != last_.x || row.half_turns != last_.half_turns) {
+    rest_ = {};
+    return;
+  }
+  ++repeats_;
+  if (rest_.repeats++ == 0) {
+    rest_.first_line = last_.line;
+    rest_.begin_s = last_.time_s;
+  }
+  rest_.last_line = row.line;
+  rest_.end_s = row.time_s;
+  if (rest_.repeats > longest_rest_.repeats) longest_rest_ = rest_;
+}
+
 void PathSummary::add(const PathRow& row) {
   const std::vector<double> x = values(row);
   Vector3<double> origin;
@@ -64,6 +104,7 @@ void PathSummary::add(const PathRow& row) {
     first_ = row;
     lower_ = upper_ = x;
   } else {
+    add_rest(row);
     origin_length_m_ += (origin - origin_).stableNorm();
     bool jumps = false;
     for (std::size_t j = 0; j < x.size(); ++j) {
@@ -80,8 +121,21 @@ void PathSummary::add(const PathRow& row) {
 
 std::optional<double> PathSummary::seconds() const {
   if (!header_.time) return std::nullopt;
-  const auto s = [](const PathRow& row) { return ScalarTraits<double>::from_decimal(row.time_s->text()); };
-  return s(last_) - s(first_);
+  return number(*last_.time_s) - number(*first_.time_s);
+}
+
+std::string PathSummary::rest_text() const {
+  if (repeats_ == 0) return "";
+  std::string text = fmt::format("  {} row{} the row before: the platform rests there", repeats_,
+                                 repeats_ == 1 ? " repeats" : "s repeat");
+  if (repeats_ > 1) {
+    text += fmt::format(", longest in lines {} to {}", longest_rest_.first_line, longest_rest_.last_line);
+  }
+  if (longest_rest_.begin_s) {
+    text += fmt::format("{} {:.7g} s", repeats_ > 1 ? ", which take" : " for",
+                        number(*longest_rest_.end_s) - number(*longest_rest_.begin_s));
+  }
+  return text + "\n";
 }
 
 std::optional<double> PathSummary::origin_length_m() const {
@@ -105,6 +159,7 @@ std::string PathSummary::text() const {
   }
   if (const auto length = origin_length_m()) text += fmt::format("  the origin's way is {:.7g} m long\n", *length);
   if (const auto time = seconds()) text += fmt::format("  the motion takes {:.7g} s\n", *time);
+  text += rest_text();
   if (jumps_ > 0) {
     text += fmt::format(
         "  in {} row{}, first in line {}, an angle is more than a half turn from the row before: the path takes the "

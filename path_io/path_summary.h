@@ -11,6 +11,9 @@
 
 namespace taut {
 
+/// What the law means, without a full stop: "geodesic: between two waypoints the platform's origin moves straight, …".
+[[nodiscard]] std::string law_sentence(Interpolation law, const Problem& problem);
+
 /// Gathers statistics of the rows in constant memory. They are computed in floating point, for people, not for proofs.
 class PathSummary {
  public:
@@ -32,12 +35,21 @@ class PathSummary {
   /// give positions.
   [[nodiscard]] std::optional<double> origin_length_m() const;
   /// Lines of text: the number of rows; for each coordinate the first, last, least and largest value in the file's
-  /// unit, and in SI if that is another; the distance that the origin travels; the duration; a warning if there are
-  /// jumps.
+  /// unit, and in SI if that is another; the distance that the origin travels; the duration; where the platform rests;
+  /// a warning if there are jumps.
   [[nodiscard]] std::string text() const;
 
  private:
+  /// Successive rows of one pose, each after the first a repeat of it.
+  struct Rest {
+    std::size_t repeats = 0;
+    std::size_t first_line = 0, last_line = 0;
+    std::optional<Decimal> begin_s, end_s;
+  };
+
   [[nodiscard]] std::vector<double> values(const PathRow& row) const;
+  void add_rest(const PathRow& row);
+  [[nodiscard]] std::string rest_text() const;
 
   PathHeader header_;
   AngleKind angles_;
@@ -49,6 +61,9 @@ class PathSummary {
   Vector3<double> origin_;
   double origin_length_m_ = 0;
   std::size_t jumps_ = 0, first_jump_line_ = 0;
+  std::size_t repeats_ = 0;
+  Rest rest_;  ///< the one that the last row belongs to
+  Rest longest_rest_;
 };
 
 }  // namespace taut

@@ -11,6 +11,12 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+double largest_difference(const std::array<double, kCables>& a, const std::array<double, kCables>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < kCables; ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
 }  // namespace
 
 Interpolation usual_law(const PathHeader& header) {
@@ -80,15 +86,25 @@ RigidPose WaypointMaker::pose_of(PathForm form, const std::vector<double>& x,
   return sampler_.rigid_pose(pose);
 }
 
+std::optional<std::pair<std::size_t, std::size_t>> WaypointMaker::exchanged_lengths(double most_m) const {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    for (std::size_t j = i + 1; j < kCables; ++j) {
+      std::array<double, kCables> exchanged = first_lengths_;
+      std::swap(exchanged[i], exchanged[j]);
+      if (largest_difference(start_lengths_, exchanged) <= most_m) return std::pair(i, j);
+    }
+  }
+  return std::nullopt;
+}
+
 void WaypointMaker::find_reference(const PathRow& row, const std::vector<double>& start) {
   std::array<double, kCables> lengths{};
   std::copy_n(row.x.begin(), kCables, lengths.begin());
   if (!pose_) {
     pose_ = header_.start ? pose_of(*header_.start, start, {}) : *query_start_;
-    const std::array<double, kCables> at_start = cable_lengths(sampler_.model(), *pose_);
-    for (std::size_t i = 0; i < kCables; ++i) {
-      start_error_m_ = std::max(start_error_m_, std::abs(at_start[i] - lengths[i]));
-    }
+    start_lengths_ = cable_lengths(sampler_.model(), *pose_);
+    first_lengths_ = lengths;
+    start_error_m_ = largest_difference(start_lengths_, first_lengths_);
   }
   if (lost_line_) return;
   if (const auto found = pose_of_lengths(sampler_.model(), lengths, *pose_)) {

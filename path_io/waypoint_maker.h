@@ -5,7 +5,9 @@
 // computed in floating point (pose_conversion.h), and is_converted() says so.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "kinematics/pose_conversion.h"
 #include "kinematics/pose_sampler.h"
@@ -38,6 +40,9 @@ class WaypointMaker {
   [[nodiscard]] std::optional<std::size_t> lost_line() const { return lost_line_; }
   /// For cable lengths: the largest difference between the start pose's lengths and the first row's [m].
   [[nodiscard]] double start_error_m() const { return start_error_m_; }
+  /// For cable lengths: two cables (from 0) such that the start pose has the first row's lengths to within `most_m` if
+  /// these two are exchanged; nothing where there are no such two.
+  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> exchanged_lengths(double most_m) const;
 
  private:
   [[nodiscard]] RigidPose pose_of(PathForm form, const std::vector<double>& x,
@@ -55,6 +60,8 @@ class WaypointMaker {
   std::optional<TiltAndTorsion> angles_;
   Waypoint waypoint_;
   std::optional<std::size_t> lost_line_;
+  std::array<double, kCables> start_lengths_{};  ///< of the start pose [m]
+  std::array<double, kCables> first_lengths_{};  ///< of the first row [m]
   double start_error_m_ = 0;
 };
 

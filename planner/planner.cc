@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "atlas/wrench_feasible_manifold.h"
+#include "base/plural.h"
 #include "base/sha256.h"
 #include "certify/undecided.h"
 #include "kinematics/geometry.h"
@@ -358,10 +359,9 @@ Reason Planner::no_path_reason(const SearchResult& result, std::size_t leg) cons
   switch (result.status) {
     case SearchStatus::kExhausted: {
       const std::string charts = fmt::format(
-          " {} charts of radius {}{} and the goal was not met{}. That is evidence, not proof, that none exists; charts "
-          "of "
-          "a smaller planner.radius see finer",
-          atlas_->size(), atlas_->options().radius,
+          " {} of radius {}{} and the goal was not met{}. That is evidence, not proof, that none exists; charts of a "
+          "smaller planner.radius see finer",
+          plural(static_cast<std::size_t>(atlas_->size()), "chart"), atlas_->options().radius,
           manifold_->dimension() > Polytope::kMaxDimension ? ", as densely as sampled directions tell," : "", best);
       return Reason(Undecided::kNoPathFound, charts).preceded_by(what);
     }

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -14,6 +13,7 @@
 #include "base/json_cursor.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
+#include "problem/load.h"
 
 namespace taut {
 namespace {
@@ -222,38 +222,6 @@ void validate_robot(const RobotText& robot) {
   validate_limits("robot.length", robot.length_m);
 }
 
-/// Symmetric elimination in rational arithmetic: E is positive definite exactly if every pivot is positive.
-void validate_ellipsoid(const std::array<std::array<DecimalText, 6>, 6>& ellipsoid) {
-  const std::string where = "load.ellipsoid";
-  std::array<std::array<boost::multiprecision::cpp_rational, 6>, 6> e;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      e[i][j] = decimal_at(fmt::format("{}[{}][{}]", where, i, j), ellipsoid[i][j]).rational();
-      if (j < i && e[i][j] != e[j][i]) {
-        throw FieldError(
-            where,
-            fmt::format("{} in row {}, column {} and {} opposite", ellipsoid[i][j], i + 1, j + 1, ellipsoid[j][i]),
-            "expected a symmetric matrix");
-      }
-    }
-  }
-  for (std::size_t k = 0; k < 6; ++k) {
-    if (e[k][k] <= 0) {
-      throw FieldError(where, fmt::format("a leading {0} x {0} block that is not positive definite", k + 1),
-                       "expected a positive definite matrix");
-    }
-    for (std::size_t i = k + 1; i < 6; ++i) {
-      for (std::size_t j = i; j < 6; ++j) e[i][j] -= e[k][i] * e[k][j] / e[k][k];
-    }
-  }
-}
-
-void validate_load(const LoadText& load) {
-  point_at("load.point", load.point_m);
-  for (std::size_t i = 0; i < load.wrench.size(); ++i) decimal_at(fmt::format("load.wrench[{}]", i), load.wrench[i]);
-  validate_ellipsoid(load.ellipsoid);
-}
-
 /// Approximate value, to tell mistakes; closer calls are left to the proof.
 double constant_value_approx(const std::string& where, const ExpressionText& expression) {
   const double value = at(where, [&] { return evaluate_constant<double>(expression); });
@@ -310,6 +278,19 @@ void validate_angles(const SpaceText& space) {
                      "expected a direction: three numbers, the largest of which is at least 1e-9 and below 1e9");
   }
   if (space.pose[4] != "0" || space.pose[5] != "0") fail("space.pose", "expected one angle: the turn about the axis");
+}
+
+/// Items of a load have tolerances of their own.
+void validate_no_tolerance_of_the_load(const TolerancesText& tolerances) {
+  const auto require_zero = [](const std::string& where, const DecimalText& text) {
+    if (Decimal::parse(text).sign() == 0) return;
+    throw FieldError(where, text,
+                     "expected none, as the load has items: say 'mass_tolerance' and 'at_tolerance' there");
+  };
+  require_zero("tolerances.load_point", tolerances.load_point_m);
+  for (std::size_t i = 0; i < tolerances.wrench.size(); ++i) {
+    require_zero(fmt::format("tolerances.wrench[{}]", i), tolerances.wrench[i]);
+  }
 }
 
 void validate_flip(const SpaceText& space, const ExpressionTape& pose) {
@@ -536,8 +517,7 @@ json to_json(const Problem& problem) {
             {"platform_anchors_m", problem.robot.platform_anchors_m},
             {"tension_N", limits_to_json(problem.robot.tension_N)},
             {"length_m", limits_to_json(problem.robot.length_m)}}},
-          {"load",
-           {{"point_m", problem.load.point_m}, {"wrench", problem.load.wrench}, {"ellipsoid", problem.load.ellipsoid}}},
+          {"load", to_json(problem.load)},
           {"tolerances", problem.tolerances ? tolerances_to_json(*problem.tolerances) : json()},
           {"space", std::move(space)},
           {"query", {{"waypoints", problem.query}}}};
@@ -554,11 +534,7 @@ Problem problem_from_json(const json& value) {
   read(robot.at("platform_anchors_m"), problem.robot.platform_anchors_m);
   read(robot.at("tension_N"), problem.robot.tension_N);
   read(robot.at("length_m"), problem.robot.length_m);
-  const JsonCursor load = member("load");
-  load.expect_keys({"point_m", "wrench", "ellipsoid"});
-  read(load.at("point_m"), problem.load.point_m);
-  read(load.at("wrench"), problem.load.wrench);
-  read(load.at("ellipsoid"), problem.load.ellipsoid);
+  problem.load = load_from_json(member("load"));
   if (const JsonCursor tolerances = member("tolerances"); !tolerances.is_null()) {
     problem.tolerances = read_tolerances(tolerances);
   }
@@ -573,8 +549,11 @@ Problem problem_from_json(const json& value) {
 
 void validate(const Problem& problem) {
   validate_robot(problem.robot);
-  validate_load(problem.load);
-  if (problem.tolerances) validate_tolerances(*problem.tolerances);
+  validate(problem.load);
+  if (problem.tolerances) {
+    validate_tolerances(*problem.tolerances);
+    if (!problem.load.items.empty()) validate_no_tolerance_of_the_load(*problem.tolerances);
+  }
   validate_space(problem.space);
   validate_query(problem);
 }

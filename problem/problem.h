@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "problem/loads.h"
 
 namespace taut {
 
@@ -40,10 +41,17 @@ struct RobotText {
   std::array<Limits, kCables> length_m;                                ///< 0 <= lower < upper [m]
 };
 
+/// E, symmetric positive definite [1/N^2, 1/(N m)^2]; 1/36 is no decimal.
+using EllipsoidText = std::array<std::array<RationalText, 6>, 6>;
+
+/// The set K of wrenches: the sum of the items and of { w0 + e : e' E e <= 1 }, where there is an E. There are items, or
+/// there is an E, or both.
 struct LoadText {
-  std::array<DecimalText, 3> point_m;                   ///< p_m in P [m]
-  std::array<DecimalText, 6> wrench;                    ///< w0: force [N], moment about P_m [N m], axes of W
-  std::array<std::array<DecimalText, 6>, 6> ellipsoid;  ///< E, symmetric positive definite [1/N^2, 1/(N m)^2]
+  std::array<DecimalText, 3> point_m;                               ///< p_m in P [m]
+  std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};  ///< w0: force [N], moment about P_m [N m], in W
+  std::optional<EllipsoidText> ellipsoid;                           ///< if there is none, w0 is 0
+  RationalVector gravity_m_s2{"0", "0", "0"};                       ///< in W; of the items that are weights
+  std::vector<LoadItem> items;
 };
 
 /// How far the machine may deviate from the robot, the load and the path. All are >= 0; distances and angles hold in
@@ -132,10 +140,11 @@ struct Problem {
 /// that are turned about the axis.
 [[nodiscard]] SpaceText coordinate_space(const AnglesText& angles = {});
 
-/// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, E symmetric and
-/// positive definite (exactly), expressions that parse, poses that by their form agree after a turn of a periodic
-/// parameter, a correct `flip`, tolerances >= 0, and either no waypoints or at least two, with one finite value for
-/// each parameter, within its range up to rounding. @throws FieldError
+/// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, a load with items or
+/// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions that
+/// parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0, and
+/// either no waypoints or at least two, with one finite value for each parameter, within its range up to rounding.
+/// @throws FieldError
 void validate(const Problem& problem);
 
 /// The `problem` object of a certificate.

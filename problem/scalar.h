@@ -35,6 +35,9 @@ inline double upper_bound(double x) { return x; }
 /// True only if every member is positive.
 inline bool certainly_positive(double x) { return x > 0; }
 inline double sqr(double x) { return x * x; }
+inline double absolute(double x) { return std::abs(x); }
+inline double larger(double x, double y) { return x < y ? y : x; }
+inline double euclidean_norm(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 inline SinCos<double> sincos(double x) { return {std::sin(x), std::cos(x)}; }
 inline double pow_int(double x, int n) { return std::pow(x, n); }
 using std::acos;
@@ -58,6 +61,9 @@ concept Scalar = std::copyable<S> && requires(S x, S y, const std::string& text,
   { -x } -> std::convertible_to<S>;
   { sqr(x) } -> std::convertible_to<S>;
   { sqrt(x) } -> std::convertible_to<S>;
+  { absolute(x) } -> std::convertible_to<S>;
+  { larger(x, y) } -> std::convertible_to<S>;
+  { euclidean_norm(x, y, x) } -> std::convertible_to<S>;
   { sincos(x) } -> std::convertible_to<SinCos<S>>;
   { tan(x) } -> std::convertible_to<S>;
   { exp(x) } -> std::convertible_to<S>;

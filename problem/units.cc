@@ -14,14 +14,35 @@ const std::vector<Unit>& units() {
   static const std::vector<Unit> all = [] {
     const auto d = [](const char* text) { return Decimal::parse(text); };
     std::vector<Unit> list = {
-        {Dimension::kLength, "m", d("1")},        {Dimension::kLength, "mm", d("1e-3")},
-        {Dimension::kLength, "cm", d("1e-2")},    {Dimension::kLength, "km", d("1e3")},
-        {Dimension::kLength, "in", d("0.0254")},  {Dimension::kLength, "ft", d("0.3048")},
-        {Dimension::kForce, "N", d("1")},         {Dimension::kForce, "mN", d("1e-3")},
-        {Dimension::kForce, "kN", d("1e3")},      {Dimension::kForce, "MN", d("1e6")},
-        {Dimension::kMass, "kg", d("1")},         {Dimension::kMass, "g", d("1e-3")},
-        {Dimension::kMass, "t", d("1e3")},        {Dimension::kAngle, "rad", d("1")},
+        {Dimension::kLength, "m", d("1")},
+        {Dimension::kLength, "mm", d("1e-3")},
+        {Dimension::kLength, "cm", d("1e-2")},
+        {Dimension::kLength, "km", d("1e3")},
+        {Dimension::kLength, "in", d("0.0254")},
+        {Dimension::kLength, "ft", d("0.3048")},
+        {Dimension::kForce, "N", d("1")},
+        {Dimension::kForce, "mN", d("1e-3")},
+        {Dimension::kForce, "kN", d("1e3")},
+        {Dimension::kForce, "MN", d("1e6")},
+        {Dimension::kMass, "kg", d("1")},
+        {Dimension::kMass, "g", d("1e-3")},
+        {Dimension::kMass, "t", d("1e3")},
+        {Dimension::kAngle, "rad", d("1")},
         {Dimension::kAngle, "deg", d("1"), true},
+        {Dimension::kTime, "s", d("1")},
+        {Dimension::kTime, "ms", d("1e-3")},
+        {Dimension::kTime, "min", d("60")},
+        {Dimension::kTime, "h", d("3600")},
+        {Dimension::kAcceleration, "m/s^2", d("1")},
+        {Dimension::kAcceleration, "cm/s^2", d("1e-2")},
+        {Dimension::kAcceleration, "mm/s^2", d("1e-3")},
+        {Dimension::kArea, "m^2", d("1")},
+        {Dimension::kArea, "cm^2", d("1e-4")},
+        {Dimension::kArea, "mm^2", d("1e-6")},
+        {Dimension::kSpeed, "m/s", d("1")},
+        {Dimension::kSpeed, "cm/s", d("1e-2")},
+        {Dimension::kSpeed, "mm/s", d("1e-3")},
+        {Dimension::kDensity, "kg/m^3", d("1")},
     };
     // Moments have no units with inches or feet: E divides by the moment's unit, and 1/0.0254 is no decimal.
     std::vector<Unit> moments;
@@ -47,6 +68,11 @@ const char* dimension_name(Dimension dimension) {
     case Dimension::kMoment: return "moment";
     case Dimension::kMass: return "mass";
     case Dimension::kAngle: return "angle";
+    case Dimension::kTime: return "time";
+    case Dimension::kAcceleration: return "acceleration";
+    case Dimension::kArea: return "area";
+    case Dimension::kSpeed: return "speed";
+    case Dimension::kDensity: return "density";
   }
   return "";
 }
@@ -70,9 +96,14 @@ Unit si_unit(Dimension dimension) {
     case Dimension::kForce: return *find_unit("N");
     case Dimension::kMoment: return *find_unit("N*m");
     case Dimension::kMass: return *find_unit("kg");
-    case Dimension::kAngle: break;
+    case Dimension::kAngle: return *find_unit("rad");
+    case Dimension::kTime: return *find_unit("s");
+    case Dimension::kAcceleration: return *find_unit("m/s^2");
+    case Dimension::kArea: return *find_unit("m^2");
+    case Dimension::kSpeed: return *find_unit("m/s");
+    case Dimension::kDensity: break;
   }
-  return *find_unit("rad");
+  return *find_unit("kg/m^3");
 }
 
 std::pair<std::string, std::optional<Unit>> split_unit(const std::string& text) {

@@ -2,6 +2,7 @@
 // Units of a case file, as exact decimal factors to SI.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,10 @@
 
 namespace taut {
 
-enum class Dimension { kLength, kForce, kMoment, kMass, kAngle };
+/// Those up to kTime have a unit in `units:`; bare numbers of the others are in SI.
+enum class Dimension { kLength, kForce, kMoment, kMass, kAngle, kTime, kAcceleration, kArea, kSpeed, kDensity };
+/// The number of dimensions that have a unit in `units:`.
+inline constexpr std::size_t kDimensionsOfUnits = 6;
 
 /// A unit of known dimension: value in SI = value · factor, except that a degree is pi/180.
 struct Unit {
@@ -21,14 +25,23 @@ struct Unit {
   bool is_degree = false;
 };
 
-/// "length", "force", …, as the keys of `units:`.
+/// "length", "force", …: for the first ones, the keys of `units:`.
 [[nodiscard]] const char* dimension_name(Dimension dimension);
 /// The names of all units of this dimension, for messages: "m, mm, cm, …".
 [[nodiscard]] std::string unit_names(Dimension dimension);
 
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view name);
-/// m, N, N*m, kg, rad.
+/// m, N, N*m, kg, rad, s, m/s^2, m^2, m/s, kg/m^3.
 [[nodiscard]] Unit si_unit(Dimension dimension);
+
+/// The units of numbers that a case states without one, in which results are shown as well.
+struct CaseUnits {
+  Unit length = si_unit(Dimension::kLength);
+  Unit force = si_unit(Dimension::kForce);
+  Unit moment = si_unit(Dimension::kMoment);
+  Unit mass = si_unit(Dimension::kMass);
+  Unit angle = si_unit(Dimension::kAngle);
+};
 
 /// "34 deg" → {"34", degree}; the text itself and nothing if it doesn't end in a unit that follows a space, a closing
 /// parenthesis or a number.

@@ -301,6 +301,7 @@ PYBIND11_MODULE(_taut, module) {
       .def_property_readonly("reason_code", &taut::Certificate::reason_code)
       .def_property_readonly("path", [](const taut::Certificate& c) { return path_tuple(c.path()); })
       .def_property_readonly("path_csv", &taut::Certificate::path_csv)
+      .def("controller_csv", &taut::Certificate::controller_csv, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("segments", &taut::Certificate::segments)
       .def_property_readonly("boxes", &taut::Certificate::boxes)
       .def("samples", [](const taut::Certificate& c, std::size_t about) {
@@ -332,11 +333,10 @@ PYBIND11_MODULE(_taut, module) {
       "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "max_bits"_a, "signing_key"_a,
       "max_check_seconds"_a);
 
-  const auto audit_options = [](const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
+  const auto audit_options = [](const std::optional<std::string>& interpolation, long max_bits,
                                 const std::string& signing_key, double max_check_seconds) {
     taut::AuditOptions options;
     if (interpolation) options.interpolation = interpolation_of(*interpolation);
-    options.allow_repeats = allow_repeats;
     options.max_bits = max_bits;
     options.signing_key_pem = signing_key;
     options.max_check_seconds = max_check_seconds;
@@ -345,33 +345,30 @@ PYBIND11_MODULE(_taut, module) {
   module.def(
       "audit_file",
       [=](const taut::Case& the_case, const std::optional<std::string>& file,
-          const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
-          const std::string& signing_key, double max_check_seconds, const py::object& progress) {
-        taut::AuditOptions options =
-            audit_options(interpolation, allow_repeats, max_bits, signing_key, max_check_seconds);
+          const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
+          double max_check_seconds, const py::object& progress) {
+        taut::AuditOptions options = audit_options(interpolation, max_bits, signing_key, max_check_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
           return file ? taut::audit(the_case, *file, options) : taut::audit(the_case, options);
         });
       },
-      "case"_a, "file"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a, "max_check_seconds"_a,
-      "progress"_a);
+      "case"_a, "file"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a, "max_check_seconds"_a, "progress"_a);
   module.def(
       "audit_table",
       [=](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
-          const std::optional<std::string>& interpolation, bool allow_repeats, long max_bits,
-          const std::string& signing_key, double max_check_seconds, const py::object& progress) {
+          const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
+          double max_check_seconds, const py::object& progress) {
         const taut::Table table = {std::move(columns), {values.data(), values.data() + values.size()}};
-        taut::AuditOptions options =
-            audit_options(interpolation, allow_repeats, max_bits, signing_key, max_check_seconds);
+        taut::AuditOptions options = audit_options(interpolation, max_bits, signing_key, max_check_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           options.stop = stop;
           options.progress = callback;
           return taut::audit(the_case, table, options, name);
         });
       },
-      "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "allow_repeats"_a, "max_bits"_a, "signing_key"_a,
+      "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a,
       "max_check_seconds"_a, "progress"_a);
 
   module.def(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by ./taut, ./taut-check and ./test, with `root` set to the source tree: builds build/release when it is
+# Sourced by ./taut, ./taut-check, ./taut-python and ./test, with `root` set to the source tree: builds build/release when it is
 # out of date. Anything that goes wrong here exits with 4, taut's code for an internal failure.
 # shellcheck shell=bash
 # shellcheck disable=SC2154  # root
@@ -18,6 +18,12 @@ is_current() {
     "$root"/{checker,certificate,reports,app,api,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
     -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
+}
+
+# Whether the Python module is there, too, and was built from the same sources as the programs, or later ones.
+is_python_current() {
+  is_current && [[ -r $stamp-python && ! $stamp -nt $stamp-python ]] &&
+    [[ -z $(find "$root/python" -newer "$stamp-python" -not -path '*/__pycache__*' -print -quit 2>/dev/null) ]]
 }
 
 # build_release_now [CMAKE_OPTION…] -- [TARGET…]; no target means all.
@@ -65,8 +71,18 @@ build_programs() {
   install_for build && build_release_now "${tests[@]}" -- taut taut-check
 }
 
+build_python() {
+  is_python_current && return
+  echo "building taut's Python module in $build (first use, or newer sources) ..."
+  local tests=()
+  [[ -f $build/CMakeCache.txt ]] || tests=(-DTAUT_TESTS=OFF)
+  install_for build python && build_release_now "${tests[@]}" -DTAUT_PYTHON=ON -- taut taut-check taut_python &&
+    cp -p "$stamp" "$stamp-python"
+}
+
 build_all() {
-  install_for build test python && build_release_now -DTAUT_TESTS=ON -DTAUT_PYTHON=ON --
+  install_for build test python && build_release_now -DTAUT_TESTS=ON -DTAUT_PYTHON=ON -- &&
+    cp -p "$stamp" "$stamp-python"
 }
 
 # or_exit_4 COMMAND…

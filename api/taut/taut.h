@@ -257,6 +257,12 @@ class TAUT_EXPORT Certificate {
   /// As `taut plan` writes it of a proved path, for a machine to follow; its last line names this certificate's
   /// SHA-256.
   [[nodiscard]] std::string path_csv() const;
+  /// controller.csv, as `taut plan` writes it of a proved path: poses and cable lengths so dense that neither the
+  /// platform's origin nor a cable's end on it travels more than `step_m` [m] from row to row. The rows are on the path
+  /// that is proved but for rounding; what a controller does between them is not proved.
+  /// @throws InputError unless the theorem is there and says "proved", and `step_m` is from 1e-9 to 1e6, and enough for
+  /// 200,000 rows.
+  [[nodiscard]] std::string controller_csv(double step_m = 0.01) const;
   [[nodiscard]] std::size_t segments() const;
   [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
 
@@ -315,7 +321,6 @@ struct ProveOptions {
 
 struct AuditOptions {
   std::optional<Interpolation> interpolation;  ///< nothing: as the file suggests
-  bool allow_repeats = false;                  ///< drop rows that repeat the pose of the row before
   long max_bits = 4096;                        ///< precision beyond which the prover gives up; 128 at least
   std::string signing_key_pem;
   ProgressCallback progress = {};

@@ -110,6 +110,12 @@ inline Interval sqrt(Interval a) {
   return Interval(lower, _mm_cvtsd_f64(_mm_unpackhi_pd(roots, roots)));
 }
 
+inline Interval absolute(Interval x) { return sqrt(sqr(x)); }
+/// max(x, y) for every x in a, y in b.
+inline Interval larger(Interval a, Interval b) {
+  return {std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
+}
+inline Interval euclidean_norm(Interval x, Interval y, Interval z) { return sqrt(sqr(x) + sqr(y) + sqr(z)); }
 [[nodiscard]] SinCos<Interval> sincos(Interval x);
 [[nodiscard]] Interval tan(Interval x);
 [[nodiscard]] Interval exp(Interval x);

@@ -157,6 +157,19 @@ template <class T, class P>
   return square(x);
 }
 
+template <class T, class P>
+[[nodiscard]] interval<T, P> absolute(const interval<T, P>& x) {
+  return sqrt(square(x));
+}
+template <class T, class P>
+[[nodiscard]] interval<T, P> larger(const interval<T, P>& x, const interval<T, P>& y) {
+  return interval<T, P>(std::max(x.lower(), y.lower()), std::max(x.upper(), y.upper()));
+}
+template <class T, class P>
+[[nodiscard]] interval<T, P> euclidean_norm(const interval<T, P>& x, const interval<T, P>& y, const interval<T, P>& z) {
+  return sqrt(interval<T, P>(square(x) + square(y) + square(z)));
+}
+
 namespace taut_detail {
 
 template <class T, class P>

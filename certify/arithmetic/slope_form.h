@@ -62,6 +62,26 @@ struct SlopeForm {
     const I over = sqrt(a.range);
     return {mid, a.slope / (mid + over), over};
   }
+  // These need no derivative: | |a(t)| − |a(m)| | <= |a(t) − a(m)|; and the change of a maximum lies between the least
+  // and the greatest change of what it is the maximum of.
+  friend SlopeForm absolute(const SlopeForm& a) {
+    if (certainly_positive(a.range)) return a;
+    if (certainly_positive(-a.range)) return -a;
+    return {absolute(a.at_mid), hull(a.slope, -a.slope), absolute(a.range)};
+  }
+  friend SlopeForm larger(const SlopeForm& a, const SlopeForm& b) {
+    return {larger(a.at_mid, b.at_mid), hull(a.slope, b.slope), larger(a.range, b.range)};
+  }
+  friend SlopeForm euclidean_norm(const SlopeForm& x, const SlopeForm& y, const SlopeForm& z) {
+    const I mid = euclidean_norm(x.at_mid, y.at_mid, z.at_mid);
+    const I over = euclidean_norm(x.range, y.range, z.range);
+    if (certainly_positive(mid + over)) {
+      const I change = x.slope * (x.at_mid + x.range) + y.slope * (y.at_mid + y.range) + z.slope * (z.at_mid + z.range);
+      return {mid, change / (mid + over), over};
+    }
+    const I slope = euclidean_norm(x.slope, y.slope, z.slope);
+    return {mid, hull(slope, -slope), over};
+  }
   /// With x = a(m), h = a(t) − x:  sin(x + h) − sin x = h (cos x sinc h − sin x verc h),
   ///   cos(x + h) − cos x = −h (sin x sinc h + cos x verc h),  where
   ///   sinc h = sin h / h in [1 − h²/6, 1],   verc h = (1 − cos h) / h in h [0, 1/2].

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/tolerance/tolerance.h"
 
+#include <algorithm>
+#include <stdexcept>
+
+#include "certify/tolerance/extremal_load.h"
+#include "problem/decimal.h"
+
 namespace taut {
 
 namespace {
@@ -62,6 +68,7 @@ template <class Upper>
 struct Change {
   std::array<std::array<Upper, 3>, kCables> d, reach, arm;
   std::array<Upper, 3> load_point;
+  Upper turn;       ///< the angle by which the platform turns; only where loads are items
   Square<Upper> s;  ///< |S − I|
 
   /// Calls visit(ours, a's, b's) for each number.
@@ -76,6 +83,7 @@ struct Change {
       for (std::size_t k = 0; k < kCables; ++k) visit(s[i][k], a.s[i][k], b.s[i][k]);
     }
     for (std::size_t k = 0; k < 3; ++k) visit(load_point[k], a.load_point[k], b.load_point[k]);
+    visit(turn, a.turn, b.turn);
   }
 };
 
@@ -137,6 +145,9 @@ struct Origin {
   Upper load_point_size;                                   ///< |p_m|, likewise
   std::array<Upper, kCables> pull;                         ///< >= |ρ_i|: 0 unless held by lengths
   bool length_controlled;
+  Matrix3<I> r_WP;         ///< R
+  bool has_items = false;  ///< K is not an ellipsoid alone
+  bool has_ellipsoid = true;
 };
 
 /// How far what Products has may be from that of C, on X.
@@ -160,6 +171,7 @@ struct OnAll {
   std::array<I, kCables> length, density, tension_radius;      ///< |d_i|, λ_i, V_i
   std::array<I, kCables> load_rate;                            ///< y_r·ŵ
   Square<I> gram;                                              ///< Z_r·Z_i
+  LoadsAtPose<I> loads;                                        ///< the items
 };
 
 template <class I>
@@ -168,6 +180,11 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
   const Model<I>& model = box.model;
   Origin<I> origin;
   origin.length_controlled = box.length_controlled;
+  origin.has_items = !model.loads.empty();
+  origin.has_ellipsoid = model.has_ellipsoid;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) origin.r_WP(i, j) = box.motion.r_WP(i, j).range;
+  }
   origin.q = box.q;
   for (std::size_t i = 0; i < kCables; ++i) {
     origin.d[i] = ranges(box.geometry.p_AB_W[i]);
@@ -175,7 +192,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
     origin.arm[i] = rotated_range(box.motion.r_WP, model.p_MB[i]);
     origin.length[i] = box.length[i].range;
     origin.density[i] = box.density[i].range;
-    origin.tension_radius[i] = box.tension_radius[i].range;
+    origin.tension_radius[i] = box.radius[i].range;
     origin.reach_size[i] = norm_above(model.p_PB[i]) + tolerance.platform_anchor[i];
     origin.arm_size[i] = norm_above(model.p_MB[i]) + tolerance.platform_anchor[i] + tolerance.load_point;
     origin.pull[i] = Upper(0.0);
@@ -278,6 +295,7 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
     }
   }
   rate.load_point.fill((turn + spin) * origin.load_point_size + tolerance.load_point);
+  rate.turn = origin.has_items ? turn + spin : Upper(0.0);
 
   Square<Upper> b;
   Square<Upper> s = guess.s;
@@ -302,7 +320,8 @@ class States {
   using Upper = UpperOf<I>;
 
   /// At τ = 0.
-  States(const Origin<I>& origin, const ToleranceModel<I>& tolerance) : origin_(origin), tolerance_(tolerance) {
+  States(const Model<I>& model, const Origin<I>& origin, const ToleranceModel<I>& tolerance)
+      : model_(model), origin_(origin), tolerance_(tolerance) {
     reached_.with(reached_, reached_, [](Upper& x, const Upper&, const Upper&) { x = Upper(0.0); });
     rate_ = rates(origin, tolerance, reached_, errors_);
   }
@@ -376,7 +395,7 @@ class States {
       }
       x.density[r] = origin_.density[r] + ProofScalarTraits<I>::symmetric(density_moved);
       x.tension_radius[r] = origin_.tension_radius[r] + ProofScalarTraits<I>::symmetric(root_moved[r]);
-      if (!certainly_positive(x.tension_radius[r])) return std::nullopt;
+      if (origin_.has_ellipsoid && !certainly_positive(x.tension_radius[r])) return std::nullopt;
       x.length[r] = origin_.length[r] + ProofScalarTraits<I>::symmetric(until * length_change[r]);
     }
     for (std::size_t r = 0; r < kCables; ++r) {
@@ -386,10 +405,16 @@ class States {
         x.gram[r][i] = x.gram[i][r] = origin_.gram[r][i] + ProofScalarTraits<I>::symmetric(moved);
       }
     }
+    if (origin_.has_items) {
+      Matrix3<I> r_WP = origin_.r_WP;  // a turn by an angle moves no unit vector farther than that
+      for (int i = 0; i < 9; ++i) r_WP(i) = r_WP(i) + ProofScalarTraits<I>::symmetric(guess_.turn);
+      x.loads = loads_at(model_.loads, r_WP);
+    }
     return x;
   }
 
  private:
+  const Model<I>& model_;
   const Origin<I>& origin_;
   const ToleranceModel<I>& tolerance_;
   Change<Upper> reached_;
@@ -423,18 +448,21 @@ UpperOf<I> length_rate(const Origin<I>& origin, const ToleranceModel<I>& toleran
   return tolerance.position + tolerance.orientation * lever + tolerance.base_anchor[i] + tolerance.platform_anchor[i];
 }
 
-/// (t) for the tension bounds φ_r = λ_r ∓ V_r of cable r; `moved` of each cable i is arm_i × (h_ri + d_i × y_r^m).
+/// (t) for a tension bound φ_r of cable r, at loads w* with κ_ri = y_i·w* that a turn moves by `load_turn`; `moved` of
+/// each cable i is arm_i × (h_ri + d_i × y_r^m).
 template <class I>
 UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t r,
-                        const std::array<I, kCables>& kappa, const std::array<Vector3<I>, kCables>& moved) {
+                        const std::array<I, kCables>& kappa, const Vector3<I>& load_turn,
+                        const std::array<Vector3<I>, kCables>& moved) {
   using Upper = UpperOf<I>;
   const I& length = x.length[r];
   const Vector3<I> pull = scaled(I(kappa[r] / length), x.d[r]);  // φ_r u_r
   Vector3<I> by_position = pull;                                 // P_r
   Vector3<I> by_turn = cross(x.arm[r], pull);                    // of the turn about P_m: W_r − R p_m × P_r
-  Vector3<I> by_load_point(I(0.0), I(0.0), I(0.0));              // M_r
-  std::array<Vector3<I>, kCables> by_base;                       // A_ri
-  std::array<Vector3<I>, kCables> by_platform;                   // B_ri
+  if (origin.has_items) by_turn = by_turn + scaled(length, load_turn);
+  Vector3<I> by_load_point(I(0.0), I(0.0), I(0.0));  // M_r
+  std::array<Vector3<I>, kCables> by_base;           // A_ri
+  std::array<Vector3<I>, kCables> by_platform;       // B_ri
   for (std::size_t i = 0; i < kCables; ++i) {
     const I weight = length * kappa[i];
     const Vector3<I> h = scaled(weight, x.h[r][i]);
@@ -470,21 +498,40 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   return bound;
 }
 
-/// (t) for f0_r − v_rr and f0_r + v_rr.
+/// (t) for the least, the greatest and, where loads are items, the nominal tension of cable r.
 template <class I>
-std::array<UpperOf<I>, 2> tension_rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x,
-                                        std::size_t r) {
-  const I inverse = reciprocal(x.tension_radius[r]);
-  std::array<I, kCables> low;   // κ_ri of λ − V
-  std::array<I, kCables> high;  // of λ + V
+std::array<UpperOf<I>, 3> tension_rates(const Origin<I>& origin, const Model<I>& model,
+                                        const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t r) {
   std::array<Vector3<I>, kCables> moved;
+  std::array<I, kCables> share;  // Z_r·Z_i / V_r
+  share.fill(I(0.0));
+  const I inverse = origin.has_ellipsoid ? reciprocal(x.tension_radius[r]) : I(0.0);
   for (std::size_t i = 0; i < kCables; ++i) {
-    const I share = i == r ? x.tension_radius[r] : I(x.gram[r][i] * inverse);  // Z_r·Z_i / V_r
-    low[i] = x.density[i] - share;
-    high[i] = x.density[i] + share;
+    if (origin.has_ellipsoid) share[i] = i == r ? x.tension_radius[r] : I(x.gram[r][i] * inverse);
     moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
   }
-  return {tension_rate(origin, tolerance, x, r, low, moved), tension_rate(origin, tolerance, x, r, high, moved)};
+  const auto rate = [&](Extremum which) {
+    std::array<I, kCables> kappa = x.density;
+    Vector3<I> turn(I(0.0), I(0.0), I(0.0));
+    if (origin.has_items) {
+      const ExtremalLoad<I> load = ExtremalLoads<I>(model.loads, x.loads).find(x.force[r], x.moment[r], which);
+      turn = load.by_turn;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        kappa[i] = I(0.0);
+        for (int k = 0; k < 3; ++k) {
+          kappa[i] = kappa[i] + x.force[i](k) * (load.wrench(k) + model.wrench(k)) +
+                     x.moment[i](k) * (load.wrench(3 + k) + model.wrench(3 + k));
+        }
+      }
+    }
+    for (std::size_t i = 0; i < kCables; ++i) {
+      if (which == Extremum::kLeast) kappa[i] = kappa[i] - share[i];
+      if (which == Extremum::kGreatest) kappa[i] = kappa[i] + share[i];
+    }
+    return tension_rate(origin, tolerance, x, r, kappa, turn, moved);
+  };
+  return {rate(Extremum::kLeast), rate(Extremum::kGreatest),
+          origin.has_items ? rate(Extremum::kNominal) : UpperOf<I>(0.0)};
 }
 
 }  // namespace
@@ -502,6 +549,10 @@ std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem) {
     model.wrench(static_cast<int>(i)) = ScalarTraits<I>::from_decimal(text.wrench[i]);
   }
   model.load_point = decimal(text.load_point_m);
+  const auto is_nothing = [](const DecimalText& x) { return Decimal::parse(x).sign() == 0; };
+  if (!problem.load.items.empty() && !(is_nothing(text.load_point_m) && std::ranges::all_of(text.wrench, is_nothing))) {
+    throw std::logic_error("tolerances of the load beside items");
+  }
   model.position = decimal(text.position_m);
   model.orientation = above(evaluate_constant<I>(text.orientation_rad));
   model.length_controlled = text.cable_length_m.has_value();
@@ -518,8 +569,9 @@ std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, cons
     if (!certainly_positive(length)) return std::nullopt;
   }
   const Origin<I> origin = make_origin(box, tolerance);
-  States<I> states(origin, tolerance);
+  States<I> states(box.model, origin, tolerance);
   DeviationBounds<I> result;
+  if (origin.has_items) result.nominal.emplace().fill(Upper(0.0));
   const double share = 1.0 / continuation_steps;
   for (int step = 1; step <= continuation_steps; ++step) {
     if (!states.advance(share)) return std::nullopt;
@@ -527,8 +579,9 @@ std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, cons
     if (!x) return std::nullopt;
     for (std::size_t r = 0; r < kCables; ++r) {
       if (!box.length_controlled) result.length[r] += Upper(share) * length_rate(origin, tolerance, *x, r);
-      const std::array<Upper, 2> rate = tension_rates(origin, tolerance, *x, r);
+      const std::array<Upper, 3> rate = tension_rates(origin, box.model, tolerance, *x, r);
       for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rate[side];
+      if (result.nominal) (*result.nominal)[r] += Upper(share) * rate[2];
     }
   }
   if (box.length_controlled) result.length = farthest;

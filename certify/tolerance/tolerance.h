@@ -37,7 +37,8 @@ struct ToleranceModel {
   bool length_controlled = false;  ///< under any law; under that of cable lengths all machines are
 };
 
-/// Nothing where the problem states no tolerances. At working_precision(); for Interval under run_upward().
+/// Nothing where the problem states no tolerances. Where loads are items, those of load point and load have to be 0: the
+/// bounds below take the items' wrenches to be about a point of the platform that stays where it is. At working_precision(); for Interval under run_upward().
 template <class I>
 [[nodiscard]] std::optional<ToleranceModel<I>> make_tolerance_model(const Problem& problem);
 
@@ -47,8 +48,13 @@ struct DeviationBounds {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> length{};                  ///< of d_i [m]
   std::array<std::array<Upper, 2>, kCables> tension{};  ///< of f0_i − v_ii and f0_i + v_ii [N]
-  /// Of v_ii, half the difference of those two [N].
-  [[nodiscard]] Upper tension_radius(std::size_t i) const { return Upper(0.5) * (tension[i][0] + tension[i][1]); }
+  /// Of the tension of the nominal wrench [N]; only where loads are items.
+  std::optional<std::array<Upper, kCables>> nominal;
+  /// Of how far K moves a tension below (side 0) or above (side 1) its nominal one [N]. Of an ellipsoid alone both are
+  /// v_ii, half the difference of the two bounds.
+  [[nodiscard]] Upper tension_reach(std::size_t i, std::size_t side) const {
+    return nominal ? tension[i][side] + (*nominal)[i] : Upper(0.5) * (tension[i][0] + tension[i][1]);
+  }
 };
 
 /// What (t) needs to know of a box, undisturbed.
@@ -57,10 +63,10 @@ struct UndisturbedBox {
   const Model<I>& model;
   const MotionEnclosure<I>& motion;
   const CableGeometry<SlopeForm<I>>& geometry;
-  const std::array<SlopeForm<I>, kCables>&length, &density, &tension_radius;  ///< d_i, λ_i, |Z_i|
-  const Square<I>& root;                                                      ///< rows Z_i of D^-1 L, over T
-  const Matrix6<typename ProofScalarTraits<I>::Point>& c;                     ///< C
-  const Square<UpperOf<I>>& q;                                                ///< D^-1 = P C on T, |P − I| <= Q
+  const std::array<SlopeForm<I>, kCables>&length, &density, &radius;  ///< d_i, λ_i, |Z_i|
+  const Square<I>& root;                                              ///< rows Z_i of D^-1 L, over T
+  const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
+  const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
   bool length_controlled;
 };
 

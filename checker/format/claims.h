@@ -14,6 +14,11 @@ inline constexpr const char* kProvedClaim =
     "deviates is at the pose to which its deviation leads as it grows from zero. The claim includes that these poses "
     "exist.";
 
+/// Follows the claim of a verdict but "undecided", where the problem's load has items.
+inline constexpr const char* kItemsClause =
+    " K is the sum of the items that the problem's load states, and of its ellipsoid where it states one: the wrenches "
+    "about the load point that are a sum of one wrench of each.";
+
 inline constexpr const char* kRefutedClaim =
     "The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension outside its "
     "open limits, or a cable length is outside its open limits, or the force Jacobian J is singular at some pose "

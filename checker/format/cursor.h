@@ -131,6 +131,18 @@ void read(const Cursor& json, std::optional<T>& x) {
 inline auto dyadic(mpq_class& x) {
   return [&x](const Cursor& json) { x = json.number(&parse_dyadic, kDyadicForm); };
 }
+/// A rational, or an array of these or of such arrays.
+template <class T>
+auto rational(T& x) {
+  return [&x](const Cursor& json) {
+    if constexpr (std::same_as<T, mpq_class>) {
+      x = json.number(&parse_rational, kRationalForm);
+    } else {
+      json.require_size(x.size());
+      json.elements([&](const Cursor& element, std::size_t i) { rational(x[i])(element); });
+    }
+  };
+}
 template <class T>
 auto integer(T& x, std::int64_t lowest, std::int64_t highest) {
   return [=, &x](const Cursor& json) { x = static_cast<T>(json.integer(lowest, highest)); };

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMaxDigits = 1000;
 constexpr long kMaxExponent = 1000;
 constexpr std::size_t kMaxDenominatorDigits = 302;
+constexpr std::size_t kMaxFractionDigits = 300;
 
 /// Removes the character from the front of `text`, if it is there.
 bool take(std::string_view& text, char c) {
@@ -50,6 +51,21 @@ std::optional<mpq_class> parse_decimal(std::string_view text) {
   mpq_class value(mpz_class(is_negative ? "-" + digits : digits, 10));
   if (exponent < 0) return value / scale;
   return value * scale;
+}
+
+std::optional<mpq_class> parse_rational(std::string_view text) {
+  if (text.find('/') == std::string_view::npos) return parse_decimal(text);
+  const bool is_negative = take(text, '-');
+  const std::string above = take_digits(text);
+  take(text, '/');
+  const std::string below = take_digits(text);
+  const auto fits = [](const std::string& digits) { return !digits.empty() && digits.size() <= kMaxFractionDigits; };
+  if (!text.empty() || !fits(above) || !fits(below)) return std::nullopt;
+  const mpz_class denominator(below, 10);
+  if (denominator == 0) return std::nullopt;
+  mpq_class value(mpz_class(is_negative ? "-" + above : above, 10), denominator);
+  value.canonicalize();
+  return value;
 }
 
 std::optional<mpq_class> parse_dyadic(std::string_view text) {

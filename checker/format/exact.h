@@ -12,6 +12,8 @@ namespace taut::checker {
 
 inline constexpr const char* kDecimalForm =
     "a decimal of at most 1000 digits, with an exponent of at most 1000 either way";
+inline constexpr const char* kRationalForm =
+    "such a decimal, or a fraction a/b of integers with b > 0 and at most 300 digits each";
 inline constexpr const char* kDyadicForm = "\"0\", \"1\" or k/m with m a power of two, in lowest terms, in [0, 1]";
 inline constexpr const char* kBinary64Form = "a finite binary64 as printed by %a";
 
@@ -19,6 +21,9 @@ inline constexpr const char* kBinary64Form = "a finite binary64 as printed by %a
 
 /// "-0.0210" or "1e-4": the rational number that is written there.
 [[nodiscard]] std::optional<mpq_class> parse_decimal(std::string_view text);
+
+/// A decimal, or "-1/36": the rational number that is written there.
+[[nodiscard]] std::optional<mpq_class> parse_rational(std::string_view text);
 
 /// "0", "1", or "k/m" with a denominator of at most 302 digits.
 [[nodiscard]] std::optional<mpq_class> parse_dyadic(std::string_view text);

@@ -15,6 +15,12 @@ inline constexpr std::array<std::pair<const char*, Law>, 4> kLaws = {
 
 void read(const Cursor& json, Limits& limits);
 void read(const Cursor& json, ToleranceBounds& tolerances);
+/// `problem.load`.
+void read_load(const Cursor& json, Problem& problem);
+/// Load point and wrench have no tolerances, as items have their own.
+void require_no_tolerance_of_load(const Cursor& tolerances, const ToleranceBounds& bounds);
+/// `loads` of a witness: one for each item.
+[[nodiscard]] std::vector<LoadChoice> read_loads(const Cursor& json, const std::vector<LoadItem>& items);
 [[nodiscard]] Problem read_problem(const Cursor& json);
 /// `problem.space` of a path whose law is one of poses: the free coordinates px py pz phi theta sigma.
 [[nodiscard]] const Json& coordinate_space();

@@ -283,9 +283,12 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     deviation.require(problem.tolerances.has_value(), "tolerances to be within");
     witness.deviation = read_deviation(deviation, is_length_controlled(problem, path));
   };
+  const bool is_tension = witness.kind == WitnessKind::kTensionMin || witness.kind == WitnessKind::kTensionMax;
+  const char* const loads_key = is_tension && !problem.items.empty() ? "loads?" : nullptr;
+  const auto read_witness_loads = [&](const Cursor& loads) { witness.loads = read_loads(loads, problem.items); };
   json.object("kind", ignore, "cable", integer(witness.cable, 1, kCables), "limit", limit, "value", read_value, "at",
               witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n), "motion", read_motion,
-              "deviation?", read_deviating);
+              "deviation?", read_deviating, loads_key, read_witness_loads);
   --witness.cable;
   require_violation(json, limit, problem, witness);
   return witness;

@@ -207,18 +207,13 @@ Problem read_problem(const Cursor& json) {
     robot.object("base_anchors_m", problem.base_anchors, "length_m", problem.length, "platform_anchors_m",
                  problem.platform_anchors, "tension_N", problem.tension);
   };
-  const auto read_load = [&](const Cursor& load) {
-    load.object("ellipsoid", problem.ellipsoid, "point_m", problem.load_point, "wrench", problem.wrench);
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        load["ellipsoid"].require(problem.ellipsoid[i][j] == problem.ellipsoid[j][i], "a symmetric matrix");
-      }
-    }
-  };
   json.object(
-      "name", name, "robot", read_robot, "load", read_load, "tolerances", problem.tolerances, "space",
-      [&](const Cursor& space) { read_space(space, problem); }, "query",
+      "name", name, "robot", read_robot, "load", [&](const Cursor& load) { read_load(load, problem); }, "tolerances",
+      problem.tolerances, "space", [&](const Cursor& space) { read_space(space, problem); }, "query",
       [&](const Cursor& query) { read_query(query, problem); });
+  if (problem.tolerances && !problem.items.empty()) {
+    require_no_tolerance_of_load(json["tolerances"], *problem.tolerances);
+  }
   return problem;
 }
 

@@ -83,6 +83,7 @@ class Reader {
   void read_problem_and_digest(const Cursor& json) {
     is_digest(sha256(json.json()))(top_["problem_sha256"]);
     result_.problem = read_problem(json);
+    require_claim();
   }
   void read_signature(const Cursor& json) { result_.signer = verify_signature(json, outline_.body_sha256); }
 
@@ -189,9 +190,14 @@ class Reader {
   void read_verdict(const Cursor& json) {
     static constexpr std::array<std::pair<const char*, Verdict>, 3> kVerdicts = {
         {{"proved", Verdict::kProved}, {"refuted", Verdict::kRefuted}, {"undecided", Verdict::kUndecided}}};
-    constexpr std::array<const char*, 3> kClaims = {kProvedClaim, kRefutedClaim, kUndecidedClaim};
     result_.verdict = json.one_of<Verdict>(kVerdicts, "proved, refuted or undecided");
-    exactly(kClaims[static_cast<std::size_t>(result_.verdict)], "the text that belongs to the verdict")(top_["claim"]);
+  }
+
+  void require_claim() const {
+    constexpr std::array<const char*, 3> kClaims = {kProvedClaim, kRefutedClaim, kUndecidedClaim};
+    std::string claim = kClaims[static_cast<std::size_t>(result_.verdict)];
+    if (result_.verdict != Verdict::kUndecided && !result_.problem.items.empty()) claim += kItemsClause;
+    exactly(claim, "the text that belongs to the verdict")(top_["claim"]);
   }
 
   void read_stretches(const Cursor& json) {

@@ -42,6 +42,7 @@ struct Witness {
   mpq_class value_lower;
   mpq_class value_upper;
   std::optional<WitnessDeviation> deviation;
+  std::optional<std::vector<LoadChoice>> loads;  ///< one an item, of its kind; of a tension only
   /// Connects the witness: for kSingular the boxes over which the path is shown to be continuous between `at` and
   /// `to`; where the motion is implied, for the witness of the certificate, boxes that with the proved ones cover the
   /// path from its beginning to the witness.

@@ -134,6 +134,8 @@ inline const Ball& smaller(const Ball& a, const Ball& b) { return &larger(a, b) 
 
 /// Every number from any in a to any in b.
 inline Ball hull(const Ball& a, const Ball& b) { return Ball::by<arb_union>(a, b); }
+/// Every number that is in both. @pre there is one
+inline Ball intersection(const Ball& a, const Ball& b) { return Ball::by<arb_intersection>(a, b); }
 /// a, widened by every number of magnitude up to that of b.
 inline Ball plus_minus(const Ball& a, const Ball& b) {
   return Ball::make([&](arb_ptr r) {

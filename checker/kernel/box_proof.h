@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The theorem of a proved box, from the clauses: motion.h (where the machine is), machine.h (machine, loads, limits)
-// and deviation.h (what tolerances take away).
+// The theorem of a proved box, from the clauses: motion.h (where the machine is), machine.h and loads.h (machine,
+// loads, limits) and deviation.h (what tolerances take away).
 #pragma once
 
 #include "checker/kernel/machine.h"
@@ -9,9 +9,9 @@ namespace taut::checker {
 
 /// Proved lower bounds over a box; each is one number.
 struct Bounds {
-  Ball tension;       ///< of f0_i - v_i - f_lo,i and f_hi,i - f0_i - v_i [N]
+  Ball tension;       ///< of the least tensions minus f_lo,i, and of f_hi,i minus the largest [N]
   Ball length;        ///< of d_i - d_lo,i and d_hi,i - d_i [m]
-  Ball wrench_scale;  ///< K may be so many times as large before a tension reaches its limit
+  Ball wrench_scale;  ///< K may be so many times as large, about its nominal wrench, before a tension reaches its limit
 };
 
 /// Claim. For every s of the box, every machine, load and pose within the tolerances: the pose exists, its parameters

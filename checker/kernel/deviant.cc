@@ -8,7 +8,7 @@ namespace {
 
 void require_within(const std::array<mpq_class, 3>& x, const mpq_class& tolerance, const char* what) {
   if (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] > tolerance * tolerance) {
-    throw Rejected(std::string("false: the witness's deviation is within the tolerance of ") + what);
+    throw Rejected(std::string("the witness's deviation of ") + what + " is larger than its tolerance");
   }
 }
 
@@ -34,8 +34,10 @@ Problem deviating(Problem problem, const WitnessDeviation& by) {
   for (std::size_t c = 0; c < 3; ++c) problem.load_point[c] += by.load_point[c];
   const Ball u = sqrt(Ball(mpq_class(by.turn[0] * by.turn[0] + by.turn[1] * by.turn[1] + by.turn[2] * by.turn[2])));
   const Ball angle = within.orientation.evaluate<MeanValueForm>({}).range() - Ball(2) * value(Function::kAtan, u);
-  if (certainly_negative(angle)) throw Rejected("false: the witness's deviation is within the tolerance of the angle");
-  if (!certainly_nonnegative(angle)) throw Undefined("whether the deviation's angle is within its tolerance");
+  if (certainly_negative(angle))
+    throw Rejected("the witness's deviation of the orientation is larger than its tolerance");
+  if (!certainly_nonnegative(angle))
+    throw Undefined("the witness's deviation of the orientation may be larger than its tolerance");
   problem.tolerances.reset();
   return problem;
 }

@@ -8,17 +8,6 @@ Vector3<Ball> widened(const Vector3<Ball>& x, const Ball& by) {
   return {plus_minus(x[0], by), plus_minus(x[1], by), plus_minus(x[2], by)};
 }
 
-/// The Euclidean length of every vector in z.
-Ball length_range(const Vector6<Ball>& z) {
-  Ball least;
-  Ball most;
-  for (const Ball& x : z) {
-    least += sqr(least_magnitude(x));
-    most += sqr(magnitude(x));
-  }
-  return hull(sqrt(lowest(least)), sqrt(most));
-}
-
 /// (f, m): the first and the last three entries of a row of D^-1.
 struct Row {
   Vector3<Ball> f;
@@ -32,6 +21,7 @@ using Vectors = std::array<Vector3<Ball>, 6>;
 struct Followed {
   Vectors d, r, Rb;
   Vector3<Ball> Rp_m;
+  Matrix3<Ball> R;  ///< where there are items
   Matrix6<Ball> Y;
 };
 
@@ -46,7 +36,10 @@ void for_each(const Visit& visit, All&... all) {
     }
     for (std::size_t k = 0; k < 6; ++k) visit(all.Y[i][k]...);
   }
-  for (std::size_t c = 0; c < 3; ++c) visit(all.Rp_m[c]...);
+  for (std::size_t c = 0; c < 3; ++c) {
+    visit(all.Rp_m[c]...);
+    for (std::size_t k = 0; k < 3; ++k) visit(all.R[c][k]...);
+  }
 }
 
 /// Everything that the rates are made of, for every u and every deviation, during one part of the way.
@@ -57,9 +50,7 @@ class Family {
       : machine_(machine), length_controlled_(length_controlled), whole_(*machine.tolerances) {
     if (whole_.cable_length) e_ = *whole_.cable_length;
     const Matrix3<Ball> R = range(geometry.pose.R);
-    Matrix6<Ball> identity;
     for (std::size_t i = 0; i < 6; ++i) {
-      identity[i][i] = Ball(1);
       start_.d[i] = range(geometry.d[i]);
       start_.r[i] = range(geometry.arm[i]);
       start_.Rb[i] = multiply(R, machine.platform[i]);
@@ -70,7 +61,8 @@ class Family {
       rho_[i] = magnitude((length_start_[i] + e_[i]) * (e_[i] + whole_.base_anchors[i] + whole_.platform_anchors[i]));
     }
     start_.Rp_m = multiply(R, machine.load_point);
-    start_.Y = map(inverse.times(identity), [](const MeanValueForm& y) { return y.range(); });
+    start_.R = R;
+    start_.Y = map(inverse.rows(), [](const MeanValueForm& y) { return y.range(); });
     Rp_m_size_ = length_bound(machine.load_point) + whole_.load_point;
   }
 
@@ -103,17 +95,37 @@ class Family {
     set_loads(until);
   }
 
-  /// Bounds of |F_r'| for c = -1 and c = 1.
-  [[nodiscard]] std::array<Ball, 2> tension_rates(std::size_t r) const {
+  /// Bounds of the rates of the least, the largest and the nominal tension.
+  struct TensionRates {
+    std::array<Ball, 2> extreme;
+    Ball nominal;  ///< where there are items
+  };
+  [[nodiscard]] TensionRates tension_rates(std::size_t r) const {
     Vectors turned;         // r_i x (h_ri + q_ri)
     Vector6<Ball> overlap;  // z_r . z_i / V_r
     for (std::size_t i = 0; i < 6; ++i) {
       turned[i] = cross(now_.r[i], h_[r][i] + q_[r][i]);
       for (std::size_t j = 0; j < 6 && i != r; ++j) overlap[i] += z_[r][j] * z_[i][j];
     }
-    const Ball V = length_range(z_[r]);
-    for (std::size_t i = 0; i < 6; ++i) overlap[i] = i == r ? V : overlap[i] / V;
-    return {tension_rate(r, Ball(-1), overlap, turned), tension_rate(r, Ball(1), overlap, turned)};
+    if (machine_.ellipsoid) {
+      const Ball V = length_range(z_[r]);
+      for (std::size_t i = 0; i < 6; ++i) overlap[i] = i == r ? V : overlap[i] / V;
+    }
+    const auto extreme = [&](const Ball& c) {
+      ExtremeLoad load;
+      for (std::size_t i = 0; i < 6; ++i) load.kappa[i] = x_[i] + c * overlap[i];
+      for (std::size_t k = 0; k < levers_.size(); ++k) {
+        const Lever<Ball>& y = levers_[k][r];
+        add_item(k, r, machine_.items[k].maximizers(certainly_positive(c) ? y : -y), load);
+      }
+      return tension_rate(r, load, turned);
+    };
+    TensionRates result = {{extreme(Ball(-1)), extreme(Ball(1))}, Ball()};
+    if (levers_.empty()) return result;
+    ExtremeLoad nominal = {x_, {}};
+    for (std::size_t k = 0; k < levers_.size(); ++k) add_item(k, r, {machine_.items[k].nominal()}, nominal);
+    result.nominal = tension_rate(r, nominal, turned);
+    return result;
   }
 
   /// A bound of the rate of |d_i|, of a machine that is not length-controlled.
@@ -180,6 +192,7 @@ class Family {
       }
     }
     rate.Rp_m.fill((turn + spin) * Rp_m_size_ + whole_.load_point);
+    if (!machine_.items.empty()) rate.R.fill({turn + spin, turn + spin, turn + spin});
     rate.Y = multiply(YD, map(now_.Y, magnitude));
     return rate;
   }
@@ -188,14 +201,35 @@ class Family {
     Vector6<Ball> wrench;
     for (std::size_t i = 0; i < 6; ++i) wrench[i] = plus_minus(machine_.wrench[i], until * whole_.wrench[i]);
     x_ = multiply(now_.Y, wrench);
-    z_ = multiply(now_.Y, machine_.ellipsoid);
+    if (machine_.ellipsoid) z_ = multiply(now_.Y, *machine_.ellipsoid);
+    levers_.resize(machine_.items.size());
+    for (std::size_t k = 0; k < levers_.size(); ++k) {
+      for (std::size_t i = 0; i < 6; ++i) levers_[k][i] = machine_.items[k].lever(now_.R, now_.Y[i]);
+    }
   }
 
-  [[nodiscard]] Ball tension_rate(std::size_t r, const Ball& c, const Vector6<Ball>& overlap,
-                                  const Vectors& turned) const {
+  /// What a rate depends on of w*.
+  struct ExtremeLoad {
+    Vector6<Ball> kappa;
+    Vector3<Ball> T;
+  };
+  /// Adds item k's share, for row r, of whichever of these wrenches.
+  void add_item(std::size_t k, std::size_t r, const std::vector<Wrench>& wrenches, ExtremeLoad& to) const {
+    ExtremeLoad any;
+    for (std::size_t n = 0; n < wrenches.size(); ++n) {
+      const auto include = [&](Ball& all, const Ball& one) { all = n == 0 ? one : hull(all, one); };
+      const Vector3<Ball> T = machine_.items[k].turning(now_.R, now_.Y[r], wrenches[n]);
+      for (std::size_t i = 0; i < 6; ++i) include(any.kappa[i], of(levers_[k][i], wrenches[n]));
+      for (std::size_t c = 0; c < 3; ++c) include(any.T[c], T[c]);
+    }
+    for (std::size_t i = 0; i < 6; ++i) to.kappa[i] += any.kappa[i];
+    to.T = to.T + any.T;
+  }
+
+  [[nodiscard]] Ball tension_rate(std::size_t r, const ExtremeLoad& load, const Vectors& turned) const {
     Vector6<Ball> pull;  // |d_r| kappa_i
-    for (std::size_t i = 0; i < 6; ++i) pull[i] = length_[r] * (x_[i] + c * overlap[i]);
-    const Vector3<Ball> own = (x_[r] + c * overlap[r]) * u_[r];  // phi u_r
+    for (std::size_t i = 0; i < 6; ++i) pull[i] = length_[r] * load.kappa[i];
+    const Vector3<Ball> own = load.kappa[r] * u_[r];  // phi u_r
 
     Vector3<Ball> P = own;
     Vector3<Ball> Q = cross(now_.r[r], own);
@@ -205,6 +239,7 @@ class Family {
       Q = Q - pull[i] * turned[i];
       of_load_point = of_load_point + pull[i] * q_[r][i];
     }
+    if (!machine_.items.empty()) Q = Q + length_[r] * load.T;
     const Ball P_size = length_bound(P);
     const Ball turn_size = length_bound(Q + cross(now_.Rp_m, P));
     Ball of_wrench;
@@ -248,7 +283,8 @@ class Family {
   Vector6<Ball> length_;              ///< |d_i|
   std::array<Vectors, 6> h_, q_, w_;  ///< [r][i]
   Vector6<Ball> x_;
-  Matrix6<Ball> z_;  ///< rows z_r
+  Matrix6<Ball> z_;                                 ///< rows z_r
+  std::vector<std::array<Lever<Ball>, 6>> levers_;  ///< [item][r]
 };
 
 }  // namespace
@@ -258,15 +294,23 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
   MarginLoss result;
   const Ball share = Ball(1) / Ball(parts);
   Family family(machine, geometry, inverse, length_controlled);
+  Vector6<Ball> nominal;
   for (int part = 1; part <= parts; ++part) {
     family.advance(share, Ball(mpq_class(part, parts)), guesses);
     for (std::size_t i = 0; i < 6; ++i) {
       if (!length_controlled) result.length[i] += share * family.length_rate(i);
-      const std::array<Ball, 2> rates = family.tension_rates(i);
-      for (std::size_t side = 0; side < 2; ++side) result.tension[i][side] += share * rates[side];
+      const Family::TensionRates rates = family.tension_rates(i);
+      for (std::size_t side = 0; side < 2; ++side) result.tension[i][side] += share * rates.extreme[side];
+      nominal[i] += share * rates.nominal;
     }
   }
-  for (std::size_t i = 0; i < 6 && length_controlled; ++i) result.length[i] = family.controlled_length_loss(i);
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (length_controlled) result.length[i] = family.controlled_length_loss(i);
+    // Of the ellipsoid alone the two extremes differ by 2 v, which changes by no more than the sum of their changes.
+    const auto& [least, most] = result.tension[i];
+    result.radius[i].fill(half(least + most));
+    if (!machine.items.empty()) result.radius[i] = {least + nominal[i], most + nominal[i]};
+  }
   return result;
 }
 

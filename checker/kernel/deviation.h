@@ -27,9 +27,16 @@
 // of Z and V_r = |z_r|, the tension with tension_radius F_r = |d_r| (x_r + c V_r), c = -1 or 1, has therefore the rate
 //     F_r' = phi u_r . d_r' + |d_r| (y_r . w' - sum_i kappa_i y_r . D_i'),
 //     kappa_i = x_i + c (z_r . z_i) / V_r,   phi = kappa_r,   u_r = d_r / |d_r|,
-// linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r, where Q_r is the
-// one of a rotation about P_m; a coefficient's length times the tolerance bounds what that deviation does. Where
-// lengths are controlled, rho_j adds to it P_r . f_j + Q_r . m_j, up to what tracking turns.
+// (This is the rate of |d_r| y_r . w* for a w* of K at which y_r . w is extreme:
+// kappa_i = y_i . w*. This holds for every compact K whose members are differentiable functions of t of some z from one
+// compact set: then the extreme is Lipschitz in t, and its derivative, wherever it exists, is that of y_r . w(z*) for
+// any
+// z* that attains it (Danskin). So with the items of a load (loads.h), kappa_i gains y_i . w* of each item, where w* is
+// one of a few wrenches that certainly include one that attains the extreme; w' is W . T: Q_r below gains |d_r| T. The
+// items have no other tolerances. With w_nominal for w*, F_r' is the rate of f0_r.)
+//     The rate is linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r,
+// where Q_r is the one of a rotation about P_m; a coefficient's length times the tolerance bounds what that deviation
+// does. Where lengths are controlled, rho_j adds to it P_r . f_j + Q_r . m_j, up to what tracking turns.
 //
 // The length |d_i| of a cable changes at the rate u_i . d_i', by no more than |p'| + min(|W x R b_i . u_i|, |W||b_i|) +
 // ... Where lengths are controlled, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking
@@ -42,7 +49,8 @@ namespace taut::checker {
 
 /// For each cable: bounds that hold for every u and every machine within the tolerances.
 struct MarginLoss {
-  std::array<std::array<Ball, 2>, 6> tension;  ///< of the change of f0_i - v_i, and of f0_i + v_i [N]
+  std::array<std::array<Ball, 2>, 6> tension;  ///< of the change of the least and of the largest tension [N]
+  std::array<std::array<Ball, 2>, 6> radius;   ///< of the change of what they differ by from the nominal one [N]
   Vector6<Ball> length;                        ///< of the change of |d_i| [m]
 };
 

@@ -35,6 +35,15 @@ class ArbMatrix {
 
 }  // namespace
 
+MeanValueForm norm(const Vector3<MeanValueForm>& a) {
+  const Vector3<Ball> x = {a[0].at, a[1].at, a[2].at};
+  const Vector3<Ball> y = {a[0].slope, a[1].slope, a[2].slope};
+  const Ball both = length_range(x) + length_range(range(a));
+  Ball z = plus_minus(length_bound(y));
+  if (certainly_positive(both)) z = intersection(z, dot(y, x + range(a)) / both);
+  return {length_range(x), std::move(z)};
+}
+
 Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B) {
   ArbMatrix left(A), right(B), result;
   arb_mat_mul_classical(result.get(), left.get(), right.get(), Ball::bits());
@@ -53,7 +62,7 @@ Ball norm(const Matrix6<Ball>& A) {
 
 Matrix6<Ball> approximate_inverse(const Matrix6<Ball>& A) {
   ArbMatrix matrix(map(A, middle)), result;
-  if (arb_mat_approx_inv(result.get(), matrix.get(), Ball::bits()) == 0) throw Undefined("a matrix that is singular");
+  if (arb_mat_approx_inv(result.get(), matrix.get(), Ball::bits()) == 0) throw Undefined("a matrix may be singular");
   return map(result.balls(), middle);
 }
 

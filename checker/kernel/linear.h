@@ -17,6 +17,12 @@ using Matrix3 = std::array<Vector3<T>, 3>;  ///< rows
 template <class T>
 using Matrix6 = std::array<Vector6<T>, 6>;  ///< rows
 
+template <std::size_t N>
+std::array<Ball, N> balls(const std::array<mpq_class, N>& x) {
+  std::array<Ball, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = Ball(x[i]);
+  return result;
+}
 template <class T>
 Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -37,13 +43,17 @@ template <class T>
 Vector3<T> operator-(const Vector3<T>& a, const Vector3<T>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
+template <class T>
+Vector3<T> operator-(const Vector3<T>& a) {
+  return {-a[0], -a[1], -a[2]};
+}
 template <class S, class T>
 Vector3<T> operator*(const S& a, const Vector3<T>& b) {
   return {a * b[0], a * b[1], a * b[2]};
 }
 template <class S, class T>
-Vector3<S> multiply(const Matrix3<S>& A, const Vector3<T>& x) {
-  return {dot(A[0], x), dot(A[1], x), dot(A[2], x)};
+auto multiply(const Matrix3<S>& A, const Vector3<T>& x) {
+  return Vector3<decltype(dot(A[0], x))>{dot(A[0], x), dot(A[1], x), dot(A[2], x)};
 }
 template <class T>
 Matrix3<T> transposed(const Matrix3<T>& A) {
@@ -59,6 +69,20 @@ Matrix3<T> multiply(const Matrix3<T>& A, const Matrix3<T>& B) {
 inline Ball length_bound(const Vector3<Ball>& a) {
   return highest(sqrt(sqr(magnitude(a[0])) + sqr(magnitude(a[1])) + sqr(magnitude(a[2]))));
 }
+/// The Euclidean length of every vector in a.
+template <std::size_t N>
+Ball length_range(const std::array<Ball, N>& a) {
+  Ball least;
+  Ball most;
+  for (const Ball& x : a) {
+    least += sqr(least_magnitude(x));
+    most += sqr(magnitude(x));
+  }
+  return hull(sqrt(lowest(least)), sqrt(most));
+}
+/// |a|. With a = x + y u, |a| = |x| + z u, |z| <= |y|, and z (|a| + |x|) = y . (a + x), as |a|^2 - |x|^2 = u y . (a +
+/// x).
+[[nodiscard]] MeanValueForm norm(const Vector3<MeanValueForm>& a);
 inline Vector3<Ball> range(const Vector3<MeanValueForm>& a) { return {a[0].range(), a[1].range(), a[2].range()}; }
 inline Matrix3<Ball> range(const Matrix3<MeanValueForm>& a) { return {range(a[0]), range(a[1]), range(a[2])}; }
 

@@ -4,13 +4,6 @@
 namespace taut::checker {
 namespace {
 
-template <std::size_t N>
-std::array<Ball, N> balls(const std::array<mpq_class, N>& x) {
-  std::array<Ball, N> result;
-  for (std::size_t i = 0; i < N; ++i) result[i] = Ball(x[i]);
-  return result;
-}
-
 /// L = M^-T with E = M M', M lower triangular with a positive diagonal. Such an M exists exactly if E is positive
 /// definite. M^-1 follows by forward substitution.
 Matrix6<Ball> ellipsoid_factor(const std::array<std::array<mpq_class, 6>, 6>& E) {
@@ -32,7 +25,7 @@ Matrix6<Ball> ellipsoid_factor(const std::array<std::array<mpq_class, 6>, 6>& E)
   return L;
 }
 
-Tolerances<Ball, Ball> balls(const ToleranceBounds& exact) {
+Tolerances<Ball, Ball> enclosed(const ToleranceBounds& exact) {
   Tolerances<Ball, Ball> result;
   result.base_anchors = balls(exact.base_anchors);
   result.platform_anchors = balls(exact.platform_anchors);
@@ -93,10 +86,17 @@ Matrix6<MeanValueForm> Inverse::times(const Matrix6<Ball>& B) const {
   return result;
 }
 
+Matrix6<MeanValueForm> Inverse::rows() const {
+  Matrix6<Ball> identity;
+  for (std::size_t i = 0; i < 6; ++i) identity[i][i] = Ball(1);
+  return times(identity);
+}
+
 Machine::Machine(const Problem& problem) {
   load_point = balls(problem.load_point);
   wrench = balls(problem.wrench);
-  ellipsoid = ellipsoid_factor(problem.ellipsoid);
+  if (problem.ellipsoid) ellipsoid = ellipsoid_factor(*problem.ellipsoid);
+  for (const LoadItem& item : problem.items) items.emplace_back(item, problem.load_point, problem.gravity);
   for (std::size_t i = 0; i < kCables; ++i) {
     base[i] = balls(problem.base_anchors[i]);
     platform[i] = balls(problem.platform_anchors[i]);
@@ -106,7 +106,7 @@ Machine::Machine(const Problem& problem) {
     tension_limits[i] = {Ball(problem.tension[i].lower), Ball(problem.tension[i].upper)};
     length_limits[i] = {Ball(problem.length[i].lower), Ball(problem.length[i].upper)};
   }
-  if (problem.tolerances) tolerances = balls(*problem.tolerances);
+  if (problem.tolerances) tolerances = enclosed(*problem.tolerances);
 }
 
 Geometry Machine::geometry(const Frame& pose) const {
@@ -130,16 +130,45 @@ Geometry Machine::geometry(const Frame& pose) const {
   return result;
 }
 
-Tensions Machine::tensions(const Inverse& inverse) const {
+Tensions Machine::tensions(const Geometry& geometry, const Inverse& inverse) const {
   Tensions result;
-  result.density = inverse.times(wrench);
-  const Matrix6<MeanValueForm> Z = inverse.times(ellipsoid);
-  for (std::size_t i = 0; i < 6; ++i) {
-    MeanValueForm squared;
-    for (const MeanValueForm& z : Z[i]) squared += sqr(z);
-    result.tension_radius[i] = apply(Function::kSqrt, squared);
+  if (ellipsoid) {
+    const Matrix6<MeanValueForm> Z = inverse.times(*ellipsoid);
+    for (std::size_t i = 0; i < 6; ++i) {
+      MeanValueForm squared;
+      for (const MeanValueForm& z : Z[i]) squared += sqr(z);
+      result.radius[0][i] = result.radius[1][i] = apply(Function::kSqrt, squared);
+    }
+  }
+  if (items.empty()) {
+    result.density = inverse.times(wrench);
+  } else {
+    add_items(geometry.pose.R, inverse, result);
   }
   return result;
+}
+
+/// The nominal wrench w is known to first order: D^-1 w = D^-1 c + sum_k (column k of D^-1) (w - c)_k, with c the
+/// numbers in the middle of w. The first term is much closer than a sum over columns.
+void Machine::add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse, Tensions& to) const {
+  const Matrix6<MeanValueForm> Y = inverse.rows();
+  Vector6<MeanValueForm> nominal;
+  for (std::size_t k = 0; k < 6; ++k) nominal[k] = MeanValueForm(wrench[k]);
+  for (const Load& item : items) {
+    const Vector6<MeanValueForm> w = item.nominal_about_load_point(R);
+    for (std::size_t k = 0; k < 6; ++k) nominal[k] += w[k];
+  }
+  Vector6<Ball> centre;
+  for (std::size_t k = 0; k < 6; ++k) centre[k] = middle(nominal[k].at);
+  to.density = inverse.times(centre);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) to.density[i] += Y[i][k] * (nominal[k] - MeanValueForm(centre[k]));
+    for (const Load& item : items) {
+      const Lever<MeanValueForm> y = item.lever(R, Y[i]);
+      to.radius[0][i] += item.above(-y);
+      to.radius[1][i] += item.above(y);
+    }
+  }
 }
 
 }  // namespace taut::checker

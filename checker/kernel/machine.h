@@ -8,9 +8,11 @@
 //   statics    cable i pulls along d_i / |d_i| with force f_i. With the force density x_i = f_i / |d_i|, J f = w reads
 //              D x = w; column i of D is (d_i ; r_i x d_i), and J = D diag(1 / |d_i|). So, lengths being positive, J is
 //              non-singular exactly where D is, and row i of J^-1 is |d_i| times row i of D^-1.
-//   extremes   over K = { w0 + e : e' E e <= 1 }, f_i fills [f0_i - v_i, f0_i + v_i] (Cauchy-Schwarz) with
-//                f0_i = |d_i| x_i,   x = D^-1 w0,     v_i = |d_i| V_i,   V_i = | row i of D^-1 L |,   L = M^-T,
-//              where E = M M' (Cholesky). A factorisation that succeeds in balls proves E positive definite.
+//   extremes   over K, f_i fills [f0_i - |d_i| below_i, f0_i + |d_i| above_i], with f0_i = |d_i| x_i and x = D^-1 w for
+//              the nominal wrench w. Over the ellipsoid { w0 + e : e' E e <= 1 } (Cauchy-Schwarz) w is w0, and both
+//              below_i and above_i are V_i = | row i of D^-1 L |,  L = M^-T,
+//              where E = M M' (Cholesky). A factorisation that succeeds in balls proves E positive definite. To these,
+//              the items' are added (loads.h).
 //
 // D^-1 on a whole box.  Let C be any fixed matrix, A(u) = C D(u) - I and |A(u)| <= N entry by entry for every u. If
 // rho = ||N|| < 1 (largest row sum), then C D = I + A is non-singular, hence so is D (Neumann), and with P = (I + A)^-1
@@ -19,6 +21,7 @@
 #pragma once
 
 #include "checker/kernel/linear.h"
+#include "checker/kernel/loads.h"
 #include "checker/kernel/statement.h"
 
 namespace taut::checker {
@@ -46,6 +49,8 @@ class Inverse {
   /// D^-1 b, and D^-1 B.
   [[nodiscard]] Vector6<MeanValueForm> times(const Vector6<Ball>& b) const { return times_P(multiply(C_, b)); }
   [[nodiscard]] Matrix6<MeanValueForm> times(const Matrix6<Ball>& B) const;
+  /// D^-1
+  [[nodiscard]] Matrix6<MeanValueForm> rows() const;
 
  private:
   /// P y, by (1).
@@ -57,9 +62,13 @@ class Inverse {
   Ball gap_;  ///< 1 - rho
 };
 
+/// As force densities [N/m].
 struct Tensions {
-  Vector6<MeanValueForm> density;         ///< x_i [N/m]
-  Vector6<MeanValueForm> tension_radius;  ///< V_i [N/m]
+  Vector6<MeanValueForm> density;                ///< x_i, of the nominal wrench
+  std::array<Vector6<MeanValueForm>, 2> radius;  ///< below_i and above_i
+  [[nodiscard]] MeanValueForm extreme(std::size_t i, std::size_t side) const {
+    return side == 0 ? density[i] - radius[0][i] : density[i] + radius[1][i];
+  }
 };
 
 /// One problem's numbers at one precision. All functions compute at that working precision, which the caller sets.
@@ -67,19 +76,23 @@ struct Machine {
   /// @throws Undefined where E can't be shown to be positive definite at this precision.
   explicit Machine(const Problem& problem);
 
-  std::array<Vector3<Ball>, 6> base;      ///< a_i
-  std::array<Vector3<Ball>, 6> platform;  ///< b_i
-  std::array<Vector3<Ball>, 6> arms;      ///< b_i - p_m
-  Vector3<Ball> load_point;               ///< p_m
-  Vector6<Ball> wrench;                   ///< w0
-  Matrix6<Ball> ellipsoid;                ///< L: K = { w0 + L z : |z| <= 1 }
+  std::array<Vector3<Ball>, 6> base;       ///< a_i
+  std::array<Vector3<Ball>, 6> platform;   ///< b_i
+  std::array<Vector3<Ball>, 6> arms;       ///< b_i - p_m
+  Vector3<Ball> load_point;                ///< p_m
+  Vector6<Ball> wrench;                    ///< w0
+  std::optional<Matrix6<Ball>> ellipsoid;  ///< L: { w0 + L z : |z| <= 1 }
+  std::vector<Load> items;
   std::array<std::array<Ball, 2>, 6> tension_limits;
   std::array<std::array<Ball, 2>, 6> length_limits;
   std::optional<Tolerances<Ball, Ball>> tolerances;
 
   /// @throws Undefined where a cable may have no length.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;
-  [[nodiscard]] Tensions tensions(const Inverse& inverse) const;
+  [[nodiscard]] Tensions tensions(const Geometry& geometry, const Inverse& inverse) const;
+
+ private:
+  void add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse, Tensions& to) const;
 };
 
 }  // namespace taut::checker

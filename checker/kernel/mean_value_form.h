@@ -9,6 +9,7 @@
 //     f g     (x + y u)(v + w u) = x v + (x w + y v) u + y w u^2, and u^2 is in [0, 1];
 //     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + y u, by Taylor's
 //             theorem, for F twice differentiable on the range of f.
+//     max_j f_j   lies between (max_j x_j) + y_j u for the least and the greatest y_j u.
 // An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the
 // existence of a MeanValueForm also proves that its function is continuous. Where `slope` is exactly 0, f is known as a
 // constant (in `at`); its F(f) is one too, and F need not be differentiable.
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "checker/kernel/ball.h"
 
@@ -82,6 +84,27 @@ inline MeanValueForm power(const MeanValueForm& f, int n) {
   const Ball centre = middle(f.at);
   return taylor(f, power(centre, n), Ball(n) * power(centre, n - 1), Ball(n) * Ball(n - 1) * power(f.range(), n - 2));
 }
+
+/// The largest of one or more functions, which may be another one at another u. Those that never are the largest are
+/// left out.
+inline MeanValueForm maximum(std::span<const MeanValueForm> forms) {
+  Ball least = lowest(forms.front().range());
+  for (const MeanValueForm& f : forms) least = larger(least, lowest(f.range()));
+  const MeanValueForm* first = nullptr;
+  MeanValueForm result;
+  for (const MeanValueForm& f : forms) {
+    if (certainly_negative(f.range() - least)) continue;
+    if (first == nullptr) {
+      first = &f;
+      result = f;
+      continue;
+    }
+    result.at = hull(larger(lowest(result.at), lowest(f.at)), larger(highest(result.at), highest(f.at)));
+    result.slope = hull(result.slope, f.slope);
+  }
+  return result;
+}
+inline MeanValueForm absolute(const MeanValueForm& f) { return maximum(std::array{f, -f}); }
 
 struct Jet {
   static constexpr std::size_t kVariables = 6;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "checker/kernel/expression.h"
@@ -54,14 +55,64 @@ enum class AngleKind {
   kAxis,            ///< by x0 about `axis`
 };
 
+using ExactVector = std::array<mpq_class, 3>;
+using ExactWrench = std::array<mpq_class, 6>;  ///< force [N] and moment [N m]
+
+/// All vectors of magnitude up to `radius` >= 0.
+struct BallOfVectors {
+  mpq_class radius;
+};
+/// Those of them at right angles to `normal`, which is not 0.
+struct DiscOfVectors {
+  mpq_class radius;
+  ExactVector normal;
+};
+/// f e / |e| for e = `direction`, not 0, and every f from range.lower to range.upper, which may be equal.
+struct SegmentOfVectors {
+  ExactVector direction;
+  Limits range;
+};
+using VectorSet = std::variant<BallOfVectors, DiscOfVectors, SegmentOfVectors>;
+
+/// m times gravity, for every mass m from mass.lower >= 0 to mass.upper, which may be equal [kg], at every point within
+/// `offset` >= 0 of the item's [m].
+struct Weight {
+  Limits mass;
+  mpq_class offset;
+};
+struct Force {
+  VectorSet set;  ///< [N]
+};
+struct Moment {
+  VectorSet set;  ///< [N m]
+};
+/// The convex hull of one or more wrenches about the item's point.
+struct LoadCases {
+  std::vector<ExactWrench> wrenches;
+};
+
+/// The axes in which a set is fixed: those of the world, or those that turn with the platform.
+enum class Axes { kWorld, kPlatform };
+
+/// A set of wrenches that act at a point of the platform.
+struct LoadItem {
+  std::variant<Weight, Force, Moment, LoadCases> what;
+  Axes axes = Axes::kWorld;  ///< of a weight always
+  ExactVector at;            ///< c in P [m]; a moment has none
+};
+
+/// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and
+/// wrench have no tolerances.
 struct Problem {
-  std::array<std::array<mpq_class, 3>, kCables> base_anchors;      ///< a_i in W [m]
-  std::array<std::array<mpq_class, 3>, kCables> platform_anchors;  ///< b_i in P [m]
-  std::array<Limits, kCables> tension;                             ///< [N]
-  std::array<Limits, kCables> length;                              ///< [m]
-  std::array<mpq_class, 3> load_point;                             ///< p_m in P [m]
-  std::array<mpq_class, 6> wrench;                                 ///< w0 about P_m: force [N], moment [N m]
-  std::array<std::array<mpq_class, 6>, 6> ellipsoid;               ///< E, symmetric
+  std::array<ExactVector, kCables> base_anchors;        ///< a_i in W [m]
+  std::array<ExactVector, kCables> platform_anchors;    ///< b_i in P [m]
+  std::array<Limits, kCables> tension;                  ///< [N]
+  std::array<Limits, kCables> length;                   ///< [m]
+  ExactVector load_point;                               ///< p_m in P [m]
+  ExactWrench wrench;                                   ///< w0 about P_m; 0 where there is no ellipsoid
+  std::optional<std::array<ExactWrench, 6>> ellipsoid;  ///< E, symmetric
+  ExactVector gravity;                                  ///< in W [m/s^2]
+  std::vector<LoadItem> items;                          ///< none only where there is an ellipsoid
   std::optional<ToleranceBounds> tolerances;
   std::vector<Parameter> parameters;
   std::optional<std::array<std::size_t, 2>> flip;
@@ -134,6 +185,23 @@ struct Box {
   int parts = 1;                 ///< with tolerances: the way to each deviation is taken in so many parts, 1 to 64
   int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
 };
+
+/// One load of an item: of a weight a mass and where its centre of gravity is, of a ball or disc a vector, of a segment
+/// an amount, of load cases one of them.
+struct WeightChoice {
+  mpq_class mass;
+  ExactVector offset;  ///< of the centre of gravity from the item's point, in W [m]
+};
+struct VectorChoice {
+  ExactVector vector;  ///< in the item's axes
+};
+struct AmountChoice {
+  mpq_class amount;  ///< f
+};
+struct CaseChoice {
+  std::size_t index = 0;
+};
+using LoadChoice = std::variant<WeightChoice, VectorChoice, AmountChoice, CaseChoice>;
 
 /// Whether the lengths of the cables are what a controller commands, not the pose.
 inline bool is_length_controlled(const Problem& problem, const Path& path) {

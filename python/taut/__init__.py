@@ -273,6 +273,14 @@ class Certificate:
         """The path as `taut plan` writes it, for the machine that will follow it."""
         return self._certificate.path_csv
 
+    def controller_csv(self, step: float = 0.01) -> str:
+        """The proved path as a dense table of poses and cable lengths, as `taut plan` writes it for a controller.
+
+        :param step: [m]; from row to row neither the platform's origin nor a cable's end on it travels further
+        :raises InputError: unless the certificate has a theorem that the path is proved
+        """
+        return self._certificate.controller_csv(step)
+
     @property
     def segments(self) -> int:
         return self._certificate.segments
@@ -344,7 +352,7 @@ def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optio
 
 
 def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], ArrayLike] = None, *,
-          columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None, allow_repeats: bool = False,
+          columns: Optional[Sequence[str]] = None, interpolation: Optional[str] = None,
           max_bits: int = 4096, signing_key: str = "", name: str = "table",
           max_check_seconds: float = CHECK_SECONDS, progress: Optional[Progress] = None) -> Certificate:
     """Proves a path, or lists every stretch that is not proved, with the reason: `taut audit`.
@@ -353,14 +361,13 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
         columns to arrays, {"phi[deg]": …, "theta[deg]": …}; or an array (n, columns)
     :param columns: names and units of an array's columns, "phi[deg]", "px[m]", "qw" (docs/audits.md)
     :param interpolation: "straight", "geodesic" or "cable-lengths"; None: as the file suggests
-    :param allow_repeats: drop rows that repeat the pose of the row before
     :param name: name of a table, for messages and the certificate
     """
     if path is None or isinstance(path, (str, os.PathLike)):
         if columns is not None:
             raise TypeError("columns are an array's: a file has its own")
         file = None if path is None else os.fspath(path)
-        return Certificate._of(_taut.audit_file(case._case, file, interpolation, allow_repeats, max_bits, signing_key,
+        return Certificate._of(_taut.audit_file(case._case, file, interpolation, max_bits, signing_key,
                                                 max_check_seconds, progress))
     if isinstance(path, Mapping):
         if columns is not None:
@@ -372,7 +379,7 @@ def audit(case: Case, path: Union[None, FileName, Mapping[str, ArrayLike], Array
     values = _floats(path, "values")
     if values.shape[1] != len(columns):
         raise InputError(f"values: got {values.shape[1]} columns, expected {len(columns)}", field="values")
-    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation, allow_repeats,
+    return Certificate._of(_taut.audit_table(case._case, list(columns), values, name, interpolation,
                                              max_bits, signing_key, max_check_seconds, progress))
 
 

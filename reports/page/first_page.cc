@@ -54,6 +54,8 @@ Html bar(const Use& use) {
 Html cables(const ReportContext& scene, const CableUse& use) {
   if (use.source == CableUse::Source::kNone) return {};
   const RobotText& robot = scene.certificate.problem.robot;
+  const DisplayUnit& force = scene.illustration.units.force;
+  const DisplayUnit& length = scene.illustration.units.length;
   Html rows;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Use& t = use.tension[i];
@@ -64,22 +66,22 @@ Html cables(const ReportContext& scene, const CableUse& use) {
         "<tr><th scope=\"row\" class=\"n\">{}</th><td class=\"n\">{} – {}</td><td class=\"n\">{} – {}</td><td>{}</td>"
         "<td class=\"n\"><b>{} %</b></td><td class=\"n\">{} – {}</td><td class=\"n\">{} – {}</td><td>{}</td>"
         "<td class=\"n\"><b>{} %</b></td></tr>\n",
-        i + 1, rounded_down(t.range.lower), rounded_up(t.range.upper), plain(f.lower), plain(f.upper), bar(t),
-        rounded_up(t.used_percent(), 3), millimetres_down(d.range.lower), millimetres_up(d.range.upper),
-        millimetres(l.lower), millimetres(l.upper), bar(d), rounded_up(d.used_percent(), 3));
+        i + 1, force.down(t.range.lower), force.up(t.range.upper), force.exact(f.lower), force.exact(f.upper), bar(t),
+        rounded_up(t.used_percent(), 3), length.down(d.range.lower), length.up(d.range.upper), length.exact(l.lower),
+        length.exact(l.upper), bar(d), rounded_up(d.used_percent(), 3));
   }
   const bool is_proved = use.source != CableUse::Source::kSamples;
   return html(
       "<div class=\"scroll\"><table class=\"cables\"><caption>{}</caption>\n<thead><tr><th scope=\"col\" "
       "class=\"n\">Cable</th>"
-      "<th scope=\"col\" class=\"n\">Tension [N]</th><th scope=\"col\" class=\"n\">Limits [N]</th>"
+      "<th scope=\"col\" class=\"n\">Tension [{}]</th><th scope=\"col\" class=\"n\">Limits [{}]</th>"
       "<th scope=\"col\"><span class=\"unseen\">Tension between 0 and its limits</span></th><th scope=\"col\" "
       "class=\"n\">of upper limit</th>"
-      "<th scope=\"col\" class=\"n\">Length [mm]</th><th scope=\"col\" class=\"n\">Limits [mm]</th>"
+      "<th scope=\"col\" class=\"n\">Length [{}]</th><th scope=\"col\" class=\"n\">Limits [{}]</th>"
       "<th scope=\"col\"><span class=\"unseen\">Length between 0 and its limits</span></th><th scope=\"col\" "
       "class=\"n\">of upper limit</th></tr></thead>\n"
       "<tbody>{}</tbody></table></div>\n<p class=\"note\">{}</p>\n",
-      use_caption(use.source), rows,
+      use_caption(use.source), force.name(), force.name(), length.name(), length.name(), rows,
       is_proved
           ? "Least and greatest values, rounded outward. This program computed them anew with interval arithmetic over "
             "the "

@@ -81,7 +81,7 @@ Html margins_along(const ReportContext& scene) {
                  html("<p>How far inside the limits the worst of the six cables is. Steps: what the certificate proves "
                       "of each segment; "
                       "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between. The "
-                      "load ellipsoid may "
+                      "set of loads may "
                       "grow by wrench_scale before a tension reaches a limit.{}</p>\n",
                       marks_text(scene.certificate)) +
                      unscripted() + place("margins"));

@@ -77,7 +77,7 @@ json samples(const ReportContext& scene) {
   std::array<std::vector<double>, 3> p;
   std::vector<std::vector<double>> angles(symbols.size());
   std::array<std::vector<double>, 4> q;
-  std::array<std::vector<double>, kCables> tension, tension_radius, length;
+  std::array<std::vector<double>, kCables> tension, tension_below, tension_above, length;
   std::vector<std::vector<double>> parameters;
   json time = json::array();
   std::optional<TiltAndTorsion> tilt;
@@ -107,7 +107,8 @@ json samples(const ReportContext& scene) {
     for (std::size_t i = 0; i < kCables; ++i) {
       length[i].push_back(s.length[i]);
       tension[i].push_back(s.regular ? s.tension[i] : kUnknown);
-      tension_radius[i].push_back(s.regular ? s.tension_radius[i] : kUnknown);
+      tension_below[i].push_back(s.regular ? s.tension_below[i] : kUnknown);
+      tension_above[i].push_back(s.regular ? s.tension_above[i] : kUnknown);
     }
     if (is_plane(scene.certificate.problem.space)) {
       parameters.resize(2);
@@ -129,7 +130,8 @@ json samples(const ReportContext& scene) {
           {"angle_names", symbols},
           {"length", columns(length)},
           {"tension", columns(tension)},
-          {"tension_radius", columns(tension_radius)},
+          {"tension_below", columns(tension_below)},
+          {"tension_above", columns(tension_above)},
           {"wrench_scale", numbers(scale)},
           {"sign", numbers(sign)},
           {"parameters", columns(parameters)}};
@@ -343,11 +345,21 @@ json plane(const ReportContext& scene) {
 
 }  // namespace
 
+namespace {
+
+/// A unit, and by what SI values are multiplied to be in it.
+json display_unit(const DisplayUnit& unit) { return {{"name", unit.name()}, {"factor", unit.approx(1)}}; }
+
+}  // namespace
+
 json report_data(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   return {{"verdict", scene.verdict},
           {"segments", certificate.path.segments()},
           {"is_spline", certificate.path.interpolation == Interpolation::kCubicBSpline},
+          {"units",
+           {{"length", display_unit(scene.illustration.units.length)},
+            {"force", display_unit(scene.illustration.units.force)}}},
           {"robot", robot(scene.sampler.model())},
           {"samples", samples(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},

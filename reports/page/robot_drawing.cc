@@ -9,6 +9,7 @@
 
 #include "base/input_error.h"
 #include "reports/page/markup.h"
+#include "reports/summary/display_units.h"
 
 namespace taut {
 
@@ -185,9 +186,11 @@ std::string robot_drawing(const CaseSummary& summary) {
   const double width = 3 * (kSide + 2 * kPad);
   const double height = kHead + 2 * kPad + kSide + kFoot;
   const std::string& name = summary.source.problem.name;
-  const std::string pulling = pulls ? fmt::format("Red: the load, {:.4g} N along ({:.3g}, {:.3g}, {:.3g})",
-                                                  force.norm(), down(0) + 0.0, down(1) + 0.0, down(2) + 0.0)
-                                    : "Red: the load point; the centre load has no force";
+  const DisplayUnit unit = DisplayUnits(summary.source.units).force;
+  const std::string pulling =
+      pulls ? fmt::format("Red: the load, {:.4g} {} along ({:.3g}, {:.3g}, {:.3g})", unit.approx(force.norm()),
+                          unit.name(), down(0) + 0.0, down(1) + 0.0, down(2) + 0.0)
+            : "Red: the load point; the centre load has no force";
   drawn += words("title", {kPad / 2, 22}, name + ", at the first waypoint of its query") +
            words("loaded", {kPad / 2, 42}, pulling);
   return html(

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "certify/undecided.h"
+#include "problem/rational.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
@@ -77,53 +79,68 @@ Html formulas(const Certificate& certificate) {
 }
 
 /// "0.5 mm", or six of them.
-Html each_cable(const std::array<DecimalText, kCables>& metres) {
+Html each_cable(const std::array<DecimalText, kCables>& metres, const DisplayUnit& unit) {
   if (std::ranges::all_of(metres, [&](const DecimalText& x) { return x == metres[0]; })) {
-    return html("{} mm", millimetres(metres[0]));
+    return html("{} {}", unit.exact(metres[0]), unit.name());
   }
   Html list;
-  for (const DecimalText& x : metres) list += html("{}{}", list.empty() ? "" : ", ", millimetres(x));
-  return list + html(" mm");
+  for (const DecimalText& x : metres) list += html("{}{}", list.empty() ? "" : ", ", unit.exact(x));
+  return list + html(" {}", unit.name());
 }
 
-Html triple(const std::array<DecimalText, 3>& metres) {
-  return html("({}, {}, {})", millimetres(metres[0]), millimetres(metres[1]), millimetres(metres[2]));
+Html triple(const std::array<DecimalText, 3>& metres, const DisplayUnit& unit) {
+  return html("({}, {}, {})", unit.exact(metres[0]), unit.exact(metres[1]), unit.exact(metres[2]));
 }
 
-Html robot_tables(const Problem& problem) {
+Html robot_tables(const Problem& problem, const DisplayUnits& units) {
   std::vector<std::vector<Html>> cables;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Limits& tension = problem.robot.tension_N[i];
     const Limits& length = problem.robot.length_m[i];
-    cables.push_back({html("{}", i + 1), triple(problem.robot.base_anchors_m[i]),
-                      triple(problem.robot.platform_anchors_m[i]),
-                      html("({}, {})", plain(tension.lower), plain(tension.upper)),
-                      html("({}, {})", millimetres(length.lower), millimetres(length.upper))});
+    cables.push_back({html("{}", i + 1), triple(problem.robot.base_anchors_m[i], units.length),
+                      triple(problem.robot.platform_anchors_m[i], units.length),
+                      html("({}, {})", units.force.exact(tension.lower), units.force.exact(tension.upper)),
+                      html("({}, {})", units.length.exact(length.lower), units.length.exact(length.upper))});
   }
   return table(html("Cables: anchors and limits, exact"),
                {{html("Cable"), true},
-                {html("Base anchor a [mm]")},
-                {html("Platform anchor b [mm]")},
-                {html("Tension limits [N]")},
-                {html("Length limits [mm]")}},
+                {html("Base anchor a [{}]", units.length.name())},
+                {html("Platform anchor b [{}]", units.length.name())},
+                {html("Tension limits [{}]", units.force.name())},
+                {html("Length limits [{}]", units.length.name())}},
                cables);
 }
 
-Html load_table(const LoadText& load) {
+/// The items in words.
+Html items_table(const LoadText& load) {
+  const LoadStatement statement = load_statement(load);
+  std::vector<std::vector<Html>> rows;
+  for (const auto& [name, words] : statement.items) rows.push_back({html("<bdi>{}</bdi>", name), html("{}", words)});
+  return html("<p>{} {}</p>\n", statement.total, statement.spread) +
+         table(html("What the load consists of; K is the sum. Numbers with many digits are rounded outward"),
+               {{html("Item")}, {html("What it is")}}, rows);
+}
+
+Html ellipsoid_table(const LoadText& load, const DisplayUnits& units) {
   constexpr std::array<const char*, 6> kNames = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
   std::vector<Column> columns = {{html("Component")}, {html("w<sub>0</sub>"), true}};
   for (int j = 1; j <= 6; ++j) columns.push_back({html("E<sub>i{}</sub>", j), true});
   std::vector<std::vector<Html>> rows;
   for (std::size_t i = 0; i < 6; ++i) {
     std::vector<Html> row = {html("{} [{}]", kNames[i], i < 3 ? "N" : "N·m"), html("{}", plain(load.wrench[i]))};
-    for (std::size_t j = 0; j < 6; ++j) row.push_back(html("{}", plain(load.ellipsoid[i][j])));
+    for (std::size_t j = 0; j < 6; ++j)
+      row.push_back(html("{}", rational_text(parse_rational((*load.ellipsoid)[i][j]))));
     rows.push_back(std::move(row));
   }
   return html(
-             "<p>Load point p<sub>m</sub> = {} mm in the platform frame. Wrenches are about that point, in the axes of "
+             "<p>Load point p<sub>m</sub> = {} {} in the platform frame. Wrenches are about that point, in the axes of "
              "the world. E in 1/N², 1/(N·N·m) and 1/(N·m)².</p>\n",
-             triple(load.point_m)) +
+             triple(load.point_m, units.length), units.length.name()) +
          table(html("Centre load w<sub>0</sub> and matrix E of the set of loads, exact"), columns, rows);
+}
+
+Html load_table(const LoadText& load, const DisplayUnits& units) {
+  return items_table(load) + (load.ellipsoid ? ellipsoid_table(load, units) : Html());
 }
 
 Html space_tables(const Problem& problem) {
@@ -177,7 +194,8 @@ Html waypoint_table(const ReportContext& scene, std::size_t step) {
   const auto named = coordinates(scene.certificate);
   for (const auto& [name, unit] : named) columns.push_back({html("<code>{}</code> {}", name, in_brackets(unit)), true});
   std::vector<Column> pose_columns = {{what, true}};
-  for (const char* name : {"px [mm]", "py [mm]", "pz [mm]"}) pose_columns.push_back({html("{}", name), true});
+  const DisplayUnit& length = scene.illustration.units.length;
+  for (const char* name : {"px", "py", "pz"}) pose_columns.push_back({html("{} [{}]", name, length.name()), true});
   const std::vector<std::string> angles = angle_symbols(scene.certificate.problem.space.angles.kind);
   for (const std::string& symbol : angles) pose_columns.push_back({html("{} [°]", symbol), true});
   std::vector<std::vector<Html>> rows;
@@ -192,7 +210,7 @@ Html waypoint_table(const ReportContext& scene, std::size_t step) {
     const Pose<double> pose =
         is_spline ? scene.sampler.pose(waypoint) : scene.sampler.at(path, static_cast<double>(k)).pose;
     pose_rows.push_back({html("{}", k)});
-    for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{:.3f}", pose.p_WP(c) * 1000 + 0.0));
+    for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{}", length.fixed(pose.p_WP(c), 6)));
     for (std::size_t c = 0; c < angles.size(); ++c) {
       pose_rows.back().push_back(html("{:.3f}", pose.angles[c] * kDegrees + 0.0));
     }
@@ -352,7 +370,8 @@ Html theorem(const Certificate& certificate) {
        row(html("w, w<sub>0</sub>"),
            html("wrench (force, moment about the load point) that the cables balance; its centre value"),
            html("N, N·m")),
-       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches in it"), html("1/N², 1/(N·m)²")),
+       row(html("E, K"), html("matrix of the load ellipsoid; the set of all wrenches of the load"),
+           html("1/N², 1/(N·m)²")),
        row(html("f<sub>0,i</sub> ± v<sub>i</sub>"),
            html("least and greatest tension of cable i over all wrenches in K"), html("N")),
        row(html("f<sub>lo</sub>, f<sub>hi</sub>, d<sub>lo</sub>, d<sub>hi</sub>"),
@@ -368,10 +387,9 @@ Html assumptions(const Problem& problem) {
       problem.tolerances
           ? html(
                 "<li>Anchors, load and tracking differ from the numbers below by no more than the tolerances. Limits "
-                "and the "
-                "load ellipsoid are exactly as below.</li>\n")
+                "and the shape of the set of loads are exactly as below.</li>\n")
           : html(
-                "<li>Anchors, limits, load and ellipsoid are exactly the numbers below. Tolerances of manufacture, "
+                "<li>Anchors, limits and load are exactly the numbers below. Tolerances of manufacture, "
                 "measurement and control are not covered.</li>\n");
   const Html following =
       held
@@ -386,7 +404,7 @@ Html assumptions(const Problem& problem) {
            "agrees with it.</p>\n<ul>\n"
            "<li>Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no "
            "pulleys.</li>\n"
-           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load ellipsoid contains "
+           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load contains "
            "them.</li>\n"
            "{}{}"
            "<li>Waypoints are the binary64 numbers below; a typed coordinate that is no such number is moved by at "
@@ -401,6 +419,7 @@ Html tolerances(const ReportContext& scene) {
   if (!scene.certificate.problem.tolerances) return {};
   const TolerancesText& t = *scene.certificate.problem.tolerances;
   const auto& limits = scene.illustration.tolerance_limits;
+  const DisplayUnit& length = scene.illustration.units.length;
   std::vector<std::vector<Html>> rows;
   const auto row = [&](const std::string& key, const Html& what, const Html& stated) {
     Html limit = html("–");
@@ -409,16 +428,17 @@ Html tolerances(const ReportContext& scene) {
     }
     rows.push_back({what, stated, limit});
   };
-  row("base_anchors", html("anchors on the base, each from where it is stated"), each_cable(t.base_anchor_m));
-  row("platform_anchors", html("anchors on the platform, likewise"), each_cable(t.platform_anchor_m));
-  row("load_point", html("load point on the platform"), html("{} mm", millimetres(t.load_point_m)));
+  row("base_anchors", html("anchors on the base, each from where it is stated"), each_cable(t.base_anchor_m, length));
+  row("platform_anchors", html("anchors on the platform, likewise"), each_cable(t.platform_anchor_m, length));
+  row("load_point", html("load point on the platform"), html("{} {}", length.exact(t.load_point_m), length.name()));
   Html wrench;
   for (const DecimalText& x : t.wrench) wrench += html("{}{}", wrench.empty() ? "± (" : ", ", x);
   row("load", html("wrench w<sub>0</sub>: force [N], moment [N·m]"), wrench + html(")"));
-  row("position", html("tracking: position of the platform's origin"), html("{} mm", millimetres(t.position_m)));
+  row("position", html("tracking: position of the platform's origin"),
+      html("{} {}", length.exact(t.position_m), length.name()));
   row("orientation", html("tracking: angle that the platform is turned by"), html("{}", angle_text(t.orientation_rad)));
   if (t.cable_length_m)
-    row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m));
+    row("cable_length", html("length of each cable, from what is commanded"), each_cable(*t.cable_length_m, length));
   const Html note =
       limits.empty()
           ? Html()
@@ -463,9 +483,9 @@ Html inputs(const Certificate& certificate) {
 
 Html robot(const ReportContext& scene) {
   return section("robot", "Robot, load and space of poses",
-                 robot_tables(scene.certificate.problem) + html("<h3>Load</h3>\n") +
-                     load_table(scene.certificate.problem.load) + html("<h3>Poses that the platform may take</h3>\n") +
-                     space_tables(scene.certificate.problem));
+                 robot_tables(scene.certificate.problem, scene.illustration.units) + html("<h3>Load</h3>\n") +
+                     load_table(scene.certificate.problem.load, scene.illustration.units) +
+                     html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.certificate.problem));
 }
 
 Html path_section(const ReportContext& scene) {
@@ -538,7 +558,8 @@ Html stretches(const ReportContext& scene) {
     return html("{}, s = {:.6g}", place_text(scene, position(point)), position(point) - point.index);
   };
   const auto violation = [&](const PathWitness& end) {
-    return html("{}, {}, s = {}", violation_text(end), place_text(scene, position(end.at)), end.at.s.text());
+    return html("{}, {}, s = {}", violation_text(end, certificate.problem.robot, scene.illustration.units),
+                place_text(scene, position(end.at)), end.at.s.text());
   };
   const std::size_t shown = std::min(certificate.stretches.size(), kMostRows);
   std::vector<std::vector<Html>> rows;

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "reports/summary/hints.h"
+
 namespace taut {
 
 namespace {
@@ -48,12 +50,12 @@ bool add_proved(const ReportContext& scene, CableUse& use) {
 bool add_samples(const ReportContext& scene, CableUse& use) {
   bool is_any = false;
   for (const PathSample& sample : scene.samples) {
-    if (!sample.statics.regular) continue;
+    if (is_nearly_singular(scene.sampler.model(), sample.statics)) continue;
     for (std::size_t i = 0; i < kCables; ++i) {
       const double tension = sample.statics.tension[i];
-      const double tension_radius = sample.statics.tension_radius[i];
       const double length = sample.statics.length[i];
-      widen(use.tension[i], {tension - tension_radius, tension + tension_radius}, sample.position);
+      widen(use.tension[i], {tension - sample.statics.tension_below[i], tension + sample.statics.tension_above[i]},
+            sample.position);
       widen(use.length[i], {length, length}, sample.position);
     }
     is_any = true;

@@ -10,6 +10,9 @@
 
 #include "certify/path_proof.h"
 #include "problem/decimal.h"
+#include "reports/summary/display_units.h"
+#include "reports/summary/hints.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/scene.h"
 #include "reports/summary/sentences.h"
@@ -21,24 +24,12 @@ namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
-/// Lengths in the case's unit.
-class LengthUnit {
- public:
-  explicit LengthUnit(const Unit& unit) : unit_(unit.factor.is_power_of_ten() ? unit : *find_unit("mm")) {}
-  [[nodiscard]] const std::string& name() const { return unit_.name; }
-  [[nodiscard]] std::string exact(const DecimalText& metres) const {
-    return (Decimal::parse(metres) * unit_.factor.reciprocal_of_power_of_ten()).text();
-  }
-  [[nodiscard]] std::string triple(const std::array<DecimalText, 3>& metres) const {
-    return fmt::format("({}, {}, {})", exact(metres[0]), exact(metres[1]), exact(metres[2]));
-  }
-  [[nodiscard]] std::string about(double metres) const {
-    return fmt::format("{:.6g}", metres / ScalarTraits<double>::from_decimal(unit_.factor.text()));
-  }
+std::string triple(const DisplayUnit& unit, const std::array<DecimalText, 3>& si) {
+  return fmt::format("({}, {}, {})", unit.exact(si[0]), unit.exact(si[1]), unit.exact(si[2]));
+}
 
- private:
-  Unit unit_;
-};
+/// For numbers that are floating point.
+std::string about(const DisplayUnit& unit, double si) { return fmt::format("{:.6g}", unit.approx(si) + 0.0); }
 
 /// A text table; each column is as wide as its widest cell, and the first row is the head.
 std::string columns(const std::vector<std::vector<std::string>>& rows) {
@@ -62,26 +53,30 @@ std::string columns(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string robot_text(const RobotText& robot, const LengthUnit& length) {
-  std::vector<std::vector<std::string>> rows = {{"cable", fmt::format("base anchor a [{}]", length.name()),
-                                                 fmt::format("platform anchor b [{}]", length.name()), "tension [N]",
-                                                 fmt::format("length [{}]", length.name())}};
+std::string robot_text(const RobotText& robot, const DisplayUnits& units) {
+  const DisplayUnit& length = units.length;
+  std::vector<std::vector<std::string>> rows = {
+      {"cable", fmt::format("base anchor a [{}]", length.name()), fmt::format("platform anchor b [{}]", length.name()),
+       fmt::format("tension [{}]", units.force.name()), fmt::format("length [{}]", length.name())}};
   for (std::size_t i = 0; i < kCables; ++i) {
     const Limits& f = robot.tension_N[i];
     const Limits& d = robot.length_m[i];
-    rows.push_back({std::to_string(i + 1), length.triple(robot.base_anchors_m[i]),
-                    length.triple(robot.platform_anchors_m[i]), fmt::format("{} to {}", plain(f.lower), plain(f.upper)),
+    rows.push_back({std::to_string(i + 1), triple(length, robot.base_anchors_m[i]),
+                    triple(length, robot.platform_anchors_m[i]),
+                    fmt::format("{} to {}", units.force.exact(f.lower), units.force.exact(f.upper)),
                     fmt::format("{} to {}", length.exact(d.lower), length.exact(d.upper))});
   }
   return "Robot (a in the world frame, b in the platform frame; limits are themselves excluded)\n" + columns(rows);
 }
 
-/// Directions and sizes of K's semi-axes, if forces and moments are not coupled.
-std::string axes_text(const Model<double>& model) {
+/// Directions and sizes of the semi-axes of the ellipsoid, if there is one and forces and moments are not coupled.
+std::string axes_text(const Model<double>& model, const DisplayUnits& units) {
+  if (!model.has_ellipsoid) return "";
   const Matrix6<double>& e = model.ellipsoid;
   if (!e.topRightCorner<3, 3>().isZero(0)) return "  Its axes mix forces and moments: E is in --json.\n";
   std::string text;
   for (const int first : {0, 3}) {
+    const DisplayUnit& unit = first == 0 ? units.force : units.moment;
     const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(Matrix3<double>(e.block<3, 3>(first, first)));
     for (int k = 0; k < 3; ++k) {
       Vector3<double> v = axes.eigenvectors().col(k);
@@ -89,8 +84,8 @@ std::string axes_text(const Model<double>& model) {
       v.cwiseAbs().maxCoeff(&largest);
       if (v(largest) < 0) v = -v;
       text += fmt::format("  semi-axis of the {}: {:.6g} {} along ({:.4g}, {:.4g}, {:.4g})\n",
-                          first == 0 ? "force" : "moment", 1 / std::sqrt(axes.eigenvalues()(k)),
-                          first == 0 ? "N" : "N·m", v(0) + 0.0, v(1) + 0.0, v(2) + 0.0);
+                          first == 0 ? "force" : "moment", unit.approx(1 / std::sqrt(axes.eigenvalues()(k))),
+                          unit.name(), v(0) + 0.0, v(1) + 0.0, v(2) + 0.0);
     }
   }
   return text;
@@ -120,7 +115,18 @@ std::string space_text(const SpaceText& space) {
   return text;
 }
 
-std::string waypoint_text(const CaseSummary& summary, std::size_t k, const LengthUnit& length) {
+/// "12.3 ± 0.45" where K moves the tension as far down as up, else "12.3, 11.9 to 13.1".
+std::string tension_text(const Statics<double>& s, std::size_t i, const DisplayUnit& unit) {
+  const auto shown = [&](double x) { return unit.approx(x) + 0.0; };
+  if (s.tension_below[i] == s.tension_above[i]) {
+    return fmt::format("{:.5g} ± {:.3g}", shown(s.tension[i]), shown(s.tension_above[i]));
+  }
+  return fmt::format("{:.5g}, {:.5g} to {:.5g}", shown(s.tension[i]), shown(s.tension[i] - s.tension_below[i]),
+                     shown(s.tension[i] + s.tension_above[i]));
+}
+
+std::string waypoint_text(const CaseSummary& summary, std::size_t k, const DisplayUnits& units) {
+  const DisplayUnit& length = units.length;
   const WaypointSummary& waypoint = summary.waypoints[k];
   const SpaceText& space = summary.source.problem.space;
   const Statics<double>& s = waypoint.statics;
@@ -129,26 +135,31 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Lengt
     typed += fmt::format("{}{} = {}", j == 0 ? "" : ", ", space.parameters[j].name, summary.source.problem.query[k][j]);
   }
   std::string text =
-      fmt::format("Waypoint {}: {}\n  p = ({}, {}, {}) {}", k, typed, length.about(waypoint.pose.p_WP(0) + 0.0),
-                  length.about(waypoint.pose.p_WP(1) + 0.0), length.about(waypoint.pose.p_WP(2) + 0.0), length.name());
+      fmt::format("Waypoint {}: {}\n  p = ({}, {}, {}) {}", k, typed, about(length, waypoint.pose.p_WP(0)),
+                  about(length, waypoint.pose.p_WP(1)), about(length, waypoint.pose.p_WP(2)), length.name());
   const std::vector<std::string> names = pose_names(space.angles.kind);
   for (std::size_t c = 3; c < names.size(); ++c) {
     text += fmt::format(", {} = {:.6g}°", names[c], waypoint.pose.angles[c - 3] * kDegrees + 0.0);
   }
   text += "\n";
-  if (!s.regular) return text + "  The force Jacobian is singular here, or nearly so: no tensions.\n";
-  std::vector<std::vector<std::string>> rows = {
-      {"cable", fmt::format("length [{}]", length.name()), "margin", "tension f0 ± v [N]", "margin", ""}};
+  if (is_nearly_singular(summary.sampler.model(), s)) {
+    return text + "  The force Jacobian is singular here, or nearly so: the cables can't balance the load.\n";
+  }
+  std::vector<std::vector<std::string>> rows = {{"cable", fmt::format("length [{}]", length.name()), "margin",
+                                                 fmt::format("tension f0 ± v [{}]", units.force.name()), "margin", ""}};
   for (std::size_t i = 0; i < kCables; ++i) {
     const double f = tension_margin(summary.sampler.model(), s, i);
     const double d = length_margin(summary.sampler.model(), s, i);
-    rows.push_back({std::to_string(i + 1), length.about(s.length[i]), length.about(d),
-                    fmt::format("{:.5g} ± {:.3g}", s.tension[i], s.tension_radius[i]), fmt::format("{:.4g}", f),
+    rows.push_back({std::to_string(i + 1), about(length, s.length[i]), about(length, d),
+                    tension_text(s, i, units.force), fmt::format("{:.4g}", units.force.approx(f)),
                     f > 0 && d > 0 ? "" : "out of its limits"});
   }
   return text + columns(rows) +
          fmt::format("  wrench_scale {:.4g}: by so much could K grow before a tension reaches a limit{}\n",
-                     waypoint.wrench_scale, waypoint.wrench_scale > 1 ? "" : "; it has to be above 1");
+                     waypoint.wrench_scale, waypoint.wrench_scale > 1 ? "" : "; it has to be above 1") +
+         (reversed_load_hint(summary.sampler.model(), s).empty()
+              ? ""
+              : fmt::format("  {}\n", reversed_load_hint(summary.sampler.model(), s)));
 }
 
 const char* law_text(const Case& the_case) {
@@ -162,8 +173,8 @@ const char* law_text(const Case& the_case) {
 }  // namespace
 
 double tension_margin(const Model<double>& model, const Statics<double>& s, std::size_t i) {
-  return std::min(s.tension[i] - s.tension_radius[i] - model.tension_lower[i],
-                  model.tension_upper[i] - s.tension[i] - s.tension_radius[i]);
+  return std::min(s.tension[i] - s.tension_below[i] - model.tension_lower[i],
+                  model.tension_upper[i] - s.tension[i] - s.tension_above[i]);
 }
 
 double length_margin(const Model<double>& model, const Statics<double>& s, std::size_t i) {
@@ -182,19 +193,20 @@ CaseSummary::CaseSummary(const Case& the_case) : source(the_case), sampler(the_c
 
 std::string to_text(const CaseSummary& summary) {
   const Problem& problem = summary.source.problem;
-  const LengthUnit length(summary.source.length_unit);
+  const DisplayUnits units(summary.source.units);
   std::string text = fmt::format(
       "{}, as it was understood. Nothing is proved here.\n"
-      "Lengths in {} as in the case file; forces in N, moments in N·m. Numbers of the case are exact, computed ones "
-      "floating point.\n\n",
-      problem.name, length.name());
-  text += robot_text(problem.robot, length) + "\n";
-  text += fmt::format("Load\n  {}\n{}\n", load_text(problem.load), axes_text(summary.sampler.model()));
-  text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances));
+      "Lengths in {}, forces in {} and moments in {}. Numbers of the case are exact, computed ones floating point.\n\n",
+      problem.name, units.length.name(), units.force.name(), units.moment.name());
+  text += robot_text(problem.robot, units) + "\n";
+  text += "Load\n";
+  for (const std::string& line : lines(load_statement(problem.load))) text += "  " + line + "\n";
+  text += axes_text(summary.sampler.model(), units) + "\n";
+  text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances, units));
   text += space_text(problem.space) + "\n";
   text += fmt::format("Path between waypoints: {}\n", law_text(summary.source));
   if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
-  for (std::size_t k = 0; k < summary.waypoints.size(); ++k) text += "\n" + waypoint_text(summary, k, length);
+  for (std::size_t k = 0; k < summary.waypoints.size(); ++k) text += "\n" + waypoint_text(summary, k, units);
   return text;
 }
 
@@ -211,7 +223,8 @@ nlohmann::json to_json(const CaseSummary& summary) {
            {"length_m", s.length[i]},
            {"length_margin_m", length_margin(summary.sampler.model(), s, i)},
            {"f0_N", s.regular ? json(s.tension[i]) : json()},
-           {"v_N", s.regular ? json(s.tension_radius[i]) : json()},
+           {"lowest_N", s.regular ? json(s.tension[i] - s.tension_below[i]) : json()},
+           {"highest_N", s.regular ? json(s.tension[i] + s.tension_above[i]) : json()},
            {"tension_margin_N", s.regular ? json(tension_margin(summary.sampler.model(), s, i)) : json()}});
     }
     json coordinates = json::object();
@@ -225,8 +238,11 @@ nlohmann::json to_json(const CaseSummary& summary) {
                          {"wrench_scale", waypoint.statics.regular ? json(waypoint.wrench_scale) : json()},
                          {"cables", cables}});
   }
-  return {
-      {"problem", to_json(summary.source.problem)}, {"path_law", law_text(summary.source)}, {"waypoints", waypoints}};
+  return {{"problem", to_json(summary.source.problem)},
+          {"load", to_json(load_statement(summary.source.problem.load))},
+          {"warnings", summary.source.warnings},
+          {"path_law", law_text(summary.source)},
+          {"waypoints", waypoints}};
 }
 
 }  // namespace taut

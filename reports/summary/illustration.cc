@@ -31,6 +31,7 @@ std::string decimal(const JsonCursor& field) {
 Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
   const JsonCursor illustration(json, "illustration");
   if (!illustration.value().is_object()) return;
+  if (illustration.contains("units")) units = display_units_from_json(illustration.at("units").value());
   if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
     for (const auto& [key, value] : illustration.value()["stats"].items()) {
       stats[key] = value.is_string() ? value.get<std::string>() : value.dump();

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/summary/display_units.h"
+
 namespace taut {
 
 struct Illustration {
@@ -26,6 +28,7 @@ struct Illustration {
   std::vector<ToleranceLimit> tolerance_limits;
   std::vector<Chart> charts;                 ///< none unless the space has two parameters
   std::map<std::string, std::string> stats;  ///< of the search, as printed
+  DisplayUnits units;                        ///< the case's, in which the report shows results
 
   Illustration() = default;
   /// @throws InputError for a missing key or a wrong type.

@@ -57,7 +57,7 @@ std::optional<SampledViolation> worst_violation(const Model<double>& model, cons
       };
       both(true, at.length[i], at.length[i], model.length_lower[i], model.length_upper[i]);
       if (!at.regular) continue;
-      both(false, at.tension[i] - at.tension_radius[i], at.tension[i] + at.tension_radius[i], model.tension_lower[i],
+      both(false, at.tension[i] - at.tension_below[i], at.tension[i] + at.tension_above[i], model.tension_lower[i],
            model.tension_upper[i]);
     }
   }
@@ -83,8 +83,8 @@ Feasibility feasibility(const Model<double>& model, const Statics<double>& stati
   bool length = true;
   for (std::size_t i = 0; i < kCables; ++i) {
     length = length && statics.length[i] > model.length_lower[i] && statics.length[i] < model.length_upper[i];
-    tension = tension && statics.tension[i] - statics.tension_radius[i] > model.tension_lower[i] &&
-              statics.tension[i] + statics.tension_radius[i] < model.tension_upper[i];
+    tension = tension && statics.tension[i] - statics.tension_below[i] > model.tension_lower[i] &&
+              statics.tension[i] + statics.tension_above[i] < model.tension_upper[i];
   }
   if (tension) return length ? Feasibility::kInside : Feasibility::kLengthOut;
   return length ? Feasibility::kTensionOut : Feasibility::kBothOut;

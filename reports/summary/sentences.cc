@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "certificate/worst_loads.h"
 #include "certify/undecided.h"
 #include "problem/decimal.h"
+#include "reports/summary/hints.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -36,22 +38,24 @@ bool is_upper(const PathWitness& witness) {
 }
 
 /// A tension or a length as it is printed, exactly, with its unit.
-std::string quantity(const DecimalText& value, bool length) {
-  return length ? millimetres(value) + " mm" : plain(value) + " N";
+std::string quantity(const DecimalText& value, bool length, const DisplayUnits& units) {
+  return fmt::format("{} {}", units.of(length).exact(value), units.of(length).name());
 }
 
 /// A number of a witness, rounded to as few digits as tell it from the limit, in the direction that keeps the sentence
 /// true.
-std::string shortened(const PathWitness& witness, const DecimalText& value, bool up) {
+std::string shortened(const PathWitness& witness, const DecimalText& value, bool up, const DisplayUnits& units) {
   const double x = number(value);
   for (const int digits : {4, 6, 9, 12, 15}) {
     const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
     const Decimal rounded = Decimal::parse(text);
     // `x` was rounded to nearest: a last check.
     const bool is_true = up ? rounded >= Decimal::parse(value) : rounded <= Decimal::parse(value);
-    if (is_true && rounded != Decimal::parse(witness.limit)) return quantity(text, is_length(witness));
+    if (is_true && rounded != Decimal::parse(witness.limit)) {
+      return quantity(text, is_length(witness), units);
+    }
   }
-  return quantity(value, is_length(witness));
+  return quantity(value, is_length(witness), units);
 }
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -67,6 +71,15 @@ double violation(const PathWitness& witness) {
   const auto value = Decimal::parse(is_upper(witness) ? witness.value_lower : witness.value_upper).rational();
   const auto limit = Decimal::parse(witness.limit).rational();
   return below(is_upper(witness) ? Rational(value - limit) : Rational(limit - value));
+}
+
+/// Whether a tension is so far beyond the limits that the pose is singular but for rounding.
+bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
+  if (witness.singular || is_length(witness)) return false;
+  const DecimalText& value = is_upper(witness) ? witness.value_lower : witness.value_upper;
+  double greatest = 0;
+  for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, number(limits.upper));
+  return std::abs(number(value)) > kSingularTension * greatest;
 }
 
 /// The segment that a margin of the whole path comes from.
@@ -85,14 +98,15 @@ std::string deviating(const Certificate& certificate) {
 
 // ---- Details of a verdict.
 
-std::vector<std::string> proved_details(const Certificate& certificate) {
+std::vector<std::string> proved_details(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
+  const DisplayUnits& units = scene.illustration.units;
   return {fmt::format(
-      "Reserves, proved for the whole move: every tension stays at least {} N inside its limits (least in {}), every "
-      "length "
-      "at least {} mm (least in {}), and the set of loads could grow at least {}-fold before a tension reaches a limit "
-      "(least in {}).",
-      plain(certificate.margins->tension_N), where_least(certificate, &Margins::tension_N),
-      millimetres(certificate.margins->length_m), where_least(certificate, &Margins::length_m),
+      "Reserves, proved for the whole move: every tension stays at least {} inside its limits (least in {}), every "
+      "length at least {} (least in {}), and the set of loads could grow at least {}-fold before a tension reaches a "
+      "limit (least in {}).",
+      quantity(certificate.margins->tension_N, false, units), where_least(certificate, &Margins::tension_N),
+      quantity(certificate.margins->length_m, true, units), where_least(certificate, &Margins::length_m),
       plain(certificate.margins->wrench_scale), where_least(certificate, &Margins::wrench_scale))};
 }
 
@@ -104,7 +118,8 @@ std::string stretches_text(const Certificate& certificate) {
   std::string text = fmt::format("In all, {} of the path {} proved violations", plural(violated, "stretch"),
                                  violated == 1 ? "has" : "have");
   if (open > 0) text += fmt::format(", and {} could not be decided", plural(open, "stretch"));
-  return text + "; outside of these the path is proved.";
+  return text +
+         (count_boxes(certificate) > 0 ? "; outside of these the path is proved." : "; no part of it is proved.");
 }
 
 /// The worst violation among the samples: the proved one is where the violation begins, and slight there. Nothing for
@@ -122,7 +137,8 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
         "that suggests singular poses, next to which tensions grow without bound.",
         changes.size() == 1 ? "once" : fmt::format("{} times", changes.size()), place_text(scene, changes.front()))};
   }
-  const auto singular = std::ranges::find_if(scene.samples, [](const PathSample& s) { return !s.statics.regular; });
+  const auto singular = std::ranges::find_if(
+      scene.samples, [&](const PathSample& s) { return is_nearly_singular(scene.sampler.model(), s.statics); });
   if (singular != scene.samples.end()) {
     return {
         fmt::format("A sample, in floating point, is at a singular pose: {}.", place_text(scene, singular->position))};
@@ -132,10 +148,11 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
   const auto i = static_cast<std::size_t>(worst->cable);
   const Limits& limits =
       (worst->is_length ? certificate.problem.robot.length_m : certificate.problem.robot.tension_N)[i];
-  const std::string limit = quantity(worst->is_upper ? limits.upper : limits.lower, worst->is_length);
+  const DisplayUnits& units = scene.illustration.units;
+  const std::string limit = quantity(worst->is_upper ? limits.upper : limits.lower, worst->is_length, units);
   const auto rounded = [&](int digits) {
-    return worst->is_length ? fmt::format("{:.{}g} mm", 1000 * worst->value, digits)
-                            : fmt::format("{:.{}g} N", worst->value, digits);
+    const DisplayUnit& unit = units.of(worst->is_length);
+    return fmt::format("{:.{}g} {}", unit.approx(worst->value), digits, unit.name());
   };
   std::string value = rounded(4);
   for (int digits = 6; value == limit && digits <= 15; digits += 3) value = rounded(digits);
@@ -151,7 +168,7 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const PathWitness& witness = certificate.witness->violation;
   const auto pose_at = [&](double position) {
-    return pose_text(certificate.problem.space.angles.kind, scene.sampler.at(certificate.path, position).pose);
+    return pose_text(scene, scene.sampler.at(certificate.path, position).pose);
   };
   std::vector<std::string> result;
   if (witness.singular) {
@@ -165,10 +182,12 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
     const double beyond = violation(witness);
     const double limit = number(witness.limit);
     const bool length = is_length(witness);
+    const DisplayUnit& unit = scene.illustration.units.of(length);
     std::string by = "It is exactly at the limit, which is itself excluded.";
-    if (beyond > 0) {
-      by = fmt::format("It is beyond the limit by at least {}{}",
-                       length ? rounded_down(1000 * beyond, 3) + " mm" : rounded_down(beyond, 3) + " N",
+    if (is_all_but_singular(witness, certificate.problem.robot)) {
+      by = "Next to a singular pose tensions grow without bound.";
+    } else if (beyond > 0) {
+      by = fmt::format("It is beyond the limit by at least {} {}{}", unit.down(beyond, 3), unit.name(),
                        limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
     }
     std::string machine;
@@ -183,6 +202,11 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
     result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
                                  place_text(scene, position(witness.at)), point_text(certificate, witness.at),
                                  pose_at(position(witness.at)), machine));
+    if (certificate.witness->loads) {
+      result.push_back(
+          fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
+                      witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
+    }
   }
   if (certificate.path.segments() == 0) {
     result.emplace_back("Every path of the query passes this pose, so that none is feasible.");
@@ -190,6 +214,11 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
     result.push_back(stretches_text(certificate));
   } else {
     result.emplace_back("There may be other violations: the proof ends at the first.");
+  }
+  if (!witness.singular && certificate.path.interpolation != Interpolation::kCableLengths) {
+    const PathSample sample = scene.sampler.at(certificate.path, position(witness.at));
+    const std::string hint = reversed_load_hint(scene.sampler.model(), sample.statics);
+    if (!hint.empty()) result.push_back(hint);
   }
   std::ranges::copy(sampled_details(scene), std::back_inserter(result));
   return result;
@@ -204,10 +233,9 @@ std::vector<std::string> undecided_details(const ReportContext& scene) {
     const double from = *open.segment + (open.box ? open.box->first.approx() : 0.0);
     const std::string box =
         open.box ? fmt::format(", from s = {} to s = {}", open.box->first.text(), open.box->second.text()) : "";
-    result.push_back(fmt::format(
-        "What is open begins {}, on {}{}. The pose there, rounded: {}.", place_text(scene, from),
-        segment_text(scene.certificate, *open.segment), box,
-        pose_text(scene.certificate.problem.space.angles.kind, scene.sampler.at(scene.certificate.path, from).pose)));
+    result.push_back(fmt::format("What is open begins {}, on {}{}. The pose there, rounded: {}.",
+                                 place_text(scene, from), segment_text(scene.certificate, *open.segment), box,
+                                 pose_text(scene, scene.sampler.at(scene.certificate.path, from).pose)));
   }
   if (!scene.certificate.stretches.empty()) {
     result.push_back(
@@ -238,7 +266,7 @@ std::string motion_text(const ReportContext& scene) {
   }
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) {
-    return pose_text(scene.certificate.problem.space.angles.kind, scene.sampler.at(path, position).pose);
+    return pose_text(scene, scene.sampler.at(path, position).pose);
   };
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
   std::string text =
@@ -251,83 +279,34 @@ std::string motion_text(const ReportContext& scene) {
   return text + fmt::format(". From {} to {}. Positions and angles here are rounded.", pose(0), pose(segments));
 }
 
-/// "10 N along (0, 0, 1)", or the components if there are several.
-std::string vector_text(const std::array<double, 3>& v, const char* what, const char* unit) {
-  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-  const auto components = std::ranges::count_if(v, [](double x) { return x != 0; });
-  if (components == 0) return fmt::format("no {}", what);
-  if (components == 1) {
-    const auto at = std::ranges::find_if(v, [](double x) { return x != 0; });
-    return fmt::format("a {} of {:.6g} {} along {}{}", what, std::abs(*at), unit, *at < 0 ? "−" : "+",
-                       kAxes.at(static_cast<std::size_t>(at - v.begin())));
-  }
-  return fmt::format("a {} of ({:.6g}, {:.6g}, {:.6g}) {}", what, v[0], v[1], v[2], unit);
-}
-
-/// The largest distance of each component of a wrench in K from w0: sqrt((E^-1)_ii). If E is diagonal these are the
-/// semi-axes.
-std::string spread_text(const LoadText& load) {
-  Eigen::Matrix<double, 6, 6> e;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      e(i, j) = number(load.ellipsoid[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
-    }
-  }
-  const Eigen::Matrix<double, 6, 6> inverse = e.inverse();
-  const auto group = [&](int first, const char* what, const char* unit) {
-    std::array<double, 3> s{};
-    for (int i = 0; i < 3; ++i) s[static_cast<std::size_t>(i)] = std::sqrt(inverse(first + i, first + i));
-    if (s[0] == s[1] && s[1] == s[2]) return fmt::format("each component of {} by up to {:.4g} {}", what, s[0], unit);
-    return fmt::format("the components of {} by up to ({:.4g}, {:.4g}, {:.4g}) {}", what, s[0], s[1], s[2], unit);
-  };
-  const bool is_diagonal = e.isDiagonal(0.0);
-  return fmt::format("{} and {}, all at once, within an ellipsoid of these {}", group(0, "the force", "N"),
-                     group(3, "the moment", "N·m"), is_diagonal ? "semi-axes" : "extents, whose axes are oblique");
-}
-
-}  // namespace
-
-std::string load_text(const LoadText& load) {
-  constexpr double kStandardGravity = 9.80665;  // [m/s²]
-  std::array<double, 3> force{};
-  std::array<double, 3> moment{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    force[i] = number(load.wrench[i]);
-    moment[i] = number(load.wrench[i + 3]);
-  }
-  const double size = std::hypot(force[0], force[1], force[2]);
-  const std::string weight =
-      size > 0 ? fmt::format(" (about the weight of {:.3g} kg under standard gravity)", size / kStandardGravity) : "";
-  return fmt::format(
-      "At the load point ({}, {}, {}) mm of the platform, {}{} and {}, in the axes of the base. Covered, too, is "
-      "every load that differs from it in {}.",
-      millimetres(load.point_m[0]), millimetres(load.point_m[1]), millimetres(load.point_m[2]),
-      vector_text(force, "force", "N"), weight, vector_text(moment, "moment", "N·m"), spread_text(load));
-}
-
-namespace {
-
 /// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
-std::string limits_text(const RobotText& robot) {
-  const auto text = [](const std::array<Limits, kCables>& limits, bool length) -> std::string {
+std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
+  const auto text = [&](const std::array<Limits, kCables>& limits, bool length) -> std::string {
     if (!std::ranges::all_of(limits, [&](const Limits& l) { return l == limits[0]; })) {
       return "between the limits of each cable, in the table below";
     }
-    return fmt::format("above {} and below {}", quantity(limits[0].lower, length), quantity(limits[0].upper, length));
+    return fmt::format("above {} and below {}", quantity(limits[0].lower, length, units),
+                       quantity(limits[0].upper, length, units));
   };
   return fmt::format("Every tension {}; every cable length {}.", text(robot.tension_N, false),
                      text(robot.length_m, true));
 }
 
-std::string largest_mm(const std::array<DecimalText, kCables>& metres) {
+std::string largest(const std::array<DecimalText, kCables>& metres, const DisplayUnits& units) {
   const auto largest = std::ranges::max_element(
       metres, [](const DecimalText& a, const DecimalText& b) { return Decimal::parse(a) < Decimal::parse(b); });
-  return millimetres(*largest) + " mm";
+  return quantity(*largest, true, units);
 }
 
 }  // namespace
 
-std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
+std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m, const DecimalText& wrench_scale,
+                         const DisplayUnits& units) {
+  return fmt::format("Proved margins: tension {}, length {}, wrench_scale {}.", quantity(tension_N, false, units),
+                     quantity(length_m, true, units), plain(wrench_scale));
+}
+
+std::string tolerances_text(const std::optional<TolerancesText>& tolerances, const DisplayUnits& units) {
   if (!tolerances) {
     return "None. The verdict is about a machine that is exactly as stated and follows the path exactly.";
   }
@@ -337,20 +316,20 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances) {
   const auto add = [&](bool is_some, const std::string& text) {
     if (is_some) items.push_back(text);
   };
-  add(!std::ranges::all_of(t.base_anchor_m, is_zero), "base anchors " + largest_mm(t.base_anchor_m));
-  add(!std::ranges::all_of(t.platform_anchor_m, is_zero), "platform anchors " + largest_mm(t.platform_anchor_m));
-  add(!is_zero(t.load_point_m), fmt::format("load point {} mm", millimetres(t.load_point_m)));
+  add(!std::ranges::all_of(t.base_anchor_m, is_zero), "base anchors " + largest(t.base_anchor_m, units));
+  add(!std::ranges::all_of(t.platform_anchor_m, is_zero), "platform anchors " + largest(t.platform_anchor_m, units));
+  add(!is_zero(t.load_point_m), "load point " + quantity(t.load_point_m, true, units));
   if (!std::ranges::all_of(t.wrench, is_zero)) {
     std::string wrench;
     for (const DecimalText& x : t.wrench) wrench += (wrench.empty() ? "" : ", ") + plain(x);
     items.push_back(fmt::format("centre load ± ({}) N, N·m", wrench));
   }
-  add(!is_zero(t.position_m), fmt::format("position of the platform {} mm", millimetres(t.position_m)));
+  add(!is_zero(t.position_m), "position of the platform " + quantity(t.position_m, true, units));
   add(t.orientation_rad != "0", "its orientation " + angle_text(t.orientation_rad));
   if (t.cable_length_m) {
     items.push_back(std::ranges::all_of(*t.cable_length_m, is_zero)
                         ? "the winches hold the cables' lengths exactly"
-                        : "cable lengths " + largest_mm(*t.cable_length_m) + ", held by the winches");
+                        : "cable lengths " + largest(*t.cable_length_m, units) + ", held by the winches");
   }
   if (items.empty()) return "Stated, and all zero.";
   return fmt::format("Up to, in any direction and all at once: {}.", listed(items));
@@ -409,22 +388,30 @@ std::string headline(const ReportContext& scene) {
   }
   const PathWitness& witness = certificate.witness->violation;
   const bool by_load = !witness.singular && !is_length(witness);
-  return fmt::format("Refuted: on this move {}{}.", violation_text(witness),
+  return fmt::format("Refuted: on this move {}{}.",
+                     violation_text(witness, certificate.problem.robot, scene.illustration.units),
                      !by_load            ? ""
                      : witness.deviation ? ", under a load that is covered"
                                          : ", under a load of the set stated below");
 }
 
-std::string violation_text(const PathWitness& witness) {
+std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units) {
   if (witness.singular) return "the platform passes a singular pose, where the cables cannot balance every load";
   const bool length = is_length(witness);
   const bool upper = is_upper(witness);
+  const char* const deviating = witness.deviation ? ", on a machine that deviates within the tolerances," : "";
+  if (is_all_but_singular(witness, robot)) {
+    return fmt::format(
+        "the platform{} is at a singular pose, or so near one that the cables cannot balance the load: the tension of "
+        "cable {} would be {} {} times the greatest limit",
+        deviating, witness.margin.cable + 1, upper ? "more than" : "below minus", "a million");
+    static_assert(kSingularTension == 1e6);
+  }
   const DecimalText& value = upper ? witness.value_lower : witness.value_upper;
   return fmt::format("{} of cable {}{} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
-                     witness.margin.cable + 1,
-                     witness.deviation ? ", on a machine that deviates within the tolerances," : "",
-                     upper ? "reaches at least" : "falls to at most", shortened(witness, value, !upper),
-                     upper ? "not below" : "not above", upper ? "upper" : "lower", quantity(witness.limit, length));
+                     witness.margin.cable + 1, deviating, upper ? "reaches at least" : "falls to at most",
+                     shortened(witness, value, !upper, units), upper ? "not below" : "not above",
+                     upper ? "upper" : "lower", quantity(witness.limit, length, units));
 }
 
 std::vector<std::string> verdict_details(const ReportContext& scene) {
@@ -433,13 +420,14 @@ std::vector<std::string> verdict_details(const ReportContext& scene) {
             "Neither does it mean that the move is unsafe, nor is it evidence that it is safe. To know run: taut-check "
             "certificate.json CASE.yaml"};
   }
-  if (scene.verdict == "proved") return proved_details(scene.certificate);
+  if (scene.verdict == "proved") return proved_details(scene);
   return scene.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
 }
 
 std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use) {
   if (scene.verdict != "proved" || use.source != CableUse::Source::kProved) return {};
   const RobotText& robot = scene.certificate.problem.robot;
+  const DisplayUnits& units = scene.illustration.units;
   const auto sentence = [&](const std::array<Use, kCables>& uses, bool length) {
     const ClosestUse c = closest(uses);
     const Limits& limits = (length ? robot.length_m : robot.tension_N).at(static_cast<std::size_t>(c.cable));
@@ -455,11 +443,11 @@ std::vector<std::string> closest_text(const ReportContext& scene, const CableUse
       const Rational shown = Decimal::parse(value).rational();
       if (c.is_upper ? shown >= exact_limit : shown <= exact_limit) continue;
       const std::string room = c.is_upper ? rounded_down(below(beside * 100 / exact_limit), 3) + " % below"
-                                          : quantity(rounded_down(below(beside), 3), length) + " above";
+                                          : quantity(rounded_down(below(beside), 3), length, units) + " above";
       return fmt::format("{}it stays at or {} {}, at least {} the limit of {}.", which, c.is_upper ? "below" : "above",
-                         quantity(value, length), room, quantity(limit, length));
+                         quantity(value, length, units), room, quantity(limit, length, units));
     }
-    return fmt::format("{}nearer than these ranges tell. The limit is {}.", which, quantity(limit, length));
+    return fmt::format("{}nearer than these ranges tell. The limit is {}.", which, quantity(limit, length, units));
   };
   return {sentence(use.tension, false), sentence(use.length, true)};
 }
@@ -484,8 +472,8 @@ std::vector<Statement> statements(const ReportContext& scene) {
   const Problem& problem = certificate.problem;
   return {{"motion", "Motion", motion_text(scene)},
           {"load", "Loads", load_text(problem.load)},
-          {"limits", "Limits", limits_text(problem.robot)},
-          {"tolerances", "Tolerances", tolerances_text(problem.tolerances)},
+          {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
+          {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
           {"assumptions", "Assumptions", assumptions_text(problem, certificate.path.interpolation)},
           {"not_covered", "Not covered", not_covered_text(problem)},
           {"proof", "Proof", proof_text(scene)},

@@ -8,6 +8,7 @@
 
 #include "certify/path_proof.h"
 #include "reports/summary/cable_use.h"
+#include "reports/summary/display_units.h"
 #include "reports/summary/scene.h"
 
 namespace taut {
@@ -15,8 +16,9 @@ namespace taut {
 /// The verdict in one sentence.
 [[nodiscard]] std::string headline(const ReportContext& scene);
 
-/// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N"
-[[nodiscard]] std::string violation_text(const PathWitness& witness);
+/// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N". A tension beyond
+/// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding.
+[[nodiscard]] std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units);
 
 /// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the reason
 /// and where; for a proved one its reserves.
@@ -36,10 +38,11 @@ struct Statement {
 /// The verdict's scope: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and the check.
 [[nodiscard]] std::vector<Statement> statements(const ReportContext& scene);
 
-/// The centre load and by how much each component may differ from it, in floating point.
-[[nodiscard]] std::string load_text(const LoadText& load);
 /// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
-[[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances);
+[[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances, const DisplayUnits& units);
+/// "Proved margins: tension 3.4 N, length 2.4 m, wrench_scale 5.3.": exactly, in these units.
+[[nodiscard]] std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m,
+                                       const DecimalText& wrench_scale, const DisplayUnits& units);
 
 /// "Utilisation of the cables, proved …": what the table of cables shows.
 [[nodiscard]] std::string use_caption(CableUse::Source source);

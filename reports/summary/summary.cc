@@ -17,18 +17,22 @@ struct CableRow {
   std::array<std::string, 7> cells;  ///< cable; least, greatest and share of tension; of length
 };
 
-constexpr std::array<const char*, 7> kCableHeads = {
-    "Cable", "Tension from [N]", "to [N]", "of limit", "Length from [mm]", "to [mm]", "of limit"};
+CableRow cable_heads(const DisplayUnits& units) {
+  const std::string& force = units.force.name();
+  const std::string& length = units.length.name();
+  return {{"Cable", fmt::format("Tension from [{}]", force), fmt::format("to [{}]", force), "of limit",
+           fmt::format("Length from [{}]", length), fmt::format("to [{}]", length), "of limit"}};
+}
 
-std::vector<CableRow> cable_rows(const CableUse& use) {
+std::vector<CableRow> cable_rows(const CableUse& use, const DisplayUnits& units) {
   std::vector<CableRow> rows;
   if (use.source == CableUse::Source::kNone) return rows;
   const auto percent = [](const Use& x) { return rounded_up(x.used_percent(), 3) + " %"; };
   for (std::size_t i = 0; i < kCables; ++i) {
     const Use& t = use.tension[i];
     const Use& d = use.length[i];
-    rows.push_back({{std::to_string(i + 1), rounded_down(t.range.lower), rounded_up(t.range.upper), percent(t),
-                     millimetres_down(d.range.lower), millimetres_up(d.range.upper), percent(d)}});
+    rows.push_back({{std::to_string(i + 1), units.force.down(t.range.lower), units.force.up(t.range.upper), percent(t),
+                     units.length.down(d.range.lower), units.length.up(d.range.upper), percent(d)}});
   }
   return rows;
 }
@@ -82,7 +86,9 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
       statements(taut::statements(scene)),
+      load(load_statement(scene.certificate.problem.load)),
       use(cable_use(scene)),
+      units(scene.illustration.units),
       recheck(scene.recheck),
       problem_sha256(scene.certificate.problem_sha256),
       path_sha256(scene.certificate.path_sha256),
@@ -112,13 +118,18 @@ std::string to_text(const Summary& s) {
   line(s.headline);
   for (const std::string& sentence : s.details) line(sentence);
   for (const std::string& sentence : s.closest) line(sentence);
-  if (const std::vector<CableRow> rows = cable_rows(s.use); !rows.empty()) {
+  if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
     line(use_caption(s.use.source) + ":");
-    line(fmt::format("  {:>5} {:>16} {:>10} {:>8} {:>17} {:>10} {:>8}", kCableHeads[0], kCableHeads[1], kCableHeads[2],
-                     kCableHeads[3], kCableHeads[4], kCableHeads[5], kCableHeads[6]));
-    for (const auto& [c] : rows) {
-      line(fmt::format("  {:>5} {:>16} {:>10} {:>8} {:>17} {:>10} {:>8}", c[0], c[1], c[2], c[3], c[4], c[5], c[6]));
-    }
+    const CableRow heads = cable_heads(s.units);
+    constexpr std::size_t kFirstWidth = 16;
+    const std::size_t width = std::max(kFirstWidth, heads.cells[1].size());
+    const auto row = [&](const CableRow& cable) {
+      const auto& c = cable.cells;
+      line(fmt::format("  {:>5} {:>{}} {:>10} {:>8} {:>17} {:>10} {:>8}", c[0], c[1], width, c[2], c[3], c[4], c[5],
+                       c[6]));
+    };
+    row(heads);
+    std::ranges::for_each(rows, row);
   }
   for (const Statement& statement : s.statements)
     line(fmt::format("{:<{}} {}", statement.title, kWidest, statement.text));
@@ -138,9 +149,9 @@ std::string to_markdown(const Summary& s) {
   for (const std::string& sentence : s.details) text += markdown(sentence) + "\n\n";
   for (const std::string& sentence : s.closest) text += fmt::format("- {}\n", markdown(sentence));
   if (!s.closest.empty()) text += "\n";
-  if (const std::vector<CableRow> rows = cable_rows(s.use); !rows.empty()) {
+  if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
     text += markdown(use_caption(s.use.source)) + ":\n\n|";
-    for (const char* cell : kCableHeads) text += fmt::format(" {} |", markdown(cell));
+    for (const std::string& cell : cable_heads(s.units).cells) text += fmt::format(" {} |", markdown(cell));
     text += "\n|" + std::string("---:|---:|---:|---:|---:|---:|---:|") + "\n";
     for (const auto& [cells] : rows) {
       text += "|";
@@ -185,6 +196,7 @@ nlohmann::json to_json(const Summary& s) {
       {"details", s.details},
       {"closest", s.closest},
       {"statements", statements},
+      {"load", to_json(s.load)},
       {"cables_source", name(s.use.source)},
       {"cables", cables},
       {"recheck", {{"result", name(s.recheck.result)}, {"checker", s.recheck.checker}, {"message", s.recheck.message}}},

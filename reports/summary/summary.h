@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
@@ -22,7 +23,9 @@ struct Summary {
   std::vector<std::string> details;
   std::vector<std::string> closest;
   std::vector<Statement> statements;
+  LoadStatement load;
   CableUse use;
+  DisplayUnits units;  ///< of text for people; JSON is in SI
   Recheck recheck;
   std::string problem_sha256, path_sha256, footer_sha256;
 };

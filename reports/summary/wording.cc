@@ -38,13 +38,6 @@ std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metr
 std::string rounded_down(double x, int digits) { return rounded(x, digits, MPFR_RNDD); }
 std::string rounded_up(double x, int digits) { return rounded(x, digits, MPFR_RNDU); }
 
-std::string millimetres_down(double metres) {
-  return is_absurd(metres) ? rounded_down(1000 * metres) : millimetres(rounded_down(metres));
-}
-std::string millimetres_up(double metres) {
-  return is_absurd(metres) ? rounded_up(1000 * metres) : millimetres(rounded_up(metres));
-}
-
 std::string angle_text(const ExpressionText& radians) {
   constexpr std::string_view kOpen = "(";
   constexpr std::string_view kDegrees = ")*pi/180";  // as decimal_to_si() writes them
@@ -53,11 +46,6 @@ std::string angle_text(const ExpressionText& radians) {
     if (inner.find_first_not_of("+-.0123456789eE") == std::string::npos) return plain(inner) + "°";
   }
   return radians + " rad";
-}
-
-std::string plural(std::size_t count, const std::string& noun) {
-  const std::string ending = noun.ends_with('x') || noun.ends_with('h') ? "es" : "s";
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : ending);
 }
 
 std::string coordinate_text(double x, int half_turns) {
@@ -132,18 +120,18 @@ std::string rotation_formula(const AnglesText& angles) {
   return fmt::format("a turn about the fixed axis ({})", fmt::join(angles.axis, ", "));
 }
 
-std::string pose_text(AngleKind angles, const Pose<double>& pose) {
-  // To a micrometre and a thousandth of a degree.
-  const auto text = [](double x) {
+std::string pose_text(const ReportContext& scene, const Pose<double>& pose) {
+  const DisplayUnit& length = scene.illustration.units.length;
+  const auto text = [](double x, double to) {
     constexpr double kLargest = 1e9;
     if (!(std::abs(x) < kLargest)) return fmt::format("{:.4g}", x);
-    return fmt::format("{:.12g}", std::round(x * 1000) / 1000 + 0.0);
+    return fmt::format("{:.12g}", std::round(x / to) * to + 0.0);
   };
-  std::string result = fmt::format("p = ({}, {}, {}) mm", text(pose.p_WP(0) * 1000), text(pose.p_WP(1) * 1000),
-                                   text(pose.p_WP(2) * 1000));
-  const std::vector<std::string> symbols = angle_symbols(angles);
+  const auto position = [&](int c) { return text(length.approx(pose.p_WP(c)), length.approx(1e-6)); };  // micrometres
+  std::string result = fmt::format("p = ({}, {}, {}) {}", position(0), position(1), position(2), length.name());
+  const std::vector<std::string> symbols = angle_symbols(scene.certificate.problem.space.angles.kind);
   for (std::size_t c = 0; c < symbols.size(); ++c) {
-    result += fmt::format(", {} = {}°", symbols[c], text(pose.angles[c] * kDegrees));
+    result += fmt::format(", {} = {}°", symbols[c], text(pose.angles[c] * kDegrees, 1e-3));
   }
   return result;
 }

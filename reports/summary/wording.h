@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plural.h"
 #include "kinematics/model.h"
 #include "reports/summary/scene.h"
 
@@ -18,13 +19,8 @@ namespace taut {
 /// `digits` significant digits, rounded towards −∞ or +∞, without an exponent if it is readable without.
 [[nodiscard]] std::string rounded_down(double x, int digits = 4);
 [[nodiscard]] std::string rounded_up(double x, int digits = 4);
-/// A length in millimetres, likewise.
-[[nodiscard]] std::string millimetres_down(double metres);
-[[nodiscard]] std::string millimetres_up(double metres);
 /// "0.2°" if the angle was typed in degrees, else "0.0035 rad"; exactly the same angle.
 [[nodiscard]] std::string angle_text(const ExpressionText& radians);
-/// "1 box", "2 boxes".
-[[nodiscard]] std::string plural(std::size_t count, const std::string& noun);
 
 /// The names of a waypoint's numbers, and their units.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> coordinates(const Certificate& certificate);
@@ -38,8 +34,8 @@ namespace taut {
 [[nodiscard]] std::string segment_text(const Certificate& certificate, int k);
 /// "s = 3/8 of segment 1, …"
 [[nodiscard]] std::string point_text(const Certificate& certificate, const PathPoint& point);
-/// "p = (0, 0, 350) mm, φ = …": rounded.
-[[nodiscard]] std::string pose_text(AngleKind angles, const Pose<double>& pose);
+/// "p = (0, 0, 350) mm, φ = …", in the case's angles: rounded to a micrometre and a thousandth of a degree.
+[[nodiscard]] std::string pose_text(const ReportContext& scene, const Pose<double>& pose);
 
 /// The signs of a pose's angles: φ, θ, σ; roll, pitch, yaw; α, β, γ; turn.
 [[nodiscard]] std::vector<std::string> angle_symbols(AngleKind kind);

@@ -4,11 +4,13 @@
 //
 //   verdict     "unchecked" if it is not known; then none of the certificate's claims is in here
 //   segments, is_spline
+//   units       length, force: name and factor of the units that are shown
 //   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of
 //               limits
 //   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3),
-//               distance, turned, time (may be empty), p (3), q (4: x y z w), angles (3, or 1) and angle_names, length (6), tension (6: f0),
-//               tension_radius (6: v), wrench_scale, sign (of det J), parameters (2, if there is a plane)
+//               distance, turned, time (may be empty), p (3), q (4: x y z w), angles (3, or 1), angle_names,
+//               length (6), tension (6: f0), tension_below, tension_above (6 each), wrench_scale, sign (of det J),
+//               parameters (2, if there is a plane)
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
 //   margins     proved, for groups of consecutive segments: from, to, tension_N, length_m, wrench_scale
 //   stretches   the parts of the path that are not proved: from, to, violated (else open)
@@ -20,17 +22,12 @@
 
 export function readData() {
   const data = JSON.parse(document.getElementById("data").textContent);
-  data.lengthUnit = lengthUnit(data);
+  data.lengthUnit = data.units.length;
+  data.forceUnit = data.units.force;
   return data;
 }
 
 const finite = (x) => typeof x === "number" && Number.isFinite(x);
-
-/// The unit of lengths: millimetres for robots up to the size of a room, metres for larger ones.
-function lengthUnit({ robot }) {
-  const sizes = [...robot.base.flat(), ...robot.length.map(([, upper]) => upper)].filter(finite).map(Math.abs);
-  return Math.max(0, ...sizes) < 20 ? { name: "mm", factor: 1000 } : { name: "m", factor: 1 };
-}
 
 /// Whether the data contain all that a picture of the robot needs.
 export function isDrawable({ robot, samples }) {

@@ -42,7 +42,6 @@ class Meter {
 class Readout {
   constructor(data) {
     this.data = data;
-    const { name: unit } = data.lengthUnit;
     this.where = element("p", { class: "where" });
     this.pose = element("p", { class: "pose" });
     this.rows = data.robot.tension.map((_, i) => {
@@ -56,32 +55,34 @@ class Readout {
     this.element = element("div", { class: "readout-table" }, this.where, this.pose,
       element("table", {},
         element("caption", {}, "Cables at this place, and where that is between their limits (floating point)"),
-        element("thead", {}, element("tr", {}, head("Cable"), head("Tension [N]", { colspan: 2 }),
-          head(`Length [${unit}]`, { colspan: 2 }), element("td"))),
+        element("thead", {}, element("tr", {}, head("Cable"), head(`Tension [${data.forceUnit.name}]`, { colspan: 2 }),
+          head(`Length [${data.lengthUnit.name}]`, { colspan: 2 }), element("td"))),
         element("tbody", {}, ...this.rows.map((row) => row.element))));
   }
 
   show(position, axes) {
-    const { samples, robot, lengthUnit, segments } = this.data;
+    const { samples, robot, lengthUnit, forceUnit, segments } = this.data;
     const where = locate(samples.position, position);
     const segment = Math.min(Math.floor(position), Math.max(segments - 1, 0));
     const says = axes.filter((axis) => axis.name !== "segment").map((axis) => axis.says(position));
     const state = STATUS[status(this.data, position)];
     this.where.textContent = [`Segment ${segment}, s = ${fixed(position - segment, 3)}`, ...says, state].filter(Boolean).join(" · ");
-    const p = samples.p.map((column) => fixed(between(column, where) * lengthUnit.factor, 1));
+    const places = decimalsFor(1e-2 * lengthUnit.factor);
+    const p = samples.p.map((column) => fixed(between(column, where) * lengthUnit.factor, places));
     const angles = samples.angles.map((column) => fixed(degrees(between(column, where)), 2));
     this.pose.textContent =
       `p = (${p.join(", ")}) ${lengthUnit.name}; ${samples.angle_names.join(", ")} = ${angles.map((a) => `${a}°`).join(", ")}`;
     this.rows.forEach((row, i) => {
-      const f = between(samples.tension[i], where);
-      const v = between(samples.tension_radius[i], where);
+      const f = between(samples.tension[i], where) * forceUnit.factor;
+      const low = f - between(samples.tension_below[i], where) * forceUnit.factor;
+      const high = f + between(samples.tension_above[i], where) * forceUnit.factor;
       const d = between(samples.length[i], where) * lengthUnit.factor;
-      const [lower, upper] = robot.tension[i];
+      const [lower, upper] = robot.tension[i].map((x) => x * forceUnit.factor);
       const decimals = decimalsFor(upper - lower);
-      row.tension.textContent = `${fixed(f - v, decimals)} to ${fixed(f + v, decimals)}`;
+      row.tension.textContent = `${fixed(low, decimals)} to ${fixed(high, decimals)}`;
       row.length.textContent = fixed(d, decimalsFor((robot.length[i][1] - robot.length[i][0]) * lengthUnit.factor));
       const limits = robot.length[i].map((x) => x * lengthUnit.factor);
-      const slackOrOver = row.f.show(f - v, f, f + v, robot.tension[i]);
+      const slackOrOver = row.f.show(low, f, high, [lower, upper]);
       const tooLong = row.d.show(d, d, d, limits);
       row.flag.textContent = slackOrOver || tooLong ? "out" : "";
     });

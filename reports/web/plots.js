@@ -205,12 +205,14 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
 }
 
 export function tensionPanels(data) {
+  const { name: unit, factor } = data.forceUnit;
   return data.robot.tension.map((limits, i) => {
-    const f0 = data.samples.tension[i].map((x) => x ?? NaN);
-    const v = data.samples.tension_radius[i];
+    const f0 = data.samples.tension[i].map((x) => (x ?? NaN) * factor);
+    const below = data.samples.tension_below[i].map((x) => x * factor);
+    const above = data.samples.tension_above[i].map((x) => x * factor);
     return cablePanel(data, i, {
-      name: "tension", unit: "N", factor: 1, limits,
-      low: f0.map((f, k) => f - v[k]), middle: f0, high: f0.map((f, k) => f + v[k]),
+      name: "tension", unit, factor, limits: limits.map((x) => x * factor),
+      low: f0.map((f, k) => f - below[k]), middle: f0, high: f0.map((f, k) => f + above[k]),
       band: data.bands && data.bands.from.length ? data.bands.tension[i] : null,
     });
   });
@@ -240,16 +242,17 @@ function leastReserve(data, low, high, limits) {
 }
 
 export function marginPanels(data) {
-  const { samples, robot, margins, lengthUnit } = data;
+  const { samples, robot, margins, lengthUnit, forceUnit } = data;
   const number = (x) => x ?? NaN;
-  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.tension_radius[i][k]),
-    (i, k) => number(samples.tension[i][k]) + number(samples.tension_radius[i][k]), robot.tension);
+  const tension = leastReserve(data, (i, k) => number(samples.tension[i][k]) - number(samples.tension_below[i][k]),
+    (i, k) => number(samples.tension[i][k]) + number(samples.tension_above[i][k]), robot.tension)
+    .map((x) => x * forceUnit.factor);
   const length = leastReserve(data, (i, k) => number(samples.length[i][k]), (i, k) => number(samples.length[i][k]),
     robot.length).map((x) => x * lengthUnit.factor);
-  const scaledLength = margins.length_m.map((x) => (x === null ? null : x * lengthUnit.factor));
+  const scaled = (list, { factor }) => list.map((x) => (x === null ? null : x * factor));
   return [
-    marginPanel(data, "Tension", "N", margins.tension_N, tension, 0),
-    marginPanel(data, "Length", lengthUnit.name, scaledLength, length, 0),
+    marginPanel(data, "Tension", forceUnit.name, scaled(margins.tension_N, forceUnit), tension, 0),
+    marginPanel(data, "Length", lengthUnit.name, scaled(margins.length_m, lengthUnit), length, 0),
     marginPanel(data, "Load: wrench_scale", "×", margins.wrench_scale, samples.wrench_scale.map(number), 1),
   ];
 }

@@ -269,13 +269,14 @@ class Viewer {
     this.ends = robot.platform.map((b) => vector(b).applyQuaternion(q).add(p));
     this.cables.forEach((mesh, i) => {
       const f = between(samples.tension[i], where);
-      const v = between(samples.tension_radius[i], where);
+      const below = between(samples.tension_below[i], where);
+      const above = between(samples.tension_above[i], where);
       const [lower, upper] = robot.tension[i];
       const a = vector(robot.base[i]);
       const b = this.ends[i];
       const length = a.distanceTo(b);
       const share = (x) => (x - lower) / (upper - lower);
-      const [low, high] = [share(f - v), share(f + v)];
+      const [low, high] = [share(f - below), share(f + above)];
       const slack = 1e-6 * (robot.length[i][1] - robot.length[i][0]); // samples are rounded
       const out = !(low > 0 && high < 1) || !(length > robot.length[i][0] - slack && length < robot.length[i][1] + slack);
       mesh.material.color.set(tensionColour(low < 1 - high ? low : high));

@@ -15,7 +15,15 @@ def claims():
     return {verdict.lower(): ''.join(re.findall('"([^"]*)"', texts)) for verdict, texts in found}
 
 
+def items_clause():
+    """What follows a claim where the load has items."""
+    with open(CLAIMS_FILE, encoding='utf-8') as f:
+        texts = re.search(r'char\* kItemsClause =((?:\s*"[^"]*")+);', f.read()).group(1)
+    return ''.join(re.findall('"([^"]*)"', texts))
+
+
 CLAIMS = claims()
+ITEMS_CLAUSE = items_clause()
 
 
 def box(lower, upper):
@@ -45,7 +53,8 @@ def seal(certificate, keep=()):
     c = certificate
     claimed = [s for s in c['segments'] if s['margins']]
     if 'claim' not in keep:
-        c['claim'] = CLAIMS[c['verdict']]
+        has_items = c['verdict'] != 'undecided' and 'items' in c['problem']['load']
+        c['claim'] = CLAIMS[c['verdict']] + (ITEMS_CLAUSE if has_items else '')
     if 'margins' not in keep:
         c['margins'] = least_margins(claimed) if c['verdict'] == 'proved' and claimed else {}
     c['problem_sha256'] = digest(c['problem'])

@@ -128,8 +128,7 @@ void expect_box(const Space& space, const ProofModel<typename A::I>& model, cons
     expect_form<I>(enclosure.length[i], samples, component(&Sample::length), cable + ", length");
     if (!enclosure.regular) continue;
     expect_form<I>(enclosure.density[i], samples, component(&Sample::density), cable + ", density");
-    expect_form<I>(enclosure.tension_radius[i], samples, component(&Sample::tension_radius),
-                   cable + ", tension_radius");
+    expect_form<I>(enclosure.above[i], samples, component(&Sample::tension_radius), cable + ", tension_radius");
   }
   for (const auto& entry : enclosure.margins) {
     const auto value = [&entry](const Sample& x) -> const BigFloat& {
@@ -213,7 +212,7 @@ TYPED_TEST(BoxEnclosures, HoldTheOracleWithAFullEllipsoid) {
     for (std::size_t j = 0; j < 6; ++j) {
       int sum = 0;
       for (std::size_t k = 0; k < 6; ++k) sum += m[i][k] * m[j][k];
-      space.problem.load.ellipsoid[i][j] = std::to_string(sum);
+      space.problem.load.ellipsoid.value()[i][j] = std::to_string(sum);
     }
   }
   space.problem.load.wrench = {"0.1", "-0.07", "1", "0.003", "-0.01", "0.02"};

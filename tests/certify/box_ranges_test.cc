@@ -154,8 +154,8 @@ TEST(PathRanges, CoverDeviatingMachines) {
             statics(model, Vector3<double>(pose.p + direction(0.0002)), Matrix3<double>(pose.q.toRotationMatrix()));
         constexpr double kRounding = 1e-9;  // of the sampled machine
         for (std::size_t i = 0; i < kCables; ++i) {
-          EXPECT_GE(x.tension[i] - x.tension_radius[i], piece.tension[i].lower - kRounding);
-          EXPECT_LE(x.tension[i] + x.tension_radius[i], piece.tension[i].upper + kRounding);
+          EXPECT_GE(x.tension[i] - x.tension_below[i], piece.tension[i].lower - kRounding);
+          EXPECT_LE(x.tension[i] + x.tension_above[i], piece.tension[i].upper + kRounding);
           EXPECT_GE(x.length[i], piece.length[i].lower - kRounding);
           EXPECT_LE(x.length[i], piece.length[i].upper + kRounding);
           const Range& alone = stated.segments[k].front().length[i];

@@ -265,7 +265,7 @@ TEST(Gaps, AMarginThatIsZeroEverywhereTakesNoLongerThanBisection) {
 TEST(Gaps, ASingularPoseIsLocatedByTheSignsOfItsNeighbours) {
   Problem problem = robot1_slice();
   problem.load.wrench = {"0", "0", "0", "0", "0", "0"};
-  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e300";
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid.value()[i][i] = "1e300";
   for (auto& limits : problem.robot.tension_N) limits = {"-1e9", "1e9"};
   for (auto& limits : problem.robot.length_m) limits = {"0", "100"};
   const Waypoint a{{-2.3, 1.6}, {0, 0}};

@@ -29,8 +29,8 @@ Sampled sample(const Problem& problem, const Path& path) {
       const RigidPose pose = sampler.rigid_pose(path.segment(k), static_cast<double>(i) / kSamples);
       const Statics<double> s = statics(sampler.model(), pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
       for (std::size_t c = 0; c < kCables; ++c) {
-        least.tension = std::min({least.tension, s.tension[c] - s.tension_radius[c] - sampler.model().tension_lower[c],
-                                  sampler.model().tension_upper[c] - s.tension[c] - s.tension_radius[c]});
+        least.tension = std::min({least.tension, s.tension[c] - s.tension_below[c] - sampler.model().tension_lower[c],
+                                  sampler.model().tension_upper[c] - s.tension[c] - s.tension_above[c]});
       }
       least.scale = std::min(least.scale, wrench_scale_approx(sampler.model(), s));
     }

@@ -144,7 +144,7 @@ TEST(Prover, RefutesASingularSegmentByAChangeOfSign) {
   // A weightless platform has no tensions at all: w0 = 0, and only det J tells.
   Problem problem = robot1_slice();
   problem.load.wrench = {"0", "0", "0", "0", "0", "0"};
-  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e300";
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid.value()[i][i] = "1e300";
   for (auto& limits : problem.robot.tension_N) limits = {"-1e9", "1e9"};
   for (auto& limits : problem.robot.length_m) limits = {"0", "100"};
   const Prover prover(problem);
@@ -199,8 +199,8 @@ TEST(Prover, RestoresTheCallersRoundingMode) {
 
 TEST(Prover, AWildlyScaledProblemIsNeverProvedByOverflow) {
   Problem problem = robot1_slice();
-  for (auto& row : problem.load.ellipsoid) row.fill("0");
-  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid[i][i] = "1e-300";
+  for (auto& row : problem.load.ellipsoid.value()) row.fill("0");
+  for (std::size_t i = 0; i < 6; ++i) problem.load.ellipsoid.value()[i][i] = "1e-300";
   for (auto& anchor :
        problem.robot.platform_anchors_m) {  // of a platform too small to hold K: tensions beyond binary64
     for (DecimalText& coordinate : anchor) coordinate += "e-200";
@@ -234,6 +234,23 @@ TEST(Prover, ClosedRangesAreKeptExactly) {
   EXPECT_EQ(prover.prove(kStart, kNearStart).verdict, Verdict::kUndecided) << "theta = 1.6 exceeds pi/2";
 }
 
+TEST(Prover, NamesTheParameterThatIsOutsideItsRange) {
+  Problem problem = robot1_slice();
+  problem.space.flip.reset();
+  problem.space.parameters[1].kind = ParameterKind::kRange;
+  problem.space.parameters[1].range_lower = "-0.1";
+  problem.space.parameters[1].range_upper = "1.5";
+  const Prover prover(problem);
+  const SegmentProof beyond = prover.prove(at({0, 0}), at({0, 1.75}));
+  EXPECT_EQ(beyond.reason.text(),
+            "a waypoint lies outside the closed range of a parameter, or may: theta is 1.75, its range is from -0.1 to "
+            "1.5 (SI: m, rad)");
+  const SegmentProof rounded = prover.prove(at({0, -0.1}), at({0, 0}));
+  EXPECT_NE(rounded.reason.text().find("theta is -0.1 and so, but for rounding, at an end of its range"),
+            std::string::npos)
+      << rounded.reason;
+}
+
 TEST(Prover, HalfTurnsNeedAPeriodicParameter) {
   const Prover prover(robot1_slice());
   Waypoint turned = kStart;
@@ -249,7 +266,7 @@ TEST(Prover, NumbersBeyondBinary64AreRefused) {
 
 TEST(Prover, AnEllipsoidThatIsNotPositiveDefiniteIsRefused) {
   Problem problem = robot1_slice();
-  problem.load.ellipsoid[0][0] = "-1";
+  problem.load.ellipsoid.value()[0][0] = "-1";
   EXPECT_ANY_THROW(Prover{problem});
 }
 

@@ -83,8 +83,8 @@ struct Least {
 void update(Least& least, const Model<double>& model, const RigidPose& pose) {
   const Statics<double> s = statics(model, pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
   for (std::size_t i = 0; i < kCables; ++i) {
-    least.tension = std::min({least.tension, s.tension[i] - s.tension_radius[i] - model.tension_lower[i],
-                              model.tension_upper[i] - s.tension[i] - s.tension_radius[i]});
+    least.tension = std::min({least.tension, s.tension[i] - s.tension_below[i] - model.tension_lower[i],
+                              model.tension_upper[i] - s.tension[i] - s.tension_above[i]});
     least.length = std::min({least.length, s.length[i] - model.length_lower[i], model.length_upper[i] - s.length[i]});
   }
   least.scale = std::min(least.scale, wrench_scale_approx(model, s));
@@ -420,7 +420,7 @@ TEST(Tolerance, AreRefutedByADeviationThatIsWithinThem) {
       const Statics<double> still =
           statics(make_model<double>(problem), pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
       for (std::size_t i = 0; i < kCables; ++i) {
-        problem.robot.tension_N[i].lower = fmt::format("{:.9f}", still.tension[i] - still.tension_radius[i] - 1e-4);
+        problem.robot.tension_N[i].lower = fmt::format("{:.9f}", still.tension[i] - still.tension_below[i] - 1e-4);
       }
     }
     const Prover prover(problem);

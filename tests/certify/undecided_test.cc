@@ -36,7 +36,10 @@ TEST(Undecided, WhateverIsToldHasItsCode) {
   for (std::size_t k = 0; k < kUndecidedReasons; ++k) {
     const auto reason = static_cast<Undecided>(k);
     std::vector<Reason> told = {reason, {reason, " margin length_min of cable 1: it is zero"}};
-    if (words(reason).at_pose != nullptr) told.push_back(Reason::at_pose(reason));
+    if (words(reason).at_pose != nullptr) {
+      told.push_back(Reason::at_pose(reason));
+      told.push_back(Reason::at_pose(reason, ": px is 1.7"));
+    }
     const std::size_t plain = told.size();
     for (std::size_t i = 0; i < plain; ++i) told.push_back(told[i].preceded_by("waypoint 3 of the query: "));
     for (const Reason& text : told) {

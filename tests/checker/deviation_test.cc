@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/checker/kernel.h"
+#include "tests/checker/loads_oracle.h"
 
 namespace taut::checker {
 namespace {
@@ -40,10 +40,16 @@ TolerancesText tolerances(std::mt19937_64& random, double size, bool length_cont
   return result;
 }
 
-/// At the pose of the machine that deviates; nothing where that is not found.
+/// The machine that deviates, and where it is.
 template <class S>
-std::optional<StaticsAt<S>> deviating(const campaign::Machine<S>& machine, const campaign::Tolerances<S>& within,
-                                      RigidPose<S> pose, const Deviation& by) {
+struct Deviated {
+  campaign::Machine<S> machine;
+  RigidPose<S> pose;
+};
+/// Nothing where its pose is not found.
+template <class S>
+std::optional<Deviated<S>> deviated(const campaign::Machine<S>& machine, const campaign::Tolerances<S>& within,
+                                    RigidPose<S> pose, const Deviation& by) {
   const campaign::Machine<S> deviant = campaign::deviate(machine, within, by);
   if (within.length_controlled) {
     const campaign::Six<S> commanded = campaign::lengths(machine, pose);
@@ -64,7 +70,14 @@ std::optional<StaticsAt<S>> deviating(const campaign::Machine<S>& machine, const
   }
   pose.p = pose.p + campaign::scaled(within.position, by.position);
   pose.r = multiply(campaign::turn(campaign::scaled(within.turn, by.turn)), pose.r);
-  return campaign::statics(deviant, pose);
+  return Deviated<S>{deviant, pose};
+}
+template <class S>
+std::optional<StaticsAt<S>> deviating(const campaign::Machine<S>& machine, const campaign::Tolerances<S>& within,
+                                      const RigidPose<S>& pose, const Deviation& by) {
+  const auto there = deviated(machine, within, pose, by);
+  if (!there) return std::nullopt;
+  return campaign::statics(there->machine, there->pose);
 }
 
 /// Each block just inside of its unit ball.
@@ -165,7 +178,7 @@ void expect_bounds(const taut::Problem& problem, bool length_controlled, std::mt
       for (const double side : {-1.0, 1.0}) {
         deviations.push_back(steepest([&](const Deviation& x) {
           const auto there = deviating(machine_d, tolerances_d, pose(0.0), x);
-          return there ? sign * (there->tension[i] + side * there->tension_radius[i]) : 0;
+          return there ? sign * (side < 0 ? there->tension_low[i] : there->tension_high[i]) : 0;
         }));
       }
     }
@@ -186,12 +199,8 @@ void expect_bounds(const taut::Problem& problem, bool length_controlled, std::mt
             << ", guesses " << guesses << ", lengths controlled " << length_controlled << ", step " << step;
         if (limit > 1e-9) seen.largest = std::max(seen.largest, size / limit);
       };
-      expect(loss.tension[i][0],
-             (after->tension[i] - after->tension_radius[i]) - (before.tension[i] - before.tension_radius[i]),
-             "least tension");
-      expect(loss.tension[i][1],
-             (after->tension[i] + after->tension_radius[i]) - (before.tension[i] + before.tension_radius[i]),
-             "largest tension");
+      expect(loss.tension[i][0], after->tension_low[i] - before.tension_low[i], "least tension");
+      expect(loss.tension[i][1], after->tension_high[i] - before.tension_high[i], "largest tension");
       expect(loss.length[i], after->length[i] - before.length[i], "length");
     }
     if (::testing::Test::HasFailure()) return;
@@ -216,6 +225,114 @@ void expect_bounds(bool length_controlled) {
 
 TEST(Deviation, TakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_bounds(false); }
 TEST(Deviation, TakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_bounds(true); }
+
+/// A box of a robot with items: what tolerances take from tensions over all loads, and how much these may come to
+/// differ from the nominal ones.
+struct ItemTrial {
+  taut::Problem stated;
+  Problem problem;
+  std::vector<double> from, to;
+  double u = 0;
+  MarginLoss loss;
+
+  template <class S>
+  [[nodiscard]] RigidPose<S> pose() const {
+    std::array<S, 6> x;
+    for (std::size_t j = 0; j < 6; ++j) x[j] = S(from[j]) + (S(to[j]) - S(from[j])) * (S(1.0) + S(u)) / S(2.0);
+    return {{x[0], x[1], x[2]}, campaign::orientation(x[3], x[4], x[5])};
+  }
+  template <class S>
+  [[nodiscard]] std::optional<std::array<Extremes<S>, 6>> tensions(const Deviation& by) const {
+    const auto there = deviated(campaign::make_machine<S>(stated), campaign::make_tolerances<S>(stated), pose<S>(), by);
+    if (!there) return std::nullopt;
+    return tensions_of(problem, there->machine, there->pose);
+  }
+};
+
+void expect_item_bounds(const ItemTrial& trial, std::mt19937_64& random, Seen& seen) {
+  const PrecisionScope oracle(kOracleBits);
+  const auto before = trial.tensions<BigFloat>({});
+  std::vector<Deviation> deviations;
+  for (int k = 0; k < 2; ++k) deviations.push_back(random_deviation(random));
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (const double sign : {-1.0, 1.0}) {
+      for (const bool is_most : {false, true}) {
+        deviations.push_back(steepest([&](const Deviation& x) {
+          const auto there = trial.tensions<double>(x);
+          return there ? sign * (is_most ? (*there)[i].most : (*there)[i].least) : 0;
+        }));
+      }
+    }
+  }
+  for (const Deviation& deviation : deviations) {
+    const auto after = trial.tensions<BigFloat>(deviation);
+    ASSERT_TRUE(after) << "the kernel says that this machine has its pose";
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto expect = [&](const Ball& bound, const BigFloat& change, const char* what) {
+        const double limit = upper_end(bound).to_double(MPFR_RNDU);
+        const double size = std::abs(change.to_double());
+        EXPECT_TRUE(abs(change) <= upper_end(bound) + BigFloat(1e-35))
+            << what << " of cable " << i << " changes by " << size << ", not by " << limit;
+        if (limit > 1e-9) seen.largest = std::max(seen.largest, size / limit);
+      };
+      const Extremes<BigFloat>& a = (*before)[i];
+      const Extremes<BigFloat>& b = (*after)[i];
+      expect(trial.loss.tension[i][0], b.least - a.least, "least tension");
+      expect(trial.loss.tension[i][1], b.most - a.most, "largest tension");
+      expect(trial.loss.radius[i][0], (b.nominal - b.least) - (a.nominal - a.least), "what the least is below");
+      expect(trial.loss.radius[i][1], (b.most - b.nominal) - (a.most - a.nominal), "what the largest is above");
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+void expect_item_bounds(bool length_controlled) {
+  std::mt19937_64 random(length_controlled ? 13 : 14);
+  Seen seen;
+  const std::array<taut::Problem, 2> robots = {testing::free_flying(testing::robot1_slice()),
+                                               testing::free_flying(testing::robot2_sphere())};
+  for (int k = 0; k < 36 && !::testing::Test::HasFailure(); ++k) {
+    ItemTrial trial;
+    trial.stated = robots[static_cast<std::size_t>(k % 2)];
+    if (k % 3 == 0) trial.stated.load.point_m = {"0.02", "-0.03", "0.05"};
+    trial.stated.tolerances = tolerances(random, std::exp(uniform(random, -5, 1)), length_controlled);
+    trial.stated.tolerances->load_point_m = "0";
+    trial.stated.tolerances->wrench.fill("0");
+    if (k % 4 == 0) {  // the angle alone, so that what items do where they turn is most of the bound
+      TolerancesText turning;
+      turning.orientation_rad = "0.0005";
+      if (length_controlled) turning.cable_length_m = std::array<DecimalText, 6>{"0", "0", "0", "0", "0", "0"};
+      trial.stated.tolerances = turning;
+    }
+    trial.problem = to_kernel(trial.stated);
+    give_items(trial.problem, random, 1, k % 3 == 1);
+    trial.from = {uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05), uniform(random, 0.25, 0.38),
+                  uniform(random, -3, 3),       uniform(random, 0.2, 1.2),    uniform(random, -0.6, 0.6)};
+    trial.to = trial.from;
+    const double step = std::exp(uniform(random, -14, -5));
+    for (double& x : trial.to) x += step * uniform(random, -1, 1);
+    trial.u = uniform(random, -1, 1);
+    const WorkingPrecision precision(64);
+    const Machine machine(trial.problem);
+    Path path;
+    path.waypoints = {waypoint(trial.from), waypoint(trial.to)};
+    try {
+      const Geometry geometry = commanded_geometry(machine, trial.problem, path, 0, dyadic_box(0, 1, 0, 64));
+      trial.loss = margin_loss(machine, geometry, Inverse(geometry.D), length_controlled, 1 << (random() % 4), 4);
+    } catch (const Undefined&) {
+      ++seen.undefined;
+      continue;
+    }
+    ++seen.boxes;
+    expect_item_bounds(trial, random, seen);
+  }
+  std::printf("  %d boxes, %d undefined, at most %.3f of a bound\n", seen.boxes, seen.undefined, seen.largest);
+  EXPECT_GT(seen.boxes, 20) << seen.undefined << " were undefined";
+  EXPECT_GT(seen.largest, 0.6) << "no deviation comes close to what is bounded: is there an error in the test?";
+}
+
+TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereThePoseIsControlled) { expect_item_bounds(false); }
+TEST(Deviation, OfItemsTakesNoMoreThanItsBoundWhereLengthsAreControlled) { expect_item_bounds(true); }
 
 /// At one pose, with these tolerances.
 MarginLoss loss_at(const taut::Problem& problem, const std::vector<double>& at, bool length_controlled, int parts = 8) {

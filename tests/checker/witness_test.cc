@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/checker/kernel.h"
+#include "tests/checker/loads_oracle.h"
 
 namespace taut::checker {
 namespace {
@@ -87,6 +87,9 @@ struct ReportContext {
     return campaign::hold(deviant(share), from, wanted, 40).value();
   }
   [[nodiscard]] campaign::StaticsAt<BigFloat> truth() const {
+    return campaign::statics(deviant(BigFloat(1.0)), deviated_pose());
+  }
+  [[nodiscard]] RigidPose<BigFloat> deviated_pose() const {
     RigidPose<BigFloat> pose = led(BigFloat(1.0), commanded<BigFloat>());
     const auto vector = [](const std::array<mpq_class, 3>& x) {
       return campaign::Vec<BigFloat>{number<BigFloat>(x[0]), number<BigFloat>(x[1]), number<BigFloat>(x[2])};
@@ -94,7 +97,7 @@ struct ReportContext {
     pose.p = pose.p + vector(witness.deviation->position);
     const auto u = vector(witness.deviation->turn);
     pose.r = multiply(campaign::rotation(campaign::Quaternion<BigFloat>{u[0], u[1], u[2], BigFloat(1.0)}), pose.r);
-    return campaign::statics(deviant(BigFloat(1.0)), pose);
+    return pose;
   }
 
   /// The way to the deviation, in so many boxes around `start`, which has these lengths.
@@ -165,11 +168,10 @@ TEST(Witness, TheQuantityIsThatOfTheMachineThatDeviates) {
       const auto truth = scene.truth();
       for (std::size_t cable = 0; cable < 6; ++cable) {
         scene.witness.cable = cable;
-        const std::pair<WitnessKind, BigFloat> kinds[] = {
-            {WitnessKind::kTensionMin, truth.tension[cable] - truth.tension_radius[cable]},
-            {WitnessKind::kTensionMax, truth.tension[cable] + truth.tension_radius[cable]},
-            {WitnessKind::kLengthMin, truth.length[cable]},
-            {WitnessKind::kLengthMax, truth.length[cable]}};
+        const std::pair<WitnessKind, BigFloat> kinds[] = {{WitnessKind::kTensionMin, truth.tension_low[cable]},
+                                                          {WitnessKind::kTensionMax, truth.tension_high[cable]},
+                                                          {WitnessKind::kLengthMin, truth.length[cable]},
+                                                          {WitnessKind::kLengthMax, truth.length[cable]}};
         for (const auto& [kind, value] : kinds) {
           scene.witness.kind = kind;
           const Ball seen = scene.quantity();
@@ -185,6 +187,58 @@ TEST(Witness, TheQuantityIsThatOfTheMachineThatDeviates) {
         }
       }
     }
+  }
+}
+
+TEST(Witness, LoadsActOnTheMachineThatDeviates) {
+  const PrecisionScope oracle(kOracleBits);
+  for (const bool keeps_ellipsoid : {false, true}) {
+    ReportContext scene(false);
+    WitnessDeviation& by = *scene.witness.deviation;
+    by.load_point = {};
+    by.wrench = 0;
+    if (!keeps_ellipsoid) {
+      scene.problem.ellipsoid.reset();
+      scene.problem.wrench = ExactWrench();
+    }
+    scene.problem.gravity = {0, mpq_class(1, 8), -10};
+    scene.problem.items = {
+        {Weight{{mpq_class(1, 32), mpq_class(1, 16)}, mpq_class(1, 64)}, Axes::kWorld, {mpq_class(1, 64), 0, 0}},
+        {Force{BallOfVectors{mpq_class(1, 2)}}, Axes::kPlatform, {0, mpq_class(-1, 32), 0}},
+        {Moment{SegmentOfVectors{{1, 1, 1}, {-1, mpq_class(1, 64)}}}, Axes::kPlatform, {}}};
+    const auto number = [](const mpq_class& x) { return BigFloat(x.get_d()); };  // of few bits
+    const ExactVector e = {0, mpq_class(1, 128), mpq_class(1, 128)};
+    const ExactVector force = {mpq_class(1, 4), mpq_class(-1, 8), 0};
+    scene.witness.loads = {WeightChoice{mpq_class(3, 64), e}, VectorChoice{force}, AmountChoice{mpq_class(1, 128)}};
+    std::vector<OneLoad<BigFloat>> loads(3);
+    loads[0].amount = number(mpq_class(3, 64));
+    loads[0].vector = vector_of<BigFloat>(e);
+    loads[1].vector = vector_of<BigFloat>(force);
+    loads[2].amount = number(mpq_class(1, 128));
+    const auto pose = scene.deviated_pose();
+    const auto machine = scene.deviant(BigFloat(1.0));
+    const auto y = responses(machine, pose);
+    const auto of_ellipsoid = campaign::statics(machine, pose);
+    const Platform<BigFloat> on = {pose.r, machine.load_point, vector_of<BigFloat>(scene.problem.gravity)};
+    for (std::size_t cable = 0; cable < 6; ++cable) {
+      scene.witness.cable = cable;
+      for (const WitnessKind kind : {WitnessKind::kTensionMin, WitnessKind::kTensionMax}) {
+        scene.witness.kind = kind;
+        BigFloat tension(0.0);
+        if (keeps_ellipsoid) {
+          tension =
+              kind == WitnessKind::kTensionMin ? of_ellipsoid.tension_low[cable] : of_ellipsoid.tension_high[cable];
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+          tension = tension + dot_six(y[cable], wrench_of(scene.problem.items[k], loads[k], on));
+        }
+        const Ball seen = scene.quantity();
+        EXPECT_TRUE(holds(seen, tension)) << print(seen) << " is not " << testing::digits(tension);
+        EXPECT_LT(width(seen), 1e-20);
+      }
+    }
+    std::get<AmountChoice>((*scene.witness.loads)[2]).amount = mpq_class(1, 32);
+    EXPECT_THROW((void)scene.quantity(), Rejected);
   }
 }
 
@@ -214,11 +268,11 @@ TEST(Witness, ADeviationBeyondATolerancesIsRejected) {
        [](By& by) {
          by.position = {mpq_class(-1001, 1000000), 0, 0};
        }},
-      {"angle",
+      {"the orientation",
        [](By& by) {
          by.turn = {0, mpq_class(501, 100000), 0};
        }},  // 0.01002 rad
-      {"angle", [](By& by) {
+      {"the orientation", [](By& by) {
          by.turn = {100, 0, 0};
        }}};
   for (const bool length_controlled : {false, true}) {

@@ -23,6 +23,20 @@ TEST(Exact, ADecimalIsTheRationalThatWasTyped) {
   EXPECT_EQ(*parse_decimal("1e1000") * *parse_decimal("1e-1000"), 1);
 }
 
+TEST(Exact, ARationalIsADecimalOrAFraction) {
+  EXPECT_EQ(parse_rational("-0.0210"), mpq_class(-21, 1000));
+  EXPECT_EQ(parse_rational("-1/36"), mpq_class(-1, 36));
+  EXPECT_EQ(parse_rational("010/04"), mpq_class(5, 2));
+  EXPECT_EQ(parse_rational("0/5"), mpq_class(0));
+  EXPECT_EQ(*parse_rational("1/" + std::string(300, '9')) * *parse_rational(std::string(300, '9') + "/1"), 1);
+  for (const std::string text : {"", "/", "1/", "/2", "1/0", "1/-2", "1/2/3", "1 /2", "1/2 ", "+1/2", "--1/2", "1.5/2",
+                                 "1/2.5", "1e2/3", "0x1/2", "nan/1"}) {
+    EXPECT_FALSE(parse_rational(text)) << text;
+  }
+  EXPECT_FALSE(parse_rational("1/1" + std::string(300, '0')));
+  EXPECT_FALSE(parse_rational("1" + std::string(300, '0') + "/1"));
+}
+
 TEST(Exact, RefusesWhatIsNoDecimal) {
   for (const std::string text : {"",
                                  "-",

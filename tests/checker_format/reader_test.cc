@@ -121,6 +121,29 @@ Json refuted() {
   return json;
 }
 
+/// A load with an item of each kind and no ellipsoid.
+Json load_of_items() {
+  return Json::parse(R"({"point_m": ["0", "0", "-0.4"], "gravity_m_s2": ["0", "0", "-9.81"], "items": [
+    {"name": "payload", "weight": {"mass_kg": ["2", "35/11"], "at_m": ["0", "1/7", "0"], "at_tolerance_m": "0.05"}},
+    {"name": "any", "force": {"ball": {"radius": "1/3"}, "axes": "W", "at_m": ["0", "0", "0"]}},
+    {"name": "wind", "force": {"disc": {"radius": "6", "normal": ["0", "0", "2"]}, "axes": "P", "at_m": ["0", "0", "1"]}},
+    {"name": "slewing", "moment": {"segment": {"direction": ["1", "0", "0"], "range": ["-1", "-1"]}, "axes": "P"}},
+    {"name": "cases", "load_cases": {"wrenches": [["0", "0", "-1", "0", "0", "0"], ["1", "0", "0", "0", "0", "2"]],
+                                     "axes": "W", "at_m": ["0", "0", "0"]}}]})");
+}
+
+/// Refuted by one load of each item.
+Json refuted_by_loads() {
+  Json json = refuted();
+  json["problem"]["load"] = load_of_items();
+  json["claim"] = std::string(kRefutedClaim) + kItemsClause;
+  const Json loads = Json::parse(R"([{"mass_kg": "3", "offset_m": ["0", "0.05", "0"]}, {"vector": ["1/3", "0", "0"]},
+                                     {"vector": ["0", "6", "0"]}, {"amount": "-1"}, {"case": 1}])");
+  json["witness"]["loads"] = loads;
+  for (Json& inner : json["stretches"][0]["inner"]) inner["loads"] = loads;
+  return json;
+}
+
 Json undecided() {
   Json json = proved();
   json["verdict"] = "undecided";
@@ -274,6 +297,87 @@ TEST(Reader, ReadsARefutedCertificateWithStretches) {
   EXPECT_EQ(certificate.stretch(0).inner.size(), 2U);
   EXPECT_EQ(certificate.stretch(1).begin.segment, 1U);
   EXPECT_TRUE(certificate.stretch(1).inner.empty());
+}
+
+TEST(Reader, ReadsALoadOfItemsAndTheLoadsOfAWitness) {
+  const std::string text = sealed(refuted_by_loads());
+  const Certificate certificate = read_certificate(text);
+  const Problem& problem = certificate.problem;
+  EXPECT_FALSE(problem.ellipsoid);
+  EXPECT_EQ(problem.gravity[2], mpq_class(-981, 100));
+  ASSERT_EQ(problem.items.size(), 5U);
+  EXPECT_EQ(problem.items[0].at[1], mpq_class(1, 7));
+  EXPECT_EQ(std::get<Weight>(problem.items[0].what).mass.upper, mpq_class(35, 11));
+  EXPECT_EQ(std::get<Weight>(problem.items[0].what).offset, mpq_class(1, 20));
+  EXPECT_EQ(std::get<BallOfVectors>(std::get<Force>(problem.items[1].what).set).radius, mpq_class(1, 3));
+  EXPECT_EQ(std::get<DiscOfVectors>(std::get<Force>(problem.items[2].what).set).normal[2], 2);
+  EXPECT_EQ(problem.items[2].axes, Axes::kPlatform);
+  EXPECT_EQ(std::get<SegmentOfVectors>(std::get<Moment>(problem.items[3].what).set).range.upper, -1);
+  EXPECT_EQ(problem.items[4].axes, Axes::kWorld);
+  EXPECT_EQ(std::get<LoadCases>(problem.items[4].what).wrenches[1][5], 2);
+  const std::vector<LoadChoice>& loads = certificate.witness->loads.value();
+  ASSERT_EQ(loads.size(), 5U);
+  EXPECT_EQ(std::get<WeightChoice>(loads[0]).offset[1], mpq_class(1, 20));
+  EXPECT_EQ(std::get<VectorChoice>(loads[1]).vector[0], mpq_class(1, 3));
+  EXPECT_EQ(std::get<AmountChoice>(loads[3]).amount, -1);
+  EXPECT_EQ(std::get<CaseChoice>(loads[4]).index, 1U);
+
+  Json both = refuted_by_loads();
+  const Json of_ellipsoid = proved()["problem"];
+  both["problem"]["load"]["wrench"] = of_ellipsoid["load"]["wrench"];
+  both["problem"]["load"]["ellipsoid"] = of_ellipsoid["load"]["ellipsoid"];
+  both["problem"]["load"]["ellipsoid"][0][0] = "1/36";
+  EXPECT_EQ(message(sealed(both)), "none");
+}
+
+TEST(Reader, NamesWhatIsWrongWithALoadOfItems) {
+  Json many = load_of_items()["items"];
+  while (many.size() < 65) many.push_back(many[0]);
+  const Json ball = {{"radius", "1"}};
+  expect_messages(
+      refuted_by_loads(),
+      {{"/claim", kRefutedClaim, "claim: expected the text that belongs to the verdict"},
+       {"/problem/load/items", Json::array(), "problem.load.items: expected 1 to 64 items"},
+       {"/problem/load/items", many, "problem.load.items: expected 1 to 64 items"},
+       {"/problem/load/gravity_m_s2", kRemoved, "problem.load: expected the key 'gravity_m_s2'"},
+       {"/problem/load/wrench", repeated(6, "0"), "problem.load: expected the key 'ellipsoid'"},
+       {"/problem/load/ellipsoid", repeated(6, repeated(6, "1")), "problem.load: expected the key 'wrench'"},
+       {"/problem/load/items/0/name", "wind", "problem.load.items[2].name: expected a name that no other item has"},
+       {"/problem/load/items/0/name", "", "problem.load.items[0].name: expected 1 to 100 characters"},
+       {"/problem/load/items/0/name", std::string(101, 'x'), "problem.load.items[0].name: expected 1 to 100"},
+       {"/problem/load/items/0/weight", kRemoved, "problem.load.items[0]: expected exactly one of the keys 'weight'"},
+       {"/problem/load/items/0/load_cases", load_of_items()["items"][4]["load_cases"],
+        "problem.load.items[0]: expected exactly one of the keys 'weight'"},
+       {"/problem/load/items/0/weight/axes", "W", "problem.load.items[0].weight: expected no key 'axes'"},
+       {"/problem/load/items/0/weight/mass_kg/0", "4", "problem.load.items[0].weight.mass_kg: expected ends in order"},
+       {"/problem/load/items/0/weight/mass_kg/0", "-1", "problem.load.items[0].weight.mass_kg: expected a mass >= 0"},
+       {"/problem/load/items/0/weight/at_tolerance_m", "-1/3", "at_tolerance_m: expected a tolerance >= 0"},
+       {"/problem/load/items/0/weight/at_m/0", "1/0", "problem.load.items[0].weight.at_m[0]: got '1/0', expected such"},
+       {"/problem/load/items/1/force/ball/radius", "-1", "force.ball.radius: expected a radius >= 0"},
+       {"/problem/load/items/1/force/ball", kRemoved, "force: expected exactly one of the keys 'ball', 'disc'"},
+       {"/problem/load/items/2/force/ball", ball, "force: expected exactly one of the keys 'ball', 'disc'"},
+       {"/problem/load/items/2/force/axes", "w", "force.axes: expected W or P"},
+       {"/problem/load/items/2/force/at_m", kRemoved, "force: expected the key 'at_m'"},
+       {"/problem/load/items/2/force/disc/normal/2", "0", "force.disc.normal: expected a vector that is not 0"},
+       {"/problem/load/items/3/moment/at_m", repeated(3, "0"), "moment: expected no key 'at_m'"},
+       {"/problem/load/items/3/moment/segment/direction/0", "0/7", "direction: expected a vector that is not 0"},
+       {"/problem/load/items/3/moment/segment/range/1", "-2", "segment.range: expected ends in order"},
+       {"/problem/load/items/4/load_cases/wrenches", Json::array(), "wrenches: expected 1 to 64 load cases"},
+       {"/problem/load/items/4/load_cases/wrenches", repeated(65, repeated(6, "0")), "wrenches: expected 1 to 64"},
+       {"/problem/load/items/4/load_cases/wrenches/0/5", kRemoved, "wrenches[0]: expected an array of 6"},
+       {"/problem/tolerances", tolerances(), "expected no tolerance of the load beside items"},
+       {"/witness/loads/4", kRemoved, "witness.loads: expected an array of 5"},
+       {"/witness/loads/4/case", 2, "witness.loads[4].case: expected an integer from 0 to 1"},
+       {"/witness/loads/3/vector", repeated(3, "0"), "witness.loads[3]: expected no key 'vector'"},
+       {"/witness/loads/0/offset_m", kRemoved, "witness.loads[0]: expected the key 'offset_m'"},
+       {"/witness/kind", "length_min", "witness: expected no key 'loads'"},
+       {"/witness/loads", kRemoved, "witness: expected one of the stretches'"}});
+  Json without = refuted();
+  without["witness"]["loads"] = Json::array();
+  EXPECT_NE(message(sealed(without)).find("witness: expected no key 'loads'"), std::string::npos);
+  without = proved();
+  without["claim"] = std::string(kProvedClaim) + kItemsClause;
+  EXPECT_NE(message(sealed(without)).find("claim: expected the text"), std::string::npos) << "there are no items";
 }
 
 TEST(Reader, ReadsAMachineThatIsLengthControlled) {

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-foreach(name end_to_end signature audit regress robustness compare report show)
+foreach(name end_to_end init signature audit logs regress robustness compare report show loads json messages)
   taut_add_script_test(cli ${name} LABELS unit TIMEOUT 1800
     ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 endforeach()
+taut_add_script_test(cli long_logs LABELS slow TIMEOUT 1800
+  ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})
 taut_add_script_test(cli audit_tolerances LABELS slow nightly TIMEOUT 1800
   ARGUMENTS $<TARGET_FILE:taut> $<TARGET_FILE:taut-check> ${PROJECT_SOURCE_DIR})

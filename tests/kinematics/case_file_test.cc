@@ -17,6 +17,7 @@ namespace taut {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -99,7 +100,7 @@ TEST(CaseFile, ReadsThePapersSlice) {
   EXPECT_EQ(problem.robot.tension_N[5], (Limits{"0.05", "0.5"}));
   EXPECT_EQ(problem.robot.length_m[0], (Limits{"0.1", "0.55"}));
   EXPECT_THAT(problem.load.point_m, ElementsAre("0.03", "0.014", "-0.021"));
-  EXPECT_THAT(problem.load.ellipsoid[3], ElementsAre("0", "0", "0", "1000000", "0", "0"));
+  EXPECT_THAT((*problem.load.ellipsoid)[3], ElementsAre("0", "0", "0", "1000000", "0", "0"));
   EXPECT_THAT(problem.space.pose, ElementsAre("0", "0", "0.35", "phi", "theta", "(34)*pi/180"));
   ASSERT_EQ(problem.space.parameters.size(), 2u);
   EXPECT_EQ(problem.space.parameters[0].kind, ParameterKind::kPeriodic);
@@ -269,7 +270,8 @@ TEST(CaseFile, EveryCaseOfTheProjectReadsAndTellsItsStory) {
     if (entry.path().extension() != ".yaml") continue;
     ++files;
     const Case read = load_case(entry.path().string());
-    EXPECT_THAT(read.description, HasSubstr("Expected: ")) << entry.path();
+    // What taut init makes of a published robot tells another story.
+    EXPECT_THAT(read.description, AnyOf(HasSubstr("Expected: "), HasSubstr("aut init"))) << entry.path();
     EXPECT_NE(read.expect, Expectation::kNone) << entry.path();
   }
   EXPECT_GE(files, 6);
@@ -320,9 +322,9 @@ TEST(CaseFile, ConvertsUnitsExactly) {
   EXPECT_EQ(problem.robot.length_m[0], (Limits{"0.09906", "0.55"}));
   EXPECT_THAT(problem.load.point_m, ElementsAre("0.0254", "0.3048", "0.01"));
   EXPECT_THAT(problem.load.wrench, ElementsAre("0", "0", "1000", "0", "0.002", "3"));
-  EXPECT_EQ(problem.load.ellipsoid[0][0], "0.000004");  // 4 per kN^2
-  EXPECT_EQ(problem.load.ellipsoid[0][4], "0.001");     // 1 per kN · kN*mm
-  EXPECT_EQ(problem.load.ellipsoid[4][4], "4");         // 4 per (kN*mm)^2
+  EXPECT_EQ((*problem.load.ellipsoid)[0][0], "0.000004");  // 4 per kN^2
+  EXPECT_EQ((*problem.load.ellipsoid)[0][4], "0.001");     // 1 per kN · kN*mm
+  EXPECT_EQ((*problem.load.ellipsoid)[4][4], "4");         // 4 per (kN*mm)^2
   EXPECT_THAT(problem.space.pose, ElementsAre("0", "(1/3)*0.0254", "0.254", "phi", "theta", "pi/4"));
   EXPECT_THAT(problem.query, ElementsAre(ElementsAre("(10)*pi/180", "0"), ElementsAre("1.5", "(90/4)*pi/180")));
 }
@@ -467,7 +469,7 @@ TEST(CaseFile, RejectsEveryMistake) {
       {&Sections::units, "units: {length: yard}\n", "units.length: got 'yard', expected one of m, mm, cm, km, in, ft"},
       {&Sections::units, "units: {length: N}\n", "expected one of m, mm"},
       {&Sections::units, "units: {moment: N*in}\n", "units.moment: got 'N*in'"},
-      {&Sections::units, "units: {time: s}\n", "got the unknown key 'time'"},
+      {&Sections::units, "units: {tempo: s}\n", "got the unknown key 'tempo'"},
       {&Sections::units, "units: mm\n", "units: got 'mm', expected a map"},
       {&Sections::robot, "robot:\n  base_anchors: [[0, 0, 0]]\n",
        "robot.base_anchors: got a list of 1, expected a list of six"},

@@ -32,7 +32,7 @@ std::string text(const std::string& constraints, const std::string& waypoint) {
 
 Case parse(const std::string& constraints, const std::string& waypoint = "{px: 0, py: 0, pz: 130}") {
   return parse_case(text(constraints, waypoint), "test.yaml",
-                    [](const Case& read) { require_query_on_constraints(read.problem, read.length_unit); });
+                    [](const Case& read) { require_query_on_constraints(read.problem, read.units.length); });
 }
 
 const std::string kSphere = "px^2 + py^2 + pz^2 - 130^2";

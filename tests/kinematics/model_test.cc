@@ -21,7 +21,7 @@ Problem with_full_ellipsoid() {
     for (std::size_t j = 0; j < 6; ++j) {
       int sum = 0;
       for (std::size_t k = 0; k < 6; ++k) sum += m[i][k] * m[j][k];
-      problem.load.ellipsoid[i][j] = std::to_string(sum);
+      problem.load.ellipsoid.value()[i][j] = std::to_string(sum);
     }
   }
   return problem;
@@ -95,11 +95,11 @@ TEST(Model, RootOfTheEllipsoidIsEnclosed) {
 
 TEST(Model, RefusesAnEllipsoidThatIsNotPositiveDefinite) {
   Problem problem = robot1_slice();
-  problem.load.ellipsoid[2][2] = "0";
+  problem.load.ellipsoid.value()[2][2] = "0";
   EXPECT_THROW((void)make_model<double>(problem), InputError);
   EXPECT_THROW((void)make_model<MpInterval>(problem), InputError);
-  problem.load.ellipsoid[2][2] = "1e4";
-  problem.load.ellipsoid[2][0] = problem.load.ellipsoid[0][2] = "1e4";  // singular, exactly
+  problem.load.ellipsoid.value()[2][2] = "1e4";
+  problem.load.ellipsoid.value()[2][0] = problem.load.ellipsoid.value()[0][2] = "1e4";  // singular, exactly
   EXPECT_THROW((void)make_model<MpInterval>(problem), InputError);
 }
 

@@ -27,9 +27,9 @@ Pose<S> pose(const std::array<double, 6>& q) {
 
 Problem with_full_ellipsoid() {
   Problem problem = robot1_slice();
-  problem.load.ellipsoid[0][1] = problem.load.ellipsoid[1][0] = "3000";
-  problem.load.ellipsoid[2][4] = problem.load.ellipsoid[4][2] = "-20000";
-  problem.load.ellipsoid[3][5] = problem.load.ellipsoid[5][3] = "123456";
+  problem.load.ellipsoid.value()[0][1] = problem.load.ellipsoid.value()[1][0] = "3000";
+  problem.load.ellipsoid.value()[2][4] = problem.load.ellipsoid.value()[4][2] = "-20000";
+  problem.load.ellipsoid.value()[3][5] = problem.load.ellipsoid.value()[5][3] = "123456";
   return problem;
 }
 
@@ -167,7 +167,7 @@ TEST(NavigationManifold, VariationsAreTheExtremesOfTheTensionEllipsoid) {
           if (k == i) continue;
           ASSERT_NEAR(bv(k) * v(i), 0.0, 1e-8);
         }
-        ASSERT_NEAR(v(i), s.tension_radius[static_cast<std::size_t>(i)], 1e-12);
+        ASSERT_NEAR(v(i), s.tension_above[static_cast<std::size_t>(i)], 1e-12);
       }
     }
   }
@@ -180,16 +180,15 @@ TEST(NavigationManifold, SlacksAreOneAtMidRange) {
   for (std::size_t i = 0; i < 6; ++i) {
     model.length_lower[i] = s.length[i] - 0.1;
     model.length_upper[i] = s.length[i] + 0.1;
-    model.tension_lower[i] = s.tension[i] - s.tension_radius[i] - 0.5;
-    model.tension_upper[i] = s.tension[i] - s.tension_radius[i] + 0.5;
+    model.tension_lower[i] = s.tension[i] - s.tension_above[i] - 0.5;
+    model.tension_upper[i] = s.tension[i] - s.tension_above[i] + 0.5;
   }
   NavigationTangent<double> x;
   ASSERT_TRUE(navigation_tangent(model, q, x));
   for (int i = 0; i < 6; ++i) {
     EXPECT_NEAR(x.point(Layout::kLengthSlack + i), 1.0, 1e-12);
     EXPECT_NEAR(x.point(Layout::kLowSlack + i), 1.0, 1e-12);
-    EXPECT_NEAR(x.point(Layout::kHighSlack + i), 0.5 / (0.5 - 2 * s.tension_radius[static_cast<std::size_t>(i)]),
-                1e-10);
+    EXPECT_NEAR(x.point(Layout::kHighSlack + i), 0.5 / (0.5 - 2 * s.tension_above[static_cast<std::size_t>(i)]), 1e-10);
   }
 }
 

@@ -32,7 +32,6 @@ struct Read {
   PathHeader header;
   std::vector<PathRow> rows;
   std::vector<double> start;
-  std::size_t dropped = 0;
 
   [[nodiscard]] std::vector<std::vector<double>> x() const {
     std::vector<std::vector<double>> result;
@@ -46,13 +45,11 @@ Read read(PathFile& file) {
   result.header = file.header();
   for (PathRow row; file.next(row);) result.rows.push_back(row);
   result.start = file.start();
-  result.dropped = file.repeats_dropped();
   return result;
 }
 
-Read read(const std::string& text, const SpaceText& space = slice(), const std::string& name = "path.txt",
-          PathFileOptions options = {}) {
-  PathFile file(std::make_unique<std::istringstream>(text), name, space, options);
+Read read(const std::string& text, const SpaceText& space = slice(), const std::string& name = "path.txt") {
+  PathFile file(std::make_unique<std::istringstream>(text), name, space);
   return read(file);
 }
 
@@ -150,12 +147,12 @@ TEST(PathFile, TheCasesOwnNamesGoFirst) {
   EXPECT_EQ(path.rows[0].time_s->text(), "0");
 }
 
-TEST(PathFile, DropsRepeatedRowsWhereAllowed) {
-  const Read path = read("phi[rad],theta[rad],t[s]\n1,2,0\n1,2,1\n1,2,2\n1,3,3\n", slice(), "p.csv", {true});
-  EXPECT_EQ(path.dropped, 2u);
-  EXPECT_EQ(path.rows.size(), 2u);
-  EXPECT_EQ(path.rows[0].line, 2u);
-  EXPECT_EQ(path.rows[0].time_s->text(), "0");
+TEST(PathFile, KeepsRowsThatRepeatTheOneBefore) {
+  const Read path = read("phi[rad],theta[rad],t[s]\n1,2,0\n1,2,1\n1,2,2\n1,3,3\n");
+  ASSERT_EQ(path.rows.size(), 4u);
+  EXPECT_EQ(path.rows[2].x, path.rows[0].x);
+  EXPECT_EQ(path.rows[2].line, 4u);
+  EXPECT_EQ(path.rows[2].time_s->text(), "2");
 }
 
 // --- What is not -----------------------------------------------------------------------------------------------------
@@ -178,7 +175,6 @@ TEST(PathFile, NamesLineColumnAndWhatWasSeen) {
   // NOLINTNEXTLINE(bugprone-string-literal-with-embedded-nul)
   expect_rejected("\xFF\xFEp\0x\0", "path.txt:1: got the byte 0xFF, expected text in UTF-8");
   expect_rejected(header + "1,\x80\n", "got '\\x80', expected");
-  expect_rejected(header + "1,2\n1,3\n1,3\n", "path.txt:4: got the pose of line 3 again, expected another");
   expect_rejected("", "path.txt: got no rows");
   expect_rejected("# nothing\n\n", "path.txt: got no rows");
   expect_rejected(header, "path.txt: got a header and no rows");
@@ -248,7 +244,7 @@ TEST(PathFile, QuaternionsHaveUnitLength) {
   expect_rejected(header + "0,0,0,0,0,0,1.002\n",
                   "path.txt:2: got the quaternion (0, 0, 0, 1.002) of length 1.002, expected length 1 within 0.001");
   expect_rejected("0 0 0 0 0 0 0 0\n", "of length 0");
-  expect_rejected(header + "0,0,0,0,0,0.6,0.8\n0,0,0,0,-0,-.6,-0.8\n", "got the pose of line 2 again");
+  EXPECT_EQ(read(header + "0,0,0,0,0,0.6,0.8\n0,0,0,0,-0,-.6,-0.8\n").rows[1].x[6], -0.8) << "as it stands";
 }
 
 TEST(PathFile, TimesIncrease) {
@@ -416,6 +412,22 @@ TEST(PathSummary, ShowsWhatWasRead) {
                     HasSubstr("takes 0.25 s"),
                     HasSubstr("in 1 row, first in line 3, an angle is more than a half turn from the row before: the "
                               "path takes the long way round, as the numbers say")));
+}
+
+TEST(PathSummary, SaysWhereThePlatformRests) {
+  const auto text = [](const std::string& rows) {
+    PathFile file(std::make_unique<std::istringstream>(rows), "p.csv", slice());
+    PathSummary summary(testing::robot1_slice(), file.header());
+    for (PathRow row; file.next(row);) summary.add(row);
+    return summary.text();
+  };
+  EXPECT_THAT(text("phi[rad],theta[rad],t[ms]\n1,2,0\n1,2,10\n1,3,20\n1,2,30\n1,2,40\n1,2,50\n"),
+              HasSubstr("3 rows repeat the row before: the platform rests there, longest in lines 5 to 7, which take "
+                        "0.02 s\n"));
+  EXPECT_THAT(text("phi[rad],theta[rad],t[s]\n1,2,0\n1,2,4\n1,3,5\n"),
+              HasSubstr("1 row repeats the row before: the platform rests there for 4 s\n"));
+  EXPECT_THAT(text("phi[rad],theta[rad]\n1,2\n1,2\n"), HasSubstr("the platform rests there\n"));
+  EXPECT_THAT(text("phi[rad],theta[rad]\n1,2\n1,3\n1,2\n"), Not(HasSubstr("rests")));
 }
 
 TEST(PathSummary, FollowsTheOriginThroughTheCasesSpace) {

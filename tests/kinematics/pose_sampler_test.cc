@@ -18,12 +18,13 @@ TEST(PoseSampler, ClearanceIsTheLeastDistanceOverHalfTheRange) {
   statics.regular = true;
   statics.length.fill(0.325);   // of (0.1, 0.55) m: the middle
   statics.tension.fill(0.275);  // of (0.05, 0.5) N: the middle
-  statics.tension_radius.fill(0.0);
+  statics.tension_below.fill(0.0);
+  statics.tension_above.fill(0.0);
   EXPECT_NEAR(sampler.clearance(statics), 1.0, 1e-12);
   statics.length[3] = 0.145;  // a tenth of the range from the lower limit
   EXPECT_NEAR(sampler.clearance(statics), 0.2, 1e-12);
   statics.tension[1] = 0.14;  // a fifth of the range, less the tension_radius
-  statics.tension_radius[1] = 0.0675;
+  statics.tension_below[1] = 0.0675;
   EXPECT_NEAR(sampler.clearance(statics), 0.1, 1e-12);
   statics.tension[5] = 0.55;
   EXPECT_NEAR(sampler.clearance(statics), -2.0 * 0.05 / 0.45, 1e-12);

@@ -103,9 +103,9 @@ TEST(Validate, RejectsCablesThatAreTheSame) {
 TEST(Validate, DecidesDefinitenessExactly) {
   const auto with_block = [](const std::string& off_diagonal) {
     return [=](Problem& p) {
-      p.load.ellipsoid[0][0] = "1";
-      p.load.ellipsoid[1][1] = "1";
-      p.load.ellipsoid[0][1] = p.load.ellipsoid[1][0] = off_diagonal;
+      (*p.load.ellipsoid)[0][0] = "1";
+      (*p.load.ellipsoid)[1][1] = "1";
+      (*p.load.ellipsoid)[0][1] = (*p.load.ellipsoid)[1][0] = off_diagonal;
     };
   };
   Problem thin = slice();
@@ -114,9 +114,9 @@ TEST(Validate, DecidesDefinitenessExactly) {
   expect_rejected(slice(), with_block("1"), "positive definite");
   expect_rejected(slice(), with_block("-1.0000000000000000000000000000000000000001"), "positive definite");
   expect_rejected(
-      slice(), [](Problem& p) { p.load.ellipsoid[5][5] = "0"; }, "leading 6 x 6 block");
+      slice(), [](Problem& p) { (*p.load.ellipsoid)[5][5] = "0"; }, "leading 6 x 6 block");
   expect_rejected(
-      slice(), [](Problem& p) { p.load.ellipsoid[0][4] = "1e-30"; }, "expected a symmetric matrix");
+      slice(), [](Problem& p) { (*p.load.ellipsoid)[0][4] = "1e-30"; }, "expected a symmetric matrix");
 }
 
 TEST(Validate, HoldsPeriodicParametersToTheirPeriod) {

@@ -75,6 +75,7 @@ Model<double> axes_robot() {
     model.tension_upper[n] = 100;
   }
   model.wrench << 50, 60, 70, -10, -20, -30;
+  model.has_ellipsoid = true;
   model.ellipsoid_is_diagonal = true;
   model.ellipsoid.setZero();
   model.ellipsoid_root.setZero();
@@ -96,7 +97,7 @@ TEST(Statics, OfCablesAlongTheAxesAreAsByHand) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(s.length[i], 2.0, 1e-15);
     EXPECT_NEAR(s.tension[i], tension[i], 1e-13);
-    EXPECT_NEAR(s.tension_radius[i], tension_radius[i], 1e-13);
+    EXPECT_NEAR(s.tension_above[i], tension_radius[i], 1e-13);
   }
   EXPECT_NEAR(std::abs(s.determinant), 1.0, 1e-15);
   EXPECT_NEAR(wrench_scale_approx(model, s), 19.0 / 12, 1e-13) << "cable 6 down to its lower limit";
@@ -106,9 +107,9 @@ TEST(Statics, BalanceTheWrenchAndVaryByTheDiagonalOfTheInverseOfB) {
   std::mt19937_64 random(2);
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   Problem full = robot1_slice();
-  full.load.ellipsoid[0][1] = full.load.ellipsoid[1][0] = "3000";
-  full.load.ellipsoid[2][4] = full.load.ellipsoid[4][2] = "-20000";
-  full.load.ellipsoid[3][5] = full.load.ellipsoid[5][3] = "123456";
+  full.load.ellipsoid.value()[0][1] = full.load.ellipsoid.value()[1][0] = "3000";
+  full.load.ellipsoid.value()[2][4] = full.load.ellipsoid.value()[4][2] = "-20000";
+  full.load.ellipsoid.value()[3][5] = full.load.ellipsoid.value()[5][3] = "123456";
   for (const Problem& problem : {robot1_slice(), robot2_sphere(), full}) {
     const Model<double> model = make_model<double>(problem);
     for (int n = 0; n < 300; ++n) {
@@ -128,7 +129,7 @@ TEST(Statics, BalanceTheWrenchAndVaryByTheDiagonalOfTheInverseOfB) {
       ASSERT_NEAR(s.determinant, j.determinant(), 1e-14);
       const Matrix6<double> inverse_of_b = (j.transpose() * model.ellipsoid * j).inverse();
       for (int i = 0; i < 6; ++i) {
-        const double v = s.tension_radius[static_cast<std::size_t>(i)];
+        const double v = s.tension_above[static_cast<std::size_t>(i)];
         ASSERT_NEAR(v, std::sqrt(inverse_of_b(i, i)), 1e-6 * v);
       }
     }

@@ -110,7 +110,7 @@ TEST(AnyAnchors, ABaseAboveWithZUp) {
     const Statics<double> turned = up.statics(up.pose(std::array{std::numbers::pi - phi, 0.2}));
     for (std::size_t i = 0; i < kCables; ++i) {
       EXPECT_NEAR(hanging.tension[i], turned.tension[i], 1e-12);
-      EXPECT_NEAR(hanging.tension_radius[i], turned.tension_radius[i], 1e-12);
+      EXPECT_NEAR(hanging.tension_above[i], turned.tension_above[i], 1e-12);
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cfenv>
 #include <clocale>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -307,10 +308,18 @@ TEST(Theorem, IsMadeByTheCheckerAlone) {
   EXPECT_EQ(planned.theorem()->verdict(), Verdict::kProved);
   EXPECT_FALSE(planned.theorem()->witness());
   EXPECT_THAT(planned.path_csv(), HasSubstr(planned.theorem()->certificate_sha256() + "\n"));
+  const std::string table = planned.controller_csv(0.005);
+  EXPECT_THAT(table, HasSubstr("# Step: 5 mm."));
+  EXPECT_THAT(table, HasSubstr("SHA-256 " + planned.theorem()->certificate_sha256() + "\n"));
+  EXPECT_THAT(table, HasSubstr("\nsegment,s,px[m],py[m],pz[m],qx,qy,qz,qw,l1[m],"));
+  for (const double wrong : {0.0, -1.0, 1e7, std::nan("")}) {
+    EXPECT_THROW((void)planned.controller_csv(wrong), taut::InputError) << wrong;
+  }
 
   const Certificate loaded = Certificate::parse(planned.text());
   EXPECT_EQ(loaded.verdict(), Verdict::kUnchecked);
   EXPECT_FALSE(loaded.theorem());
+  EXPECT_THROW((void)loaded.controller_csv(), taut::InputError) << "nothing is known to be proved";
   const taut::CheckResult checked = taut::check(loaded);
   ASSERT_TRUE(checked.theorem);
   EXPECT_EQ(checked.theorem->verdict(), Verdict::kProved);
@@ -412,7 +421,7 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::Progress), 24U);
   EXPECT_EQ(sizeof(taut::PlanOptions), 160U);
   EXPECT_EQ(sizeof(taut::ProveOptions), 56U);
-  EXPECT_EQ(sizeof(taut::AuditOptions), 104U);
+  EXPECT_EQ(sizeof(taut::AuditOptions), 96U);
   EXPECT_EQ(sizeof(taut::CheckResult), 144U);
   EXPECT_EQ(sizeof(taut::CheckOptions), 72U);
   EXPECT_EQ(sizeof(taut::ReportOptions), 120U);

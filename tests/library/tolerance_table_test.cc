@@ -17,6 +17,15 @@ TEST(ToleranceTable, IsForPeopleInMillimetresAndDegrees) {
             "  load                   49.05  up to 5.24e+03 N, N m\n");
 }
 
+TEST(ToleranceTable, IsInTheUnitsOfTheCase) {
+  const DisplayUnits metres(CaseUnits{});
+  EXPECT_EQ(tolerance_table({{ToleranceKind::kBaseAnchors, 0.002, 0.0569999}, {ToleranceKind::kOrientation, 0.1, 0.25}},
+                            metres),
+            "Tolerances, and how far each could grow alone with the path still proved:\n"
+            "  base_anchors           0.002  up to   0.0569 m\n"
+            "  orientation              0.1  up to    0.249 rad\n");
+}
+
 TEST(ToleranceTable, NothingAboveWhatIsProvedIsShown) {
   // Just below 1 mm.
   EXPECT_NE(tolerance_table({{ToleranceKind::kPosition, 0, 0.0009999999999999998}}).find("up to    0.999 mm"),

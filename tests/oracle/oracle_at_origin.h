@@ -131,7 +131,7 @@ inline OracleStatics statics(const Problem& problem, const Big6& pose) {
   std::vector<Big6> rows(6);  // row i of J^-1 X
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < 6; ++k) {
-      e[i][k] = big(problem.load.ellipsoid[i][k]);
+      e[i][k] = big(problem.load.ellipsoid.value()[i][k]);
       rows[i][k] = columns[1 + k][i];
     }
   }

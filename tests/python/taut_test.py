@@ -68,7 +68,7 @@ class Cases(unittest.TestCase):
             self.assertEqual(case.summary(), said.stdout)
             said = subprocess.run([TAUT, "show", ROBOT1, "--json", "--out", drawing], capture_output=True, text=True, check=True,
                                   timeout=60)
-            self.assertEqual(case.summary_data(), json.loads(said.stdout))
+            self.assertEqual({"command": "show", **case.summary_data()}, json.loads(said.stdout))
             with open(drawing, encoding="utf-8") as file:
                 self.assertEqual(case._repr_svg_(), file.read())
         bridging = taut.Case.load(BRIDGING)
@@ -179,6 +179,13 @@ class Certificates(unittest.TestCase):
         self.assertEqual([samples.p_m.shape, samples.quaternion.shape, samples.tension_lower_N.shape], [(n, 3), (n, 4), (n, 6)])
         self.assertTrue((samples.tension_lower_N > 0.05).all() and (samples.tension_upper_N < 0.5).all())
         self.assertTrue(np.allclose(np.linalg.norm(samples.quaternion, axis=1), 1))
+
+    def test_have_a_table_for_a_controller(self):
+        self.assertIn("# Step: 10 mm.", self.planned.controller_csv())
+        coarse, fine = (self.planned.controller_csv(step).count("\n") for step in (0.1, 0.001))
+        self.assertLess(coarse, fine)
+        self.assertRaises(taut.InputError, self.planned.controller_csv, 0)
+        self.assertRaises(taut.InputError, taut.Certificate(self.planned.text).controller_csv)
 
     def test_are_reported(self):
         self.assertTrue(taut.report(self.planned, document="LIFT-1").startswith("<!DOCTYPE html>"))

@@ -20,8 +20,8 @@ TEST(CableUse, ContainsEverySampleOfAProvedPath) {
   EXPECT_EQ(use.source, CableUse::Source::kProved);
   for (const PathSample& sample : scene.samples) {
     for (std::size_t i = 0; i < kCables; ++i) {
-      EXPECT_LE(use.tension[i].range.lower, sample.statics.tension[i] - sample.statics.tension_radius[i]);
-      EXPECT_GE(use.tension[i].range.upper, sample.statics.tension[i] + sample.statics.tension_radius[i]);
+      EXPECT_LE(use.tension[i].range.lower, sample.statics.tension[i] - sample.statics.tension_below[i]);
+      EXPECT_GE(use.tension[i].range.upper, sample.statics.tension[i] + sample.statics.tension_above[i]);
       EXPECT_LE(use.length[i].range.lower, sample.statics.length[i]);
       EXPECT_GE(use.length[i].range.upper, sample.statics.length[i]);
     }

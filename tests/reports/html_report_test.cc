@@ -116,10 +116,10 @@ TEST(HtmlReport, OpensWithASheetToSign) {
   }
   EXPECT_THAT(page_of("proved"), HasSubstr("<bdi>TAUT-CCCC-CCCC-CCCC</bdi>"));
   EXPECT_THAT(page_of("proved"),
-              HasSubstr("a force of 1 N along +z (about the weight of 0.102 kg under standard gravity)"));
+              HasSubstr("a force of 1 N along +z and no moment about the load point (30, 14, -21) mm"));
   EXPECT_THAT(page_of("proved"),
-              HasSubstr("each component of the force by up to 0.01 N and each component of the moment by up to "
-                        "0.001 N·m"));
+              HasSubstr("each component of the force by up to 0.01 N, each component of the moment by up to 0.001 N·m; "
+                        "each alone up to this, together only inside the ellipsoid"));
 }
 
 TEST(HtmlReport, PrintsWhatItIsToldOfTheDocument) {

@@ -47,7 +47,8 @@ class SampledViolations : public ::testing::Test {
   [[nodiscard]] PathSample sample(double position) const {
     PathSample sample = sampler_.at(certificate_.path, position);
     sample.statics.tension.fill(0.2);
-    sample.statics.tension_radius.fill(0.01);
+    sample.statics.tension_below.fill(0.01);
+    sample.statics.tension_above.fill(0.01);
     sample.statics.determinant = 1;
     return sample;
   }

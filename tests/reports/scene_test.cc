@@ -22,8 +22,8 @@ TEST(ReportContext, EnclosesWhatIsSampledOnTheCertificatesBoxes) {
       if (s < box.box.lower().approx() || s > box.box.upper().approx()) continue;
       ++seen;
       for (std::size_t i = 0; i < kCables; ++i) {
-        EXPECT_LE(box.tension[i].lower, sample.statics.tension[i] - sample.statics.tension_radius[i] + 1e-12);
-        EXPECT_GE(box.tension[i].upper, sample.statics.tension[i] + sample.statics.tension_radius[i] - 1e-12);
+        EXPECT_LE(box.tension[i].lower, sample.statics.tension[i] - sample.statics.tension_below[i] + 1e-12);
+        EXPECT_GE(box.tension[i].upper, sample.statics.tension[i] + sample.statics.tension_above[i] - 1e-12);
         EXPECT_LE(box.length[i].lower, sample.statics.length[i] + 1e-12);
         EXPECT_GE(box.length[i].upper, sample.statics.length[i] - 1e-12);
       }

@@ -13,77 +13,10 @@
 #include <vector>
 
 #include "problem/problem.h"
-#include "tests/oracle/oracle_at_origin.h"
+#include "tests/soundness/loads.h"
+#include "tests/soundness/vectors.h"
 
 namespace taut::campaign {
-
-inline double root(double x) { return std::sqrt(x); }
-inline double sine(double x) { return std::sin(x); }
-inline double cosine(double x) { return std::cos(x); }
-inline double magnitude(double x) { return std::abs(x); }
-inline double to_double(double x) { return x; }
-inline double angle(double y, double x) { return std::atan2(y, x); }
-using oracle::cosine;
-using oracle::root;
-using oracle::sine;
-inline BigFloat magnitude(const BigFloat& x) { return abs(x); }
-inline double to_double(const BigFloat& x) { return x.to_double(); }
-inline BigFloat angle(const BigFloat& y, const BigFloat& x) {
-  return BigFloat::apply_rounded(MPFR_RNDN, mpfr_atan2, y, x);
-}
-
-template <class S>
-S number(const DecimalText& text) {
-  if constexpr (std::is_same_v<S, double>) {
-    return std::strtod(text.c_str(), nullptr);
-  } else {
-    return oracle::big(text);
-  }
-}
-
-template <class S>
-using Vec = std::array<S, 3>;
-template <class S>
-using Rows = std::array<Vec<S>, 3>;
-template <class S>
-using Six = std::array<S, 6>;
-template <class S>
-using SixBySix = std::array<Six<S>, 6>;
-
-template <class S>
-Vec<S> operator+(const Vec<S>& a, const Vec<S>& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-template <class S>
-Vec<S> operator-(const Vec<S>& a, const Vec<S>& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-template <class S>
-Vec<S> operator*(const S& k, const Vec<S>& a) {
-  return {k * a[0], k * a[1], k * a[2]};
-}
-template <class S>
-S dot(const Vec<S>& a, const Vec<S>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class S>
-Vec<S> cross(const Vec<S>& a, const Vec<S>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-template <class S>
-Vec<S> operator*(const Rows<S>& r, const Vec<S>& x) {
-  return {dot(r[0], x), dot(r[1], x), dot(r[2], x)};
-}
-template <class S>
-Rows<S> operator*(const Rows<S>& a, const Rows<S>& b) {
-  Rows<S> result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      result[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-    }
-  }
-  return result;
-}
 
 /// (x, y, z, w), of any length.
 template <class S>
@@ -198,7 +131,9 @@ struct Machine {
   std::array<Vec<S>, kCables> a, b;
   Vec<S> load_point;
   Six<S> wrench;
-  SixBySix<S> inverse_ellipsoid;
+  SixBySix<S> inverse_ellipsoid;  ///< 0 where there is no ellipsoid
+  Vec<S> gravity;
+  std::vector<Load<S>> loads;
 };
 
 /// Gauss–Jordan elimination of a x = b with partial pivoting, several right-hand sides at once (columns of b).
@@ -246,11 +181,13 @@ Machine<S> make_machine(const Problem& problem) {
   for (std::size_t i = 0; i < 6; ++i) {
     machine.wrench[i] = number<S>(problem.load.wrench[i]);
     for (std::size_t k = 0; k < 6; ++k) {
-      ellipsoid[i][k] = number<S>(problem.load.ellipsoid[i][k]);
-      machine.inverse_ellipsoid[i][k] = S(i == k ? 1.0 : 0.0);
+      ellipsoid[i][k] = problem.load.ellipsoid ? number<S>((*problem.load.ellipsoid)[i][k]) : S(0.0);
+      machine.inverse_ellipsoid[i][k] = S(problem.load.ellipsoid && i == k ? 1.0 : 0.0);
     }
   }
-  solve(ellipsoid, machine.inverse_ellipsoid);
+  if (problem.load.ellipsoid) solve(ellipsoid, machine.inverse_ellipsoid);
+  machine.gravity = vector(problem.load.gravity_m_s2);
+  for (const LoadItem& item : problem.load.items) machine.loads.push_back(make_load<S>(item));
   return machine;
 }
 
@@ -360,8 +297,8 @@ std::optional<RigidPose<S>> hold(const Machine<S>& machine, RigidPose<S> pose, c
 
 template <class S>
 struct StaticsAt {
-  Six<S> length, tension, tension_radius;
-  S determinant;  ///< of J; not finite or 0 where it is singular
+  Six<S> length, tension_low, tension_high;  ///< tensions over K
+  S determinant;                             ///< of J; not finite or 0 where it is singular
 };
 
 template <class S>
@@ -398,8 +335,13 @@ StaticsAt<S> statics(const Machine<S>& machine, const RigidPose<S>& pose) {
       for (std::size_t k = 0; k < 6; ++k) sum = sum + machine.inverse_ellipsoid[j][k] * y[k];
       square = square + y[j] * sum;
     }
-    result.tension[i] = tension;
-    result.tension_radius[i] = root(square);
+    result.tension_low[i] = tension - root(square);
+    result.tension_high[i] = tension + root(square);
+    for (const Load<S>& load : machine.loads) {
+      const Range<S> range = extremes(load, machine.gravity, pose.r, machine.load_point, TensionOf<S>{y});
+      result.tension_low[i] = result.tension_low[i] + range.low;
+      result.tension_high[i] = result.tension_high[i] + range.high;
+    }
   }
   return result;
 }

@@ -17,8 +17,8 @@
 // signs. Others are surveyed, as an audit does: proved boxes and violations are held to the oracle. Any breach is
 // printed with its seed, and the program exits with 1. δ runs over the decades from 1e-13 to 1 of the range.
 //
-// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--undecided] [--surveys N] [--threads N] [--budget
-// SECONDS]
+// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--undecided] [--surveys N]
+// [--threads N] [--budget SECONDS]
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -60,8 +60,8 @@ template <class S>
 S quantity(const StaticsAt<S>& at, MarginId id) {
   const auto i = static_cast<std::size_t>(id.cable);
   switch (id.kind) {
-    case MarginKind::kTensionMin: return at.tension[i] - at.tension_radius[i];
-    case MarginKind::kTensionMax: return at.tension[i] + at.tension_radius[i];
+    case MarginKind::kTensionMin: return at.tension_low[i];
+    case MarginKind::kTensionMax: return at.tension_high[i];
     case MarginKind::kLengthMin:
     case MarginKind::kLengthMax: break;
   }
@@ -189,6 +189,7 @@ struct Options {
   std::uint64_t seed = 20261121;
   std::optional<Law> law;
   std::optional<ToleranceKind> tolerances;
+  std::optional<LoadKind> loads;
   bool list_undecided = false;
   std::uint64_t surveys =
       16;  ///< of so many seeds one is surveyed, and judged if det J changes its sign: a hundred times the work
@@ -201,7 +202,7 @@ class Judge {
         options_(options),
         random_(seed),
         tally_(tally),
-        trial_(make_trial(random_, options.law, options.tolerances)) {}
+        trial_(make_trial(random_, options.law, options.tolerances, options.loads)) {}
 
   void run() {
     Counts& counts = tally_.counts[static_cast<std::size_t>(trial_.law)][static_cast<std::size_t>(trial_.tolerances)];
@@ -442,8 +443,8 @@ class Judge {
 
   void include(const StaticsAt<double>& at) {
     for (std::size_t i = 0; i < kCables; ++i) {
-      tension_[0] = std::min(tension_[0], at.tension[i] - at.tension_radius[i]);
-      tension_[1] = std::max(tension_[1], at.tension[i] + at.tension_radius[i]);
+      tension_[0] = std::min(tension_[0], at.tension_low[i]);
+      tension_[1] = std::max(tension_[1], at.tension_high[i]);
       length_[0] = std::min(length_[0], at.length[i]);
       length_[1] = std::max(length_[1], at.length[i]);
     }
@@ -807,12 +808,13 @@ int main(int argc, char** argv) {
   Options options;
   double budget = 0;
   std::size_t threads = 0;
-  std::optional<std::size_t> law, tolerances;
+  std::optional<std::size_t> law, tolerances, loads;
   app.add_option("COUNT", options.count, "segments");
   app.add_option("SEED", options.seed, "of the first; each has its own, one more");
   app.add_option("--law", law, "one law only")->transform(CLI::CheckedTransformer(by_name(kLawNames)));
   app.add_option("--tolerances", tolerances, "one kind only")
       ->transform(CLI::CheckedTransformer(by_name(kToleranceNames)));
+  app.add_option("--loads", loads, "one kind only")->transform(CLI::CheckedTransformer(by_name(kLoadNames)));
   app.add_flag("--undecided", options.list_undecided,
                "list what is not decided, but for violations by tolerances, with reasons");
   app.add_option("--surveys", options.surveys,
@@ -823,6 +825,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (law) options.law = static_cast<Law>(*law);
   if (tolerances) options.tolerances = static_cast<ToleranceKind>(*tolerances);
+  if (loads) options.loads = static_cast<LoadKind>(*loads);
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
   return run(options, budget);

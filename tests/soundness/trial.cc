@@ -97,10 +97,89 @@ Problem random_robot(Random& random, double& size) {
       double sum = i == j ? 1.0 : 0.0;
       for (std::size_t k = 0; k < 6; ++k) sum += g[i][k] * g[j][k];
       const double unit = (i < 3 ? force : force * size) * (j < 3 ? force : force * size);
-      problem.load.ellipsoid[i][j] = problem.load.ellipsoid[j][i] = decimal(1e4 * sum / unit);
+      (*problem.load.ellipsoid)[i][j] = (*problem.load.ellipsoid)[j][i] = decimal(1e4 * sum / unit);
     }
   }
   return problem;
+}
+
+// ---- Loads ----------------------------------------------------------------------------------------------------------
+
+RationalVector random_vector(Random& random, double size) {
+  RationalVector v;
+  for (RationalText& x : v) x = one_in(random, 4) ? RationalText("0") : decimal(size * uniform(random, -1, 1));
+  return v;
+}
+
+/// Not 0, of any length; often an axis.
+RationalVector random_direction(Random& random) {
+  RationalVector v{"0", "0", "0"};
+  if (one_in(random, 2)) v = random_vector(random, std::pow(10.0, uniform(random, -3, 3)));
+  v[random() % 3] = one_in(random, 2) ? "1" : decimal(uniform(random, 0.1, 2));
+  return v;
+}
+
+VectorSet random_set(Random& random, double size) {
+  const RationalText radius = one_in(random, 16) ? RationalText("0") : decimal(size * uniform(random, 0.1, 1));
+  switch (random() % 3) {
+    case 0: return BallOfVectors{radius};
+    case 1: return DiscOfVectors{radius, random_direction(random)};
+    default: break;
+  }
+  const double from = uniform(random, -1, 1);
+  const double length = one_in(random, 8) ? 0 : uniform(random, 0, 1);
+  return SegmentOfVectors{random_direction(random), decimal(size * from), decimal(size * (from + length))};
+}
+
+/// K as a sum of one to six items, with about the weight that the robot was made for, now and then beside its
+/// ellipsoid. Their tolerances are their own.
+void choose_items(Trial& trial, Random& random) {
+  LoadText& load = trial.problem.load;
+  const double force = std::abs(number<double>(load.wrench[2]));
+  const double spread = std::pow(10.0, uniform(random, -4, -1));
+  const auto axes = [&] { return one_in(random, 2) ? Axes::kWorld : Axes::kPlatform; };
+  const auto at = [&] { return random_vector(random, 0.3 * trial.size); };
+  for (RationalText& g : load.gravity_m_s2) g = decimal(uniform(random, -0.5, 0.5));
+  load.gravity_m_s2[2] = decimal(9.81);
+  const double mass = force / 9.81;
+  const std::uint64_t count = 1 + random() % 6;
+  for (std::uint64_t n = 0; n < count; ++n) {
+    LoadItem& item = load.items.emplace_back();
+    item.name = fmt::format("item {}", n + 1);
+    const std::uint64_t kind = n == 0 ? 0 : random() % 4;
+    if (kind == 0) {
+      const double m = n == 0 ? mass : mass * uniform(random, 0, 0.3);
+      const double off = one_in(random, 3) ? 0 : spread * uniform(random, 0, 1);
+      const RationalText reach = one_in(random, 3) ? RationalText("0") : decimal(trial.size * spread);
+      item.what = Weight{decimal(m * (1 - off)), decimal(m * (1 + off)), at(), reach};
+    } else if (kind == 1) {
+      item.what = Force{random_set(random, spread * force), axes(), at()};
+    } else if (kind == 2) {
+      item.what = Moment{random_set(random, spread * force * trial.size), axes()};
+    } else {
+      LoadCases cases;
+      const std::uint64_t wrenches = 1 + random() % 4;
+      for (std::uint64_t j = 0; j < wrenches; ++j) {
+        auto& w = cases.wrenches.emplace_back();
+        for (std::size_t k = 0; k < 6; ++k) {
+          w[k] = decimal(spread * force * (k < 3 ? 1 : trial.size) * uniform(random, -1, 1));
+        }
+      }
+      cases.axes = axes();
+      cases.at = at();
+      item.what = cases;
+    }
+  }
+  if (trial.problem.tolerances) {
+    trial.problem.tolerances->load_point_m = "0";
+    trial.problem.tolerances->wrench.fill("0");
+  }
+  if (one_in(random, 4)) {
+    for (std::size_t k = 0; k < 6; ++k) load.wrench[k] = decimal(0.01 * number<double>(load.wrench[k]));
+  } else {
+    load.ellipsoid.reset();
+    load.wrench.fill("0");
+  }
 }
 
 // ---- Spaces ---------------------------------------------------------------------------------------------------------
@@ -398,7 +477,8 @@ Vector parameters_at(const Trial& trial, const BigFloat& s) {
 
 }  // namespace
 
-Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances) {
+Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances,
+                 std::optional<LoadKind> loads) {
   Trial trial;
   // Half of all trials have no tolerances, and a quarter one kind of them.
   constexpr std::uint64_t kKinds = kToleranceKinds - 2;  // one at a time
@@ -430,6 +510,8 @@ Trial make_trial(Random& random, std::optional<Law> law, std::optional<Tolerance
     for (Waypoint& waypoint : trial.controls) bring_near(functions, waypoint, random);
   }
   choose_tolerances(trial, random);
+  const LoadKind random_load = one_in(random, 2) ? LoadKind::kEllipsoid : LoadKind::kItems;
+  if (loads.value_or(random_load) == LoadKind::kItems) choose_items(trial, random);
   return trial;
 }
 

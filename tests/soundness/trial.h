@@ -33,6 +33,10 @@ inline constexpr std::array<const char*, 6> kToleranceNames = {"none",     "anch
                                                                "tracking", "cables",  "together"};
 inline constexpr std::size_t kToleranceKinds = kToleranceNames.size();
 
+/// What the set of loads is: an ellipsoid, or a sum of items (with or without an ellipsoid).
+enum class LoadKind { kEllipsoid, kItems };
+inline constexpr std::array<const char*, 2> kLoadNames = {"ellipsoid", "items"};
+
 /// Constraints and their gradients, written a second time.
 struct OracleConstraints {
   std::function<Vector(const Vector&)> values;
@@ -68,7 +72,8 @@ struct Trial {
 };
 
 /// All but limits, pose tubes and inner poses. Within PrecisionScope(oracle::kBits).
-[[nodiscard]] Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances);
+[[nodiscard]] Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances,
+                               std::optional<LoadKind> loads);
 
 /// What the machine does along a trial, in scalar S (double or BigFloat).
 template <class S>

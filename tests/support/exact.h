@@ -33,6 +33,11 @@ inline BigFloat cos(const BigFloat& x) { return exact_detail::nearest(mpfr_cos, 
 inline BigFloat tan(const BigFloat& x) { return exact_detail::nearest(mpfr_tan, x); }
 inline BigFloat exp(const BigFloat& x) { return exact_detail::nearest(mpfr_exp, x); }
 inline BigFloat log(const BigFloat& x) { return exact_detail::nearest(mpfr_log, x); }
+inline BigFloat absolute(const BigFloat& x) { return abs(x); }
+inline BigFloat larger(const BigFloat& x, const BigFloat& y) { return x < y ? y : x; }
+inline BigFloat euclidean_norm(const BigFloat& x, const BigFloat& y, const BigFloat& z) {
+  return sqrt(x * x + y * y + z * z);
+}
 inline SinCos<BigFloat> sincos(const BigFloat& x) { return {sin(x), cos(x)}; }
 inline BigFloat asin(const BigFloat& x) { return exact_detail::nearest(mpfr_asin, x); }
 inline BigFloat acos(const BigFloat& x) { return exact_detail::nearest(mpfr_acos, x); }

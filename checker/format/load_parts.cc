@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "checker/format/parts.h"
+
+namespace taut::checker {
+namespace {
+
+constexpr std::size_t kMaxItems = 64;  ///< of a load, and load cases of an item: bounds the work of a box
+constexpr std::size_t kMaxNameLength = 100;
+
+auto read_into(Axes& axes) {
+  static constexpr std::array<std::pair<const char*, Axes>, 2> kAxes = {{{"W", Axes::kWorld}, {"P", Axes::kPlatform}}};
+  return [&axes](const Cursor& json) { axes = json.one_of<Axes>(kAxes, "W or P"); };
+}
+
+void require_not_zero(const Cursor& json, const ExactVector& x) {
+  json.require(std::ranges::any_of(x, [](const mpq_class& c) { return c != 0; }), "a vector that is not 0");
+}
+
+/// Reads two ends, which may be equal.
+auto ordered(Limits& limits) {
+  return [&limits](const Cursor& json) {
+    std::array<mpq_class, 2> ends;
+    rational(ends)(json);
+    json.require(ends[0] <= ends[1], "ends in order");
+    limits = {ends[0], ends[1]};
+  };
+}
+
+void read_radius(const Cursor& json, mpq_class& radius) {
+  rational(radius)(json);
+  json.require(radius >= 0, "a radius >= 0");
+}
+
+/// @param at_key  "at_m", or a null pointer where the vectors act at no point
+VectorSet read_vectors(const Cursor& json, const char* at_key, LoadItem& item) {
+  VectorSet set;
+  const auto read_ball = [&](const Cursor& here) {
+    BallOfVectors ball;
+    here.object("radius", [&](const Cursor& radius) { read_radius(radius, ball.radius); });
+    set = ball;
+  };
+  const auto read_disc = [&](const Cursor& here) {
+    DiscOfVectors disc;
+    here.object("normal", rational(disc.normal), "radius",
+                [&](const Cursor& radius) { read_radius(radius, disc.radius); });
+    require_not_zero(here["normal"], disc.normal);
+    set = disc;
+  };
+  const auto read_segment_of_vectors = [&](const Cursor& here) {
+    SegmentOfVectors segment;
+    here.object("direction", rational(segment.direction), "range", ordered(segment.range));
+    require_not_zero(here["direction"], segment.direction);
+    set = segment;
+  };
+  json.object(at_key, rational(item.at), "axes", read_into(item.axes), "ball?", read_ball, "disc?", read_disc,
+              "segment?", read_segment_of_vectors);
+  json.require(json.has("ball") + json.has("disc") + json.has("segment") == 1,
+               "exactly one of the keys 'ball', 'disc' and 'segment'");
+  return set;
+}
+
+void read_item(const Cursor& json, LoadItem& item, std::string& name) {
+  const auto read_weight = [&](const Cursor& here) {
+    Weight weight;
+    here.object("at_m", rational(item.at), "at_tolerance_m", rational(weight.offset), "mass_kg", ordered(weight.mass));
+    here["at_tolerance_m"].require(weight.offset >= 0, "a tolerance >= 0");
+    here["mass_kg"].require(weight.mass.lower >= 0, "a mass >= 0");
+    item.what = weight;
+  };
+  const auto read_force = [&](const Cursor& here) { item.what = Force{read_vectors(here, "at_m", item)}; };
+  const auto read_moment = [&](const Cursor& here) { item.what = Moment{read_vectors(here, nullptr, item)}; };
+  const auto read_cases = [&](const Cursor& here) {
+    LoadCases cases;
+    const auto read_wrenches = [&](const Cursor& wrenches) {
+      wrenches.require(wrenches.size() > 0 && wrenches.size() <= kMaxItems, "1 to 64 load cases");
+      cases.wrenches.resize(wrenches.size());
+      rational(cases.wrenches)(wrenches);
+    };
+    here.object("at_m", rational(item.at), "axes", read_into(item.axes), "wrenches", read_wrenches);
+    item.what = cases;
+  };
+  json.object("force?", read_force, "load_cases?", read_cases, "moment?", read_moment, "name", name, "weight?",
+              read_weight);
+  json.require(json.has("force") + json.has("load_cases") + json.has("moment") + json.has("weight") == 1,
+               "exactly one of the keys 'weight', 'force', 'moment' and 'load_cases'");
+  const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };  // begins one
+  const auto length = static_cast<std::size_t>(std::ranges::count_if(name, is_character));
+  json["name"].require(length > 0 && length <= kMaxNameLength, "1 to 100 characters");
+}
+
+}  // namespace
+
+void read_load(const Cursor& json, Problem& problem) {
+  const bool has_items = json.has("items");
+  const bool has_ellipsoid = !has_items || json.has("ellipsoid") || json.has("wrench");
+  const auto read_items = [&](const Cursor& items) {
+    items.require(items.size() > 0 && items.size() <= kMaxItems, "1 to 64 items");
+    std::vector<std::string> names(items.size());
+    problem.items.resize(items.size());
+    items.elements([&](const Cursor& here, std::size_t i) {
+      read_item(here, problem.items[i], names[i]);
+      const auto before = names.begin() + static_cast<std::ptrdiff_t>(i);
+      here["name"].require(std::find(names.begin(), before, names[i]) == before, "a name that no other item has");
+    });
+  };
+  const auto read_ellipsoid = [&](const Cursor& here) {
+    std::array<ExactWrench, 6>& E = problem.ellipsoid.emplace();
+    rational(E)(here);
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < i; ++j) here.require(E[i][j] == E[j][i], "a symmetric matrix");
+    }
+  };
+  json.object("point_m", problem.load_point, has_items ? "gravity_m_s2" : nullptr, rational(problem.gravity),
+              has_items ? "items" : nullptr, read_items, has_ellipsoid ? "ellipsoid" : nullptr, read_ellipsoid,
+              has_ellipsoid ? "wrench" : nullptr, problem.wrench);
+}
+
+void require_no_tolerance_of_load(const Cursor& json, const ToleranceBounds& tolerances) {
+  constexpr const char* kExpected = "no tolerance of the load beside items";
+  json["load_point_m"].require(tolerances.load_point == 0, kExpected);
+  for (std::size_t i = 0; i < 6; ++i) json["wrench"].require(tolerances.wrench[i] == 0, kExpected);
+}
+
+std::vector<LoadChoice> read_loads(const Cursor& json, const std::vector<LoadItem>& items) {
+  std::vector<LoadChoice> result;
+  json.require_size(items.size());
+  json.elements([&](const Cursor& here, std::size_t i) {
+    const LoadItem& item = items[i];
+    const auto of_vectors = [&](const VectorSet& set) -> LoadChoice {
+      AmountChoice amount;
+      VectorChoice vector;
+      if (std::holds_alternative<SegmentOfVectors>(set)) {
+        here.object("amount", rational(amount.amount));
+        return amount;
+      }
+      here.object("vector", rational(vector.vector));
+      return vector;
+    };
+    if (std::holds_alternative<Weight>(item.what)) {
+      WeightChoice weight;
+      here.object("mass_kg", rational(weight.mass), "offset_m", rational(weight.offset));
+      result.emplace_back(weight);
+    } else if (const auto* cases = std::get_if<LoadCases>(&item.what)) {
+      CaseChoice choice;
+      here.object("case", integer(choice.index, 0, static_cast<std::int64_t>(cases->wrenches.size()) - 1));
+      result.emplace_back(choice);
+    } else if (const auto* force = std::get_if<Force>(&item.what)) {
+      result.push_back(of_vectors(force->set));
+    } else {
+      result.push_back(of_vectors(std::get<Moment>(item.what).set));
+    }
+  });
+  return result;
+}
+
+}  // namespace taut::checker

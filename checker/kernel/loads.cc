@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checker/kernel/loads.h"
+
+#include <algorithm>
+
+namespace taut::checker {
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+mpq_class squared(const ExactVector& x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
+
+/// v / |v| for each v != 0; where v may be 0, every vector of length up to 1.
+Vector3<Ball> direction(const Vector3<Ball>& v) {
+  const Ball unit = plus_minus(Ball(1));
+  const Ball length = length_range(v);
+  if (!certainly_positive(length)) return {unit, unit, unit};
+  return {intersection(v[0] / length, unit), intersection(v[1] / length, unit), intersection(v[2] / length, unit)};
+}
+
+Wrench wrench_of(const Vector3<Ball>& vector, bool is_moment) {
+  return is_moment ? Wrench{{}, vector} : Wrench{vector, {}};
+}
+Wrench wrench_of(const ExactWrench& w) {
+  return {{Ball(w[0]), Ball(w[1]), Ball(w[2])}, {Ball(w[3]), Ball(w[4]), Ball(w[5])}};
+}
+Wrench operator+(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
+
+}  // namespace
+
+Load::Load(const LoadItem& item, const ExactVector& load_point, const ExactVector& gravity)
+    : turns_(item.axes == Axes::kPlatform) {
+  for (std::size_t c = 0; c < 3; ++c) from_load_point_[c] = Ball(mpq_class(item.at[c] - load_point[c]));
+  std::visit(
+      Overloaded{[&](const Weight& weight) { set(weight, gravity); },
+                 [&](const Force& force) { set(force.set, false); },
+                 [&](const Moment& moment) { set(moment.set, true); }, [&](const LoadCases& cases) { set(cases); }},
+      item.what);
+}
+
+void Load::set(const Weight& weight, const ExactVector& gravity) {
+  Mass mass = {Ball(weight.mass.lower),
+               Ball(weight.mass.upper),
+               Ball(mpq_class((weight.mass.lower + weight.mass.upper) / 2)),
+               Ball(mpq_class((weight.mass.upper - weight.mass.lower) / 2)),
+               balls(gravity),
+               Ball(weight.offset)};
+  nominal_.force = mass.mean * mass.gravity;
+  set_ = std::move(mass);
+}
+
+void Load::set(const VectorSet& vectors, bool is_moment) {
+  Matrix3<Ball> identity;
+  for (std::size_t i = 0; i < 3; ++i) identity[i][i] = Ball(1);
+  const auto disc = [&](const DiscOfVectors& x) {
+    Matrix3<Ball> projection = identity;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        projection[i][j] = Ball(mpq_class((i == j ? 1 : 0) - x.normal[i] * x.normal[j] / squared(x.normal)));
+      }
+    }
+    set_ = Round{Ball(x.radius), projection, is_moment};
+  };
+  const auto segment = [&](const SegmentOfVectors& x) {
+    const auto& [lower, upper] = x.range;
+    const mpq_class f_n = lower <= 0 && upper >= 0 ? mpq_class(0) : mpq_class((lower + upper) / 2);
+    const Vector3<Ball> unit = Ball(1) / sqrt(Ball(squared(x.direction))) * balls(x.direction);
+    const auto along = [&](const mpq_class& f) { return wrench_of(Ball(f) * unit, is_moment); };
+    nominal_ = along(f_n);
+    set_ = Corners{{along(lower - f_n), along(upper - f_n)}};
+  };
+  std::visit(Overloaded{[&](const BallOfVectors& x) {
+                          set_ = Round{Ball(x.radius), identity, is_moment};
+                        },
+                        disc, segment},
+             vectors);
+}
+
+void Load::set(const LoadCases& cases) {
+  ExactWrench mean;
+  for (const ExactWrench& w : cases.wrenches) {
+    for (std::size_t k = 0; k < 6; ++k) mean[k] += w[k] / cases.wrenches.size();
+  }
+  nominal_ = wrench_of(mean);
+  Corners corners;
+  for (ExactWrench w : cases.wrenches) {
+    for (std::size_t k = 0; k < 6; ++k) w[k] -= mean[k];
+    corners.from_nominal.push_back(wrench_of(w));
+  }
+  set_ = std::move(corners);
+}
+
+Vector6<MeanValueForm> Load::nominal_about_load_point(const Matrix3<MeanValueForm>& R) const {
+  const auto in_W = [&](const Vector3<Ball>& x) {
+    return turns_ ? multiply(R, x)
+                  : Vector3<MeanValueForm>{MeanValueForm(x[0]), MeanValueForm(x[1]), MeanValueForm(x[2])};
+  };
+  const Vector3<MeanValueForm> F = in_W(nominal_.force);
+  const Vector3<MeanValueForm> M = in_W(nominal_.moment) + cross(arm(R), F);
+  return {F[0], F[1], F[2], M[0], M[1], M[2]};
+}
+
+MeanValueForm Load::above(const Lever<MeanValueForm>& y) const {
+  const auto of_mass = [&](const Mass& x) {
+    const Vector3<MeanValueForm> gamma = {MeanValueForm(x.gravity[0]), MeanValueForm(x.gravity[1]),
+                                          MeanValueForm(x.gravity[2])};
+    const MeanValueForm A = dot(x.gravity, y.g);
+    const MeanValueForm B = x.offset * norm(cross(gamma, y.m));
+    return x.mean * B + x.half_range * absolute(A + B);
+  };
+  const auto of_round = [&](const Round& x) {
+    return x.radius * norm(multiply(x.projection, x.is_moment ? y.m : y.g));
+  };
+  const auto of_corners = [&](const Corners& x) {
+    std::vector<MeanValueForm> values;
+    for (const Wrench& w : x.from_nominal) values.push_back(of(y, w));
+    return maximum(values);
+  };
+  return std::visit(Overloaded{of_mass, of_round, of_corners}, set_);
+}
+
+std::vector<Wrench> Load::maximizers(const Lever<Ball>& y) const {
+  std::vector<Wrench> result;
+  const auto of_mass = [&](const Mass& x) {
+    const Vector3<Ball> across = cross(x.gravity, y.m);
+    const Vector3<Ball> e = x.offset * direction(across);
+    const Ball slope = dot(y.g, x.gravity) + x.offset * length_range(across);  // A + B
+    const Wrench per_mass = {x.gravity, cross(e, x.gravity)};
+    if (!certainly_positive(slope)) result.push_back({x.least * per_mass.force, x.least * per_mass.moment});
+    if (!certainly_negative(slope)) result.push_back({x.most * per_mass.force, x.most * per_mass.moment});
+  };
+  const auto of_round = [&](const Round& x) {
+    const Vector3<Ball> v = multiply(x.projection, x.is_moment ? y.m : y.g);
+    result.push_back(wrench_of(x.radius * direction(v), x.is_moment));
+  };
+  const auto of_corners = [&](const Corners& x) {
+    Ball least = lowest(of(y, x.from_nominal.front()));
+    for (const Wrench& w : x.from_nominal) least = larger(least, lowest(of(y, w)));
+    for (const Wrench& w : x.from_nominal) {
+      if (!certainly_negative(of(y, w) - least)) result.push_back(nominal_ + w);
+    }
+  };
+  std::visit(Overloaded{of_mass, of_round, of_corners}, set_);
+  return result;
+}
+
+Vector3<Ball> Load::turning(const Matrix3<Ball>& R, const Vector6<Ball>& y, const Wrench& w) const {
+  const Vector3<Ball> y_F = {y[0], y[1], y[2]};
+  const Vector3<Ball> y_M = {y[3], y[4], y[5]};
+  const Vector3<Ball> r = arm(R);
+  if (!turns_) return cross(r, cross(w.force, y_M));
+  const Vector3<Ball> F = multiply(R, w.force);
+  return cross(F, y_F) + cross(cross(r, F) + multiply(R, w.moment), y_M);
+}
+
+namespace {
+
+/// The one load of an item. @throws Rejected unless it is in the item.
+LoadItem chosen(LoadItem item, const LoadChoice& choice, const ExactVector& gravity) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw Rejected(std::string("the witness's load is not in its item: ") + what);
+  };
+  const auto of_weight = [&](const Weight& x) -> LoadItem {
+    const auto& [mass, e] = std::get<WeightChoice>(choice);
+    require(mass >= x.mass.lower && mass <= x.mass.upper, "the mass");
+    require(squared(e) <= x.offset * x.offset, "the offset of the centre of gravity");
+    const ExactVector F = {mass * gravity[0], mass * gravity[1], mass * gravity[2]};
+    const ExactWrench w = {
+        F[0], F[1], F[2], e[1] * F[2] - e[2] * F[1], e[2] * F[0] - e[0] * F[2], e[0] * F[1] - e[1] * F[0]};
+    return {LoadCases{{w}}, Axes::kWorld, item.at};
+  };
+  const auto of_vectors = [&](const VectorSet& set, bool is_moment) -> LoadItem {
+    if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
+      const mpq_class& f = std::get<AmountChoice>(choice).amount;
+      require(f >= segment->range.lower && f <= segment->range.upper, "the amount");
+      const SegmentOfVectors point = {segment->direction, {f, f}};
+      if (is_moment) return {Moment{point}, item.axes, item.at};
+      return {Force{point}, item.axes, item.at};
+    }
+    const ExactVector& v = std::get<VectorChoice>(choice).vector;
+    if (const auto* disc = std::get_if<DiscOfVectors>(&set)) {
+      const ExactVector& n = disc->normal;
+      require(v[0] * n[0] + v[1] * n[1] + v[2] * n[2] == 0, "a vector that is out of its plane");
+    }
+    const mpq_class radius = std::visit(
+        Overloaded{[](const SegmentOfVectors&) { return mpq_class(); }, [](const auto& x) { return x.radius; }}, set);
+    require(squared(v) <= radius * radius, "the magnitude of a vector");
+    const ExactWrench w = is_moment ? ExactWrench{0, 0, 0, v[0], v[1], v[2]} : ExactWrench{v[0], v[1], v[2], 0, 0, 0};
+    return {LoadCases{{w}}, item.axes, item.at};
+  };
+  const auto of_cases = [&](const LoadCases& x) -> LoadItem {
+    const std::size_t j = std::get<CaseChoice>(choice).index;
+    require(j < x.wrenches.size(), "the load case");
+    return {LoadCases{{x.wrenches[j]}}, item.axes, item.at};
+  };
+  return std::visit(Overloaded{of_weight, [&](const Force& x) { return of_vectors(x.set, false); },
+                               [&](const Moment& x) { return of_vectors(x.set, true); }, of_cases},
+                    item.what);
+}
+
+}  // namespace
+
+Problem acting(Problem problem, const std::vector<LoadChoice>& loads) {
+  for (std::size_t i = 0; i < problem.items.size(); ++i) {
+    problem.items[i] = chosen(problem.items[i], loads.at(i), problem.gravity);
+  }
+  return problem;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/result_folder.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "base/files.h"
+#include "base/input_error.h"
+#include "base/sanitize.h"
+#include "path_io/controller_csv.h"
+
+namespace taut {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kInputsFile = "inputs.txt";
+constexpr std::string_view kInputsBegin = "Results of taut ";
+
+bool begins_with(const fs::path& file, std::string_view begin) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string read(begin.size(), '\0');
+  return stream.read(read.data(), static_cast<std::streamsize>(read.size())) && read == begin;
+}
+
+bool is_about(const fs::path& file, const ResultInputs& inputs) {
+  std::error_code ignored;
+  constexpr std::size_t kMostBytes = std::size_t{1} << 16U;
+  if (!inputs.may_recur() || !fs::is_regular_file(file, ignored)) return false;
+  return fs::file_size(file, ignored) <= kMostBytes && read_whole(file) == inputs.text();
+}
+
+/// Writes a file that no other run may have written meanwhile; false if one has.
+bool write_new(const fs::path& file, const std::string& text) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "wxe"), std::fclose);
+  if (!stream && errno == EEXIST) return false;
+  if (!stream || std::fwrite(text.data(), 1, text.size(), stream.get()) != text.size() ||
+      std::fflush(stream.get()) != 0) {
+    throw InputError(ErrorCode::kFile, fmt::format("{}: could not write: {}", file.string(), std::strerror(errno)),
+                     {file.string()});
+  }
+  return true;
+}
+
+/// Whether the folder is that of these inputs, or nobody's and now theirs.
+bool claim(const fs::path& folder, const ResultInputs& inputs) {
+  const fs::path file = folder / kInputsFile;
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) {
+    if (!fs::is_directory(folder, error)) return false;
+    if (is_about(file, inputs)) return true;
+    if (!fs::is_empty(folder, error) || error) return false;
+  }
+  make_directories(folder);
+  return write_new(file, inputs.text()) || is_about(file, inputs);
+}
+
+}  // namespace
+
+ResultInputs::ResultInputs(std::string_view command) : text_(fmt::format("{}{}\n", kInputsBegin, command)) {}
+
+void ResultInputs::add(std::string_view role, std::string_view value) {
+  text_ += fmt::format("{}: {}\n", role, sanitize(value));
+}
+
+void ResultInputs::add_file(std::string_view role, const std::string& file) {
+  std::error_code error;
+  may_recur_ = may_recur_ && fs::is_regular_file(file, error);
+  const fs::path place = fs::weakly_canonical(fs::absolute(file, error), error);
+  add(role, error ? file : place.string());
+}
+
+fs::path make_result_folder(const std::string& wanted, const std::string& name, const ResultInputs& inputs) {
+  if (!wanted.empty()) {
+    make_directories(wanted);
+    return wanted;
+  }
+  const fs::path all = "out";
+  make_directories(all);
+  constexpr int kMost = 10'000;
+  for (int number = 1; number <= kMost; ++number) {
+    fs::path folder = all / (number == 1 ? name : fmt::format("{}-{}", name, number));
+    if (claim(folder, inputs)) return folder;
+  }
+  throw InputError(ErrorCode::kFile,
+                   fmt::format("{}: got {} folders of other results, expected room for one more (or --out DIR)",
+                               (all / name).string(), kMost));
+}
+
+std::vector<fs::path> outdated_results(const fs::path& folder, const ResultInputs& inputs) {
+  std::vector<fs::path> result = {folder / "path.csv"};
+  // What only has the name of a result of ours is the user's.
+  if (begins_with(folder / "controller.csv", kControllerFileBegin)) result.push_back(folder / "controller.csv");
+  const fs::path file = folder / kInputsFile;
+  if (begins_with(file, kInputsBegin) && !is_about(file, inputs)) result.push_back(file);
+  return result;
+}
+
+}  // namespace taut

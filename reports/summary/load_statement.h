@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The load of a problem, said again in kg, t, N, kN and metres, so that a slip of units or signs shows.
+//
+// Nothing here is a claim of a proof: what is proved is the problem's own exact numbers.
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "problem/problem.h"
+
+namespace taut {
+
+/// A range of numbers, rounded outward.
+struct StatedRange {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// K in numbers and words. Wrenches are about the load point, in the axes of W, with the platform's axes parallel to
+/// them (R = I).
+struct LoadStatement {
+  std::optional<StatedRange> mass_kg;                        ///< of all weights together; nothing if there is none
+  std::optional<std::array<double, 3>> centre_of_gravity_m;  ///< of the nominal masses, axes of P; rounded
+  std::array<double, 6> nominal{};                           ///< force [N], moment [N m]; rounded
+  std::array<StatedRange, 6> extremes;                       ///< of each component over K, enclosed
+
+  std::string total;   ///< "In all 19.76 to 20.24 t, …", or the nominal wrench where there are no weights
+  std::string spread;  ///< the extremes of each component
+  std::vector<std::pair<std::string, std::string>> items;  ///< name and words: "payload", "11.76 to 12.24 t, …"
+};
+
+/// @pre the load is valid.
+/// @throws InputError for numbers beyond the range of binary64, and for an ellipsoid all but singular.
+[[nodiscard]] LoadStatement load_statement(const LoadText& load);
+
+/// Total, spread and items: a sentence each.
+[[nodiscard]] std::vector<std::string> lines(const LoadStatement& statement);
+[[nodiscard]] nlohmann::json to_json(const LoadStatement& statement);
+
+/// The centre load of a problem without items and by how much each component may differ from it, or the lines of one
+/// with items, as one paragraph.
+[[nodiscard]] std::string load_text(const LoadText& load);
+
+/// The load of each item under which a limit is violated, rounded: "payload 11.76 t, its centre of gravity off by …;
+/// wind (28.9, 7.9, 0) kN". @param choices  `loads` of a certificate's witness
+[[nodiscard]] std::string witness_load_text(const LoadText& load, const nlohmann::json& choices);
+
+}  // namespace taut

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/output.schema.json holds of what every command prints with --json, by a validator that is not ours.
+
+Usage: json_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import glob
+import json
+import os
+import re
+import warnings
+
+import jsonschema
+
+from command_line import AUDITS, CASES, CHECK, ROBOT1, SOURCE, TAUT, InFolder, expected, main, run, text_of
+
+
+DOCS = "file://" + os.path.abspath(os.path.join(SOURCE, "docs")) + "/"
+SCHEMAS = {DOCS + name: json.loads(text_of(os.path.join(SOURCE, "docs", name)))
+           for name in ("output.schema.json", "certificate.schema.json")}
+OUTPUT = SCHEMAS[DOCS + "output.schema.json"]
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore", DeprecationWarning)  # newer ones have another resolver, which Debian 12's has not
+    RESOLVER = jsonschema.RefResolver(DOCS + "output.schema.json", OUTPUT, store=SCHEMAS)
+REFUTED = os.path.join(CASES, "tutorial", "02-a-slack-start.yaml")
+
+
+class Json(InFolder):
+    def printed(self, *command, code):
+        said = run(*command, "--json")
+        self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        document = json.loads(said.stdout)
+        name = "failure" if "error" in document else document["command"]
+        faults = jsonschema.Draft202012Validator({"$ref": f"#/$defs/{name}"}, resolver=RESOLVER).iter_errors(document)
+        self.assertEqual([f"{list(fault.absolute_path)}: {fault.message[:300]}" for fault in faults], [])
+        if name not in ("report", "show"):
+            self.assertEqual(document["exit_code"], code)
+        return document
+
+    def test_the_schema_is_one_and_tells_the_commands_apart(self):
+        jsonschema.Draft202012Validator.check_schema(OUTPUT)
+        shown = self.printed(TAUT, "show", ROBOT1, code=0)
+        validator = jsonschema.Draft202012Validator(OUTPUT, resolver=RESOLVER)
+        self.assertTrue(validator.is_valid(shown))
+        self.assertFalse(validator.is_valid({**shown, "weather": "fine"}))
+        self.assertFalse(validator.is_valid({key: value for key, value in shown.items() if key != "waypoints"}))
+
+    def test_plans(self):
+        proved = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("a"), code=0)
+        self.assertEqual(sorted(os.path.basename(file) for file in proved["files"]),
+                         ["certificate.json", "controller.csv", "path.csv", "report.html"])
+        self.assertTrue(all(os.path.isfile(file) for file in proved["files"]))
+        self.assertGreater(proved["elapsed_seconds"], proved["prove_seconds"])
+        self.assertEqual(proved["messages"], [])
+        self.assertEqual(sorted(proved["margins"]), ["length_m", "tension_N", "wrench_scale"])
+        refuted = self.printed(TAUT, "plan", REFUTED, "--out", self.path("b"), code=1)
+        self.assertIn("not below its upper limit", refuted["messages"][0]["text"])
+        undecided = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("c"), "--budget", "1e-9", code=2)
+        self.assertRegex(undecided["messages"][0]["code"], r"^U1[0-9]$")
+        self.assertNotIn("[U", undecided["messages"][0]["text"])
+        self.printed(TAUT, "plan", ROBOT1, "--out", self.path("d"), "--max-seconds", "0", code=2)
+        grown = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("e"), "--save-atlas", self.path("atlas"), "--grow",
+                             code=0)
+        self.assertTrue(grown["growth"]["whole"])
+
+    def test_audits(self):
+        for case in sorted(glob.glob(os.path.join(AUDITS, "robot1-*.yaml"))):
+            if "tolerances" in case or "too-loose" in case:
+                continue  # these take minutes
+            with self.subTest(os.path.basename(case)):
+                code = {"proved": 0, "refuted": 1, "undecided": 2}[expected(case)]
+                self.printed(TAUT, "audit", case, "--out", self.path("out"), code=code)
+
+    def test_documents_and_checks(self):
+        self.printed(TAUT, "plan", ROBOT1, "--out", self.path("out"), code=0)
+        certificate = self.path("out", "certificate.json")
+        report = self.printed(TAUT, "report", certificate, code=0)
+        self.assertEqual(report["verdict"], "proved")
+        self.assertEqual(report, self.printed(TAUT, "report", certificate, code=0), "a document has no times")
+        checked = self.printed(CHECK, certificate, ROBOT1, code=0)
+        self.assertEqual(checked["verdict"], "proved")
+        self.printed(CHECK, self.write("no.json", "{"), code=3)
+
+    def test_regressions(self):
+        os.mkdir(self.path("cases"))
+        for case in (ROBOT1, REFUTED):
+            self.write(os.path.join("cases", os.path.basename(case)), text_of(case))
+        self.write(os.path.join("cases", "broken.yaml"), "taut: 1\n")
+        self.printed(TAUT, "regress", self.path("cases"), code=3)
+
+    def test_what_is_wrong_is_said_as_json(self):
+        broken = self.write("broken.yaml", text_of(ROBOT1).replace("tension: [0.05, 0.5]", "tension: [0.05, x]"))
+        for command in (("plan", broken, "--out", self.path("x")), ("show", broken), ("audit", broken, broken)):
+            said = self.printed(TAUT, *command, code=3)["error"]
+            self.assertEqual((said["code"], said["file"]), ("E3", broken))
+            self.assertGreater(said["line"], 20)
+            self.assertIn("tension", said["field"])
+        self.assertEqual(self.printed(TAUT, "plan", "--colour", code=3)["error"]["code"], "E1")
+        self.assertEqual(self.printed(TAUT, "report", self.path("none"), code=3)["error"]["code"], "E2")
+
+    def test_the_page_about_it_names_every_command_and_common_key(self):
+        page = text_of(os.path.join(SOURCE, "docs", "json.md"))
+        for name, part in OUTPUT["$defs"].items():
+            if "command" in part.get("properties", {}) and name != "failure":
+                self.assertRegex(page, rf"`{name}`")
+        common = set(OUTPUT["$defs"]["plan"]["properties"]) & set(OUTPUT["$defs"]["audit"]["properties"])
+        missing = {key for key in common if not re.search(rf"`{key}`", page)}
+        self.assertEqual(missing - {"out", "tolerance_limits"}, set())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Loads that consist of items, from the case to the verdict, and what is said of them.
+
+Usage: loads_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+TAUT, CHECK, SOURCE = (os.path.abspath(argument) for argument in sys.argv[1:4])
+CASES = os.path.join(SOURCE, "cases")
+
+CRANE = """\
+taut: 1
+name: portal-crane
+units: {length: m, force: kN, moment: kN*m, mass: t, angle: deg, time: s}
+robot:
+  base_anchors: [[15, 10, 15], [15, 10, 15], [-15, 10, 15], [-15, 10, 15], [0, -10, 15], [0, -10, 15]]
+  platform_anchors: [[0, 1.5, 0], [1.3, -0.75, 0], [0, 1.5, 0], [-1.3, -0.75, 0], [1.3, -0.75, 0], [-1.3, -0.75, 0]]
+  tension: [2, 160]
+  length: [3, 35]
+LOAD
+tolerances: {base_anchor: 10 mm, platform_anchor: 10 mm}
+space:
+  slice: {py: 0, pz: 6, phi: 0, theta: 0, sigma: 0}
+query:
+  waypoints: [{px: 0}, {px: 0.5}]
+"""
+ITEMS = """\
+load:
+  gravity: [0, 0, -9.81 m/s^2]
+  items:
+    - {name: platform, mass: 8, at: [0, 0, 0]}
+    - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}
+    - {name: wind, force: 6, direction: horizontal, at: [0, 0, -1]}"""
+
+
+def command(*arguments):
+    return subprocess.run(list(arguments), capture_output=True, text=True, timeout=300, check=False)
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def solve(matrix, right):
+    """Gauss's elimination."""
+    rows = [row + [x] for row, x in zip(matrix, right)]
+    for k in range(len(rows)):
+        pivot = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i, row in enumerate(rows):
+            if i != k:
+                rows[i] = [x - row[k] * y for x, y in zip(row, rows[k])]
+    return [row[-1] for row in rows]
+
+
+class Loads(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_on(self, load, *command):
+        """taut COMMAND[0] CASE with this load, in an empty folder but for the case."""
+        with open(os.path.join(self.folder.name, "crane.yaml"), "w", encoding="utf-8") as file:
+            file.write(CRANE.replace("LOAD", load))
+        return subprocess.run([TAUT, command[0], "crane.yaml", *command[1:]], cwd=self.folder.name, capture_output=True,
+                              text=True, check=False, timeout=600)
+
+    def test_a_load_is_shown_in_tonnes_and_kilonewtons(self):
+        said = self.run_on(ITEMS, "show")
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        for expected in ("In all 19.76 to 20.24 t", "a force of 196.2 kN along −z", "force x ± 6 kN, y ± 6 kN, z -198.6 to",
+                         "payload: 11.76 to 12.24 t, centre of gravity within 50 mm of (0, 0, -1.2) m",
+                         "wind: a force of up to 6 kN in any horizontal direction, at (0, 0, -1) m"):
+            self.assertIn(expected, said.stdout)
+        shown = json.loads(self.run_on(ITEMS, "show", "--json").stdout)
+        self.assertEqual([item["name"] for item in shown["load"]["items"]], ["platform", "payload", "wind"])
+        self.assertEqual(shown["problem"]["load"]["items"][1]["weight"]["mass_kg"], ["11760", "12240"])
+        self.assertEqual(shown["warnings"], [])
+
+    def test_a_plan_says_the_load_before_the_verdict(self):
+        said = self.run_on(ITEMS, "plan", "--out", "out")
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertLess(said.stdout.index("Load: In all 19.76 to 20.24 t"), said.stdout.index("proved:"))
+        with open(os.path.join(self.folder.name, "out", "report.html"), encoding="utf-8") as file:
+            report = file.read()
+        self.assertIn("centre of gravity within 50 mm of (0, 0, -1.2) m", report)
+        self.assertNotIn("all at once, within an ellipsoid", report)
+        summary = json.loads(self.run_on(ITEMS, "plan", "--out", "out", "--json").stdout)
+        self.assertEqual(summary["load"]["mass_kg"], [19760, 20240])
+
+    def test_semi_axes_in_place_of_a_diagonal_are_warned_of(self):
+        load = "load: {mass: 20 t, gravity: [0, 0, -9.81], ellipsoid: {KIND: [6, 6, 1, 3, 3, 1]}}"
+        said = self.run_on(load.replace("KIND", "diagonal"), "show")
+        self.assertRegex(said.stderr, r"^taut: warning: crane\.yaml:9:\d+: load\.ellipsoid\.diagonal: .*only 0\.408")
+        self.assertEqual(self.run_on(load.replace("KIND", "semi_axes"), "show").stderr, "")
+        self.assertEqual(len(json.loads(self.run_on(load.replace("KIND", "diagonal"), "show", "--json").stdout)["warnings"]), 1)
+
+    def test_a_proved_crane_is_proved_again_for_its_case_and_path(self):
+        case = os.path.join(CASES, "cranes", "portal-20t.yaml")
+        out = os.path.join(self.folder.name, "out")
+        said = command(TAUT, "plan", case, "--out", out)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertIn("19.76 to 20.24 t", said.stdout)
+        again = command(CHECK, os.path.join(out, "certificate.json"), case, "--path", os.path.join(out, "path.csv"))
+        self.assertEqual(again.returncode, 0, again.stdout)
+        for old, new in (("mass_tolerance: 2 %", "mass_tolerance: 1 %"), ("force: 6,", "force: 5,"), ("50 mm}", "49 mm}")):
+            other = os.path.join(self.folder.name, "other.yaml")
+            with open(case, encoding="utf-8") as file:
+                text = file.read()
+            self.assertIn(old, text)
+            with open(other, "w", encoding="utf-8") as file:
+                file.write(text.replace(old, new))
+            self.assertEqual(command(CHECK, os.path.join(out, "certificate.json"), other).returncode, 1, new)
+
+    def test_a_refutation_names_a_load_that_breaks_the_limit(self):
+        case = os.path.join(CASES, "cranes", "portal-20t-gust.yaml")
+        said = command(TAUT, "plan", case, "--out", os.path.join(self.folder.name, "out"))
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        self.assertRegex(said.stdout, r"A load that breaks the limit there: platform 8 t; payload 11\.76 t, its centre of "
+                                      r"gravity off by \(-19\.\d+, 46\.\d+, 0\) mm; wind \(28\.\d+, 7\.\d+, 0\) kN\.")
+        report = command(TAUT, "report", os.path.join(self.folder.name, "out", "certificate.json"), "--text").stdout
+        self.assertIn("A load that breaks the limit there", report)
+        with open(os.path.join(self.folder.name, "out", "certificate.json"), encoding="utf-8") as file:
+            certificate = json.load(file)
+        witness, robot = certificate["witness"], certificate["problem"]["robot"]
+        platform, payload, wind = witness["loads"]
+        # Each part is in its set, exactly.
+        self.assertEqual(platform, {"mass_kg": "8000", "offset_m": ["0", "0", "0"]})
+        self.assertEqual(Fraction(payload["mass_kg"]), Fraction(12000) * 98 / 100)
+        self.assertLessEqual(sum(Fraction(x) ** 2 for x in payload["offset_m"]), Fraction(50, 1000) ** 2)
+        self.assertEqual(Fraction(wind["vector"][2]), 0)
+        self.assertLessEqual(sum(Fraction(x) ** 2 for x in wind["vector"]), 30000 ** 2)
+        # The tension that they cause at waypoint 0, (-4, 0, 6) m turned by -6 degrees, by moments about the origin.
+        c, d = math.cos(math.radians(-6)), math.sin(math.radians(-6))
+
+        def at(point):
+            return [-4 + c * point[0] - d * point[1], d * point[0] + c * point[1], 6 + point[2]]
+
+        def numbers(texts):
+            return [float(Fraction(x)) for x in texts]
+
+        columns = []
+        for base, end in zip(robot["base_anchors_m"], robot["platform_anchors_m"]):
+            base, end = numbers(base), at(numbers(end))
+            length = math.dist(base, end)
+            pull = [(end[k] - base[k]) / length for k in range(3)]
+            columns.append(pull + cross(base, pull))
+        centre = [x + y for x, y in zip(at([0, 0, -1.2]), numbers(payload["offset_m"]))]
+        forces = [(at([0, 0, 0]), [0, 0, -9.81 * 8000]), (centre, [0, 0, -9.81 * float(payload["mass_kg"])]),
+                  (at([0, 0, -1]), numbers(wind["vector"]))]
+        wrench = [sum(column) for column in zip(*(force + cross(point, force) for point, force in forces))]
+        tension = solve([list(row) for row in zip(*columns)], wrench)[witness["cable"] - 1]
+        low, high = (float(x) for x in witness["value"])
+        self.assertAlmostEqual(tension, low, delta=1e-6 * abs(low))
+        self.assertLess(high, 2000)
+
+    def test_a_load_that_makes_no_sense_is_refused_and_nothing_is_written(self):
+        for change, expected in (
+                ((r"mass: 12,", "mass: -12,"), r"crane\.yaml:13:\d+: load\.items\[payload\]\.mass: got '-12', expected a mass"),
+                ((r"2 %", "200 %"), r"load\.items\[payload\]\.mass_tolerance: got '200 %', expected a tolerance from 0 to"),
+                ((r"name: wind", "name: payload"), r"load\.items\[2\]\.name: got 'payload' twice"),
+                ((r"force: 6, direction", "force: 6, wrench: [0, 0, 1, 0, 0, 0], direction"), r"got force, wrench in one"),
+                ((r"direction", "directon"), r"did you mean 'direction'\?"),
+                ((r"  gravity: .*\n", ""), r"load\.gravity: got none, expected gravity"),
+                ((r"mass: 12, mass_tolerance: 2 %", "force: [200, 300], direction: [0, 0, 1]"), "expected a downward load"),
+                ((r"    - {name: p.*\n", ""), "got a load whose nominal force is zero"),
+                ((r"name: wind, .*}", "name: e, wrench: [0, 0, 0, 0, 0, 0], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 0]}}"),
+                 "expected a positive definite matrix")):
+            load = re.sub(*change, ITEMS)
+            self.assertNotEqual(load, ITEMS)
+            said = self.run_on(load, "plan", "--out", "out")
+            self.assertEqual(said.returncode, 3, said.stderr)
+            self.assertRegex(said.stderr, r"^taut: crane\.yaml:\d+:\d+: load.*" if "gravity" not in change[0] else "^taut: ")
+            self.assertRegex(said.stderr, expected)
+            self.assertEqual(os.listdir(self.folder.name), ["crane.yaml"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
