@@ -256,10 +256,8 @@ class PathFile::Implementation {
     split(first, delimiter_, cells_);
     constexpr std::size_t kTumCells = 8;
     if (cells_.size() != kTumCells) {
-      fail("", fmt::format(
-                   "got '{}', expected a header such as px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg], or the "
-                   "eight numbers of TUM: t x y z qx qy qz qw",
-                   excerpt(first)));
+      fail("", fmt::format("got '{}', expected a header such as {}, or the eight numbers of TUM: t x y z qx qy qz qw",
+                           excerpt(first), header_of_poses()));
     }
     header_.format = PathFormat::kTum;
     header_.form = PathForm::kQuaternion;
@@ -269,6 +267,15 @@ class PathFile::Implementation {
       add(Column::Role::kCoordinate, i, {kQuaternionNames[i], i < 3 ? "m" : ""}, metre);
     }
     first_row_ = std::string(first);
+  }
+
+  /// "px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]", in the case's angles.
+  [[nodiscard]] std::string header_of_poses() const {
+    std::string text;
+    for (std::size_t i = 0; i < pose_names_.size(); ++i) {
+      text += fmt::format("{}{}[{}]", i == 0 ? "" : ",", pose_names_[i], i < 3 ? "mm" : "deg");
+    }
+    return text;
   }
 
   [[nodiscard]] bool is_parameter(const std::string& name) const { return contains(parameter_names_, name); }
@@ -314,8 +321,7 @@ class PathFile::Implementation {
       title.name = canonical(title.name);
       if (title.name.empty()) fail("", fmt::format("got the column '{}', expected a name", excerpt(cell)));
       if (title.name.find_first_not_of("+-.0123456789eE ") == std::string::npos) {
-        fail("", fmt::format("got '{}', expected a header such as px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]",
-                             excerpt(line)));
+        fail("", fmt::format("got '{}', expected a header such as {}", excerpt(line), header_of_poses()));
       }
       if (contains(names, title.name)) {
         fail("", fmt::format("got the column '{}' twice, expected each once{}", excerpt(title.name),

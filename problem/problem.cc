@@ -459,7 +459,7 @@ std::vector<std::string> pose_names(AngleKind kind) {
 
 std::string angles_hint(const std::string& word, AngleKind chosen) {
   if (chosen == AngleKind::kTiltAndTorsion && (word == "tilt" || word == "torsion")) {
-    return fmt::format("which is called {}: ", word == "tilt" ? "theta, towards phi" : "sigma");
+    return fmt::format("which is called {}, ", word == "tilt" ? "theta (towards phi)" : "sigma");
   }
   const bool is_common = word == "rx" || word == "ry" || word == "rz" || word == "heading";
   for (const AngleKind kind :
@@ -468,8 +468,8 @@ std::string angles_hint(const std::string& word, AngleKind chosen) {
     const bool is_angle = std::find(names.begin() + 3, names.end(), word) != names.end();
     if (kind == chosen || !(is_angle || (is_common && kind == AngleKind::kRollPitchYaw))) continue;
     const std::string value = kind == AngleKind::kAxis ? "{axis: [x, y, z]}" : name(kind);
-    return fmt::format("which 'angles: {}' under 'space' of the case would choose (angles {}, instead of {}): ", value,
-                       fmt::join(names.begin() + 3, names.end(), ", "), angles_text(chosen));
+    return fmt::format("which is understood with 'angles: {}' under 'space' of the case (it has {}), ", value,
+                       angles_text(chosen));
   }
   return "";
 }

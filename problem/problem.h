@@ -112,7 +112,7 @@ inline constexpr int kMaxConstrainedParameters = 6;
 
 /// The name of a parametrisation, in case files and messages: "tilt-and-torsion", "roll-pitch-yaw", "zyz", "axis".
 [[nodiscard]] const char* name(AngleKind kind);
-/// For sentences: "tilt-and-torsion angles", "Euler's angles ZYZ".
+/// For sentences: "tilt-and-torsion angles", "ZYZ Euler angles".
 [[nodiscard]] const char* angles_text(AngleKind kind);
 /// The names of a pose's coordinates: px, py, pz and three angles, or one for kAxis.
 [[nodiscard]] std::vector<std::string> pose_names(AngleKind kind);
@@ -128,8 +128,8 @@ struct Problem {
   std::vector<std::vector<ExpressionText>> query;
 };
 
-/// A hint for messages where `word` is no coordinate of a pose with the angles `chosen`, but of other angles: "'yaw' is
-/// of roll-pitch-yaw angles: … ". It ends with a space; empty where there is nothing to say.
+/// What a message may add where `word` is a coordinate of other angles than `chosen`: "which is understood with 'angles:
+/// roll-pitch-yaw' …, ". It ends with a space; empty where there is nothing to add.
 [[nodiscard]] std::string angles_hint(const std::string& word, AngleKind chosen);
 
 /// Whether coordinate i of a pose is an angle whose values 2π apart are the same pose, whatever the others are, and is

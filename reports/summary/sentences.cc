@@ -265,9 +265,7 @@ std::string motion_text(const ReportContext& scene) {
            "plan.";
   }
   const auto segments = static_cast<double>(path.segments());
-  const auto pose = [&](double position) {
-    return pose_text(scene, scene.sampler.at(path, position).pose);
-  };
+  const auto pose = [&](double position) { return pose_text(scene, scene.sampler.at(path, position).pose); };
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
   std::string text =
       fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",

@@ -176,13 +176,14 @@ TEST(CaseFile, AnglesChooseTheCoordinatesOfAPose) {
 TEST(CaseFile, UnderstandsTheAnglesOfOthers) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"{slice: {px: 0, py: 0, pz: 350, yaw: 34 deg}}",
-       "got the unknown key 'yaw', which 'angles: roll-pitch-yaw' under 'space' of the case would choose (angles roll, "
-       "pitch, yaw, instead of tilt-and-torsion angles): expected px, py, pz, phi, theta, sigma"},
+       "got the unknown key 'yaw', which is understood with 'angles: roll-pitch-yaw' under 'space' of the case (it has "
+       "tilt-and-torsion angles), expected px, py, pz, phi, theta, sigma"},
       {"{slice: {px: 0, py: 0, pz: 350, gamma: 34 deg}}", "'angles: zyz'"},
       {"{slice: {px: 0, py: 0, pz: 350, torsion: 34 deg}}", "got the unknown key 'torsion', which is called sigma"},
       {"{slice: {px: 0, py: 0, pz: 350, rz: 34 deg}}", "'angles: roll-pitch-yaw'"},
       {"{angles: roll-pitch-yaw, slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}}", "'angles: tilt-and-torsion'"},
-      {"{angles: roll-pitch-yaw, implicit: [px*sin(sigma)]}", "got 'sigma', which 'angles: tilt-and-torsion'"},
+      {"{angles: roll-pitch-yaw, implicit: [px*sin(sigma)]}",
+       "got 'sigma', which is understood with 'angles: tilt-and-torsion'"},
       {"{angles: euler}", "space.angles: got 'euler', expected one of tilt-and-torsion, roll-pitch-yaw, zyz, {axis"},
       {"{angles: {axis: [0, 0, 0]}}", "space.angles.axis: got [0, 0, 0], expected a direction"},
       {"{angles: {axis: [0, 1e10, 0]}}", "expected a direction"},
@@ -196,7 +197,7 @@ TEST(CaseFile, UnderstandsTheAnglesOfOthers) {
   }
   Sections sections;
   sections.query = "query: {waypoints: [{phi: 1, yaw: 1}, {phi: 1, theta: 1}]}\n";
-  expect_rejected(sections, "got the unknown key 'yaw', which 'angles: roll-pitch-yaw'");
+  expect_rejected(sections, "got the unknown key 'yaw', which is understood with 'angles: roll-pitch-yaw'");
 }
 
 TEST(CaseFile, ConstraintsAreOfTheParametersInMetres) {

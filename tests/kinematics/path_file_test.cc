@@ -230,9 +230,10 @@ TEST(PathFile, AnglesAreThoseOfTheCase) {
       "half_turns.roll,half_turns.pitch,half_turns.yaw\n";
   EXPECT_EQ(read(own + "0,0,0,1,1,2,3,0,0,0,2,2,-2\n", space).rows[0].half_turns[4], 2);
   expect_rejected("px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n0,0,1,1,2,3\n",
-                  "got the unknown column 'phi', which 'angles: tilt-and-torsion' under 'space' of the case", space);
+                  "got the unknown column 'phi', which is understood with 'angles: tilt-and-torsion' under 'space'",
+                  space);
   expect_rejected("px[m],py[m],pz[m],roll[rad],pitch[rad],yaw[rad]\n0,0,1,1,2,3\n",
-                  "got the unknown column 'roll', which 'angles: roll-pitch-yaw' under 'space' of the case");
+                  "got the unknown column 'roll', which is understood with 'angles: roll-pitch-yaw' under 'space'");
   SpaceText axis = coordinate_space({AngleKind::kAxis});
   EXPECT_EQ(read("turn[deg],px[m],py[m],pz[m]\n180,0,0,1\n", axis).x(),
             (std::vector<std::vector<double>>{{0, 0, 1, 0x1.921fb54442d18p+1}}));
