@@ -16,8 +16,8 @@ namespace {
 
 Pose<double> random_pose(std::mt19937_64& random) {
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-  return {Vector3<double>(uniform(-0.12, 0.12), uniform(-0.12, 0.12), uniform(0.12, 0.42)), uniform(-4, 4),
-          uniform(-2, 2), uniform(-2, 2)};
+  return {Vector3<double>(uniform(-0.12, 0.12), uniform(-0.12, 0.12), uniform(0.12, 0.42)),
+          {uniform(-4, 4), uniform(-2, 2), uniform(-2, 2)}};
 }
 
 TEST(Rotation, IsAProductOfThreeTurns) {
@@ -93,7 +93,7 @@ TEST(Rotation, WithoutTiltIsTorsionWhateverItsDirection) {
 
 TEST(Geometry, CableVectorsRunFromBaseToPlatform) {
   const Model<double> model = make_model<double>(robot1_slice());
-  const Pose<double> untilted{Vector3<double>(0.01, 0.02, 0.35), 0.7, 0.0, 0.0};
+  const Pose<double> untilted{Vector3<double>(0.01, 0.02, 0.35), {0.7, 0.0, 0.0}};
   const CableGeometry<double> g = cable_geometry(model, untilted);
   for (std::size_t i = 0; i < kCables; ++i) {
     const Eigen::Vector3d expected = untilted.p_WP + model.p_PB[i] - model.p_WA[i];

@@ -22,7 +22,7 @@ std::array<double, 6> random_pose(Operands& operands) {
 
 template <class S>
 Pose<S> pose(const std::array<double, 6>& q) {
-  return {Vector3<S>(S(q[0]), S(q[1]), S(q[2])), S(q[3]), S(q[4]), S(q[5])};
+  return {Vector3<S>(S(q[0]), S(q[1]), S(q[2])), {S(q[3]), S(q[4]), S(q[5])}};
 }
 
 Problem with_full_ellipsoid() {
