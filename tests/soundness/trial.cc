@@ -263,7 +263,7 @@ std::vector<double> random_coordinates(Random& random, double size) {
   return q;
 }
 
-/// Free coordinates with other angles than tilt and torsion.
+/// Free coordinates with other angles than tilt and torsion. Some begin where two of these turn about one axis.
 void choose_angles(Trial& trial, Random& random, bool constrained) {
   const std::vector<ExpressionText> constraints = trial.problem.space.constraints;
   AnglesText angles{random() % 2 == 0 ? AngleKind::kRollPitchYaw : AngleKind::kZyz};
@@ -277,6 +277,10 @@ void choose_angles(Trial& trial, Random& random, bool constrained) {
       waypoint.half_turns.resize(4);
     }
     set_pose(trial, turned_coordinates);
+  } else if (one_in(random, 4)) {
+    const double locked = angles.kind == AngleKind::kRollPitchYaw ? 0x1.921fb54442d18p+0 : 0;
+    const double shift = locked - trial.controls[0].x[4];
+    for (Waypoint& waypoint : trial.controls) waypoint.x[4] += shift;
   }
   trial.problem.space = coordinate_space(angles);
   trial.problem.space.constraints = constraints;
