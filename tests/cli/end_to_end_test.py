@@ -43,35 +43,6 @@ class EndToEnd(InFolder):
         self.assertEqual(run(TAUT, "init", self.path("a 'quoted' name.yaml")).returncode, 0)
         self.assertIn("name: \"new-case\"\n", text_of(self.path("a 'quoted' name.yaml")))
 
-    def test_a_case_in_roll_pitch_and_yaw_is_shown_and_audited_in_them(self):
-        case = os.path.join(CASES, "robot1-roll-pitch-yaw.yaml")
-        planned = run(TAUT, "plan", case, "--out", self.out)
-        self.assertEqual(planned.returncode, 0, planned.stdout + planned.stderr)
-        path = self.path("path.csv")
-        self.assertTrue(text_of(path).startswith(
-            "waypoint,x.roll,x.pitch,half_turns.roll,half_turns.pitch,px[m],py[m],pz[m],roll[rad],pitch[rad],yaw[rad]\n"))
-        checked = run(CHECK, self.path("certificate.json"), case, "--path", path)
-        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
-        report = text_of(self.path("report.html"))
-        self.assertIn("R = Rz(yaw) Ry(pitch) Rx(roll)", report)
-        self.assertNotIn("torsion σ", report)
-        self.assertIn("roll = 17.1887°, pitch = 28.6479°, yaw = 34°", run(TAUT, "show", case).stdout)
-        # The same poses in all coordinates, as a controller that knows nothing of the case would log them.
-        rows = list(csv.DictReader(line for line in text_of(path).splitlines() if not line.startswith("#")))
-        names = ["px[m]", "py[m]", "pz[m]", "roll[rad]", "pitch[rad]", "yaw[rad]"]
-        log = self.write("log.csv", "\n".join([",".join(names)] + [",".join(r[n] for n in names) for r in rows]) + "\n")
-        audited = run(TAUT, "audit", case, log, "--out", self.path("audit"))
-        self.assertEqual(audited.returncode, 0, audited.stdout + audited.stderr)
-        checked = run(CHECK, self.path("audit", "certificate.json"), case, "--path", log)
-        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
-        self.assertIn("the case's space", checked.stdout, "is not compared: the path goes through the free coordinates")
-        # Turns about one axis are geodesics, but joined straight they would have to be converted.
-        quaternions = self.write("q.csv", "px[m],py[m],pz[m],qx,qy,qz,qw\n0,0,0.35,0,0,0.2923717,0.9563048\n")
-        refused = run(TAUT, "audit", case, quaternions, "--interpolation", "straight", "--out", self.path("q"))
-        self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
-        self.assertIn("got quaternions to be joined straight in roll-pitch-yaw angles, expected columns of these angles",
-                      refused.stderr)
-
     def test_the_doctor_looks_at_this_machine(self):
         said = run(TAUT, "doctor")
         self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
