@@ -514,7 +514,7 @@ std::vector<Sample> Certificate::samples(std::size_t about) const {
     for (const PathSample& sample : sampler.along(content_->stated.path, about)) {
       Sample& copy = result.emplace_back();
       copy.position = sample.position;
-      const RigidPose pose = rigid_pose(sample.pose);
+      const RigidPose pose = sampler.rigid_pose(sample);
       copy.p_m = {pose.p(0), pose.p(1), pose.p(2)};
       copy.quaternion = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
       copy.is_singular = !sample.statics.regular;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -19,8 +20,10 @@ Eigen::Quaterniond quaternion(const std::vector<double>& x) {
 
 RigidPose pose_of(const PoseSampler& sampler, PathForm form, const std::vector<double>& x) {
   if (form == PathForm::kQuaternion) return {Vector3<double>(x[0], x[1], x[2]), quaternion(x)};
-  if (form == PathForm::kParameters) return rigid_pose(sampler.pose(x));
-  return rigid_pose(Pose<double>{Vector3<double>(x[0], x[1], x[2]), x[3], x[4], x[5]});
+  if (form == PathForm::kParameters) return sampler.rigid_pose(sampler.pose(x));
+  Pose<double> pose{Vector3<double>(x[0], x[1], x[2]), {}};
+  std::copy(x.begin() + 3, x.end(), pose.angles.begin());
+  return sampler.rigid_pose(pose);
 }
 
 bool is_feasible(const PoseSampler& sampler, PathForm form, const std::vector<double>& x) {

@@ -137,12 +137,20 @@ void PathSource::read_certificate_path(std::optional<Interpolation> law) {
   problem_ = case_problem_;
   problem_.query.clear();
   const nlohmann::json& space = certificate["problem"]["space"];
-  if (space != to_json(problem_).at("space")) {
-    problem_.space = coordinate_space();
-    if (space != to_json(problem_).at("space")) {
-      throw InputError(path_ + ": problem.space: got another than the case's, expected a path in the space of the case",
-                       {path_});
-    }
+  std::vector<SpaceText> spaces = {coordinate_space()};
+  if (!has_poses(law_)) {
+    spaces = {case_problem_.space, coordinate_space(case_problem_.space.angles), coordinate_space()};
+  }
+  const bool is_known = std::ranges::any_of(spaces, [&](const SpaceText& known) {
+    problem_.space = known;
+    return space == to_json(problem_).at("space");
+  });
+  if (!is_known) {
+    throw InputError(
+        fmt::format("{}: problem.space: got another than {}, expected a path in {}", path_,
+                    has_poses(law_) ? "that of free coordinates" : "the case's",
+                    has_poses(law_) ? "the free coordinates, as the law is one of poses" : "the space of the case"),
+        {path_});
   }
   const std::size_t parameters = problem_.space.parameters.size();
   const std::size_t normals = parameters * problem_.space.constraints.size();

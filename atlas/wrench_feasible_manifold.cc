@@ -64,7 +64,7 @@ class WrenchFeasibleManifold final : public Manifold {
       if (!(ranges_[j][0] <= parameters[j].value && parameters[j].value <= ranges_[j][1])) return false;
     }
     const Pose<J> pose = evaluate_pose(pose_, std::span<const J>(parameters.data(), static_cast<std::size_t>(m_)));
-    const Matrix3<J> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
+    const Matrix3<J> r_WP = rotation(model_.angles, pose.angles);
     const CableGeometry<J> geometry = cable_geometry(model_, pose.p_WP, r_WP);
 
     frame.coordinates() = coordinates;

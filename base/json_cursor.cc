@@ -25,9 +25,9 @@ JsonCursor JsonCursor::at(const char* key) const {
   return {(*value_)[key], fmt::format("{}.{}", where_, key)};
 }
 
-const JsonCursor& JsonCursor::expect_keys(std::initializer_list<const char*> keys) const {
-  for (const char* key : keys) {
-    if (!contains(key)) throw FieldError(where_, "", fmt::format("expected the key '{}'", key));
+const JsonCursor& JsonCursor::expect_keys(const std::vector<std::string>& keys) const {
+  for (const std::string& key : keys) {
+    if (!contains(key.c_str())) throw FieldError(where_, "", fmt::format("expected the key '{}'", key));
   }
   for (const auto& [key, member] : value_->items()) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {

@@ -31,7 +31,10 @@ class JsonCursor {
   /// Member of an object.
   [[nodiscard]] JsonCursor at(const char* key) const;
   /// Checks that the value is an object with exactly these keys.
-  const JsonCursor& expect_keys(std::initializer_list<const char*> keys) const;
+  const JsonCursor& expect_keys(std::initializer_list<const char*> keys) const {
+    return expect_keys(std::vector<std::string>(keys.begin(), keys.end()));
+  }
+  const JsonCursor& expect_keys(const std::vector<std::string>& keys) const;
 
   /// Length of a list.
   [[nodiscard]] std::size_t size() const;

@@ -117,7 +117,7 @@ class Poses {
     const Pose<double> from = evaluate_pose(pose_, std::span<const double>(a));
     const Pose<double> to = evaluate_pose(pose_, std::span<const double>(b));
     if (cost == Cost::kGreatCircle) return (to.p_WP - from.p_WP).norm();
-    const double chord = (rotation(from.phi, from.theta, from.sigma) - rotation(to.phi, to.theta, to.sigma)).norm();
+    const double chord = (rotation(model_.angles, from.angles) - rotation(model_.angles, to.angles)).norm();
     return 2.0 * std::asin(std::min(1.0, chord / (2.0 * std::numbers::sqrt2)));
   }
 

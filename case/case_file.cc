@@ -123,17 +123,24 @@ const Unit& pose_unit(const Units& units, std::size_t i) {
   return units[i < 3 ? Dimension::kLength : Dimension::kAngle];
 }
 
+/// A map whose keys are coordinates of poses with such angles.
+Map coordinate_map(const Field& field, const std::vector<std::string>& keys, AngleKind angles) {
+  return field.map(keys, [angles](const std::string& key) { return angles_hint(key, angles); });
+}
+
 /// Makes pose coordinate i a parameter of the space.
 void set_free(Space& space, std::size_t i, const Units& units) {
-  const std::string name = kPoseNames[i];
-  const bool is_turn = name == "phi" || name == "sigma";
+  const AngleKind angles = space.text.angles.kind;
+  const std::string name = pose_names(angles)[i];
   space.text.pose[i] = name;
-  space.text.parameters.push_back({name, is_turn ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+  space.text.parameters.push_back({name, is_turn(angles, i) ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
   space.units.push_back(pose_unit(units, i));
 }
 
-/// Sets the space's flip if both phi and theta are free: (phi, theta) and (phi + pi, -theta) are then the same pose.
+/// Sets the space's flip if phi and theta of tilt and torsion are free: (phi, theta) and (phi + pi, -theta) are then the
+/// same pose.
 void set_flip(SpaceText& space) {
+  if (space.angles.kind != AngleKind::kTiltAndTorsion) return;
   const auto index = [&](const std::string& name) {
     const auto found = std::find_if(space.parameters.begin(), space.parameters.end(),
                                     [&](const Parameter& p) { return p.name == name; });
@@ -143,13 +150,21 @@ void set_flip(SpaceText& space) {
   if (std::max(phi, theta) < space.parameters.size()) space.flip = {static_cast<int>(phi), static_cast<int>(theta)};
 }
 
-Space read_slice(const Field& field, const Units& units) {
+Space empty_space(const AnglesText& angles) {
   Space space;
-  const Map map = field.map({kPoseNames.begin(), kPoseNames.end()});
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-    if (const auto fixed = map.find(kPoseNames[i])) {
+  space.text.angles = angles;
+  space.text.pose.fill("0");
+  return space;
+}
+
+Space read_slice(const Field& field, const AnglesText& angles, const Units& units) {
+  Space space = empty_space(angles);
+  const std::vector<std::string> names = pose_names(angles.kind);
+  const Map map = coordinate_map(field, names, angles.kind);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const auto fixed = map.find(names[i])) {
       space.text.pose[i] = read_expression(*fixed, pose_unit(units, i), {});
-      fixed->remember_as(fmt::format("space.pose.{}", kPoseNames[i]));
+      fixed->remember_as(fmt::format("space.pose.{}", names[i]));
     } else {
       set_free(space, i, units);
     }
@@ -165,14 +180,15 @@ std::pair<ExpressionText, ExpressionText> read_range(const Field& field, const U
   return {read_expression(ends[0], unit, {}), read_expression(ends[1], unit, {})};
 }
 
-Space read_free(const Field& field, const Units& units) {
-  Space space;
+Space read_free(const Field& field, const AnglesText& angles, const Units& units) {
+  Space space = empty_space(angles);
+  const std::vector<std::string> names = pose_names(angles.kind);
   const Map map = field.map({"px", "py", "pz"});
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
     set_free(space, i, units);
     if (i >= 3) continue;
     Parameter& parameter = space.text.parameters.back();
-    const Field range = map.at(kPoseNames[i]);
+    const Field range = map.at(names[i]);
     parameter.kind = ParameterKind::kRange;
     std::tie(parameter.range_lower, parameter.range_upper) =
         read_range(range, pose_unit(units, i), "a range [lower, upper]");
@@ -182,8 +198,8 @@ Space read_free(const Field& field, const Units& units) {
   return space;
 }
 
-Space read_surface(const Field& field, const Units& units) {
-  Space space;
+Space read_surface(const Field& field, const AnglesText& angles, const Units& units) {
+  Space space = empty_space(angles);
   Names names;
   const Map map = field.map({"parameters", "constants", "pose"});
   const std::string expected = "'periodic', 'real' or a range [lower, upper]";
@@ -208,18 +224,19 @@ Space read_surface(const Field& field, const Units& units) {
   }
   if (names.parameters.empty()) parameters.field().complain("got no parameter, expected at least one");
   in_field(parameters.field(), [&] { return ExpressionTape({}, names.parameters, names.constants); });
-  const Map pose = map.at("pose").map({kPoseNames.begin(), kPoseNames.end()});
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-    space.text.pose[i] = read_expression(pose.at(kPoseNames[i]), pose_unit(units, i), names);
+  const std::vector<std::string> coordinates = pose_names(angles.kind);
+  const Map pose = coordinate_map(map.at("pose"), coordinates, angles.kind);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    space.text.pose[i] = read_expression(pose.at(coordinates[i]), pose_unit(units, i), names);
   }
   space.text.constants = names.constants;
   return space;
 }
 
-/// All six pose coordinates, unbounded.
-Space all_poses(const Units& units) {
-  Space space;
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) set_free(space, i, units);
+/// All pose coordinates, unbounded.
+Space all_poses(const AnglesText& angles, const Units& units) {
+  Space space = empty_space(angles);
+  for (std::size_t i = 0; i < pose_names(angles.kind).size(); ++i) set_free(space, i, units);
   set_flip(space.text);
   return space;
 }
@@ -235,46 +252,78 @@ ExpressionText substitute(const ExpressionText& expression, const std::map<std::
   return result;
 }
 
+/// Complains of a word in a constraint that names another parametrisation's angle.
+void require_angles_of(const Field& item, const ExpressionText& typed, AngleKind angles) {
+  static const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
+  for (std::sregex_iterator it(typed.begin(), typed.end(), word), end; it != end; ++it) {
+    const std::string hint = angles_hint(it->str(), angles);
+    if (!hint.empty()) {
+      item.complain(fmt::format("got '{}', {}expected {}", it->str(), hint, fmt::join(pose_names(angles), ", ")));
+    }
+  }
+}
+
 /// Reads constraints on the pose, in the case's length unit and radians, and rewrites them in the space's parameters.
 void read_constraints(Space& space, const Field& field, const Units& units) {
-  const std::string expected = "an expression of px, py, pz, phi, theta and sigma that is to be 0";
+  const AngleKind angles = space.text.angles.kind;
+  const std::vector<std::string> names = pose_names(angles);
+  const std::string expected = fmt::format("an expression of {} that is to be 0", fmt::join(names, ", "));
   std::map<std::string, ExpressionText> in_parameters;
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const ExpressionText& coordinate = space.text.pose[i];
-    const ExpressionText operand = coordinate == kPoseNames[i] ? coordinate : "(" + coordinate + ")";
-    in_parameters[kPoseNames[i]] = i < 3 ? expression_from_si(operand, units[Dimension::kLength]) : operand;
+    const ExpressionText operand = coordinate == names[i] ? coordinate : "(" + coordinate + ")";
+    in_parameters[names[i]] = i < 3 ? expression_from_si(operand, units[Dimension::kLength]) : operand;
   }
   for (const Field& item : field.list("a list of expressions that are to be 0")) {
     const ExpressionText typed = item.text(expected);
-    const ExpressionTape tape = in_field(item, [&] {
-      return ExpressionTape({typed}, {kPoseNames.begin(), kPoseNames.end()}, {});
-    });
+    require_angles_of(item, typed, angles);
+    const ExpressionTape tape = in_field(item, [&] { return ExpressionTape({typed}, names, {}); });
     const auto mentions = [&](std::size_t i) { return tape.depends_on(0, static_cast<int>(i)); };
     bool mentions_parameter = false;
-    for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-      mentions_parameter |= mentions(i) && space.text.pose[i] == kPoseNames[i];
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      mentions_parameter |= mentions(i) && space.text.pose[i] == names[i];
     }
     if (!mentions_parameter) item.fail("an expression that mentions a coordinate of the pose that is not fixed");
-    if (mentions(3) || mentions(4)) space.text.flip.reset();
+    if (space.text.flip && (mentions(3) || mentions(4))) space.text.flip.reset();
     space.text.constraints.push_back(substitute(typed, in_parameters));
   }
   if (space.text.constraints.empty()) field.fail("at least one constraint");
 }
 
+AnglesText read_angles(const Field& field) {
+  AnglesText angles;
+  if (!field.node().IsMap()) {
+    angles.kind = read_choice<AngleKind>(field, {{"tilt-and-torsion", AngleKind::kTiltAndTorsion},
+                                                 {"roll-pitch-yaw", AngleKind::kRollPitchYaw},
+                                                 {"zyz", AngleKind::kZyz},
+                                                 {"{axis: [x, y, z]}", AngleKind::kAxis}});
+    if (angles.kind == AngleKind::kAxis) field.fail("a map {axis: [x, y, z]}");  // typed in quotes
+    return angles;
+  }
+  angles.kind = AngleKind::kAxis;
+  const std::vector<Field> axis = field.map({"axis"}).at("axis").list(3, "a direction: a list of three numbers");
+  for (std::size_t k = 0; k < 3; ++k) angles.axis[k] = read_decimal(axis[k]).text();
+  return angles;
+}
+
 Space read_space(const Field& field, const Units& units) {
-  const Map map = field.map({"slice", "surface", "implicit", "free"});
+  const Map map = field.map({"angles", "slice", "surface", "implicit", "free"});
+  AnglesText angles;
+  const auto angles_field = map.find("angles");
+  if (angles_field) angles = read_angles(*angles_field);
   const auto slice = map.find("slice"), surface = map.find("surface"), free = map.find("free");
   const auto implicit = map.find("implicit");
   const int bases = slice.has_value() + surface.has_value() + free.has_value();
-  if (bases + implicit.has_value() == 0 || bases > 1 || (surface && implicit)) {
+  const bool is_all_poses = angles_field && map.entries().size() == 1;
+  if ((bases + implicit.has_value() == 0 && !is_all_poses) || bases > 1 || (surface && implicit)) {
     field.complain(fmt::format(
         "got {} kinds of space, expected one of slice, surface, free and implicit, or implicit with slice or free",
-        map.entries().size()));
+        map.entries().size() - angles_field.has_value()));
   }
-  Space space = slice     ? read_slice(*slice, units)
-                : surface ? read_surface(*surface, units)
-                : free    ? read_free(*free, units)
-                          : all_poses(units);
+  Space space = slice     ? read_slice(*slice, angles, units)
+                : surface ? read_surface(*surface, angles, units)
+                : free    ? read_free(*free, angles, units)
+                          : all_poses(angles, units);
   if (implicit) read_constraints(space, *implicit, units);
   return space;
 }
@@ -284,11 +333,17 @@ std::vector<std::vector<ExpressionText>> read_query(const Field& field, const Sp
   for (const Parameter& parameter : space.text.parameters) names.push_back(parameter.name);
   std::vector<std::vector<ExpressionText>> waypoints;
   const std::string expected = "a list of at least two waypoints";
+  const std::vector<std::string> coordinates = pose_names(space.text.angles.kind);
+  const auto hint = [&](const std::string& key) -> std::string {  // where parameters are coordinates of the pose
+    const bool are_coordinates = std::ranges::all_of(
+        names, [&](const std::string& name) { return std::ranges::find(coordinates, name) != coordinates.end(); });
+    return are_coordinates ? angles_hint(key, space.text.angles.kind) : "";
+  };
   const Map map = field.map({"waypoints"});
   const std::vector<Field> items = map.at("waypoints").list(expected);
   if (items.empty()) map.at("waypoints").fail(expected);
   for (const Field& item : items) {
-    const Map waypoint = item.map(names);
+    const Map waypoint = item.map(names, [&](const std::string& key) { return hint(key); });
     std::vector<ExpressionText>& values = waypoints.emplace_back();
     for (std::size_t j = 0; j < names.size(); ++j) {
       values.push_back(read_expression(waypoint.at(names[j]), space.units[j], {}));

@@ -108,13 +108,19 @@ Map Field::open_map(const std::string& expected) const {
 }
 
 Map Field::map(const std::vector<std::string>& keys) const {
+  return map(keys, [](const std::string&) { return std::string(); });
+}
+
+Map Field::map(const std::vector<std::string>& keys,
+               const std::function<std::string(const std::string& key)>& hint_for) const {
   Map result = open_map("a map with the keys " + join(keys));
   for (const auto& entry : node_) {
     const std::string& key = entry.first.Scalar();
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string shown = excerpt(key);
     const std::optional<std::string> nearest = nearest_word(shown, keys);
-    const std::string hint = nearest ? fmt::format("did you mean '{}'? ", *nearest) : "";
+    std::string hint = hint_for(key);
+    if (hint.empty() && nearest) hint = fmt::format("did you mean '{}'? ", *nearest);
     places_->fail(entry.first.Mark(), path_,
                   fmt::format("got the unknown key '{}', {}expected {}", shown, hint, join(keys)));
   }

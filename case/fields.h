@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -72,6 +73,9 @@ class Field {
   [[nodiscard]] Map open_map(const std::string& expected) const;
   /// A map that has no other keys than `keys`.
   [[nodiscard]] Map map(const std::vector<std::string>& keys) const;
+  /// Likewise; `hint` may say what an unknown key means, in a text that ends with a space.
+  [[nodiscard]] Map map(const std::vector<std::string>& keys,
+                        const std::function<std::string(const std::string& key)>& hint) const;
 
  private:
   Places* places_;

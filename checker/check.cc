@@ -24,7 +24,7 @@ std::vector<std::string> require_problem(nlohmann::json problem, const nlohmann:
   if (problem["query"]["waypoints"].empty()) {
     if (problem["query"] != of_case["query"]) not_compared.emplace_back("the case's query");
     problem["query"] = of_case["query"];
-    if (problem["space"] == coordinate_space() && problem["space"] != of_case["space"]) {
+    if (is_coordinate_space(problem["space"], of_case["space"]) && problem["space"] != of_case["space"]) {
       const bool has_constraints = !of_case["space"]["constraints"].empty();
       not_compared.emplace_back(has_constraints ? "the case's space with its constraints" : "the case's space");
       problem["space"] = of_case["space"];

@@ -138,8 +138,7 @@ Deviation deviation_between(const SpaceText& space, const ConstraintFunctions::V
   Deviation result;
   for (int j = 0; j < a.size(); ++j) {
     const std::string& name = space.parameters[static_cast<std::size_t>(j)].name;
-    double& part = std::find(kPoseNames.begin(), kPoseNames.begin() + 3, name) != kPoseNames.begin() + 3 ? result.length
-                                                                                                         : result.angle;
+    double& part = name == "px" || name == "py" || name == "pz" ? result.length : result.angle;
     part = std::hypot(part, a[j] - b[j]);
   }
   return result;

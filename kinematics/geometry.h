@@ -22,11 +22,12 @@ struct CableGeometry {
   Matrix6<S> force_density;                ///< D
 };
 
+/// Rz(first) Ry(second) Rz(third).
 template <class S>
-[[nodiscard]] Matrix3<S> rotation(const S& phi, const S& theta, const S& sigma) {
-  const SinCos<S> f = sincos(phi);
-  const SinCos<S> t = sincos(theta);
-  const SinCos<S> g = sincos(sigma - phi);
+[[nodiscard]] Matrix3<S> rotation_zyz(const S& first, const S& second, const S& third) {
+  const SinCos<S> f = sincos(first);
+  const SinCos<S> t = sincos(second);
+  const SinCos<S> g = sincos(third);
   const S cf_ct = f.cos * t.cos;
   const S sf_ct = f.sin * t.cos;
   Matrix3<S> r_WP;
@@ -40,6 +41,60 @@ template <class S>
   r_WP(2, 1) = t.sin * g.sin;
   r_WP(2, 2) = t.cos;
   return r_WP;
+}
+
+/// Rz(phi) Ry(theta) Rz(sigma − phi).
+template <class S>
+[[nodiscard]] Matrix3<S> rotation(const S& phi, const S& theta, const S& sigma) {
+  return rotation_zyz<S>(phi, theta, sigma - phi);
+}
+
+/// Rz(yaw) Ry(pitch) Rx(roll).
+template <class S>
+[[nodiscard]] Matrix3<S> rotation_zyx(const S& yaw, const S& pitch, const S& roll) {
+  const SinCos<S> y = sincos(yaw);
+  const SinCos<S> p = sincos(pitch);
+  const SinCos<S> r = sincos(roll);
+  const S cy_sp = y.cos * p.sin;
+  const S sy_sp = y.sin * p.sin;
+  Matrix3<S> r_WP;
+  r_WP(0, 0) = y.cos * p.cos;
+  r_WP(0, 1) = cy_sp * r.sin - y.sin * r.cos;
+  r_WP(0, 2) = cy_sp * r.cos + y.sin * r.sin;
+  r_WP(1, 0) = y.sin * p.cos;
+  r_WP(1, 1) = sy_sp * r.sin + y.cos * r.cos;
+  r_WP(1, 2) = sy_sp * r.cos - y.cos * r.sin;
+  r_WP(2, 0) = -p.sin;
+  r_WP(2, 1) = p.cos * r.sin;
+  r_WP(2, 2) = p.cos * r.cos;
+  return r_WP;
+}
+
+/// By `turn` about the axis of `angles`: 1 + sin(turn) [n] + (1 − cos(turn)) [n]².
+template <class S, class K>
+[[nodiscard]] Matrix3<S> rotation_about_axis(const Angles<K>& angles, const S& turn) {
+  const SinCos<S> t = sincos(turn);
+  const S versine = -t.cos + K(1.0);
+  Matrix3<S> r_WP;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const S bend = versine * angles.square(i, j);
+      r_WP(i, j) = i == j ? S(bend + K(1.0)) : S(bend + t.sin * angles.cross(i, j));
+    }
+  }
+  return r_WP;
+}
+
+/// R_WP of a pose's angles.
+template <class S, class K>
+[[nodiscard]] Matrix3<S> rotation(const Angles<K>& angles, const std::array<S, 3>& x) {
+  switch (angles.kind) {
+    case AngleKind::kTiltAndTorsion: break;
+    case AngleKind::kRollPitchYaw: return rotation_zyx(x[2], x[1], x[0]);
+    case AngleKind::kZyz: return rotation_zyz(x[0], x[1], x[2]);
+    case AngleKind::kAxis: return rotation_about_axis(angles, x[0]);
+  }
+  return rotation(x[0], x[1], x[2]);
 }
 
 template <class S, class K>
@@ -68,7 +123,7 @@ template <class S, class K>
 
 template <class S, class K>
 [[nodiscard]] CableGeometry<S> cable_geometry(const Model<K>& model, const Pose<S>& pose) {
-  return cable_geometry(model, pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma));
+  return cable_geometry(model, pose.p_WP, rotation(model.angles, pose.angles));
 }
 
 template <class S>

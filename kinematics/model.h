@@ -25,14 +25,24 @@ using Vector6 = Eigen::Matrix<S, 6, 1>;
 template <class S>
 using Matrix6 = Eigen::Matrix<S, 6, 6>;
 
-/// p [m] and the tilt-and-torsion angles [rad]: R_WP = Rz(phi) Ry(theta) Rz(sigma − phi).
+/// p [m] and the angles [rad] of the space (AngleKind): phi, theta, sigma unless the case chooses others.
 template <class S>
 struct Pose {
   Vector3<S> p_WP;
-  S phi;
-  S theta;
-  S sigma;
+  std::array<S, 3> angles;
 };
+
+/// How a pose's angles give R_WP. The matrices are those of kAxis, with n the unit vector along the axis, so that
+/// R = 1 + sin(turn) [n] + (1 − cos(turn)) [n]².
+template <class S>
+struct Angles {
+  AngleKind kind = AngleKind::kTiltAndTorsion;
+  Matrix3<S> cross;   ///< [n], the matrix of the cross product by n
+  Matrix3<S> square;  ///< [n]² = n nᵀ − 1
+};
+/// @pre the axis is not 0
+template <class S>
+[[nodiscard]] Angles<S> make_angles(const AnglesText& angles);
 
 template <class S>
 struct Model {
@@ -48,6 +58,7 @@ struct Model {
   Matrix6<S> ellipsoid;                                 ///< E
   /// L with E^-1 = L L^T, upper triangular: the semi-axes of K, so that K = {w0 + L z : |z| <= 1}.
   Matrix6<S> ellipsoid_root;
+  Angles<S> angles;                    ///< of the space's poses
   bool ellipsoid_is_diagonal = false;  ///< E, hence L, is exactly diagonal
   double characteristic_length = 0;    ///< mean |b_i| [m], scales lengths against angles in searches
 };
@@ -67,7 +78,7 @@ void set_ellipsoid(const LoadText& load, Model<S>& model);
 template <class S>
 [[nodiscard]] Model<S> make_model(const Problem& problem);
 
-/// The tape of the six pose expressions px, py, pz, phi, theta, sigma over the problem's parameters.
+/// The tape of the six pose expressions px, py, pz and angles over the problem's parameters.
 [[nodiscard]] ExpressionTape pose_tape(const Problem& problem);
 /// The tape of the space's constraints.
 [[nodiscard]] ExpressionTape constraint_tape(const Problem& problem);
@@ -76,7 +87,7 @@ template <class S>
 [[nodiscard]] Pose<S> evaluate_pose(const Evaluator<S>& pose, std::span<const S> parameters) {
   std::array<S, 6> values;
   pose.evaluate(parameters, values);
-  return {Vector3<S>(values[0], values[1], values[2]), values[3], values[4], values[5]};
+  return {Vector3<S>(values[0], values[1], values[2]), {values[3], values[4], values[5]}};
 }
 
 }  // namespace taut

@@ -53,6 +53,27 @@ Matrix6<S> ellipsoid_root(const Matrix6<S>& ellipsoid, bool is_diagonal) {
 }
 
 template <class S>
+Angles<S> make_angles(const AnglesText& text) {
+  Angles<S> angles;
+  angles.kind = text.kind;
+  angles.cross.setConstant(S(0.0));
+  angles.square.setConstant(S(0.0));
+  if (text.kind != AngleKind::kAxis) return angles;
+  const auto n = [&](int i) { return S(ScalarTraits<S>::from_decimal(text.axis[static_cast<std::size_t>(i)])); };
+  const S square = sqr(n(0)) + sqr(n(1)) + sqr(n(2));
+  const S norm = sqrt(square);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    angles.cross(j, i) = n(k) / norm;
+    angles.cross(i, j) = -(n(k) / norm);
+    angles.square(i, i) = -((sqr(n(j)) + sqr(n(k))) / square);
+    angles.square(i, j) = angles.square(j, i) = n(i) * n(j) / square;
+  }
+  return angles;
+}
+
+template <class S>
 Model<S> make_model_without_ellipsoid(const Problem& problem) {
   using Traits = ScalarTraits<S>;
   Model<S> model;
@@ -60,6 +81,7 @@ Model<S> make_model_without_ellipsoid(const Problem& problem) {
     return Vector3<S>(Traits::from_decimal(text[0]), Traits::from_decimal(text[1]), Traits::from_decimal(text[2]));
   };
   model.p_PM = vector(problem.load.point_m);
+  model.angles = make_angles<S>(problem.space.angles);
   double reach = 0;
   for (int i = 0; i < kCables; ++i) {
     const auto n = static_cast<std::size_t>(i);

@@ -39,7 +39,7 @@ struct NavigationLayout {
                        kLengthSlack = 72, kLowSlack = 78, kHighSlack = 84;
 };
 
-/// x(q) and, in columns, dx/dq along given directions of the pose (q = px, py, pz, phi, theta, sigma).
+/// x(q) and, in columns, dx/dq along given directions of the pose (q = px, py, pz and the angles).
 template <class S>
 struct NavigationTangent {
   NavigationPoint<S> point;

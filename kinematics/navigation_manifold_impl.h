@@ -10,8 +10,8 @@ template <class S>
 bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTangent<S>& result) {
   using J = Jet<S, 6>;
   using Layout = NavigationLayout;
-  const Pose<J> jet_pose{Vector3<J>(J(pose.p_WP(0), 0), J(pose.p_WP(1), 1), J(pose.p_WP(2), 2)), J(pose.phi, 3),
-                         J(pose.theta, 4), J(pose.sigma, 5)};
+  const Pose<J> jet_pose{Vector3<J>(J(pose.p_WP(0), 0), J(pose.p_WP(1), 1), J(pose.p_WP(2), 2)),
+                         {J(pose.angles[0], 3), J(pose.angles[1], 4), J(pose.angles[2], 5)}};
   const CableGeometry<J> geometry = cable_geometry(model, jet_pose);
 
   // Y = D^-1 with its slopes −Y D' Y.
@@ -49,9 +49,7 @@ bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTa
     for (int k = 0; k < 6; ++k) result.tangent(row, k) = x.partial[static_cast<std::size_t>(k)];
   };
   for (int axis = 0; axis < 3; ++axis) put(Layout::kPosition + axis, jet_pose.p_WP(axis));
-  put(Layout::kAngles, jet_pose.phi);
-  put(Layout::kAngles + 1, jet_pose.theta);
-  put(Layout::kAngles + 2, jet_pose.sigma);
+  for (int k = 0; k < 3; ++k) put(Layout::kAngles + k, jet_pose.angles[static_cast<std::size_t>(k)]);
 
   std::array<J, kCables> lengths;
   std::array<std::array<J, 6>, kCables> z;  // rows of Y L
@@ -101,7 +99,8 @@ Eigen::Matrix<S, kNavigationEquations, 1> navigation_residual(const Model<S>& mo
   Eigen::Matrix<S, kNavigationEquations, 1> f;
   int row = 0;
   const Vector3<S> p_WP(x(0), x(1), x(2));
-  const Matrix3<S> r_WP = rotation(x(Layout::kAngles), x(Layout::kAngles + 1), x(Layout::kAngles + 2));
+  const Matrix3<S> r_WP =
+      rotation(model.angles, std::array<S, 3>{x(Layout::kAngles), x(Layout::kAngles + 1), x(Layout::kAngles + 2)});
   const CableGeometry<S> geometry = cable_geometry(model, p_WP, r_WP);
   const auto cable_vector = [&](int i, int axis) { return x(Layout::kCableVectors + 3 * i + axis); };
   const auto cable_length = [&](int i) { return x(Layout::kLengths + i); };

@@ -77,13 +77,41 @@ std::optional<RigidPose> newton(const Model<double>& model, const Lengths& targe
 
 }  // namespace
 
-RigidPose rigid_pose(const Pose<double>& pose) {
-  const SinCos<double> tilt = sincos(pose.theta / 2);
-  const SinCos<double> torsion = sincos(pose.sigma / 2);
-  const SinCos<double> direction = sincos(pose.phi - pose.sigma / 2);
-  return {pose.p_WP,
-          {tilt.cos * torsion.cos, -(tilt.sin * direction.sin), tilt.sin * direction.cos, tilt.cos * torsion.sin}};
+namespace {
+
+/// Of R = Rz(phi) Ry(theta) Rz(sigma − phi).
+Eigen::Quaterniond quaternion(double phi, double theta, double sigma) {
+  const SinCos<double> tilt = sincos(theta / 2);
+  const SinCos<double> torsion = sincos(sigma / 2);
+  const SinCos<double> direction = sincos(phi - sigma / 2);
+  return {tilt.cos * torsion.cos, -(tilt.sin * direction.sin), tilt.sin * direction.cos, tilt.cos * torsion.sin};
 }
+
+/// By the angle x about the unit vector n.
+Eigen::Quaterniond about(const Vector3<double>& n, double x) {
+  const Vector3<double> v = std::sin(x / 2) * n;
+  return {std::cos(x / 2), v(0), v(1), v(2)};
+}
+
+Eigen::Quaterniond quaternion(const Angles<double>& angles, const std::array<double, 3>& x) {
+  switch (angles.kind) {
+    case AngleKind::kTiltAndTorsion: break;
+    case AngleKind::kRollPitchYaw:
+      return about(Vector3<double>::UnitZ(), x[2]) * about(Vector3<double>::UnitY(), x[1]) *
+             about(Vector3<double>::UnitX(), x[0]);
+    case AngleKind::kZyz: return quaternion(x[0], x[1], x[0] + x[2]);
+    case AngleKind::kAxis: return about({angles.cross(2, 1), angles.cross(0, 2), angles.cross(1, 0)}, x[0]);
+  }
+  return quaternion(x[0], x[1], x[2]);
+}
+
+}  // namespace
+
+RigidPose rigid_pose(const Angles<double>& angles, const Pose<double>& pose) {
+  return {pose.p_WP, quaternion(angles, pose.angles)};
+}
+
+RigidPose rigid_pose(const TiltedPose& pose) { return {pose.p, quaternion(pose.phi, pose.theta, pose.sigma)}; }
 
 double TiltAndTorsion::value(std::size_t i) const { return x[i] + kPi * half_turns[i]; }
 

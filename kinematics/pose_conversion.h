@@ -20,8 +20,15 @@ struct RigidPose {
   Eigen::Quaterniond q;
 };
 
-/// R(q) = Rz(phi) Ry(theta) Rz(sigma − phi).
-[[nodiscard]] RigidPose rigid_pose(const Pose<double>& pose);
+/// R(q) is the pose's rotation; of angles that grow continuously, q is continuous.
+[[nodiscard]] RigidPose rigid_pose(const Angles<double>& angles, const Pose<double>& pose);
+
+/// p [m] and tilt-and-torsion angles [rad].
+struct TiltedPose {
+  Vector3<double> p;
+  double phi, theta, sigma;
+};
+[[nodiscard]] RigidPose rigid_pose(const TiltedPose& pose);
 
 /// Angles as x + π half_turns: phi, theta, sigma.
 struct TiltAndTorsion {

@@ -17,6 +17,7 @@ PoseSampler::PoseSampler(const Problem& problem)
 
 std::vector<double> PoseSampler::parameters(const Segment& segment, double s) const {
   if (has_poses(segment.law)) {
+    if (model_.angles.kind != AngleKind::kTiltAndTorsion) throw std::logic_error("a law of poses in other angles");
     const RigidPose at = rigid_pose(segment, s);
     const TiltAndTorsion angles = tilt_and_torsion(at.q, std::nullopt);
     return {at.p(0), at.p(1), at.p(2), angles.x[0], angles.x[1], angles.x[2]};
@@ -27,7 +28,7 @@ std::vector<double> PoseSampler::parameters(const Segment& segment, double s) co
 
 RigidPose PoseSampler::rigid_pose(const Segment& segment, double s) const {
   if (!has_poses(segment.law)) {
-    return taut::rigid_pose(pose(parameters(segment, s)));
+    return rigid_pose(pose(parameters(segment, s)));
   }
   const RigidPose reference = pose_between(segment, s);
   if (segment.law != Interpolation::kCableLengths) return reference;
@@ -44,7 +45,8 @@ double PoseSampler::distance_to_constraints(const Segment& segment, bool at_end)
   const auto coordinates = [&](const std::vector<double>& parameters) {
     const Pose<double> at = pose(parameters);
     const double size = model_.characteristic_length;
-    return std::array<double, 6>{at.p_WP(0) / size, at.p_WP(1) / size, at.p_WP(2) / size, at.phi, at.theta, at.sigma};
+    return std::array<double, 6>{at.p_WP(0) / size, at.p_WP(1) / size, at.p_WP(2) / size,
+                                 at.angles[0],      at.angles[1],      at.angles[2]};
   };
   const std::array<double, 6> reached = coordinates(parameters(segment, at_end ? 1 : 0));
   std::array<double, 6> lowest, highest;

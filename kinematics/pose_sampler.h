@@ -42,6 +42,11 @@ class PoseSampler {
   /// over the platform's size (mean |b_i|), or angle [rad]. 0 without constraints, and where no pose on them is found.
   [[nodiscard]] double distance_to_constraints(const Segment& segment, bool at_end) const;
 
+  [[nodiscard]] Matrix3<double> rotation(const Pose<double>& pose) const {
+    return taut::rotation(model_.angles, pose.angles);
+  }
+  [[nodiscard]] RigidPose rigid_pose(const Pose<double>& pose) const { return taut::rigid_pose(model_.angles, pose); }
+
   [[nodiscard]] Statics<double> statics(const RigidPose& pose) const {
     return taut::statics(model_, pose.p, Matrix3<double>(pose.q.toRotationMatrix()));
   }

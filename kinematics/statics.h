@@ -33,7 +33,7 @@ template <class S>
 [[nodiscard]] Statics<S> statics(const Model<S>& model, const Vector3<S>& p_WP, const Matrix3<S>& r_WP);
 template <class S>
 [[nodiscard]] Statics<S> statics(const Model<S>& model, const Pose<S>& pose) {
-  return statics(model, pose.p_WP, rotation(pose.phi, pose.theta, pose.sigma));
+  return statics(model, pose.p_WP, rotation(model.angles, pose.angles));
 }
 
 /// Wrench scale: the factor by which K may grow about its nominal wrench, min over i of (f0_i − f_lo)/v_ii and (f_hi −

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <span>
 
 #include "path_io/path_file.h"
 
@@ -21,7 +22,10 @@ std::string PathCsv::header() const {
   std::string text = law_ == Interpolation::kStraight ? "waypoint" : "control_point";
   for (const Parameter& parameter : problem_.space.parameters) text += fmt::format(",x.{}", parameter.name);
   for (const Parameter& parameter : problem_.space.parameters) text += fmt::format(",half_turns.{}", parameter.name);
-  return fmt::format("{},{}px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n", text, time);
+  const std::vector<std::string> names = pose_names(problem_.space.angles.kind);
+  text += fmt::format(",{}px[m],py[m],pz[m]", time);
+  for (std::size_t i = 3; i < names.size(); ++i) text += fmt::format(",{}[rad]", names[i]);
+  return text + "\n";
 }
 
 std::string PathCsv::row(std::size_t number, const Waypoint& waypoint, std::string_view time) const {
@@ -35,8 +39,9 @@ std::string PathCsv::row(std::size_t number, const Waypoint& waypoint, std::stri
   fmt::format_to(out, "{},{},{}", number, fmt::join(waypoint.x, ","), fmt::join(waypoint.half_turns, ","));
   if (has_times_) fmt::format_to(out, ",{}", time);
   const Pose<double> pose = sampler_.pose(waypoint);
-  fmt::format_to(out, ",{},{},{},{},{},{}\n", pose.p_WP(0), pose.p_WP(1), pose.p_WP(2), pose.phi, pose.theta,
-                 pose.sigma);
+  const std::size_t angles = pose_names(problem_.space.angles.kind).size() - 3;
+  fmt::format_to(out, ",{},{},{},{}\n", pose.p_WP(0), pose.p_WP(1), pose.p_WP(2),
+                 fmt::join(std::span(pose.angles).first(angles), ","));
   return text;
 }
 

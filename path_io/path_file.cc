@@ -205,7 +205,7 @@ class Column {
 class PathFile::Implementation {
  public:
   Implementation(std::unique_ptr<std::istream> text, const std::string& name, const SpaceText& space)
-      : lines_(std::move(text), name), space_(space) {
+      : lines_(std::move(text), name), space_(space), pose_names_(pose_names(space.angles.kind)) {
     for (const Parameter& parameter : space.parameters) parameter_names_.push_back(parameter.name);
     std::string_view first;
     if (!lines_.next(first)) lines_.fail("got no rows, expected a path: a header and a row for each pose");
@@ -256,10 +256,8 @@ class PathFile::Implementation {
     split(first, delimiter_, cells_);
     constexpr std::size_t kTumCells = 8;
     if (cells_.size() != kTumCells) {
-      fail("", fmt::format(
-                   "got '{}', expected a header such as px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg], or the "
-                   "eight numbers of TUM: t x y z qx qy qz qw",
-                   excerpt(first)));
+      fail("", fmt::format("got '{}', expected a header such as {}, or the eight numbers of TUM: t x y z qx qy qz qw",
+                           excerpt(first), header_of_poses()));
     }
     header_.format = PathFormat::kTum;
     header_.form = PathForm::kQuaternion;
@@ -269,6 +267,15 @@ class PathFile::Implementation {
       add(Column::Role::kCoordinate, i, {kQuaternionNames[i], i < 3 ? "m" : ""}, metre);
     }
     first_row_ = std::string(first);
+  }
+
+  /// "px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]", in the case's angles.
+  [[nodiscard]] std::string header_of_poses() const {
+    std::string text;
+    for (std::size_t i = 0; i < pose_names_.size(); ++i) {
+      text += fmt::format("{}{}[{}]", i == 0 ? "" : ",", pose_names_[i], i < 3 ? "mm" : "deg");
+    }
+    return text;
   }
 
   [[nodiscard]] bool is_parameter(const std::string& name) const { return contains(parameter_names_, name); }
@@ -314,8 +321,7 @@ class PathFile::Implementation {
       title.name = canonical(title.name);
       if (title.name.empty()) fail("", fmt::format("got the column '{}', expected a name", excerpt(cell)));
       if (title.name.find_first_not_of("+-.0123456789eE ") == std::string::npos) {
-        fail("", fmt::format("got '{}', expected a header such as px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]",
-                             excerpt(line)));
+        fail("", fmt::format("got '{}', expected a header such as {}", excerpt(line), header_of_poses()));
       }
       if (contains(names, title.name)) {
         fail("", fmt::format("got the column '{}' twice, expected each once{}", excerpt(title.name),
@@ -334,7 +340,7 @@ class PathFile::Implementation {
     header_.format = names.front() == "waypoint" ? PathFormat::kTautWaypoints : PathFormat::kTautControlPoints;
     const bool is_of_poses = contains(names, "x.px") && !is_parameter("px");  // an audited path in pose coordinates
     header_.form = is_of_poses ? PathForm::kAngles : PathForm::kParameters;
-    const std::vector<std::string> coordinates = is_of_poses ? names_of(kPoseNames) : parameter_names_;
+    const std::vector<std::string> coordinates = is_of_poses ? pose_names_ : parameter_names_;
     for (const std::string& coordinate : coordinates) {
       for (const std::string& name : {"x." + coordinate, "half_turns." + coordinate}) {
         if (!contains(names, name)) {
@@ -352,7 +358,7 @@ class PathFile::Implementation {
     const Unit one = si_unit(Dimension::kLength);
     for (std::size_t i = 0; i < titles.size(); ++i) {
       const std::string& name = names[i];
-      const bool is_pose = contains(names_of(kPoseNames), name);
+      const bool is_pose = contains(pose_names_, name);
       if (is_time(name)) {
         add(Column::Role::kTime, 0, titles[i], unit_of(titles[i], Quantity::kTime));
       } else if (const auto x = index_behind(name, "x.")) {
@@ -377,7 +383,7 @@ class PathFile::Implementation {
 
   [[nodiscard]] std::vector<PoseColumns> pose_columns() const {
     return {{PathForm::kParameters, parameter_names_, "the case's parameters"},
-            {PathForm::kAngles, names_of(kPoseNames), "position and tilt-and-torsion angles"},
+            {PathForm::kAngles, pose_names_, fmt::format("position and {}", angles_text(space_.angles.kind))},
             {PathForm::kQuaternion, names_of(kQuaternionNames), "position and quaternion"}};
   }
 
@@ -436,8 +442,8 @@ class PathFile::Implementation {
     if (pose.form == PathForm::kQuaternion) return at < 3 ? Quantity::kLength : Quantity::kPure;
     if (pose.form == PathForm::kAngles) return at < 3 ? Quantity::kLength : Quantity::kAngle;
     const Parameter& parameter = space_.parameters[at];
-    for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-      if (parameter.name == kPoseNames[i] && space_.pose[i] == kPoseNames[i]) {
+    for (std::size_t i = 0; i < pose_names_.size(); ++i) {
+      if (parameter.name == pose_names_[i] && space_.pose[i] == pose_names_[i]) {
         return i < 3 ? Quantity::kLength : Quantity::kAngle;
       }
     }
@@ -465,7 +471,10 @@ class PathFile::Implementation {
         unknown.push_back(excerpt(name));
       }
     }
-    if (!unknown.empty()) fail("", fmt::format("got the unknown column '{}', expected {}", unknown.front(), choices));
+    if (!unknown.empty()) {
+      const std::string hint = angles_hint(unknown.front(), space_.angles.kind);
+      fail("", fmt::format("got the unknown column '{}', {}expected {}", unknown.front(), hint, choices));
+    }
     std::vector<std::string> missing;
     for (const std::string& name : nearest != nullptr ? nearest->names : std::vector<std::string>{}) {
       if (!contains(seen, name)) missing.push_back(name);
@@ -588,7 +597,7 @@ class PathFile::Implementation {
 
   [[nodiscard]] int read_half_turns(const Column& column, std::string_view cell) const {
     const bool turns = header_.form == PathForm::kAngles
-                           ? column.name == "half_turns.phi" || column.name == "half_turns.sigma"
+                           ? is_turn(space_.angles.kind, column.index)
                            : space_.parameters[column.index].kind == ParameterKind::kPeriodic;
     return read_whole(column, cell, turns ? kMaxHalfTurns : 0,
                       turns ? fmt::format("a whole number of at most {} either way", kMaxHalfTurns)
@@ -606,6 +615,7 @@ class PathFile::Implementation {
   Lines lines_;
   SpaceText space_;
   std::vector<std::string> parameter_names_;
+  std::vector<std::string> pose_names_;  ///< px, py, pz and the case's angles
   PathHeader header_;
   std::vector<Column> columns_;
   char delimiter_ = ',';

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-const char* meaning(PathForm form) {
+std::string meaning(PathForm form, AngleKind angles) {
   switch (form) {
     case PathForm::kParameters: return "the case's parameters";
-    case PathForm::kAngles: return "positions and tilt-and-torsion angles";
+    case PathForm::kAngles: return fmt::format("positions and {}", angles_text(angles));
     case PathForm::kQuaternion: return "positions and quaternions";
     case PathForm::kCableLengths: break;
   }
@@ -60,12 +60,14 @@ std::string law_sentence(Interpolation law, const Problem& problem) {
 }
 
 PathSummary::PathSummary(const Problem& problem, PathHeader header)
-    : header_(std::move(header)), sampler_(problem), is_angle_(header_.coordinates.size()) {
+    : header_(std::move(header)),
+      angles_(problem.space.angles.kind),
+      sampler_(problem),
+      is_angle_(header_.coordinates.size()) {
   for (std::size_t j = 0; j < is_angle_.size(); ++j) {
     const bool is_parameter = header_.form == PathForm::kParameters;
-    const std::string& name = header_.coordinates[j].name;
     is_angle_[j] = is_parameter ? problem.space.parameters[j].kind == ParameterKind::kPeriodic
-                                : header_.form == PathForm::kAngles && (name == "phi" || name == "sigma");
+                                : header_.form == PathForm::kAngles && is_turn(angles_, j);
   }
 }
 
@@ -142,8 +144,8 @@ std::optional<double> PathSummary::origin_length_m() const {
 }
 
 std::string PathSummary::text() const {
-  std::string text = fmt::format("{} {}, {} row{}, lines {} to {}\n", meaning(header_.format), meaning(header_.form),
-                                 rows_, rows_ == 1 ? "" : "s", first_.line, last_.line);
+  std::string text = fmt::format("{} {}, {} row{}, lines {} to {}\n", meaning(header_.format),
+                                 meaning(header_.form, angles_), rows_, rows_ == 1 ? "" : "s", first_.line, last_.line);
   const std::vector<double> first = values(first_), last = values(last_);
   for (std::size_t j = 0; j < header_.coordinates.size(); ++j) {
     const PathColumn& column = header_.coordinates[j];

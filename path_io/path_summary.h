@@ -52,6 +52,7 @@ class PathSummary {
   [[nodiscard]] std::string rest_text() const;
 
   PathHeader header_;
+  AngleKind angles_;
   PoseSampler sampler_;
   std::vector<bool> is_angle_;
   std::size_t rows_ = 0;

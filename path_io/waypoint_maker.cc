@@ -52,13 +52,25 @@ WaypointMaker::WaypointMaker(const Problem& problem, const PathHeader& header, I
     }
     std::vector<double> parameters;
     for (const ExpressionText& value : problem.query.front()) parameters.push_back(evaluate_constant<double>(value));
-    query_start_ = rigid_pose(sampler_.pose(parameters));
+    query_start_ = sampler_.rigid_pose(sampler_.pose(parameters));
   }
   const bool needs_angles = law == Interpolation::kStraight && header.form == PathForm::kQuaternion;
   is_converted_ = needs_angles || (law == Interpolation::kGeodesic && header.form != PathForm::kQuaternion) ||
                   (law == Interpolation::kCableLengths && !has_lengths);
   problem_.query.clear();
-  if (header.form != PathForm::kParameters || has_poses(law)) problem_.space = coordinate_space();
+  const AnglesText& angles = problem.space.angles;
+  if (needs_angles && angles.kind != AngleKind::kTiltAndTorsion) {
+    throw InputError(
+        fmt::format("{}: got quaternions to be joined straight in {}, expected columns of these angles, or "
+                    "the law geodesic",
+                    file, angles_text(angles.kind)),
+        {file});
+  }
+  if (has_poses(law)) {
+    problem_.space = coordinate_space();
+  } else if (header.form != PathForm::kParameters) {
+    problem_.space = coordinate_space(angles);
+  }
 }
 
 RigidPose WaypointMaker::pose_of(PathForm form, const std::vector<double>& x,
@@ -68,8 +80,10 @@ RigidPose WaypointMaker::pose_of(PathForm form, const std::vector<double>& x,
   }
   std::vector<double> values = x;
   for (std::size_t j = 0; j < half_turns.size(); ++j) values[j] += kPi * half_turns[j];
-  if (form == PathForm::kParameters) return rigid_pose(sampler_.pose(values));
-  return rigid_pose({Vector3<double>(values[0], values[1], values[2]), values[3], values[4], values[5]});
+  if (form == PathForm::kParameters) return sampler_.rigid_pose(sampler_.pose(values));
+  Pose<double> pose{Vector3<double>(values[0], values[1], values[2]), {}};
+  std::copy(values.begin() + 3, values.end(), pose.angles.begin());
+  return sampler_.rigid_pose(pose);
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> WaypointMaker::exchanged_lengths(double most_m) const {

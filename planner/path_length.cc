@@ -100,7 +100,7 @@ PathLength::RigidTransform PathLength::transform(const Coordinates& q) const {
 
 PathLength::RigidTransform PathLength::transform(const Pose<double>& pose) const {
   if (cost_ == Cost::kGreatCircle) return {pose.p_WP, {}};
-  const Matrix3<double> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
+  const Matrix3<double> r_WP = sampler_.rotation(pose);
   return {cost_ == Cost::kTravel ? Vector3<double>(pose.p_WP + r_WP * point_P_) : pose.p_WP, r_WP};
 }
 

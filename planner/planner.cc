@@ -479,8 +479,8 @@ MotionLengths Planner::measure(const Path& path) const {
     });
   };
   const auto way = [](const Pose<double>& a, const Pose<double>& b) { return (a.p_WP - b.p_WP).norm(); };
-  const auto turn = [](const Pose<double>& a, const Pose<double>& b) {
-    return rotation_angle(rotation(a.phi, a.theta, a.sigma), rotation(b.phi, b.theta, b.sigma));
+  const auto turn = [&](const Pose<double>& a, const Pose<double>& b) {
+    return rotation_angle(sampler_.rotation(a), sampler_.rotation(b));
   };
   return {length(way), length(turn)};
 }

@@ -2,6 +2,7 @@
 #include "problem/problem.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,9 +86,25 @@ TolerancesText read_tolerances(const JsonCursor& value) {
   return result;
 }
 
+/// Reads `space.angles`, which is absent for tilt-and-torsion angles.
+AnglesText read_angles(const JsonCursor& value) {
+  if (value.value() == name(AngleKind::kRollPitchYaw)) return {AngleKind::kRollPitchYaw};
+  if (value.value() == name(AngleKind::kZyz)) return {AngleKind::kZyz};
+  if (!value.value().is_object()) value.fail("\"roll-pitch-yaw\", \"zyz\" or an object with an axis");
+  AnglesText angles{AngleKind::kAxis};
+  value.expect_keys({"axis"});
+  read(value.at("axis"), angles.axis);
+  return angles;
+}
+
 SpaceText read_space(const JsonCursor& value) {
-  value.expect_keys({"parameters", "constants", "flip", "pose", "constraints"});
   SpaceText space;
+  if (value.contains("angles")) {
+    value.expect_keys({"angles", "parameters", "constants", "flip", "pose", "constraints"});
+    space.angles = read_angles(value.at("angles"));
+  } else {
+    value.expect_keys({"parameters", "constants", "flip", "pose", "constraints"});
+  }
   for (const JsonCursor& parameter : value.at("parameters").elements()) {
     space.parameters.push_back(read_parameter(parameter));
   }
@@ -107,8 +124,10 @@ SpaceText read_space(const JsonCursor& value) {
     space.flip = {pair[0].get<int>(), pair[1].get<int>()};
   }
   const JsonCursor pose = value.at("pose");
-  pose.expect_keys({"px", "py", "pz", "phi", "theta", "sigma"});
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) read(pose.at(kPoseNames[i]), space.pose[i]);
+  const std::vector<std::string> names = pose_names(space.angles.kind);
+  pose.expect_keys(names);
+  space.pose.fill("0");
+  for (std::size_t i = 0; i < names.size(); ++i) read(pose.at(names[i].c_str()), space.pose[i]);
   for (const JsonCursor& constraint : value.at("constraints").elements()) {
     read(constraint, space.constraints.emplace_back());
   }
@@ -242,6 +261,25 @@ void validate_tolerances(const TolerancesText& tolerances) {
   }
 }
 
+/// The place of a coordinate of the pose, in messages. @pre the pose has it
+std::string place(const SpaceText& space, std::size_t i) { return "space.pose." + pose_names(space.angles.kind).at(i); }
+
+void validate_angles(const SpaceText& space) {
+  const AnglesText& angles = space.angles;
+  if (angles.kind != AngleKind::kAxis) return;
+  const Point axis = point_at("space.angles.axis", angles.axis);
+  // So that the squares of its numbers are within binary64.
+  const auto is_below = [](const Decimal& x, const char* limit) {
+    return boost::multiprecision::abs(x.rational()) < Decimal::parse(limit).rational();
+  };
+  const bool is_small = std::ranges::all_of(axis, [&](const Decimal& x) { return is_below(x, "1e-9"); });
+  if (is_small || !std::ranges::all_of(axis, [&](const Decimal& x) { return is_below(x, "1e9"); })) {
+    throw FieldError("space.angles.axis", fmt::format("[{}]", fmt::join(angles.axis, ", ")),
+                     "expected a direction: three numbers, the largest of which is at least 1e-9 and below 1e9");
+  }
+  if (space.pose[4] != "0" || space.pose[5] != "0") fail("space.pose", "expected one angle: the turn about the axis");
+}
+
 /// Items of a load have tolerances of their own.
 void validate_no_tolerance_of_the_load(const TolerancesText& tolerances) {
   const auto require_zero = [](const std::string& where, const DecimalText& text) {
@@ -256,6 +294,7 @@ void validate_no_tolerance_of_the_load(const TolerancesText& tolerances) {
 }
 
 void validate_flip(const SpaceText& space, const ExpressionTape& pose) {
+  if (space.angles.kind != AngleKind::kTiltAndTorsion) fail("space.flip", "expected null but for tilt-and-torsion");
   const auto [phi, theta] = *space.flip;
   const bool is_phi_theta =
       phi != theta && space.pose[3] == space.parameters[phi].name && space.pose[4] == space.parameters[theta].name &&
@@ -276,7 +315,7 @@ void validate_periods(const SpaceText& space, const ExpressionTape& pose) {
       const bool is_angle = i >= 3;
       const std::optional<int> turns = pose.turns(static_cast<int>(i), static_cast<int>(j));
       if (turns && (is_angle || *turns == 0)) continue;
-      throw FieldError(fmt::format("space.pose.{}", kPoseNames[i]), "'" + space.pose[i] + "'",
+      throw FieldError(place(space, i), "'" + space.pose[i] + "'",
                        fmt::format("expected the same {} when the periodic parameter {} grows by 2*pi, and plainly so",
                                    is_angle ? "angle" : "value", space.parameters[j].name));
     }
@@ -328,12 +367,14 @@ void validate_space(const SpaceText& space) {
   at("space.parameters", [&] { return ExpressionTape({}, names, space.constants); });
   for (const auto& [name, text] : space.constants) decimal_at("space.constants." + name, text);
   for (std::size_t i = 0; i < space.pose.size(); ++i) {
-    at(fmt::format("space.pose.{}", kPoseNames[i]),
+    const bool is_named = i < pose_names(space.angles.kind).size();
+    at(is_named ? place(space, i) : "space.pose",
        [&] { return ExpressionTape({space.pose[i]}, names, space.constants); });
   }
   const ExpressionTape pose = at("space.pose", [&] {
     return ExpressionTape({space.pose.begin(), space.pose.end()}, names, space.constants);
   });
+  validate_angles(space);
   validate_periods(space, pose);
   if (space.flip) validate_flip(space, pose);
   validate_constraints(space, names);
@@ -348,7 +389,7 @@ void validate_pose_at(const SpaceText& space, std::size_t waypoint, const std::v
       .evaluate(parameters, pose);
   for (std::size_t i = 0; i < pose.size(); ++i) {
     if (!std::isfinite(pose[i])) {
-      throw FieldError(fmt::format("space.pose.{}", kPoseNames[i]), "'" + space.pose[i] + "'",
+      throw FieldError(place(space, i), "'" + space.pose[i] + "'",
                        fmt::format("expected an expression with a finite value at query.waypoints[{}]", waypoint));
     }
   }
@@ -386,15 +427,69 @@ void validate_query(const Problem& problem) {
 
 }  // namespace
 
-SpaceText coordinate_space() {
-  SpaceText space;
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
-    const std::string name = kPoseNames[i];
-    const bool is_turn = name == "phi" || name == "sigma";
-    space.parameters.push_back({name, is_turn ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
-    space.pose[i] = name;
+const char* name(AngleKind kind) {
+  switch (kind) {
+    case AngleKind::kTiltAndTorsion: return "tilt-and-torsion";
+    case AngleKind::kRollPitchYaw: return "roll-pitch-yaw";
+    case AngleKind::kZyz: return "zyz";
+    case AngleKind::kAxis: break;
   }
-  space.flip = {3, 4};
+  return "axis";
+}
+
+const char* angles_text(AngleKind kind) {
+  switch (kind) {
+    case AngleKind::kTiltAndTorsion: return "tilt-and-torsion angles";
+    case AngleKind::kRollPitchYaw: return "roll-pitch-yaw angles";
+    case AngleKind::kZyz: return "ZYZ Euler angles";
+    case AngleKind::kAxis: break;
+  }
+  return "a turn about an axis";
+}
+
+std::vector<std::string> pose_names(AngleKind kind) {
+  switch (kind) {
+    case AngleKind::kTiltAndTorsion: return {"px", "py", "pz", "phi", "theta", "sigma"};
+    case AngleKind::kRollPitchYaw: return {"px", "py", "pz", "roll", "pitch", "yaw"};
+    case AngleKind::kZyz: return {"px", "py", "pz", "alpha", "beta", "gamma"};
+    case AngleKind::kAxis: break;
+  }
+  return {"px", "py", "pz", "turn"};
+}
+
+std::string angles_hint(const std::string& word, AngleKind chosen) {
+  if (chosen == AngleKind::kTiltAndTorsion && (word == "tilt" || word == "torsion")) {
+    return fmt::format("which is called {}, ", word == "tilt" ? "theta (towards phi)" : "sigma");
+  }
+  const bool is_common = word == "rx" || word == "ry" || word == "rz" || word == "heading";
+  for (const AngleKind kind :
+       {AngleKind::kTiltAndTorsion, AngleKind::kRollPitchYaw, AngleKind::kZyz, AngleKind::kAxis}) {
+    const std::vector<std::string> names = pose_names(kind);
+    const bool is_angle = std::find(names.begin() + 3, names.end(), word) != names.end();
+    if (kind == chosen || !(is_angle || (is_common && kind == AngleKind::kRollPitchYaw))) continue;
+    const std::string value = kind == AngleKind::kAxis ? "{axis: [x, y, z]}" : name(kind);
+    return fmt::format("which is understood with 'angles: {}' under 'space' of the case (it has {}), ", value,
+                       angles_text(chosen));
+  }
+  return "";
+}
+
+bool is_turn(AngleKind kind, std::size_t i) {
+  // A tilt theta is real: its other half turn is the flip's.
+  return i >= 3 && !(kind == AngleKind::kTiltAndTorsion && i == 4);
+}
+
+SpaceText coordinate_space(const AnglesText& angles) {
+  SpaceText space;
+  space.angles = angles;
+  space.pose.fill("0");
+  const std::vector<std::string> names = pose_names(angles.kind);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const ParameterKind kind = is_turn(angles.kind, i) ? ParameterKind::kPeriodic : ParameterKind::kReal;
+    space.parameters.push_back({names[i], kind, "", ""});
+    space.pose[i] = names[i];
+  }
+  if (angles.kind == AngleKind::kTiltAndTorsion) space.flip = {3, 4};
   return space;
 }
 
@@ -402,9 +497,20 @@ json to_json(const Problem& problem) {
   json parameters = json::array();
   for (const Parameter& parameter : problem.space.parameters) parameters.push_back(parameter_to_json(parameter));
   json pose = json::object();
-  for (std::size_t i = 0; i < kPoseNames.size(); ++i) pose[kPoseNames[i]] = problem.space.pose[i];
+  const std::vector<std::string> names = pose_names(problem.space.angles.kind);
+  for (std::size_t i = 0; i < names.size(); ++i) pose[names[i]] = problem.space.pose[i];
   json flip = nullptr;
   if (problem.space.flip) flip = *problem.space.flip;
+  json space = {{"parameters", std::move(parameters)},
+                {"constants", problem.space.constants},
+                {"flip", std::move(flip)},
+                {"pose", std::move(pose)},
+                {"constraints", problem.space.constraints}};
+  if (const AnglesText& angles = problem.space.angles; angles.kind == AngleKind::kAxis) {
+    space["angles"] = {{"axis", angles.axis}};
+  } else if (angles.kind != AngleKind::kTiltAndTorsion) {
+    space["angles"] = name(angles.kind);
+  }
   return {{"name", problem.name},
           {"robot",
            {{"base_anchors_m", problem.robot.base_anchors_m},
@@ -413,12 +519,7 @@ json to_json(const Problem& problem) {
             {"length_m", limits_to_json(problem.robot.length_m)}}},
           {"load", to_json(problem.load)},
           {"tolerances", problem.tolerances ? tolerances_to_json(*problem.tolerances) : json()},
-          {"space",
-           {{"parameters", std::move(parameters)},
-            {"constants", problem.space.constants},
-            {"flip", std::move(flip)},
-            {"pose", std::move(pose)},
-            {"constraints", problem.space.constraints}}},
+          {"space", std::move(space)},
           {"query", {{"waypoints", problem.query}}}};
 }
 

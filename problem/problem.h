@@ -77,14 +77,30 @@ struct Parameter {
   ExpressionText range_upper;
 };
 
-/// Poses (p, R) as a function of the parameters; R = Rz(phi) Ry(theta) Rz(sigma - phi).
+/// How three angles give R_WP, the rotation from the platform's axes to the world's. Rx, Ry and Rz are rotations about
+/// fixed coordinate axes, products act from the right.
+enum class AngleKind {
+  kTiltAndTorsion,  ///< phi, theta, sigma: Rz(phi) Ry(theta) Rz(sigma - phi)
+  kRollPitchYaw,    ///< roll, pitch, yaw: Rz(yaw) Ry(pitch) Rx(roll)
+  kZyz,             ///< alpha, beta, gamma, Euler's angles: Rz(alpha) Ry(beta) Rz(gamma)
+  kAxis,            ///< turn, about a fixed axis
+};
+
+struct AnglesText {
+  AngleKind kind = AngleKind::kTiltAndTorsion;
+  std::array<DecimalText, 3> axis{"0", "0", "1"};  ///< for kAxis: its direction, of any length but 0
+  bool operator==(const AnglesText&) const = default;
+};
+
+/// Poses (p, R) as a function of the parameters.
 struct SpaceText {
   std::vector<Parameter> parameters;
   std::map<std::string, DecimalText> constants;
+  AnglesText angles;
   /// Indices of the parameters that are phi and theta themselves, if (phi, theta) and (phi + pi, -theta) are the same
-  /// pose; no constraint mentions them then.
+  /// pose; no constraint mentions them then. Only of tilt-and-torsion angles.
   std::optional<std::array<int, 2>> flip;
-  /// px, py, pz [m], phi, theta, sigma [rad].
+  /// px, py, pz [m] and the angles [rad]; the last two are "0" for kAxis, which has one angle.
   std::array<ExpressionText, 6> pose;
   /// C of the paper's (15), each of which must be 0. There are fewer than parameters, and C' has full rank along a
   /// path.
@@ -94,7 +110,12 @@ struct SpaceText {
 /// The largest number of parameters of a space with constraints.
 inline constexpr int kMaxConstrainedParameters = 6;
 
-inline constexpr std::array<const char*, 6> kPoseNames = {"px", "py", "pz", "phi", "theta", "sigma"};
+/// The name of a parametrisation, in case files and messages: "tilt-and-torsion", "roll-pitch-yaw", "zyz", "axis".
+[[nodiscard]] const char* name(AngleKind kind);
+/// For sentences: "tilt-and-torsion angles", "ZYZ Euler angles".
+[[nodiscard]] const char* angles_text(AngleKind kind);
+/// The names of a pose's coordinates: px, py, pz and three angles, or one for kAxis.
+[[nodiscard]] std::vector<std::string> pose_names(AngleKind kind);
 
 struct Problem {
   std::string name;
@@ -107,8 +128,17 @@ struct Problem {
   std::vector<std::vector<ExpressionText>> query;
 };
 
-/// The space of all poses: px, py, pz [m], phi, theta, sigma [rad], without bounds.
-[[nodiscard]] SpaceText coordinate_space();
+/// What a message may add where `word` is a coordinate of other angles than `chosen`: "which is understood with 'angles:
+/// roll-pitch-yaw' …, ". It ends with a space; empty where there is nothing to add.
+[[nodiscard]] std::string angles_hint(const std::string& word, AngleKind chosen);
+
+/// Whether coordinate i of a pose is an angle whose values 2π apart are the same pose, whatever the others are, and is
+/// therefore periodic where it is a parameter.
+[[nodiscard]] bool is_turn(AngleKind kind, std::size_t i);
+
+/// The space of all poses with such angles: px, py, pz [m] and the angles [rad], without bounds. Of kAxis, all those
+/// that are turned about the axis.
+[[nodiscard]] SpaceText coordinate_space(const AnglesText& angles = {});
 
 /// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, a load with items or
 /// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions that

@@ -173,9 +173,27 @@ typename MotionEnclosure<I>::Status within_ranges(const MotionModel<I>& model, c
 
 }  // namespace
 
+namespace {
+
+/// make_angles(), for Interval rounding upward.
+template <class I>
+Angles<I> make_angles_enclosed(const AnglesText& text) {
+  if constexpr (std::is_same_v<I, Interval>) {
+    Angles<I> result;
+    const bool is_bounded = run_upward([&] { result = make_angles<I>(text); });
+    if (!is_bounded) throw InputError("space.angles.axis: got a number beyond the range of binary64");
+    return result;
+  } else {
+    return make_angles<I>(text);
+  }
+}
+
+}  // namespace
+
 template <class I>
 MotionModel<I> make_motion_model(const Problem& problem) {
-  MotionModel<I> model{Evaluator<SlopeForm<I>>(pose_tape(problem)), std::nullopt, inner_ranges(problem)};
+  MotionModel<I> model{Evaluator<SlopeForm<I>>(pose_tape(problem)), make_angles_enclosed<I>(problem.space.angles),
+                       std::nullopt, inner_ranges(problem)};
   if (const std::size_t count = problem.space.constraints.size(); count > 0) {
     const ExpressionTape tape = constraint_tape(problem);
     model.constraints.emplace(typename MotionModel<I>::Constraints{
@@ -292,7 +310,7 @@ MotionEnclosure<I> enclose_motion(const MotionModel<I>& model, const Segment& se
   const Pose<SlopeForm<I>> pose =
       evaluate_pose(model.pose, std::span<const SlopeForm<I>>(parameters.data(), parameters.size()));
   result.p_WP = pose.p_WP;
-  result.r_WP = rotation(pose.phi, pose.theta, pose.sigma);
+  result.r_WP = rotation(model.angles, pose.angles);
   tighten(result, offset);
   return result;
 }

@@ -25,6 +25,7 @@ namespace taut {
 template <class I>
 struct MotionModel {
   Evaluator<SlopeForm<I>> pose;
+  Angles<I> angles;
   /// C; only in a space with constraints.
   struct Constraints {
     Evaluator<I> values;

@@ -24,6 +24,8 @@ void require_no_tolerance_of_load(const Cursor& tolerances, const ToleranceBound
 [[nodiscard]] Problem read_problem(const Cursor& json);
 /// `problem.space` of a path whose law is one of poses: the free coordinates px py pz phi theta sigma.
 [[nodiscard]] const Json& coordinate_space();
+/// Whether a `space` is that of the free coordinates, with tilt-and-torsion angles or with those of a case's space.
+[[nodiscard]] bool is_coordinate_space(const Json& space, const Json& of_case);
 
 /// Leaves out the sizes and ranges that the problem prescribes.
 [[nodiscard]] Waypoint read_waypoint(const Cursor& json, Law law);

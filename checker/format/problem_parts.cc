@@ -9,7 +9,17 @@ namespace {
 
 constexpr std::size_t kMaxParameters = 64;  ///< bounds the work of everything that is done for each of them
 constexpr std::size_t kMaxConstrainedParameters = 6;
-constexpr std::array<const char*, 6> kPoseNames = {"px", "py", "pz", "phi", "theta", "sigma"};
+
+/// px, py, pz and the angles; for kAxis, which has one angle, two null pointers behind it.
+std::array<const char*, 6> pose_names(AngleKind angles) {
+  switch (angles) {
+    case AngleKind::kTiltAndTorsion: break;
+    case AngleKind::kRollPitchYaw: return {"px", "py", "pz", "roll", "pitch", "yaw"};
+    case AngleKind::kZyz: return {"px", "py", "pz", "alpha", "beta", "gamma"};
+    case AngleKind::kAxis: return {"px", "py", "pz", "turn", nullptr, nullptr};
+  }
+  return {"px", "py", "pz", "phi", "theta", "sigma"};
+}
 
 Expression expression(const Cursor& json, const Names& names) {
   return parse_expression(json.text(), names, json.where());
@@ -72,16 +82,18 @@ void require_closed(const Cursor& space, const Problem& problem) {
     for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
       if (turns(problem.constraints[i], j) != 0) constraints.at(i).fail("the same value" + expected);
     }
-    for (std::size_t c = 0; c < 6; ++c) {
+    const std::array<const char*, 6> names = pose_names(problem.angles);
+    for (std::size_t c = 0; c < names.size() && names[c] != nullptr; ++c) {
       const std::optional<long> k = turns(problem.pose[c], j);
       const bool is_angle = c >= 3;
-      if (!k || (!is_angle && *k != 0)) pose[kPoseNames[c]].fail("the same pose" + expected);
+      if (!k || (!is_angle && *k != 0)) pose[names[c]].fail("the same pose" + expected);
     }
   }
 }
 
 /// Where (phi, theta) and (phi + pi, -theta) are the same pose.
 void read_flip(const Cursor& json, const Json& pose, Problem& problem) {
+  json.require(problem.angles == AngleKind::kTiltAndTorsion, "null but for tilt-and-torsion angles");
   json.require_size(2);
   const auto last = static_cast<std::int64_t>(problem.parameters.size()) - 1;
   const auto phi = static_cast<std::size_t>(json.at(0).integer(0, last));
@@ -95,11 +107,27 @@ void read_flip(const Cursor& json, const Json& pose, Problem& problem) {
   const auto mentions_either = [&](const Expression& x) { return mentions(x, phi) || mentions(x, theta); };
   for (const std::size_t c : {0, 1, 2, 5}) {
     if (!mentions_either(problem.pose[c])) continue;
-    json.fail(std::string("a pose whose ") + kPoseNames[c] + " mentions neither phi nor theta");
+    json.fail(std::string("a pose whose ") + pose_names(problem.angles)[c] + " mentions neither phi nor theta");
   }
   json.require(std::ranges::none_of(problem.constraints, mentions_either),
                "constraints that mention neither phi nor theta");
   problem.flip = {phi, theta};
+}
+
+/// Angles other than tilt and torsion.
+void read_angles(const Cursor& json, Problem& problem) {
+  static constexpr std::array<std::pair<const char*, AngleKind>, 2> kKinds = {
+      {{"roll-pitch-yaw", AngleKind::kRollPitchYaw}, {"zyz", AngleKind::kZyz}}};
+  if (!json.json().is_object()) {
+    problem.angles = json.one_of<AngleKind>(kKinds, "roll-pitch-yaw, zyz or an axis");
+    return;
+  }
+  problem.angles = AngleKind::kAxis;
+  json.object("axis", problem.axis);
+  const mpq_class least(1, 1'000'000'000), beyond(1'000'000'000);
+  const mpq_class largest =
+      std::max({mpq_class(abs(problem.axis[0])), mpq_class(abs(problem.axis[1])), mpq_class(abs(problem.axis[2]))});
+  json["axis"].require(largest >= least && largest < beyond, "an axis of 1e-9 or more, and below 1e9");
 }
 
 void read_space(const Cursor& json, Problem& problem) {
@@ -119,8 +147,10 @@ void read_space(const Cursor& json, Problem& problem) {
     const auto read_coordinate = [&](std::size_t c) {
       return [&, c](const Cursor& here) { problem.pose[c] = expression(here, names); };
     };
-    pose.object("px", read_coordinate(0), "py", read_coordinate(1), "pz", read_coordinate(2), "phi", read_coordinate(3),
-                "theta", read_coordinate(4), "sigma", read_coordinate(5));
+    const std::array<const char*, 6> keys = pose_names(problem.angles);
+    problem.pose.fill(parse_expression("0", {}, pose.where()));
+    pose.object(keys[0], read_coordinate(0), keys[1], read_coordinate(1), keys[2], read_coordinate(2), keys[3],
+                read_coordinate(3), keys[4], read_coordinate(4), keys[5], read_coordinate(5));
   };
   const auto read_constraints = [&](const Cursor& constraints) {
     const std::size_t n = problem.parameters.size();
@@ -130,10 +160,12 @@ void read_space(const Cursor& json, Problem& problem) {
                         "fewer constraints than parameters, and at most 6 of these");
     require_closed(json, problem);
   };
-  json.object("constants", read_constants, "parameters", read_parameters, "pose", read_pose, "constraints",
-              read_constraints, "flip", [&](const Cursor& flip) {
-                if (!flip.is_null()) read_flip(flip, json["pose"].json(), problem);
-              });
+  json.object(
+      "angles?", [&](const Cursor& angles) { read_angles(angles, problem); }, "constants", read_constants, "parameters",
+      read_parameters, "pose", read_pose, "constraints", read_constraints, "flip",
+      [&](const Cursor& flip) {
+        if (!flip.is_null()) read_flip(flip, json["pose"].json(), problem);
+      });
 }
 
 void read_query(const Cursor& json, Problem& problem) {
@@ -183,6 +215,22 @@ Problem read_problem(const Cursor& json) {
     require_no_tolerance_of_load(json["tolerances"], *problem.tolerances);
   }
   return problem;
+}
+
+bool is_coordinate_space(const Json& space, const Json& of_case) {
+  if (space == coordinate_space()) return true;
+  if (!of_case.contains("angles")) return false;
+  Problem with_angles;
+  read_angles(Cursor(of_case["angles"], "angles"), with_angles);
+  Json expected = {{"angles", of_case["angles"]},  {"constants", Json::object()}, {"flip", nullptr},
+                   {"constraints", Json::array()}, {"parameters", Json::array()}, {"pose", Json::object()}};
+  for (const char* name : pose_names(with_angles.angles)) {
+    if (name == nullptr) continue;
+    const bool is_angle = expected["parameters"].size() >= 3;
+    expected["parameters"].push_back({{"name", name}, {"kind", is_angle ? "periodic" : "real"}});
+    expected["pose"][name] = name;
+  }
+  return space == expected;
 }
 
 const Json& coordinate_space() {

@@ -106,17 +106,51 @@ class OnConstraints : public Equations {
 // ---- Poses
 // -----------------------------------------------------------------------------------------------------------
 
-/// R = Rz(phi) Ry(theta) Rz(sigma - phi).
-Frame frame(const Vector6<MeanValueForm>& pose) {
-  const MeanValueForm &phi = pose[3], &theta = pose[4], psi = pose[5] - phi;
-  const auto cos = [](const MeanValueForm& x) { return apply(Function::kCos, x); };
-  const auto sin = [](const MeanValueForm& x) { return apply(Function::kSin, x); };
-  const MeanValueForm ca = cos(phi), sa = sin(phi), cb = cos(theta), sb = sin(theta), cg = cos(psi), sg = sin(psi);
+MeanValueForm cos(const MeanValueForm& x) { return apply(Function::kCos, x); }
+MeanValueForm sin(const MeanValueForm& x) { return apply(Function::kSin, x); }
+
+/// Rz(a) Ry(b) Rz(g).
+Matrix3<MeanValueForm> rotation_zyz(const MeanValueForm& a, const MeanValueForm& b, const MeanValueForm& g) {
+  const MeanValueForm ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b), cg = cos(g), sg = sin(g);
   const MeanValueForm ca_cb = ca * cb, sa_cb = sa * cb;
-  return {{pose[0], pose[1], pose[2]},
-          {{{ca_cb * cg - sa * sg, -(ca_cb * sg) - sa * cg, ca * sb},
-            {sa_cb * cg + ca * sg, ca * cg - sa_cb * sg, sa * sb},
-            {-(sb * cg), sb * sg, cb}}}};
+  return {{{ca_cb * cg - sa * sg, -(ca_cb * sg) - sa * cg, ca * sb},
+           {sa_cb * cg + ca * sg, ca * cg - sa_cb * sg, sa * sb},
+           {-(sb * cg), sb * sg, cb}}};
+}
+
+/// By an angle about an axis that is not 0: I + sin [n] + (1 - cos) [n]^2 with the unit vector n along it.
+Matrix3<MeanValueForm> rotation_about(const Vector3<mpq_class>& axis, const MeanValueForm& angle) {
+  const mpq_class squared = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+  const Ball size = sqrt(Ball(squared));
+  const MeanValueForm sine = sin(angle), rest = MeanValueForm(Ball(1)) - cos(angle);
+  Matrix3<MeanValueForm> R;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    // [n]^2 = n n' - I, whose entries are rational.
+    R[i][i] = MeanValueForm(Ball(1)) - Ball(mpq_class(1 - axis[i] * axis[i] / squared)) * rest;
+    const MeanValueForm both = Ball(mpq_class(axis[i] * axis[j] / squared)) * rest;
+    const MeanValueForm turned = Ball(axis[k]) / size * sine;
+    R[i][j] = both - turned;
+    R[j][i] = both + turned;
+  }
+  return R;
+}
+
+Matrix3<MeanValueForm> orientation(const Problem& problem, const Vector6<MeanValueForm>& pose) {
+  const MeanValueForm &x = pose[3], &y = pose[4], &z = pose[5];
+  switch (problem.angles) {
+    case AngleKind::kTiltAndTorsion: break;
+    case AngleKind::kRollPitchYaw:
+      return multiply(multiply(rotation_about({0, 0, 1}, z), rotation_about({0, 1, 0}, y)),
+                      rotation_about({1, 0, 0}, x));
+    case AngleKind::kZyz: return rotation_zyz(x, y, z);
+    case AngleKind::kAxis: return rotation_about(problem.axis, x);
+  }
+  return rotation_zyz(x, y, z - x);
+}
+
+Frame frame(const Problem& problem, const Vector6<MeanValueForm>& pose) {
+  return {{pose[0], pose[1], pose[2]}, orientation(problem, pose)};
 }
 
 /// From one pose to another: the position on a straight line, the rotation about one axis and at a constant rate.
@@ -326,7 +360,7 @@ Geometry commanded_geometry(const Machine& machine, const Problem& problem, cons
   const std::vector<MeanValueForm> at = parameters(problem, path, k, box);
   // Between waypoints inside their ranges parameters stay inside, by convexity; those of an implied motion need not.
   if (!problem.constraints.empty() && ranges == Ranges::kRequired) require_in_range(problem, at);
-  return machine.geometry(frame(coordinates(problem, at)));
+  return machine.geometry(frame(problem, coordinates(problem, at)));
 }
 
 std::unique_ptr<Equations> motion_equations(const Machine& machine, const Problem& problem, const Path& path,

@@ -7,8 +7,8 @@
 //                about m exactly, c0 + c1 u + c2 u^2 + c3 u^3.
 //   parameters   Without constraints they are l. With k constraints C(lambda) = 0 they are l + N y, where y(u) is the
 //                only zero of g(y, u) = C(l(u) + N(u) y) in the tube |y_i| <= t (zero.h).
-//   poses        by the problem's expressions of the parameters, with R = Rz(phi) Ry(theta) Rz(sigma - phi); or of a
-//                geodesic between two poses; or, where lengths L are straight, from forward kinematics:
+//   poses        by the problem's expressions of the parameters, and R by its angles (AngleKind); or of a geodesic
+//                between two poses; or, where lengths L are straight, from forward kinematics:
 //
 // Given a reference, a straight line between two poses, and lengths L > 0, the pose is sought in the reference's tube
 //     p = p_ref + r_p z_p,   R = R(v, 1) R_ref,   v = r_u z_v,   z = (z_p, z_v) in [-1, 1]^6
@@ -34,7 +34,7 @@ namespace taut::checker {
 /// Each parameter of kind range is in its closed range. @throws Undefined where that is not certain.
 void require_in_range(const Problem& problem, const std::vector<MeanValueForm>& parameters);
 
-/// px py pz [m], phi theta sigma [rad], by the problem's expressions.
+/// px py pz [m] and the angles [rad], by the problem's expressions.
 [[nodiscard]] Vector6<MeanValueForm> coordinates(const Problem& problem, const std::vector<MeanValueForm>& parameters);
 
 /// Of the quaternion (x, y, z, w), of any length but 0.

@@ -47,6 +47,14 @@ struct Tolerances {
 };
 using ToleranceBounds = Tolerances<mpq_class, Expression>;  ///< the angle is a constant expression
 
+/// How three angles x give R: rotations about fixed coordinate axes, or one about a fixed axis.
+enum class AngleKind {
+  kTiltAndTorsion,  ///< Rz(x0) Ry(x1) Rz(x2 - x0)
+  kRollPitchYaw,    ///< Rz(x2) Ry(x1) Rx(x0)
+  kZyz,             ///< Rz(x0) Ry(x1) Rz(x2)
+  kAxis,            ///< by x0 about `axis`
+};
+
 using ExactVector = std::array<mpq_class, 3>;
 using ExactWrench = std::array<mpq_class, 6>;  ///< force [N] and moment [N m]
 
@@ -108,7 +116,9 @@ struct Problem {
   std::optional<ToleranceBounds> tolerances;
   std::vector<Parameter> parameters;
   std::optional<std::array<std::size_t, 2>> flip;
-  std::array<Expression, 6> pose;              ///< px py pz [m], phi theta sigma [rad]
+  AngleKind angles = AngleKind::kTiltAndTorsion;
+  std::array<mpq_class, 3> axis;               ///< for kAxis: not 0, of any length
+  std::array<Expression, 6> pose;              ///< px py pz [m], angles [rad]; of kAxis the last two are 0
   std::vector<Expression> constraints;         ///< 0 along the path; fewer than the parameters, of which there are <= 6
   std::vector<std::vector<Expression>> query;  ///< constants, one a parameter; none in an audit
 };

@@ -87,12 +87,11 @@ Html margins_along(const ReportContext& scene) {
                      unscripted() + place("margins"));
 }
 
-Html poses() {
-  return section(
-      "pose", "Pose along the path",
-      html("<p>Position p of the platform’s origin in the world; tilt φ, θ and torsion σ, with R = R<sub>z</sub>(φ) "
-           "R<sub>y</sub>(θ) R<sub>z</sub>(σ − φ). Floating-point samples.</p>\n") +
-          unscripted() + place("pose"));
+Html poses(const ReportContext& scene) {
+  return section("pose", "Pose along the path",
+                 html("<p>Position p of the platform’s origin in the world; {}. Floating-point samples.</p>\n",
+                      rotation_formula(scene.certificate.problem.space.angles)) +
+                     unscripted() + place("pose"));
 }
 
 Html plane(const ReportContext& scene) {
@@ -138,7 +137,8 @@ Html move_section(const ReportContext& scene) {
 
 Html plot_sections(const ReportContext& scene) {
   if (scene.samples.empty()) return plane(scene);
-  return tensions(scene) + lengths(scene) + margins_along(scene) + poses() + plane(scene) + biting_tolerances(scene);
+  return tensions(scene) + lengths(scene) + margins_along(scene) + poses(scene) + plane(scene) +
+         biting_tolerances(scene);
 }
 
 std::string page_scripts(const ReportContext& scene) {

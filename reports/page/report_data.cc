@@ -13,6 +13,7 @@
 #include "problem/expression.h"
 #include "problem/scalar.h"
 #include "reports/page/plane.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 
@@ -74,7 +75,9 @@ json robot(const Model<double>& model) {
 json samples(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   std::vector<double> position, distance, turned, scale, sign;
-  std::array<std::vector<double>, 3> p, angles;
+  const std::vector<std::string> symbols = angle_symbols(scene.certificate.problem.space.angles.kind);
+  std::array<std::vector<double>, 3> p;
+  std::vector<std::vector<double>> angles(symbols.size());
   std::array<std::vector<double>, 4> q;
   std::array<std::vector<double>, kCables> tension, tension_below, tension_above, length;
   std::vector<std::vector<double>> parameters;
@@ -87,18 +90,18 @@ json samples(const ReportContext& scene) {
     distance.push_back(scene.travel.distance_m(sample.position));
     turned.push_back(scene.travel.turned_rad(sample.position));
     if (const auto t = scene.travel.time_s(sample.position)) time.push_back(number(*t));
-    RigidPose pose = rigid_pose(sample.pose);
+    RigidPose pose = scene.sampler.rigid_pose(sample);
     if (pose.q.dot(last) < 0) pose.q.coeffs() *= -1;
     last = pose.q;
-    std::array<double, 3> shown = {sample.pose.phi, sample.pose.theta, sample.pose.sigma};
+    std::array<double, 3> shown = sample.pose.angles;
     if (has_poses(scene.certificate.path.interpolation)) {  // its angles are wrapped
       tilt = tilt_and_torsion(pose.q, tilt);
       for (std::size_t c = 0; c < 3; ++c) shown[c] = tilt->value(c);
     }
     for (std::size_t c = 0; c < 3; ++c) {
       p[c].push_back(pose.p(static_cast<Eigen::Index>(c)));
-      angles[c].push_back(shown[c]);
     }
+    for (std::size_t c = 0; c < angles.size(); ++c) angles[c].push_back(shown[c]);
     for (std::size_t c = 0; c < 4; ++c) q[c].push_back(pose.q.coeffs()(static_cast<Eigen::Index>(c)));
     const Statics<double>& s = sample.statics;
     sign.push_back(!s.regular ? 0 : s.determinant > 0 ? 1 : -1);
@@ -126,6 +129,7 @@ json samples(const ReportContext& scene) {
           {"p", columns(p)},
           {"q", columns(q)},
           {"angles", columns(angles)},
+          {"angle_names", symbols},
           {"length", columns(length)},
           {"tension", columns(tension)},
           {"tension_below", columns(tension_below)},

@@ -118,7 +118,7 @@ std::string robot_drawing(const CaseSummary& summary) {
   }
   const Model<double>& model = summary.sampler.model();
   const Pose<double>& pose = summary.waypoints.front().pose;
-  const Matrix3<double> turn = rotation(pose.phi, pose.theta, pose.sigma);
+  const Matrix3<double> turn = summary.sampler.rotation(pose);
   const Vector3<double> load = pose.p_WP + turn * model.p_PM;
   const Vector3<double> force = nominal_wrench(model.loads, model.wrench, turn).head<3>();
   const bool pulls = force.norm() > 0;

@@ -169,13 +169,15 @@ Html space_tables(const Problem& problem) {
     rows.push_back({html("<code>{}</code>", parameter.name), html("{}", unit(space, j)), range, typed});
   }
   std::vector<std::vector<Html>> pose;
-  for (std::size_t c = 0; c < 6; ++c) {
-    pose.push_back({html("<code>{}</code>", kPoseNames[c]), html("<code>{}</code>", space.pose[c]),
-                    html("{}", c < 3 ? "m" : "rad")});
+  const std::vector<std::string> names = pose_names(space.angles.kind);
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    pose.push_back(
+        {html("<code>{}</code>", names[c]), html("<code>{}</code>", space.pose[c]), html("{}", c < 3 ? "m" : "rad")});
   }
   Html constants;
   for (const auto& [name, value] : space.constants) constants += html("<li><code>{} = {}</code></li>\n", name, value);
   Html result =
+      html("<p>Angles: {}.</p>\n", rotation_formula(space.angles)) +
       table(html("Parameters of the poses"),
             {{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
       table(html("Pose as a function of the parameters"), {{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
@@ -203,7 +205,8 @@ Html waypoint_table(const ReportContext& scene, std::size_t step) {
   std::vector<Column> pose_columns = {{what, true}};
   const DisplayUnit& length = scene.illustration.units.length;
   for (const char* name : {"px", "py", "pz"}) pose_columns.push_back({html("{} [{}]", name, length.name()), true});
-  for (const char* name : {"φ [°]", "θ [°]", "σ [°]"}) pose_columns.push_back({html("{}", name), true});
+  const std::vector<std::string> angles = angle_symbols(scene.certificate.problem.space.angles.kind);
+  for (const std::string& symbol : angles) pose_columns.push_back({html("{} [°]", symbol), true});
   std::vector<std::vector<Html>> rows;
   std::vector<std::vector<Html>> pose_rows;
   const std::size_t last = path.waypoints.size() - 1;
@@ -217,8 +220,8 @@ Html waypoint_table(const ReportContext& scene, std::size_t step) {
         is_spline ? scene.sampler.pose(waypoint) : scene.sampler.at(path, static_cast<double>(k)).pose;
     pose_rows.push_back({html("{}", k)});
     for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{}", length.fixed(pose.p_WP(c), 6)));
-    for (const double angle : {pose.phi, pose.theta, pose.sigma}) {
-      pose_rows.back().push_back(html("{:.3f}", angle * kDegrees + 0.0));
+    for (std::size_t c = 0; c < angles.size(); ++c) {
+      pose_rows.back().push_back(html("{:.3f}", pose.angles[c] * kDegrees + 0.0));
     }
   }
   if (named.size() > kSideBySide) {
@@ -360,8 +363,8 @@ Html theorem(const Certificate& certificate) {
       row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
           html("m, rad")),
       row(html("p, R"),
-          html("position of the platform's origin; its orientation R = R<sub>z</sub>(φ) R<sub>y</sub>(θ) "
-               "R<sub>z</sub>(σ − φ)"),
+          html("position of the platform's origin; its orientation by {}",
+               rotation_formula(certificate.problem.space.angles)),
           html("m, rad")),
       row(html("a<sub>i</sub>, b<sub>i</sub>"),
           html("anchors of cable i on the base (world axes) and on the platform (platform axes)"), html("m")),

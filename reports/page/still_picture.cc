@@ -77,7 +77,7 @@ struct Drawing {
 
 Drawing draw(const ReportContext& scene, const Camera& camera, const Pose<double>& pose) {
   const Model<double>& model = scene.sampler.model();
-  const Matrix3<double> r_WP = rotation(pose.phi, pose.theta, pose.sigma);
+  const Matrix3<double> r_WP = rotation(model.angles, pose.angles);
   Drawing result;
   for (std::size_t i = 0; i < kCables; ++i) {
     result.base[i] = camera(model.p_WA[i]);

@@ -105,9 +105,11 @@ std::string space_text(const SpaceText& space) {
   }
   text += columns(rows);
   for (const auto& [name, value] : space.constants) text += fmt::format("  constant {} = {}\n", name, value);
-  for (std::size_t c = 0; c < space.pose.size(); ++c) {
-    text += fmt::format("  {:<5} = {} {}\n", kPoseNames[c], space.pose[c], c < 3 ? "m" : "rad");
+  const std::vector<std::string> names = pose_names(space.angles.kind);
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    text += fmt::format("  {:<5} = {} {}\n", names[c], space.pose[c], c < 3 ? "m" : "rad");
   }
+  text += fmt::format("  Angles: {}\n", rotation_formula(space.angles));
   for (const ExpressionText& constraint : space.constraints) text += fmt::format("  constraint: {} = 0\n", constraint);
   if (space.flip) text += "  (phi, theta) and (phi + pi, -theta) are the same pose\n";
   return text;
@@ -133,10 +135,13 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Displ
     typed += fmt::format("{}{} = {}", j == 0 ? "" : ", ", space.parameters[j].name, summary.source.problem.query[k][j]);
   }
   std::string text =
-      fmt::format("Waypoint {}: {}\n  p = ({}, {}, {}) {}, phi = {:.6g}°, theta = {:.6g}°, sigma = {:.6g}°\n", k, typed,
-                  about(length, waypoint.pose.p_WP(0)), about(length, waypoint.pose.p_WP(1)),
-                  about(length, waypoint.pose.p_WP(2)), length.name(), waypoint.pose.phi * kDegrees + 0.0,
-                  waypoint.pose.theta * kDegrees + 0.0, waypoint.pose.sigma * kDegrees + 0.0);
+      fmt::format("Waypoint {}: {}\n  p = ({}, {}, {}) {}", k, typed, about(length, waypoint.pose.p_WP(0)),
+                  about(length, waypoint.pose.p_WP(1)), about(length, waypoint.pose.p_WP(2)), length.name());
+  const std::vector<std::string> names = pose_names(space.angles.kind);
+  for (std::size_t c = 3; c < names.size(); ++c) {
+    text += fmt::format(", {} = {:.6g}°", names[c], waypoint.pose.angles[c - 3] * kDegrees + 0.0);
+  }
+  text += "\n";
   if (is_nearly_singular(summary.sampler.model(), s)) {
     return text + "  The force Jacobian is singular here, or nearly so: the cables can't balance the load.\n";
   }
@@ -222,14 +227,13 @@ nlohmann::json to_json(const CaseSummary& summary) {
            {"highest_N", s.regular ? json(s.tension[i] + s.tension_above[i]) : json()},
            {"tension_margin_N", s.regular ? json(tension_margin(summary.sampler.model(), s, i)) : json()}});
     }
+    json coordinates = json::object();
+    const std::vector<std::string> names = pose_names(summary.source.problem.space.angles.kind);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      coordinates[names[c]] = c < 3 ? pose.p_WP(static_cast<Eigen::Index>(c)) : pose.angles[c - 3];
+    }
     waypoints.push_back({{"parameters", waypoint.parameters},
-                         {"pose",
-                          {{"px", pose.p_WP(0)},
-                           {"py", pose.p_WP(1)},
-                           {"pz", pose.p_WP(2)},
-                           {"phi", pose.phi},
-                           {"theta", pose.theta},
-                           {"sigma", pose.sigma}}},
+                         {"pose", std::move(coordinates)},
                          {"regular", waypoint.statics.regular},
                          {"wrench_scale", waypoint.statics.regular ? json(waypoint.wrench_scale) : json()},
                          {"cables", cables}});

@@ -26,6 +26,7 @@ class Sampler {
   [[nodiscard]] const Model<double>& model() const { return poses_.model(); }
   [[nodiscard]] Pose<double> pose(const std::vector<double>& parameters) const { return poses_.pose(parameters); }
   [[nodiscard]] Pose<double> pose(const Waypoint& waypoint) const { return poses_.pose(waypoint); }
+  [[nodiscard]] RigidPose rigid_pose(const PathSample& sample) const { return poses_.rigid_pose(sample.pose); }
   [[nodiscard]] PathSample at(const Path& path, double position) const;
   /// About `budget` poses in order, including both ends and, if the budget allows, every waypoint.
   [[nodiscard]] std::vector<PathSample> along(const Path& path, std::size_t budget) const;

@@ -169,7 +169,7 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const PathWitness& witness = certificate.witness->violation;
   const auto pose_at = [&](double position) {
-    return pose_text(scene.sampler.at(certificate.path, position).pose, scene.illustration.units.length);
+    return pose_text(scene, scene.sampler.at(certificate.path, position).pose);
   };
   std::vector<std::string> result;
   if (witness.singular) {
@@ -234,10 +234,9 @@ std::vector<std::string> undecided_details(const ReportContext& scene) {
     const double from = *open.segment + (open.box ? open.box->first.approx() : 0.0);
     const std::string box =
         open.box ? fmt::format(", from s = {} to s = {}", open.box->first.text(), open.box->second.text()) : "";
-    result.push_back(
-        fmt::format("What is open begins {}, on {}{}. The pose there, rounded: {}.", place_text(scene, from),
-                    segment_text(scene.certificate, *open.segment), box,
-                    pose_text(scene.sampler.at(scene.certificate.path, from).pose, scene.illustration.units.length)));
+    result.push_back(fmt::format("What is open begins {}, on {}{}. The pose there, rounded: {}.",
+                                 place_text(scene, from), segment_text(scene.certificate, *open.segment), box,
+                                 pose_text(scene, scene.sampler.at(scene.certificate.path, from).pose)));
   }
   if (!scene.certificate.stretches.empty()) {
     result.push_back(
@@ -267,9 +266,7 @@ std::string motion_text(const ReportContext& scene) {
            "plan.";
   }
   const auto segments = static_cast<double>(path.segments());
-  const auto pose = [&](double position) {
-    return pose_text(scene.sampler.at(path, position).pose, scene.illustration.units.length);
-  };
+  const auto pose = [&](double position) { return pose_text(scene, scene.sampler.at(path, position).pose); };
   if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
   std::string text =
       fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",

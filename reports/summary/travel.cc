@@ -32,7 +32,7 @@ Travel::Travel(const Sampler& sampler, const Path& path) {
   pieces_ = std::clamp<std::size_t>(kPieces / std::max<std::size_t>(segments, 1), 1, 64);
   std::optional<RigidPose> last;
   for (std::size_t i = 0; i <= segments * pieces_; ++i) {
-    const RigidPose pose = rigid_pose(sampler.at(path, static_cast<double>(i) / static_cast<double>(pieces_)).pose);
+    const RigidPose pose = sampler.rigid_pose(sampler.at(path, static_cast<double>(i) / static_cast<double>(pieces_)));
     distance_m_.push_back(last ? distance_m_.back() + (pose.p - last->p).stableNorm() : 0);
     turned_rad_.push_back(last ? turned_rad_.back() + pose.q.angularDistance(last->q) : 0);
     last = pose;

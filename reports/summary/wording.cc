@@ -100,16 +100,40 @@ std::string point_text(const Certificate& certificate, const PathPoint& point) {
   return fmt::format("waypoint {}, {}", point.index, waypoint_text(certificate, waypoint));
 }
 
-std::string pose_text(const Pose<double>& pose, const DisplayUnit& length) {
+std::vector<std::string> angle_symbols(AngleKind kind) {
+  switch (kind) {
+    case AngleKind::kTiltAndTorsion: return {"φ", "θ", "σ"};
+    case AngleKind::kRollPitchYaw: return {"roll", "pitch", "yaw"};
+    case AngleKind::kZyz: return {"α", "β", "γ"};
+    case AngleKind::kAxis: break;
+  }
+  return {"turn"};
+}
+
+std::string rotation_formula(const AnglesText& angles) {
+  switch (angles.kind) {
+    case AngleKind::kTiltAndTorsion: return "tilt φ, θ and torsion σ, with R = Rz(φ) Ry(θ) Rz(σ − φ)";
+    case AngleKind::kRollPitchYaw: return "roll, pitch and yaw, with R = Rz(yaw) Ry(pitch) Rx(roll)";
+    case AngleKind::kZyz: return "Euler’s angles α, β, γ, with R = Rz(α) Ry(β) Rz(γ)";
+    case AngleKind::kAxis: break;
+  }
+  return fmt::format("a turn about the fixed axis ({})", fmt::join(angles.axis, ", "));
+}
+
+std::string pose_text(const ReportContext& scene, const Pose<double>& pose) {
+  const DisplayUnit& length = scene.illustration.units.length;
   const auto text = [](double x, double to) {
     constexpr double kLargest = 1e9;
     if (!(std::abs(x) < kLargest)) return fmt::format("{:.4g}", x);
     return fmt::format("{:.12g}", std::round(x / to) * to + 0.0);
   };
   const auto position = [&](int c) { return text(length.approx(pose.p_WP(c)), length.approx(1e-6)); };  // micrometres
-  const auto angle = [&](double radians) { return text(radians * kDegrees, 1e-3); };
-  return fmt::format("p = ({}, {}, {}) {}, φ = {}°, θ = {}°, σ = {}°", position(0), position(1), position(2),
-                     length.name(), angle(pose.phi), angle(pose.theta), angle(pose.sigma));
+  std::string result = fmt::format("p = ({}, {}, {}) {}", position(0), position(1), position(2), length.name());
+  const std::vector<std::string> symbols = angle_symbols(scene.certificate.problem.space.angles.kind);
+  for (std::size_t c = 0; c < symbols.size(); ++c) {
+    result += fmt::format(", {} = {}°", symbols[c], text(pose.angles[c] * kDegrees, 1e-3));
+  }
+  return result;
 }
 
 std::string distance_text(double metres) {

@@ -34,8 +34,13 @@ namespace taut {
 [[nodiscard]] std::string segment_text(const Certificate& certificate, int k);
 /// "s = 3/8 of segment 1, …"
 [[nodiscard]] std::string point_text(const Certificate& certificate, const PathPoint& point);
-/// "p = (0, 0, 350) mm, φ = …": rounded to a micrometre and a thousandth of a degree.
-[[nodiscard]] std::string pose_text(const Pose<double>& pose, const DisplayUnit& length);
+/// "p = (0, 0, 350) mm, φ = …", in the case's angles: rounded to a micrometre and a thousandth of a degree.
+[[nodiscard]] std::string pose_text(const ReportContext& scene, const Pose<double>& pose);
+
+/// The signs of a pose's angles: φ, θ, σ; roll, pitch, yaw; α, β, γ; turn.
+[[nodiscard]] std::vector<std::string> angle_symbols(AngleKind kind);
+/// "tilt φ, θ and torsion σ, with R = Rz(φ) Ry(θ) Rz(σ − φ)"
+[[nodiscard]] std::string rotation_formula(const AnglesText& angles);
 
 /// "4.2 m", "12 mm": rounded.
 [[nodiscard]] std::string distance_text(double metres);

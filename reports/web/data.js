@@ -8,8 +8,9 @@
 //   robot       base, platform: six points; load_point; force (of w0, in the world); tension, length: six pairs of
 //               limits
 //   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3),
-//               distance, turned, time (may be empty), p (3), q (4: x y z w), angles (3), length (6), tension (6: f0),
-//               tension_below, tension_above (6 each), wrench_scale, sign (of det J), parameters (2, if there is a plane)
+//               distance, turned, time (may be empty), p (3), q (4: x y z w), angles (3, or 1), angle_names,
+//               length (6), tension (6: f0), tension_below, tension_above (6 each), wrench_scale, sign (of det J),
+//               parameters (2, if there is a plane)
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
 //   margins     proved, for groups of consecutive segments: from, to, tension_N, length_m, wrench_scale
 //   stretches   the parts of the path that are not proved: from, to, violated (else open)

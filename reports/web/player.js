@@ -70,8 +70,9 @@ class Readout {
     const places = decimalsFor(1e-2 * lengthUnit.factor);
     const p = samples.p.map((column) => fixed(between(column, where) * lengthUnit.factor, places));
     const angles = samples.angles.map((column) => fixed(degrees(between(column, where)), 2));
+    const names = samples.angle_names.join(", ");
     this.pose.textContent =
-      `p = (${p.join(", ")}) ${lengthUnit.name}; φ, θ, σ = ${angles.map((a) => `${a}°`).join(", ")}`;
+      `p = (${p.join(", ")}) ${lengthUnit.name}; ${names} = ${angles.map((a) => `${a}°`).join(", ")}`;
     this.rows.forEach((row, i) => {
       const f = between(samples.tension[i], where) * forceUnit.factor;
       const low = f - between(samples.tension_below[i], where) * forceUnit.factor;

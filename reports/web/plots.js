@@ -332,7 +332,7 @@ export function posePanels(data) {
   const scaled = (columns, f) => columns.map((column) => column.map((x) => (x === null ? NaN : f(x))));
   return [
     make("Position", ["px", "py", "pz"], unit, scaled(data.samples.p, (x) => x * factor)),
-    make("Orientation", ["φ", "θ", "σ"], "°", scaled(data.samples.angles, degrees)),
+    make("Orientation", data.samples.angle_names, "°", scaled(data.samples.angles, degrees)),
   ];
 }
 

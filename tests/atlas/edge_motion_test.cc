@@ -22,8 +22,8 @@ TEST(EdgeMotion, IsStraightInTheParametersWithoutConstraints) {
   const Coordinates a = Eigen::Vector2d(-2.25, 1.5);
   const Coordinates b = Eigen::Vector2d(-2.0, 1.0);
   const EdgeMotion motion(sampler, a, b);
-  EXPECT_EQ(motion.pose(0.5).phi, -2.125);
-  EXPECT_EQ(motion.pose(0.5).theta, 1.25);
+  EXPECT_EQ(motion.pose(0.5).angles[0], -2.125);
+  EXPECT_EQ(motion.pose(0.5).angles[1], 1.25);
 }
 
 TEST(EdgeMotion, StaysOnTheConstraints) {
@@ -32,12 +32,12 @@ TEST(EdgeMotion, StaysOnTheConstraints) {
   for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
     const Pose<double> pose = motion.pose(s);
     const Vector3<double> centre(0, 0, 0.306);
-    const Vector3<double> axis(std::sin(pose.theta) * std::cos(pose.phi), std::sin(pose.theta) * std::sin(pose.phi),
-                               std::cos(pose.theta));
+    const Vector3<double> axis(std::sin(pose.angles[1]) * std::cos(pose.angles[0]),
+                               std::sin(pose.angles[1]) * std::sin(pose.angles[0]), std::cos(pose.angles[1]));
     EXPECT_LT((pose.p_WP + kRadius * axis - centre).norm(), 1e-14);
   }
-  EXPECT_NEAR(motion.pose(0).phi, 0.5, 1e-14);
-  EXPECT_NEAR(motion.pose(1).theta, 0.6, 1e-14);
+  EXPECT_NEAR(motion.pose(0).angles[0], 0.5, 1e-14);
+  EXPECT_NEAR(motion.pose(1).angles[1], 0.6, 1e-14);
 }
 
 TEST(EdgeMotion, AgreesWithTheProversMotion) {

@@ -50,6 +50,18 @@ SPHERE = {'parameters': [{'name': 'alpha1', 'kind': 'periodic'},
                    'phi': 'alpha1 - pi', 'theta': 'pi/2 - alpha2', 'sigma': '0'}, 'constraints': []}
 
 
+def turned(angles, names):
+    """Robot 1's place, and all angles free."""
+    pose = {'px': '0', 'py': '0', 'pz': '0.35', **{n: n for n in names}}
+    return {'angles': angles, 'parameters': [{'name': n, 'kind': 'periodic'} for n in names], 'constants': {},
+            'flip': None, 'pose': pose, 'constraints': []}
+
+
+ROLL_PITCH_YAW = turned('roll-pitch-yaw', ['roll', 'pitch', 'yaw'])
+ZYZ = turned('zyz', ['alpha', 'beta', 'gamma'])
+AXIS = turned({'axis': ['-0.3', '0.4', '-12']}, ['turn'])
+
+
 def problem(name, robot, space, query):
     return copy.deepcopy({'name': name, 'robot': robot[0], 'load': robot[1], 'tolerances': None, 'space': space,
                           'query': {'waypoints': query}})
@@ -81,14 +93,44 @@ def evaluate(space, expressions, values):
     return [eval(e.replace('^', '**'), names) for e in expressions]
 
 
-def pose_of(space, values):
-    return evaluate(space, [space['pose'][k] for k in ('px', 'py', 'pz', 'phi', 'theta', 'sigma')], values)
+def pose_of(space, values, angles=('phi', 'theta', 'sigma')):
+    return evaluate(space, [space['pose'][k] for k in ('px', 'py', 'pz', *angles)], values)
+
+
+def about(axis, angle):
+    """The quaternion x, y, z, w of a turn about an axis."""
+    size = sqrt(sum(x * x for x in axis))
+    return [sin(angle / 2) * x / size for x in axis] + [cos(angle / 2)]
+
+
+def after(q, p):
+    """The quaternion of the turn p, and then q."""
+    (a, b, c, d), (x, y, z, w) = q, p
+    return [d * x + w * a + b * z - c * y, d * y + w * b + c * x - a * z, d * z + w * c + a * y - b * x,
+            d * w - a * x - b * y - c * z]
+
+
+def other_frame(space, values):
+    """p and R where angles are not tilt and torsion, by quaternions."""
+    angles = space['angles']
+    if angles == 'roll-pitch-yaw':
+        *p, roll, pitch, yaw = pose_of(space, values, ('roll', 'pitch', 'yaw'))
+        q = after(about([0, 0, 1], yaw), after(about([0, 1, 0], pitch), about([1, 0, 0], roll)))
+    elif angles == 'zyz':
+        *p, a, b, c = pose_of(space, values, ('alpha', 'beta', 'gamma'))
+        q = after(about([0, 0, 1], a), after(about([0, 1, 0], b), about([0, 0, 1], c)))
+    else:
+        *p, turn = pose_of(space, values, ('turn',))
+        q = about([float(x) for x in angles['axis']], turn)
+    return p, rotation(q)
 
 
 def frame(pr, values):
     """p and R at parameters; a pose (p, R) stays what it is."""
     if isinstance(values, tuple):
         return values
+    if 'angles' in pr['space']:
+        return other_frame(pr['space'], values)
     px, py, pz, a, b, s = pose_of(pr['space'], values)
     g = s - a
     return [px, py, pz], [
@@ -546,6 +588,15 @@ def in_parameters():
         'at': {'waypoint': 0}, 'kind': 'length_max', 'cable': i + 1, 'value': enclosing(lengths[i]), 'limit': '0.55'})
 
 
+def other_angles():
+    """Straight in angles that are not tilt and torsion."""
+    for name, space, a, b in (('roll_pitch_yaw', ROLL_PITCH_YAW, [-0.08, 0.37, 0.3], [-0.05, 0.34, 0.35]),
+                              ('zyz', ZYZ, [0.7, 0.2, -0.1], [0.75, 0.15, -0.12]),
+                              ('axis', AXIS, [0.5], [0.6])):
+        of = problem('robot1-' + name.replace('_', '-'), ROBOT1, space, [[str(x) for x in p] for p in (a, b)])
+        yield 'robot1_' + name, proved(of, straight(waypoint(a), waypoint(b)), 4)
+
+
 def slackest(pr, pa, steps):
     """Refuted where the tension of a cable is least, at multiples of 1/steps of each segment."""
     count = len(pa['waypoints']) - control_points(pa) + 1
@@ -816,7 +867,8 @@ def nearly_equal(a, b):
 
 def main(check):
     wrong, names = [], set()
-    for topic in (in_parameters, splines, implied, between_given_poses, tolerated, stretches, held_deviations, grazing):
+    for topic in (in_parameters, other_angles, splines, implied, between_given_poses, tolerated, stretches,
+                  held_deviations, grazing):
         for name, certificate in topic():
             names.add(name)
             file = os.path.join(BASES, name + '.json')

@@ -229,7 +229,7 @@ TYPED_TEST(BoxEnclosures, HoldTheOracleNextToSingularPoses) {
   Tally tally;
   const auto determinant = [&](const RandomSegment& segment, double s) {
     const auto at = [&](std::size_t j) { return (1 - s) * segment.a.x[j] + s * segment.b.x[j]; };
-    return statics(approx, Pose<double>{Vector3<double>(at(0), at(1), at(2)), at(3), at(4), at(5)}).determinant;
+    return statics(approx, Pose<double>{Vector3<double>(at(0), at(1), at(2)), {at(3), at(4), at(5)}}).determinant;
   };
   const int wanted = this->kFast ? 40 : 4;
   int singular_across = 0;

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "certify/prover.h"
 #include "kinematics/constraint_functions.h"
+#include "tests/soundness/machine.h"
 #include "tests/support/enclosing.h"
 #include "tests/support/linear_system.h"
 #include "tests/support/segments.h"
@@ -203,6 +205,76 @@ TYPED_TEST(Motion, HoldsEverySampleOfABoxAndItsSlopes) {
       }
     }
     EXPECT_GT(known, 20);
+  }
+}
+
+/// Rows of R(q) for the product of unit quaternions about axes: another route than products of matrices.
+campaign::Rows<BigFloat> exact_rotation(const AnglesText& angles, const Vector& x) {
+  return campaign::orientation(angles, x[3], x[4], x[5]);
+}
+
+TYPED_TEST(Motion, HoldsTheRotationsOfAllAngles) {
+  using I = typename TypeParam::I;
+  Operands operands(19);
+  for (const AnglesText& angles :
+       {AnglesText{}, AnglesText{AngleKind::kRollPitchYaw}, AnglesText{AngleKind::kZyz}, AnglesText{AngleKind::kAxis},
+        AnglesText{AngleKind::kAxis, {"0.3", "-2", "0.007"}}, AnglesText{AngleKind::kAxis, {"0", "1e-8", "1e8"}}}) {
+    SCOPED_TRACE(name(angles.kind));
+    Problem problem = robot2_sphere();
+    problem.space = coordinate_space(angles);
+    problem.query.clear();
+    const std::size_t count = problem.space.parameters.size();
+    const auto model = [&] {
+      const PrecisionScope precision(std::max<mpfr_prec_t>(TypeParam::kBits, 128));
+      return make_motion_model<I>(problem);
+    }();
+    for (int trial = 0; trial < 60; ++trial) {
+      const double step = std::exp2(-operands.uniform(0, 12));
+      std::array<Waypoint, 2> ends;
+      for (Waypoint& end : ends) {
+        for (std::size_t j = 0; j < count; ++j) {
+          end.x.push_back(ends[0].x.size() > j && &end != &ends[0] ? ends[0].x[j] + step * operands.uniform(-1, 1)
+                                                                   : operands.uniform(-3, 3));
+        }
+        end.half_turns.assign(count, 0);
+      }
+      if (trial % 4 == 0 && count == 6) ends[trial / 4 % 2].x[4] = std::numbers::pi / 2;  // of pitch: gimbal lock
+      const Segment segment = Segment::straight(ends[0], ends[1]);
+      const int depth = operands.pick(6);
+      const double radius = std::ldexp(1.0, -depth - 1);
+      const double lower = 2 * radius * operands.pick(1 << depth);
+      const double mid = lower + radius;
+      const double upper = mid + radius;
+      MotionEnclosure<I> motion;
+      const bool sound =
+          TypeParam::run([&] { motion = enclose_motion(model, segment, I(lower, upper), I(mid), I(-radius, radius)); });
+      ASSERT_TRUE(sound && motion.is_enclosed());
+      const PrecisionScope precision(oracle::kBits);
+      const auto at = [&](double s) {
+        Vector x(6, BigFloat(0.0));
+        for (std::size_t j = 0; j < count; ++j) {
+          x[j] = mixed(segment, s, [&](const Waypoint& w) { return BigFloat(w.x[j]); });
+        }
+        return exact_rotation(angles, x);
+      };
+      const auto at_mid = at(mid);
+      const BigFloat error(1e-45);
+      for (const double s : {lower, mid, operands.uniform(lower, upper), upper}) {
+        const auto exact = at(s);
+        for (std::size_t i = 0; i < 9; ++i) {
+          const SlopeForm<I>& r = motion.r_WP(static_cast<int>(i / 3), static_cast<int>(i % 3));
+          const BigFloat& expected = exact[i / 3][i % 3];
+          EXPECT_TRUE(holds(r.range, expected, error)) << i << " at " << s << " " << print(r.range);
+          EXPECT_TRUE(s != mid || holds(r.at_mid, expected, error)) << i << " " << print(r.at_mid);
+          if (s == mid) continue;
+          const BigFloat quotient = (expected - at_mid[i / 3][i % 3]) / (BigFloat(s) - BigFloat(mid));
+          EXPECT_TRUE(holds(r.slope, quotient, BigFloat(1e-40))) << i << " at " << s;
+        }
+      }
+      if (TypeParam::kBits < 128) continue;
+      // Tight, too: the midpoint is a point.
+      for (int i = 0; i < 9; ++i) EXPECT_LT(spread(motion.r_WP(i / 3, i % 3).at_mid), 1e-30);
+    }
   }
 }
 

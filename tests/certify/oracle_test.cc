@@ -55,7 +55,7 @@ double relative_width(const I& x) {
 
 template <class I>
 Pose<I> exact_pose(const std::vector<double>& q) {
-  return {Vector3<I>(I(q[0]), I(q[1]), I(q[2])), I(q[3]), I(q[4]), I(q[5])};
+  return {Vector3<I>(I(q[0]), I(q[1]), I(q[2])), {I(q[3]), I(q[4]), I(q[5])}};
 }
 
 class PrintedOracle : public ::testing::Test {

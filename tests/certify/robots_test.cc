@@ -49,7 +49,7 @@ std::vector<Interval> lengths_at(const Problem& problem, const std::array<const 
   const Interval zero(0.0);
   const Pose<Interval> pose{Vector3<Interval>(Traits::from_decimal(position_m[0]), Traits::from_decimal(position_m[1]),
                                               Traits::from_decimal(position_m[2])),
-                            zero, zero, zero};
+                            {zero, zero, zero}};
   const CableGeometry<Interval> cables = cable_geometry(make_model<Interval>(problem), pose);
   std::vector<Interval> lengths;
   for (const Vector3<Interval>& cable : cables.p_AB_W) lengths.push_back(length(cable));

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/checker/kernel.h"
 
 namespace taut::checker {
@@ -92,6 +94,44 @@ TEST(Motion, StraightAndSplineSegmentsAreWhereTheirLawsSay) {
     }
   }
   EXPECT_GT(shown_boxes, 100);
+}
+
+TEST(Motion, AnglesGiveTheRotationThatTheyName) {
+  const PrecisionScope oracle(kOracleBits);
+  std::mt19937_64 random(7);
+  int shown_boxes = 0;
+  for (int trial = 0; trial < 240 && !HasFailure(); ++trial) {
+    AnglesText angles{static_cast<taut::AngleKind>(trial % 4)};
+    if (trial % 8 >= 4) angles.axis = {"0.3", "-2", "0.007"};
+    taut::Problem exact = robot(trial);
+    exact.space = coordinate_space(angles);
+    const Problem problem = to_kernel(exact);
+    const std::size_t count = exact.space.parameters.size();
+    Path path;
+    const double step = std::exp(uniform(random, -8, -1));
+    std::vector<double> first = random_coordinates(random);
+    if (trial % 3 == 0) first[4] = std::numbers::pi / 2;  // of pitch: gimbal lock
+    first.resize(count);
+    for (int k = 0; k < 2; ++k) {
+      path.waypoints.push_back(waypoint(near_to(first, step, random)));
+      if (trial % 5 == 0) path.waypoints.back().half_turns[3] = 7;
+    }
+    const Box box = random_box(random);
+    const WorkingPrecision precision(box.bits);
+    const auto whole = geometry(problem, path, 0, box);
+    if (!whole) continue;
+    ++shown_boxes;
+    for (const double u : samples(random, 10)) {
+      const BigFloat s = place(box, u), one(1.0);
+      std::vector<BigFloat> x(6, BigFloat(0.0));
+      for (std::size_t j = 0; j < count; ++j) {
+        const auto at = [&](const Waypoint& w) { return BigFloat(w.x[j]) + oracle::pi() * BigFloat(w.half_turns[j]); };
+        x[j] = (one - s) * at(path.waypoints[0]) + s * at(path.waypoints[1]);
+      }
+      expect_pose(whole->pose, u, {{x[0], x[1], x[2]}, campaign::orientation(angles, x[3], x[4], x[5])});
+    }
+  }
+  EXPECT_GT(shown_boxes, 120);
 }
 
 TEST(Motion, GeodesicsTurnAtAConstantRateTheShorterWay) {

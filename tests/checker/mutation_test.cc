@@ -161,6 +161,14 @@ TEST(Mutation, WithNewDigestsOnlyTrueStatementsPass) {
                    "/problem/robot/(base|platform)_anchors_m: is reversed")}});
 }
 
+TEST(Mutation, OfAnglesOnlyTrueStatementsPass) {
+  const std::string axis = "/problem/space/angles/axis";
+  expect_accepted_mutants("robot1_axis", axis,
+                          {{"Other axes about which the claim holds as well (by the equations of make_bases.py).",
+                            std::regex(axis + "/(0: (changes its sign|becomes 1e-400)|2: gets a leading 2)")}});
+  expect_accepted_mutants("robot1_roll_pitch_yaw", "/problem/space/angles", {});
+}
+
 TEST(Mutation, OfASplineOnlyTrueStatementsPass) { expect_accepted_mutants("spline_flipped", "/path", {}); }
 
 TEST(Mutation, OfAnImpliedMotionOnlyTrueStatementsPass) {

@@ -42,6 +42,7 @@ class Json(InFolder):
         shown = self.printed(TAUT, "show", ROBOT1, code=0)
         validator = jsonschema.Draft202012Validator(OUTPUT, resolver=RESOLVER)
         self.assertTrue(validator.is_valid(shown))
+        self.printed(TAUT, "show", os.path.join(CASES, "robot1-roll-pitch-yaw.yaml"), code=0)
         self.assertFalse(validator.is_valid({**shown, "weather": "fine"}))
         self.assertFalse(validator.is_valid({key: value for key, value in shown.items() if key != "waypoints"}))
 

@@ -39,13 +39,17 @@ class Show(unittest.TestCase):
 
     def test_tensions_balance_the_load(self):
         """With J and w0 computed here, from the exact problem and the pose."""
-        shown = json.loads(run(TAUT, "show", CASE, "--json").stdout)
+        self.check_balance(CASE, lambda pose: turn(pose["phi"], pose["theta"], pose["sigma"]))
+        self.check_balance(os.path.join(CASES, "robot1-roll-pitch-yaw.yaml"), turn_of_roll_pitch_and_yaw)
+
+    def check_balance(self, case, rotation_of):
+        shown = json.loads(run(TAUT, "show", case, "--json").stdout)
         robot, load = shown["problem"]["robot"], shown["problem"]["load"]
         a = [[float(x) for x in p] for p in robot["base_anchors_m"]]
         b = [[float(x) for x in p] for p in robot["platform_anchors_m"]]
         for waypoint in shown["waypoints"]:
             pose = waypoint["pose"]
-            rotation = turn(pose["phi"], pose["theta"], pose["sigma"])
+            rotation = rotation_of(pose)
             total = [0.0] * 3
             for i, cable in enumerate(waypoint["cables"]):
                 end = [pose[c] + sum(rotation[k][j] * b[i][j] for j in range(3)) for k, c in enumerate(("px", "py", "pz"))]
@@ -100,6 +104,19 @@ def turn(phi, theta, sigma):
 
     about_y = [[cos(theta), 0, sin(theta)], [0, 1, 0], [-sin(theta), 0, cos(theta)]]
     return times(times(about_z(phi), about_y), about_z(sigma - phi))
+
+
+def turn_of_roll_pitch_and_yaw(pose):
+    """The turn about x, then about y, then about z, of each of the platform's axes."""
+    from math import cos, sin
+    columns = []
+    for k in range(3):
+        x, y, z = (float(k == j) for j in range(3))
+        y, z = y * cos(pose["roll"]) - z * sin(pose["roll"]), y * sin(pose["roll"]) + z * cos(pose["roll"])
+        z, x = z * cos(pose["pitch"]) - x * sin(pose["pitch"]), z * sin(pose["pitch"]) + x * cos(pose["pitch"])
+        x, y = x * cos(pose["yaw"]) - y * sin(pose["yaw"]), x * sin(pose["yaw"]) + y * cos(pose["yaw"])
+        columns.append((x, y, z))
+    return [list(row) for row in zip(*columns)]
 
 
 class Explain(unittest.TestCase):

@@ -140,6 +140,66 @@ TEST(CaseFile, TravelMayNameAPointAndALengthPerRadian) {
   EXPECT_EQ(parse(sections).planner.travel.per_radian_m, 0);
 }
 
+TEST(CaseFile, AnglesChooseTheCoordinatesOfAPose) {
+  Sections sections;
+  sections.query = "";
+  sections.space = "space: {angles: roll-pitch-yaw, slice: {pz: 350, roll: 0, pitch: 5 deg}}\n";
+  const SpaceText slice = parse(sections).problem.space;
+  EXPECT_EQ(slice.angles, AnglesText{AngleKind::kRollPitchYaw});
+  EXPECT_THAT(slice.pose, ElementsAre("px", "py", "0.35", "0", "(5)*pi/180", "yaw"));
+  ASSERT_EQ(slice.parameters.size(), 3u);
+  EXPECT_EQ(slice.parameters[2].name, "yaw");
+  EXPECT_EQ(slice.parameters[2].kind, ParameterKind::kPeriodic);
+  EXPECT_FALSE(slice.flip);
+
+  sections.space = "space: {angles: zyz}\n";
+  const SpaceText all = parse(sections).problem.space;
+  EXPECT_THAT(all.pose, ElementsAre("px", "py", "pz", "alpha", "beta", "gamma"));
+  EXPECT_EQ(all.parameters[4].kind, ParameterKind::kPeriodic);
+  EXPECT_FALSE(all.flip);
+
+  sections.space = "space: {angles: {axis: [0, 0.50, -1]}, free: {px: [0, 1], py: [0, 1], pz: [0, 1]}}\n";
+  const SpaceText axis = parse(sections).problem.space;
+  EXPECT_EQ(axis.angles.kind, AngleKind::kAxis);
+  EXPECT_THAT(axis.angles.axis, ElementsAre("0", "0.5", "-1"));
+  EXPECT_EQ(axis.parameters.size(), 4u);
+  EXPECT_THAT(axis.pose, ElementsAre("px", "py", "pz", "turn", "0", "0"));
+
+  sections.space = "space: {angles: tilt-and-torsion, slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}}\n";
+  EXPECT_EQ(parse(sections).problem.space.flip, (std::array{0, 1}));
+  sections.space = "space: {angles: roll-pitch-yaw, implicit: ['px - 10*sin(yaw)', 'pitch - 0.1']}\n";
+  EXPECT_THROW(parse(sections), InputError);  // pitch is periodic, and the constraint is not
+  sections.space = "space: {angles: roll-pitch-yaw, implicit: ['px - 10*sin(yaw)', 'sin(pitch) - 0.1']}\n";
+  EXPECT_THAT(parse(sections).problem.space.constraints, ElementsAre("(1000*px) - 10*sin(yaw)", "sin(pitch) - 0.1"));
+}
+
+TEST(CaseFile, UnderstandsTheAnglesOfOthers) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"{slice: {px: 0, py: 0, pz: 350, yaw: 34 deg}}",
+       "got the unknown key 'yaw', which is understood with 'angles: roll-pitch-yaw' under 'space' of the case (it has "
+       "tilt-and-torsion angles), expected px, py, pz, phi, theta, sigma"},
+      {"{slice: {px: 0, py: 0, pz: 350, gamma: 34 deg}}", "'angles: zyz'"},
+      {"{slice: {px: 0, py: 0, pz: 350, torsion: 34 deg}}", "got the unknown key 'torsion', which is called sigma"},
+      {"{slice: {px: 0, py: 0, pz: 350, rz: 34 deg}}", "'angles: roll-pitch-yaw'"},
+      {"{angles: roll-pitch-yaw, slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}}", "'angles: tilt-and-torsion'"},
+      {"{angles: roll-pitch-yaw, implicit: [px*sin(sigma)]}",
+       "got 'sigma', which is understood with 'angles: tilt-and-torsion'"},
+      {"{angles: euler}", "space.angles: got 'euler', expected one of tilt-and-torsion, roll-pitch-yaw, zyz, {axis"},
+      {"{angles: {axis: [0, 0, 0]}}", "space.angles.axis: got [0, 0, 0], expected a direction"},
+      {"{angles: {axis: [0, 1e10, 0]}}", "expected a direction"},
+      {"{angles: {axis: [0, 1]}}", "expected a direction: a list of three numbers"},
+  };
+  for (const auto& [space, message] : mistakes) {
+    Sections sections;
+    sections.query = "";
+    sections.space = std::string("space: ") + space + "\n";
+    expect_rejected(sections, message);
+  }
+  Sections sections;
+  sections.query = "query: {waypoints: [{phi: 1, yaw: 1}, {phi: 1, theta: 1}]}\n";
+  expect_rejected(sections, "got the unknown key 'yaw', which is understood with 'angles: roll-pitch-yaw'");
+}
+
 TEST(CaseFile, ConstraintsAreOfTheParametersInMetres) {
   Sections sections;
   sections.space = "space: {implicit: ['px^2 + py^2 + (pz - 306)^2 - 130^2', 1e3*sigma*px + exp(2*py)]}\n";

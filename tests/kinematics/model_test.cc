@@ -108,9 +108,9 @@ TEST(Model, PoseTapeEvaluatesTheSixExpressions) {
   const std::array<double, 2> parameters = {0.3, 1.1};
   const Pose<double> q = evaluate_pose(pose, std::span<const double>(parameters));
   EXPECT_EQ(q.p_WP, Vector3<double>(0, 0, 0.35));
-  EXPECT_EQ(q.phi, 0.3);
-  EXPECT_EQ(q.theta, 1.1);
-  EXPECT_NEAR(q.sigma, 0.593411945678072, 1e-15);
+  EXPECT_EQ(q.angles[0], 0.3);
+  EXPECT_EQ(q.angles[1], 1.1);
+  EXPECT_NEAR(q.angles[2], 0.593411945678072, 1e-15);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::array<double, 6> random_pose(Operands& operands) {
 
 template <class S>
 Pose<S> pose(const std::array<double, 6>& q) {
-  return {Vector3<S>(S(q[0]), S(q[1]), S(q[2])), S(q[3]), S(q[4]), S(q[5])};
+  return {Vector3<S>(S(q[0]), S(q[1]), S(q[2])), {S(q[3]), S(q[4]), S(q[5])}};
 }
 
 Problem with_full_ellipsoid() {
@@ -126,7 +126,8 @@ TEST(NavigationManifold, TangentIsTheDerivativeOfThePoint) {
         const BigFloat h(0x1p-60);
         const auto moved = [&](const BigFloat& by) {
           Pose<BigFloat> p = pose<BigFloat>(q);
-          BigFloat* const coordinates[] = {&p.p_WP(0), &p.p_WP(1), &p.p_WP(2), &p.phi, &p.theta, &p.sigma};
+          BigFloat* const coordinates[] = {&p.p_WP(0),   &p.p_WP(1),   &p.p_WP(2),
+                                           &p.angles[0], &p.angles[1], &p.angles[2]};
           *coordinates[k] += by;
           NavigationTangent<BigFloat> result;
           EXPECT_TRUE(navigation_tangent(model, p, result));

@@ -219,6 +219,26 @@ TEST(PathFile, NamesSayTheFormat) {
   EXPECT_FALSE(is_certificate_name("a/json"));
 }
 
+TEST(PathFile, AnglesAreThoseOfTheCase) {
+  SpaceText space = coordinate_space({AngleKind::kRollPitchYaw});
+  space.parameters = {{"u", ParameterKind::kReal, "", ""}};
+  const Read path = read("px[m],py[m],pz[m],roll[deg],pitch[rad],yaw[rad]\n0,0,1,180,2,3\n0,0,1,90,2,3\n", space);
+  EXPECT_EQ(path.header.form, PathForm::kAngles);
+  EXPECT_EQ(path.rows[0].x[3], 0x1.921fb54442d18p+1);
+  const std::string own =
+      "waypoint,x.px,x.py,x.pz,x.roll,x.pitch,x.yaw,half_turns.px,half_turns.py,half_turns.pz,"
+      "half_turns.roll,half_turns.pitch,half_turns.yaw\n";
+  EXPECT_EQ(read(own + "0,0,0,1,1,2,3,0,0,0,2,2,-2\n", space).rows[0].half_turns[4], 2);
+  expect_rejected("px[m],py[m],pz[m],phi[rad],theta[rad],sigma[rad]\n0,0,1,1,2,3\n",
+                  "got the unknown column 'phi', which is understood with 'angles: tilt-and-torsion' under 'space'",
+                  space);
+  expect_rejected("px[m],py[m],pz[m],roll[rad],pitch[rad],yaw[rad]\n0,0,1,1,2,3\n",
+                  "got the unknown column 'roll', which is understood with 'angles: roll-pitch-yaw' under 'space'");
+  SpaceText axis = coordinate_space({AngleKind::kAxis});
+  EXPECT_EQ(read("turn[deg],px[m],py[m],pz[m]\n180,0,0,1\n", axis).x(),
+            (std::vector<std::vector<double>>{{0, 0, 1, 0x1.921fb54442d18p+1}}));
+}
+
 TEST(PathFile, QuaternionsHaveUnitLength) {
   const std::string header = "px[m],py[m],pz[m],qx,qy,qz,qw\n";
   EXPECT_EQ(read(header + "0,0,0,0,0.0009,0,1\n0,0,0,0,0,0,0.9991\n").rows.size(), 2u);

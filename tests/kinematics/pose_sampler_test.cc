@@ -66,14 +66,15 @@ TEST(PoseSampler, FollowsLawsOfPoses) {
     const Segment segment = Segment::between(Interpolation::kGeodesic, from, to);
     const Pose<double> middle = sampler.pose(sampler.parameters(segment, 0.5));
     EXPECT_LT((middle.p_WP - (a.p + b.p) / 2).norm(), 1e-15);
-    const Eigen::Quaterniond q = rigid_pose(middle).q;
+    const Eigen::Quaterniond q = sampler.rigid_pose(middle).q;
     EXPECT_NEAR(q.angularDistance(a.q), a.q.angularDistance(b.q) / 2, 1e-12);
     EXPECT_NEAR(q.angularDistance(b.q), a.q.angularDistance(b.q) / 2, 1e-12);
   }
   // Cable lengths: the pose has the lengths that are commanded.
   const Waypoint from = waypoint(a, 1, true), to = waypoint(b, 1, true);
   const Segment segment = Segment::between(Interpolation::kCableLengths, from, to);
-  const auto lengths = cable_lengths(sampler.model(), rigid_pose(sampler.pose(sampler.parameters(segment, 0.25))));
+  const auto lengths =
+      cable_lengths(sampler.model(), sampler.rigid_pose(sampler.pose(sampler.parameters(segment, 0.25))));
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(lengths[i], 0.75 * from.x[7 + i] + 0.25 * to.x[7 + i], 1e-12);
 }
 

@@ -90,7 +90,7 @@ Model<double> axes_robot() {
 // f4 = −Mz, f5 = −Mx, f6 = −My; f1 = Fx + Mz, f2 = Fy + Mx, f3 = Fz + My; v by Pythagoras.
 TEST(Statics, OfCablesAlongTheAxesAreAsByHand) {
   const Model<double> model = axes_robot();
-  const Statics<double> s = statics(model, Pose<double>{Vector3<double>::Zero(), 0, 0, 0});
+  const Statics<double> s = statics(model, Pose<double>{Vector3<double>::Zero(), {0, 0, 0}});
   ASSERT_TRUE(s.regular);
   const double tension[6] = {20, 50, 50, 30, 10, 20};
   const double tension_radius[6] = {std::hypot(3, 0.5), std::hypot(4, 4), 13, 0.5, 4, 12};
@@ -113,8 +113,8 @@ TEST(Statics, BalanceTheWrenchAndVaryByTheDiagonalOfTheInverseOfB) {
   for (const Problem& problem : {robot1_slice(), robot2_sphere(), full}) {
     const Model<double> model = make_model<double>(problem);
     for (int n = 0; n < 300; ++n) {
-      const Pose<double> q{Vector3<double>(uniform(-0.1, 0.1), uniform(-0.1, 0.1), uniform(0.15, 0.4)), uniform(-3, 3),
-                           uniform(0, 1.5), uniform(-0.8, 0.8)};
+      const Pose<double> q{Vector3<double>(uniform(-0.1, 0.1), uniform(-0.1, 0.1), uniform(0.15, 0.4)),
+                           {uniform(-3, 3), uniform(0, 1.5), uniform(-0.8, 0.8)}};
       const Statics<double> s = statics(model, q);
       ASSERT_TRUE(s.regular);
       Matrix6<double> j = cable_geometry(model, q).force_density;
@@ -140,7 +140,7 @@ TEST(Statics, OfASingularPoseAreNotRegularButHaveLengths) {
   Model<double> model = axes_robot();
   model.p_PB[3] = model.p_MB[3] = model.p_PB[0];
   model.p_WA[3] = model.p_WA[0];
-  const Statics<double> s = statics(model, Pose<double>{Vector3<double>::Zero(), 0, 0, 0});
+  const Statics<double> s = statics(model, Pose<double>{Vector3<double>::Zero(), {0, 0, 0}});
   EXPECT_FALSE(s.regular);
   EXPECT_NEAR(s.length[3], 2.0, 1e-15);
   EXPECT_LT(wrench_scale_approx(model, s), -1e300);

@@ -24,7 +24,7 @@ Matrix3<double> rotation_of(const TiltAndTorsion& angles) {
 class Random {
  public:
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Pose<double> pose() {
+  TiltedPose pose() {
     return {Vector3<double>(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)), uniform(-7, 7), uniform(-4, 4),
             uniform(-7, 7)};
   }
@@ -36,7 +36,7 @@ class Random {
 TEST(PoseConversion, QuaternionsAreTheRotationOfTheAngles) {
   Random random;
   for (int trial = 0; trial < 1000; ++trial) {
-    const Pose<double> pose = random.pose();
+    const TiltedPose pose = random.pose();
     const Matrix3<double> expected = rotation(pose.phi, pose.theta, pose.sigma);
     EXPECT_LT((rigid_pose(pose).q.toRotationMatrix() - expected).norm(), 1e-14);
   }
@@ -45,7 +45,7 @@ TEST(PoseConversion, QuaternionsAreTheRotationOfTheAngles) {
 TEST(PoseConversion, AnglesAreThoseOfTheQuaternionNextToThePrevious) {
   Random random;
   for (int trial = 0; trial < 1000; ++trial) {
-    const Pose<double> pose = random.pose();
+    const TiltedPose pose = random.pose();
     const Eigen::Quaterniond q = rigid_pose(pose).q;
     const TiltAndTorsion alone = tilt_and_torsion(q, std::nullopt);
     EXPECT_LT((rotation_of(alone) - q.toRotationMatrix()).norm(), 1e-14);

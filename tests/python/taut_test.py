@@ -94,6 +94,23 @@ class Cases(unittest.TestCase):
         self.assertEqual(len(warnings), 1)
         self.assertRegex(warnings[0], r"^crane:\d+:\d+: load\.ellipsoid\.diagonal: these numbers look like semi-axes")
 
+    def test_in_other_angles(self):
+        slice_of_poses = {"px": 0, "py": 0, "pz": 350, "yaw": "34 deg"}
+        case = taut.Case({**ROBOT, "space": {"angles": "roll-pitch-yaw", "slice": slice_of_poses},
+                          "query": {"waypoints": [{"roll": 0, "pitch": 0}, {"roll": 0.3, "pitch": 0.5}]}})
+        self.assertEqual(case.parameters, ["roll", "pitch"])
+        certificate = taut.plan(case)
+        self.assertEqual(certificate.verdict, "proved")
+        self.assertEqual(json.loads(certificate.text)["problem"]["space"]["angles"], "roll-pitch-yaw")
+        audited = taut.audit(case, {"roll[rad]": [0, 0.1], "pitch[rad]": [0, 0.1]})
+        self.assertEqual(audited.verdict, "proved")
+        half = (0.1 / 2, 0.1 / 2, np.deg2rad(34) / 2)  # roll, pitch, yaw
+        (a, b, c), (x, y, z) = np.cos(half), np.sin(half)
+        expected = [x * b * c - a * y * z, a * y * c + x * b * z, a * b * z - x * y * c, a * b * c + x * y * z]
+        self.assertAlmostEqual(abs(np.dot(audited.samples().quaternion[-1], expected)), 1, places=14)
+        with self.assertRaisesRegex(taut.InputError, "'yaw', which is understood with 'angles: roll-pitch-yaw'"):
+            taut.Case({**ROBOT, "query": {"waypoints": [{"phi": 0, "yaw": 0}, {"phi": 1, "theta": 0}]}})
+
     def test_of_text(self):
         with open(ROBOT1, encoding="utf-8") as file:
             self.assertEqual(taut.Case(file.read()).name, "robot1-slice-qs-qg")

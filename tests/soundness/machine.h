@@ -56,6 +56,24 @@ Rows<S> orientation(const S& phi, const S& theta, const S& sigma) {
   return rz(phi) * ry * rz(sigma - phi);
 }
 
+/// Of a pose's angles, as products of quaternions' rotations about fixed axes where they are not tilt and torsion.
+template <class S>
+Rows<S> orientation(const AnglesText& angles, const S& x, const S& y, const S& z) {
+  const S zero(0.0);
+  switch (angles.kind) {
+    case AngleKind::kTiltAndTorsion: break;
+    case AngleKind::kRollPitchYaw:
+      return turn(Vec<S>{zero, zero, z}) * turn(Vec<S>{zero, y, zero}) * turn(Vec<S>{x, zero, zero});
+    case AngleKind::kZyz:
+      return turn(Vec<S>{zero, zero, x}) * turn(Vec<S>{zero, y, zero}) * turn(Vec<S>{zero, zero, z});
+    case AngleKind::kAxis: {
+      const Vec<S> n{number<S>(angles.axis[0]), number<S>(angles.axis[1]), number<S>(angles.axis[2])};
+      return turn((x / root(dot(n, n))) * n);
+    }
+  }
+  return orientation(x, y, z);
+}
+
 template <class S>
 struct RigidPose {
   Vec<S> p;

@@ -175,6 +175,7 @@ struct Tally {
   /// lengths with a bad reference, and with a lost row.
   std::array<Decades, 6> decades;
   std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
+  std::array<std::array<Count, 3>, 4> angles;  ///< of each AngleKind: proved, refuted, undecided
   Count wrong{0}, looked_at{0}, violated_elsewhere{0};
   Count crossing{0}, crossing_refuted{0};  ///< segments along which det J changes its sign
   Count surveyed{0};
@@ -225,6 +226,8 @@ class Judge {
     examine_kernel(segment, proof);
     Decades& decades = tally_.decades[table()];
     const auto d = static_cast<std::size_t>(decade_);
+    const auto kind = static_cast<std::size_t>(trial_.problem.space.angles.kind);
+    ++tally_.angles[kind][static_cast<std::size_t>(proof.verdict)];
     if (proof.verdict == Verdict::kUndecided && !violated_ && has_tolerances() && is_violated_elsewhere()) {
       ++counts.undecided;
       ++tally_.violated_elsewhere;
@@ -733,6 +736,28 @@ double print_decades(const Decades& table, const char* title, const char* unit, 
   return static_cast<double>(decided) / static_cast<double>(std::max(1L, clear));
 }
 
+/// Verdicts by law and tolerances, and by angles.
+void print_counts(const Tally& tally) {
+  fmt::print("law            tolerances    trials  skipped   proved  refuted undecided  boxes/trial  in MPFR\n");
+  for (std::size_t l = 0; l < kLaws; ++l) {
+    for (std::size_t t = 0; t < kToleranceKinds; ++t) {
+      const Counts& c = tally.counts[l][t];
+      if (c.trials == 0) continue;
+      const long judged = std::max(1L, c.trials - c.skipped);
+      fmt::print("{:<14} {:<10} {:9d} {:8d} {:8d} {:8d} {:9d} {:12.1f} {:8.3f}\n", kLawNames[l], kToleranceNames[t],
+                 c.trials.load(), c.skipped.load(), c.proved.load(), c.refuted.load(), c.undecided.load(),
+                 static_cast<double>(c.boxes) / static_cast<double>(judged),
+                 static_cast<double>(c.multiprecision) / static_cast<double>(judged));
+    }
+  }
+  for (const AngleKind kind :
+       {AngleKind::kTiltAndTorsion, AngleKind::kRollPitchYaw, AngleKind::kZyz, AngleKind::kAxis}) {
+    const auto& [proved, refuted, undecided] = tally.angles[static_cast<std::size_t>(kind)];
+    fmt::print("angles {:<16} {:8d} proved {:8d} refuted {:8d} undecided\n", name(kind), proved.load(), refuted.load(),
+               undecided.load());
+  }
+}
+
 int run(const Options& options, double budget) {
   rounding_self_test();
   const long chunk = budget > 0 ? 512 : 65536;  // each ends on one thread
@@ -750,18 +775,7 @@ int run(const Options& options, double budget) {
   }
   const double elapsed = seconds();
 
-  fmt::print("law            tolerances    trials  skipped   proved  refuted undecided  boxes/trial  in MPFR\n");
-  for (std::size_t l = 0; l < kLaws; ++l) {
-    for (std::size_t t = 0; t < kToleranceKinds; ++t) {
-      const Counts& c = tally.counts[l][t];
-      if (c.trials == 0) continue;
-      const long judged = std::max(1L, c.trials - c.skipped);
-      fmt::print("{:<14} {:<10} {:9d} {:8d} {:8d} {:8d} {:9d} {:12.1f} {:8.3f}\n", kLawNames[l], kToleranceNames[t],
-                 c.trials.load(), c.skipped.load(), c.proved.load(), c.refuted.load(), c.undecided.load(),
-                 static_cast<double>(c.boxes) / static_cast<double>(judged),
-                 static_cast<double>(c.multiprecision) / static_cast<double>(judged));
-    }
-  }
+  print_counts(tally);
   const std::array<double, 4> share = {
       print_decades(tally.decades[0], "Paths of poses, without tolerances", "range", -kDecades, -9),
       print_decades(tally.decades[1], "Paths of cable lengths, without tolerances", "range", -kDecades, -9),

@@ -46,6 +46,10 @@ const auto five_coordinates = []<class S>(const std::vector<S>& q) {
   return Six<S>{q[0], q[1], q[2], q[3], q[4], S(0.0)};
 };
 
+const auto turned_coordinates = []<class S>(const std::vector<S>& q) {
+  return Six<S>{q[0], q[1], q[2], q[3], S(0.0), S(0.0)};
+};
+
 const auto six_coordinates = []<class S>(const std::vector<S>& q) {
   return Six<S>{q[0], q[1], q[2], q[3], q[4], q[5]};
 };
@@ -259,6 +263,30 @@ std::vector<double> random_coordinates(Random& random, double size) {
   return q;
 }
 
+/// Free coordinates with other angles than tilt and torsion. Some begin where two of these turn about one axis.
+void choose_angles(Trial& trial, Random& random, bool constrained) {
+  const std::vector<ExpressionText> constraints = trial.problem.space.constraints;
+  AnglesText angles{random() % 2 == 0 ? AngleKind::kRollPitchYaw : AngleKind::kZyz};
+  if (!constrained && one_in(random, 3)) {
+    angles.kind = AngleKind::kAxis;
+    const double length = std::pow(10.0, uniform(random, -3, 3));
+    for (DecimalText& x : angles.axis) x = one_in(random, 3) ? "0" : decimal(length * uniform(random, -1, 1));
+    if (std::ranges::count(angles.axis, "0") == 3) angles.axis[2] = "-1";
+    for (Waypoint& waypoint : trial.controls) {
+      waypoint.x.resize(4);
+      waypoint.half_turns.resize(4);
+    }
+    set_pose(trial, turned_coordinates);
+  } else if (one_in(random, 4)) {
+    const double locked = angles.kind == AngleKind::kRollPitchYaw ? 0x1.921fb54442d18p+0 : 0;
+    const double shift = locked - trial.controls[0].x[4];
+    for (Waypoint& waypoint : trial.controls) waypoint.x[4] += shift;
+  }
+  trial.problem.space = coordinate_space(angles);
+  trial.problem.space.constraints = constraints;
+  trial.problem.query.clear();
+}
+
 void choose_space(Trial& trial, Random& random, bool constrained) {
   static const Problem slice = testing::robot1_slice();
   static const Problem sphere = testing::robot2_sphere();
@@ -290,6 +318,7 @@ void choose_space(Trial& trial, Random& random, bool constrained) {
     walk(trial, random, {trial.size, trial.size, trial.size, 1, 1, 1});
     set_pose(trial, six_coordinates);
     if (constrained) put_on_sphere(trial);
+    if (one_in(random, 2)) choose_angles(trial, random, constrained);
     return;
   }
   trial.size = 0.3;
@@ -523,7 +552,7 @@ RigidPose<S> Motion<S>::reference(const S& s) const {
   } else {
     pose = trial_.pose(parameters_at(trial_, s));
   }
-  return {{pose[0], pose[1], pose[2]}, orientation(pose[3], pose[4], pose[5])};
+  return {{pose[0], pose[1], pose[2]}, orientation(trial_.problem.space.angles, pose[3], pose[4], pose[5])};
 }
 
 template <class S>

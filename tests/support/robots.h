@@ -22,14 +22,14 @@ inline Problem robot2_sphere() { return load_case(TAUT_SOURCE_DIR "/cases/robot2
 inline Problem robot2_implicit_sphere(bool sigma_free) {
   Problem problem = robot2_sphere();
   problem.space = SpaceText{};
+  const std::vector<std::string> names = pose_names(AngleKind::kTiltAndTorsion);
   for (std::size_t j = 0; j < 6; ++j) {
     const bool turns = j == 3 || j == 5;
-    problem.space.pose[j] = kPoseNames[j];
+    problem.space.pose[j] = names[j];
     if (j == 5 && !sigma_free) {
       problem.space.pose[j] = "0";
     } else {
-      problem.space.parameters.push_back(
-          {kPoseNames[j], turns ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
+      problem.space.parameters.push_back({names[j], turns ? ParameterKind::kPeriodic : ParameterKind::kReal, "", ""});
     }
   }
   problem.space.constraints = {"px + 0.13*sin(theta)*cos(phi)", "py + 0.13*sin(theta)*sin(phi)",
@@ -46,8 +46,9 @@ inline Waypoint at(std::vector<double> x) {
 /// The same robot and load with all six pose coordinates free.
 inline Problem free_flying(Problem problem) {
   problem.space = SpaceText{};
-  for (const char* name : kPoseNames) problem.space.parameters.push_back({name, ParameterKind::kReal, "", ""});
-  for (std::size_t j = 0; j < 6; ++j) problem.space.pose[j] = kPoseNames[j];
+  const std::vector<std::string> names = pose_names(AngleKind::kTiltAndTorsion);
+  for (const std::string& name : names) problem.space.parameters.push_back({name, ParameterKind::kReal, "", ""});
+  std::ranges::copy(names, problem.space.pose.begin());
   return problem;
 }
 
