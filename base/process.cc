@@ -2,8 +2,10 @@
 #include "base/process.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -30,6 +32,24 @@ void write_to_stderr(const char* text) { static_cast<void>(!::write(STDERR_FILEN
 }
 
 extern "C" void end_at_abort(int /*signal*/) { end_with("aborted"); }
+
+extern "C" void end_at_fault(int /*signal*/) { end_with("out of memory for the stack, or a fault"); }
+
+/// Where memory is limited the stack may find none to grow into, which is a segmentation fault. It is handled on a stack
+/// of its own. Elsewhere faults stay what they are, for debuggers and sanitizers.
+void end_where_the_stack_cannot_grow() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  constexpr std::size_t kBytes = std::size_t{64} << 10U;
+  static std::array<char, kBytes> memory;
+  stack_t stack{};
+  stack.ss_sp = memory.data();
+  stack.ss_size = memory.size();
+  struct sigaction action {};
+  action.sa_handler = end_at_fault;
+  action.sa_flags = SA_ONSTACK;
+  if (::sigaltstack(&stack, nullptr) == 0) static_cast<void>(::sigaction(SIGSEGV, &action, nullptr));
+}
 
 [[noreturn]] void end_at_terminate() {
   if (const std::exception_ptr thrown = std::current_exception()) {
@@ -60,6 +80,7 @@ void prepare_process(const char* program, const char* code) noexcept {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) replace_if_closed(descriptor);
   std::signal(SIGABRT, end_at_abort);
   std::set_terminate(end_at_terminate);
+  end_where_the_stack_cannot_grow();
 }
 
 }  // namespace taut

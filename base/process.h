@@ -9,8 +9,8 @@ namespace taut {
 ///
 /// Standard streams that are closed are replaced by ones on which every use fails. Otherwise a file opened later would
 /// take the number of the stream, and messages would be written into it. Whatever would abort the program (an exception
-/// that cannot be caught, GMP without memory, a failed assertion) writes a line to stderr and ends the program with
-/// exit code 4, an internal failure.
+/// that cannot be caught, GMP without memory, a failed assertion, a stack that cannot grow under a limit of memory)
+/// writes a line to stderr and ends the program with exit code 4, an internal failure.
 void prepare_process(const char* program, const char* code) noexcept;
 
 }  // namespace taut

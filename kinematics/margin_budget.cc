@@ -295,20 +295,28 @@ double MarginBudget::share(const Uncertainty& uncertainty) const {
 }
 
 struct MarginDifferentiator::Data {
+  Data(const Problem& of, bool is_length_controlled)
+      : problem(of),
+        plain(make_model<double>(of)),
+        model(seeded<double>(of)),
+        sizes(sizes_of(of.tolerances)),
+        stated(stated_uncertainties(of)),
+        length_controlled(is_length_controlled) {}
+
+  Problem problem;
   Model<double> plain;
-  std::vector<Vector3<double>> places;                               ///< of items
-  std::vector<std::pair<std::string, LoadModel<double>>> deviating;  ///< items that do, each alone
+  std::vector<Vector3<double>> places{};                               ///< of items
+  std::vector<std::pair<std::string, LoadModel<double>>> deviating{};  ///< items that do, each alone
   Model<Inner<double>> model;
-  Model<Inner<Outer>> varied;
   Sizes sizes;
   std::vector<Uncertainty> stated;
-  std::vector<std::string> weights;  ///< the names of items that are, by their index; else empty
+  std::vector<std::string> weights{};  ///< the names of items that are, by their index; else empty
   bool length_controlled;
 
   /// What each deviating item may take of the tensions' margins at a pose, in the order of all_margins().
   [[nodiscard]] std::vector<std::vector<double>> item_losses(const RigidPose& pose) const;
   /// The derivative of what is left of a margin by the outer variable.
-  [[nodiscard]] double derivative(Model<Inner<Outer>> changed, const RigidPose& pose, MarginId margin) const;
+  [[nodiscard]] double derivative(Model<Inner<Outer>>& changed, const RigidPose& pose, MarginId margin) const;
 };
 
 std::vector<std::vector<double>> MarginDifferentiator::Data::item_losses(const RigidPose& pose) const {
@@ -332,7 +340,7 @@ std::vector<std::vector<double>> MarginDifferentiator::Data::item_losses(const R
   return result;
 }
 
-double MarginDifferentiator::Data::derivative(Model<Inner<Outer>> changed, const RigidPose& pose,
+double MarginDifferentiator::Data::derivative(Model<Inner<Outer>>& changed, const RigidPose& pose,
                                               MarginId margin) const {
   set_arms(changed, places);
   const Statics<Inner<Outer>> at = statics_at(changed, pose);
@@ -345,15 +353,7 @@ double MarginDifferentiator::Data::derivative(Model<Inner<Outer>> changed, const
 }
 
 MarginDifferentiator::MarginDifferentiator(const Problem& problem, bool length_controlled) {
-  auto data = std::make_unique<Data>(Data{.plain = make_model<double>(problem),
-                                          .places = {},
-                                          .deviating = {},
-                                          .model = seeded<double>(problem),
-                                          .varied = seeded<Outer>(problem),
-                                          .sizes = sizes_of(problem.tolerances),
-                                          .stated = stated_uncertainties(problem),
-                                          .weights = {},
-                                          .length_controlled = length_controlled});
+  auto data = std::make_unique<Data>(problem, length_controlled);
   data->places = item_places(data->plain);
   set_arms(data->model, data->places);
   const std::vector<std::string> deviating = deviating_items(problem.load);
@@ -394,11 +394,13 @@ std::optional<std::array<MarginBudget, std::size_t{4} * kCables>> MarginDifferen
 
 std::vector<Derivative> MarginDifferentiator::derivatives(const RigidPose& pose, MarginId margin) const {
   std::vector<Derivative> result;
+  // Models of nested jets are too large for a stack.
+  const auto varied = std::make_unique<const Model<Inner<Outer>>>(seeded<Outer>(data_->problem));
   const bool has_wrench = data_->plain.has_ellipsoid;
   for (int variable = 0; variable < (has_wrench ? kDesign : kLoadPoint); ++variable) {
-    Model<Inner<Outer>> model = data_->varied;
-    vary(model, variable);
-    result.push_back({design_parameter(variable), data_->derivative(model, pose, margin)});
+    const auto model = std::make_unique<Model<Inner<Outer>>>(*varied);
+    vary(*model, variable);
+    result.push_back({design_parameter(variable), data_->derivative(*model, pose, margin)});
   }
   if (has_wrench) {
     double by_weight = 0;
@@ -409,11 +411,11 @@ std::vector<Derivative> MarginDifferentiator::derivatives(const RigidPose& pose,
   }
   for (std::size_t n = 0; n < data_->weights.size(); ++n) {
     if (data_->weights[n].empty()) continue;
-    Model<Inner<Outer>> model = data_->varied;
-    Outer& mass = model.loads.items[n].nominal.value;
+    const auto model = std::make_unique<Model<Inner<Outer>>>(*varied);
+    Outer& mass = model->loads.items[n].nominal.value;
     mass = Outer(mass.value, 0);
     const Uncertainty item(UncertaintyKind::kLoadItem, data_->weights[n]);
-    result.push_back({parameter(DesignParameter::Kind::kMass, item), data_->derivative(model, pose, margin)});
+    result.push_back({parameter(DesignParameter::Kind::kMass, item), data_->derivative(*model, pose, margin)});
   }
   const bool is_lower = margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
   for (const MarginId id : all_margins()) {

@@ -167,8 +167,8 @@ class Loads(unittest.TestCase):
     def test_an_ellipsoid_around_items_takes_their_place(self):
         around = ITEMS.replace("  items:", "  ellipsoid: around_items\n  items:")
         said = self.run_on(around, "show").stdout
-        for words in ("In all 19.76 to 20.24 t", "payload: 11.76 to 12.24 t", "the load is one ellipsoid, the smallest",
-                      "about the load point (0, 0, -720) mm", "ellipsoid: differs from the nominal load in"):
+        for words in ("In all 19.76 to 20.24 t", "'payload': 11.76 to 12.24 t", "the load is one ellipsoid, the smallest",
+                      "about the load point (0, 0, -720) mm", "'ellipsoid': differs from the nominal load in"):
             self.assertIn(words, said)
         load = json.loads(self.run_on(around, "show", "--json").stdout)["load"]
         self.assertEqual(load["around_items"]["mass_kg"], [19760, 20240])

@@ -54,7 +54,7 @@ Problem robot_with_items() {
 
 RigidPose pose_of(const Problem& problem) {
   const PoseSampler sampler(problem);
-  return rigid_pose(sampler.pose(Waypoint{{0.5, 0.3}, {0, 0}}));
+  return sampler.rigid_pose(sampler.pose(Waypoint{{0.5, 0.3}, {0, 0}}));
 }
 
 DecimalText* text_of(Problem& problem, const DesignParameter& parameter) {

@@ -75,8 +75,8 @@ TEST(Case, SaysTheLoadAndWhatMayNotBeMeant) {
   const taut::Case crane = taut::Case::load(kCases + "cranes/portal-20t.yaml");
   EXPECT_THAT(
       crane.load_statement(),
-      testing::ElementsAre(HasSubstr("In all 19.76 to 20.24 t"), HasSubstr("Extremes of"), HasSubstr("platform: 8 t"),
-                           HasSubstr("payload: 11.76 to"), HasSubstr("wind: a force of up to 6 kN")));
+      testing::ElementsAre(HasSubstr("In all 19.76 to 20.24 t"), HasSubstr("Extremes of"), HasSubstr("'platform': 8 t"),
+                           HasSubstr("'payload': 11.76 to"), HasSubstr("'wind': a force of up to 6 kN")));
   for (const std::string& line : crane.load_statement()) EXPECT_THAT(crane.summary(), HasSubstr(line));
   EXPECT_TRUE(crane.warnings().empty());
   std::string text = content_of(kCases + "cranes/portal-20t.yaml");
