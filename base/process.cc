@@ -35,8 +35,8 @@ extern "C" void end_at_abort(int /*signal*/) { end_with("aborted"); }
 
 extern "C" void end_at_fault(int /*signal*/) { end_with("out of memory for the stack, or a fault"); }
 
-/// Where memory is limited the stack may find none to grow into, which is a segmentation fault. It is handled on a stack
-/// of its own. Elsewhere faults stay what they are, for debuggers and sanitizers.
+/// Where memory is limited the stack may find none to grow into, which is a segmentation fault. It is handled on a
+/// stack of its own. Elsewhere faults stay what they are, for debuggers and sanitizers.
 void end_where_the_stack_cannot_grow() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;

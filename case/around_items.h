@@ -10,8 +10,8 @@ namespace taut::case_fields {
 /// the platform; docs/theory.md, "An ellipsoid around items", has the proof. The ellipsoid is about the nominal centre
 /// of gravity of the weights, or about load.point_m where there are none. It is decided in exact arithmetic that it
 /// contains the items.
-/// @pre `load` is valid, and has items but no ellipsoid. @param arm_m  the size of the platform, > 0 [m]: how a force so
-/// small that it doesn't matter compares with a moment
+/// @pre `load` is valid, and has items but no ellipsoid. @param arm_m  the size of the platform, > 0 [m]: how a force
+/// so small that it doesn't matter compares with a moment
 /// @throws InputError where numbers are so far apart that no ellipsoid is found.
 [[nodiscard]] LoadText ellipsoid_around_items(const LoadText& load, double arm_m);
 

@@ -137,8 +137,8 @@ void set_free(Space& space, std::size_t i, const Units& units) {
   space.units.push_back(pose_unit(units, i));
 }
 
-/// Sets the space's flip if phi and theta of tilt and torsion are free: (phi, theta) and (phi + pi, -theta) are then the
-/// same pose.
+/// Sets the space's flip if phi and theta of tilt and torsion are free: (phi, theta) and (phi + pi, -theta) are then
+/// the same pose.
 void set_flip(SpaceText& space) {
   if (space.angles.kind != AngleKind::kTiltAndTorsion) return;
   const auto index = [&](const std::string& name) {

@@ -144,8 +144,8 @@ typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& mod
 template <class I, std::size_t N>
 using Forms = std::array<std::array<SlopeForm<I>, N>, kCables>;
 
-/// Adds what items do (kinematics/loads.h). The last columns of `forms` are D^-1; `remaining` is the nominal wrench less
-/// that of `densities`.
+/// Adds what items do (kinematics/loads.h). The last columns of `forms` are D^-1; `remaining` is the nominal wrench
+/// less that of `densities`.
 template <class I, std::size_t N>
 void add_items(const Model<I>& model, const LoadsAtPose<SlopeForm<I>>& loads, const Vector6<SlopeForm<I>>& remaining,
                const Forms<I, N>& forms, const I& offset, Densities<I>& densities) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The heart: enclosures of lengths, tensions and margins over one box of one segment.
 //
-// Over a box T with midpoint m, D^-1 is enclosed with its slopes (inverse_bound.h). Hence centred forms of the densities
-// λ = D^-1 w of the nominal wrench, of how far K moves them (the rows of D^-1 L for an ellipsoid, kinematics/loads.h for
-// items), of the least and the greatest tension, d_i times these, and of the margins
+// Over a box T with midpoint m, D^-1 is enclosed with its slopes (inverse_bound.h). Hence centred forms of the
+// densities λ = D^-1 w of the nominal wrench, of how far K moves them (the rows of D^-1 L for an ellipsoid,
+// kinematics/loads.h for items), of the least and the greatest tension, d_i times these, and of the margins
 //   low_i − f_lo, f_hi − high_i, d_i − d_lo, d_hi − d_i.
 // Proof of each step: docs/theory.md, "A box" and "Loads".
 #pragma once

@@ -62,9 +62,8 @@ using HeadroomProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Seeks the largest provable share of all uncertainties and of each alone, to within some 3 %, by bisection around
 /// what floating point expects. Of a proved path, tolerances that are not stated grow from nothing; that of cable
-/// lengths only where lengths are controlled, and that of the load along w0; with load items, neither that of the load nor
-/// that of its point. A share that has not been proved when
-/// `stop` is requested is not stated.
+/// lengths only where lengths are controlled, and that of the load along w0; with load items, neither that of the load
+/// nor that of its point. A share that has not been proved when `stop` is requested is not stated.
 /// @param verdict       of the path with the problem as it is
 /// @param wrench_scale  its proved margin, if the path is proved: without tolerances, that is the share
 [[nodiscard]] Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict,

@@ -5,8 +5,8 @@
 //   Y = D^-1,  f0_i = d_i (Y w0)_i,  v_ii = d_i |y_i L|,  E^-1 = L L^T,  y_i the i-th row of Y                (4)–(6)
 //
 // Where K is an ellipsoid, tensions fill [f0_i − v_ii, f0_i + v_ii]; items of loads (loads.h) add to f0 and to what is
-// below and above it. A pose is wrench-feasible when that range lies inside (f_lo, f_hi) and d_i inside (d_lo, d_hi) for
-// all six cables.
+// below and above it. A pose is wrench-feasible when that range lies inside (f_lo, f_hi) and d_i inside (d_lo, d_hi)
+// for all six cables.
 // For an enclosing scalar everything returned is an enclosure; where the inverse does not exist (or can't be enclosed)
 // the result is not `regular`. Segments are proved by certify/box_proof.h, which is tighter over a range of poses.
 #pragma once

@@ -29,8 +29,8 @@ class PathLength {
   [[nodiscard]] const char* unit() const;
 
   /// Length of the motion from a to b (edge_motion.h): rotation angle [rad], distance travelled by the origin [m],
-  /// distance travelled by a point plus a length per radian turned [m], or length in the parameters. Never less than distance(a, b); its relative error is of fourth order in the distance
-  /// between samples.
+  /// distance travelled by a point plus a length per radian turned [m], or length in the parameters. Never less than
+  /// distance(a, b); its relative error is of fourth order in the distance between samples.
   [[nodiscard]] double along(const Coordinates& a, const Coordinates& b) const;
 
   /// Length of the shortest motion between the two poses without limits: the angle ‖log(R_a^T R_b)‖ [rad], the arc on

@@ -44,8 +44,8 @@ struct RobotText {
 /// E, symmetric positive definite [1/N^2, 1/(N m)^2]; 1/36 is no decimal.
 using EllipsoidText = std::array<std::array<RationalText, 6>, 6>;
 
-/// The set K of wrenches: the sum of the items and of { w0 + e : e' E e <= 1 }, where there is an E. There are items, or
-/// there is an E, or both.
+/// The set K of wrenches: the sum of the items and of { w0 + e : e' E e <= 1 }, where there is an E. There are items,
+/// or there is an E, or both.
 struct LoadText {
   std::array<DecimalText, 3> point_m;                               ///< p_m in P [m]
   std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};  ///< w0: force [N], moment about P_m [N m], in W
@@ -128,8 +128,8 @@ struct Problem {
   std::vector<std::vector<ExpressionText>> query;
 };
 
-/// What a message may add where `word` is a coordinate of other angles than `chosen`: "which is understood with 'angles:
-/// roll-pitch-yaw' …, ". It ends with a space; empty where there is nothing to add.
+/// What a message may add where `word` is a coordinate of other angles than `chosen`: "which is understood with
+/// 'angles: roll-pitch-yaw' …, ". It ends with a space; empty where there is nothing to add.
 [[nodiscard]] std::string angles_hint(const std::string& word, AngleKind chosen);
 
 /// Whether coordinate i of a pose is an angle whose values 2π apart are the same pose, whatever the others are, and is
@@ -141,9 +141,9 @@ struct Problem {
 [[nodiscard]] SpaceText coordinate_space(const AnglesText& angles = {});
 
 /// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, a load with items or
-/// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions that
-/// parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0, and
-/// either no waypoints or at least two, with one finite value for each parameter, within its range up to rounding.
+/// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions
+/// that parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0,
+/// and either no waypoints or at least two, with one finite value for each parameter, within its range up to rounding.
 /// @throws FieldError
 void validate(const Problem& problem);
 

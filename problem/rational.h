@@ -17,8 +17,8 @@ using Rational = boost::multiprecision::cpp_rational;
 /// Digits that the numerator and the denominator of "a/b" may have.
 inline constexpr std::size_t kMaxFractionDigits = 300;
 
-/// Reads a decimal literal as Decimal::parse() does, or "a/b" with digits only, b > 0 and perhaps a minus sign in front.
-/// @throws InputError with the text seen and what was expected.
+/// Reads a decimal literal as Decimal::parse() does, or "a/b" with digits only, b > 0 and perhaps a minus sign in
+/// front. @throws InputError with the text seen and what was expected.
 [[nodiscard]] Rational parse_rational(std::string_view text);
 
 /// The canonical text of the value: that of the decimal if it is a finite one, else "a/b" in lowest terms. @throws
@@ -33,8 +33,8 @@ inline constexpr std::size_t kMaxFractionDigits = 300;
 /// A decimal that is not below the square root of x >= 0, and above it by less than 1e-12 of it.
 [[nodiscard]] Rational root_above(const Rational& x);
 
-/// The value in scalar S: an enclosure if S encloses. @pre parse_rational(text) succeeds, and the rounding mode is the one
-/// that divisions of S need.
+/// The value in scalar S: an enclosure if S encloses. @pre parse_rational(text) succeeds, and the rounding mode is the
+/// one that divisions of S need.
 template <class S>
 [[nodiscard]] S from_rational(const RationalText& text) {
   const std::size_t slash = text.find('/');

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by ./taut, ./taut-check, ./taut-python and ./test, with `root` set to the source tree: builds build/release when it is
-# out of date. Anything that goes wrong here exits with 4, taut's code for an internal failure.
+# Sourced by ./taut, ./taut-check, ./taut-python and ./test, with `root` set to the source tree: builds build/release
+# when it is out of date. Anything that goes wrong here exits with 4, taut's code for an internal failure.
 # shellcheck shell=bash
 # shellcheck disable=SC2154  # root
 
@@ -15,7 +15,8 @@ is_current() {
   [[ -x $build/cli/taut && -x $build/checker/taut-check && -r $stamp ]] || return
   read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
   newer=$(find "$root"/{base,problem,case,kinematics,path_io,atlas,certify,planner} \
-    "$root"/{checker,certificate,reports,app,api,cli,cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
+    "$root"/{checker,certificate,reports,app,api,cli,cmake,scripts} \
+    "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
     -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
 }

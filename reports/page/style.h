@@ -45,7 +45,10 @@ code, .digest, td { overflow-wrap: anywhere; }
 pre { background: var(--tile); padding: 12px 14px; border-radius: 6px; white-space: pre-wrap; overflow-wrap: anywhere; }
 .soft, .note { color: var(--soft); }
 .note { font-size: 14px; }
-.masthead { display: flex; flex-wrap: wrap; justify-content: space-between; gap: 4px 28px; font-size: 14px; color: var(--soft); }
+.masthead {
+  display: flex; flex-wrap: wrap; justify-content: space-between; gap: 4px 28px;
+  font-size: 14px; color: var(--soft);
+}
 .masthead p, .masthead dl { margin: 0; }
 .masthead dl { display: flex; flex-wrap: wrap; gap: 4px 24px; }
 .masthead dl > div { display: flex; gap: 8px; }
@@ -60,7 +63,10 @@ pre { background: var(--tile); padding: 12px 14px; border-radius: 6px; white-spa
 .verdict.undecided, .verdict.unchecked { border-color: var(--undecided); }
 .verdict.undecided p:first-child, .verdict.unchecked p:first-child { color: var(--undecided); }
 .facts { margin: 14px 0; font-size: 14.5px; line-height: 1.45; }
-.facts > div { display: grid; grid-template-columns: 110px 1fr; gap: 16px; padding: 5px 0; border-top: 1px solid var(--line); }
+.facts > div {
+  display: grid; grid-template-columns: 110px 1fr; gap: 16px;
+  padding: 5px 0; border-top: 1px solid var(--line);
+}
 .facts dt { color: var(--soft); font-weight: 600; }
 .facts dd { margin: 0; overflow-wrap: anywhere; }
 .facts .not_covered dt, .facts .not_covered dd { font-weight: 600; color: var(--ink); }

@@ -42,8 +42,8 @@ std::string quantity(const DecimalText& value, bool length, const DisplayUnits& 
   return fmt::format("{} {}", units.of(length).exact(value), units.of(length).name());
 }
 
-/// A number of a witness, rounded to as few digits as show it beyond the limit, in the direction that keeps the sentence
-/// true.
+/// A number of a witness, rounded to as few digits as show it beyond the limit, in the direction that keeps the
+/// sentence true.
 std::string shortened(const PathWitness& witness, const DecimalText& value, bool up, const DisplayUnits& units) {
   const double x = number(value);
   for (const int digits : {4, 6, 9, 12, 15}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loads that are stated as items, against explicit loads (tests/soundness/loads.h): the range of a density is reached and
-// never left, centred forms enclose it, and the extremal loads of a box are its derivatives (Danskin's theorem).
+// Loads that are stated as items, against explicit loads (tests/soundness/loads.h): the range of a density is reached
+// and never left, centred forms enclose it, and the extremal loads of a box are its derivatives (Danskin's theorem).
 #include "kinematics/loads.h"
 
 #include <fmt/format.h>
@@ -127,8 +127,8 @@ TEST(Loads, DensitiesFillTheRangeOfExplicitLoads) {
 }
 
 TEST(Loads, AWeightInAnyBallOfMassesAndPlaces) {
-  // By hand: 2 kg or 4 kg, at most 0.5 m off below the load point, under 10 m/s^2. A pure force row sees the mass alone, a
-  // pure moment row the offset alone.
+  // By hand: 2 kg or 4 kg, at most 0.5 m off below the load point, under 10 m/s^2. A pure force row sees the mass
+  // alone, a pure moment row the offset alone.
   LoadText load;
   load.point_m = {"0", "0", "0"};
   load.gravity_m_s2 = {"0", "0", "-10"};

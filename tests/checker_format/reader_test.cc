@@ -126,7 +126,8 @@ Json load_of_items() {
   return Json::parse(R"({"point_m": ["0", "0", "-0.4"], "gravity_m_s2": ["0", "0", "-9.81"], "items": [
     {"name": "payload", "weight": {"mass_kg": ["2", "35/11"], "at_m": ["0", "1/7", "0"], "at_tolerance_m": "0.05"}},
     {"name": "any", "force": {"ball": {"radius": "1/3"}, "axes": "W", "at_m": ["0", "0", "0"]}},
-    {"name": "wind", "force": {"disc": {"radius": "6", "normal": ["0", "0", "2"]}, "axes": "P", "at_m": ["0", "0", "1"]}},
+    {"name": "wind",
+     "force": {"disc": {"radius": "6", "normal": ["0", "0", "2"]}, "axes": "P", "at_m": ["0", "0", "1"]}},
     {"name": "slewing", "moment": {"segment": {"direction": ["1", "0", "0"], "range": ["-1", "-1"]}, "axes": "P"}},
     {"name": "cases", "load_cases": {"wrenches": [["0", "0", "-1", "0", "0", "0"], ["1", "0", "0", "0", "0", "2"]],
                                      "axes": "W", "at_m": ["0", "0", "0"]}}]})");

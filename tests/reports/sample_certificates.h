@@ -51,7 +51,8 @@ inline nlohmann::json certificate() {
                  {"path", json::parse(R"({"interpolation": "straight-in-parameters", "waypoints": [
                  {"x": ["-0x1.2666666666666p+1", "0x1.999999999999ap+0"], "half_turns": [0, 0]},
                  {"x": ["-0x1.263f9b9445fddp+1", "0x1.916f44c547a8cp+0"], "half_turns": [0, 0]},
-                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}], "tubes": [], "pose_tubes": [], "times": null})")},
+                 {"x": ["0x1.f8c4f8b6f0b0cp+1", "0x1.80b204f3ebddbp+0"], "half_turns": [-2, 0]}],
+                 "tubes": [], "pose_tubes": [], "times": null})")},
                  {"path_sha256", kPathDigest},
                  {"segments", json::array()},
                  {"margins", json::object()},

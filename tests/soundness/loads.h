@@ -111,8 +111,8 @@ Load<S> make_load(const LoadItem& item) {
   return result;
 }
 
-/// `visit` for vectors of a set, in the axes in which it is fixed: all vertices, or many directions. `gradient` points to
-/// where what is sought grows.
+/// `visit` for vectors of a set, in the axes in which it is fixed: all vertices, or many directions. `gradient` points
+/// to where what is sought grows.
 template <class S, class Visit>
 void for_each_vector(const SetOfVectors<S>& set, const Vec<S>& gradient, Visit visit) {
   if (set.is_segment) {
