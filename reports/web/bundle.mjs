@@ -49,9 +49,9 @@ function licenceOf(name) {
 }
 
 const kOwnNotice = `This script is part of a report that taut made. Copyright the taut authors.
-Output of taut, with the parts of taut that it contains, is not covered by the GPL: you may use, copy, change and pass on
-this page under terms of your choice, by the output exception of taut's licence (LICENSE-EXCEPTION), as long as the notices
-below are kept.`;
+Output of taut, with the parts of taut that it contains, is not covered by the GPL: you may use, copy, change and pass
+on this page under terms of your choice, by the output exception of taut's licence (LICENSE-EXCEPTION), as long as the
+notices below are kept.`;
 
 /// A comment with the licence of each package; a text that several share is written once, below all their copyrights.
 function notices(packages) {

@@ -38,7 +38,10 @@ const limitKeys = [["limit", "limit"], ["fill forbidden", "beyond the limits"]];
 
 const PATH_KEYS = {
   proved: [["proved-line", "path of the platform’s origin, proved"]],
-  refuted: [["proved-line", "path of the platform’s origin, where it is proved"], ["unknown-line", "where nothing is said of it"]],
+  refuted: [
+    ["proved-line", "path of the platform’s origin, where it is proved"],
+    ["unknown-line", "where nothing is said of it"],
+  ],
   undecided: [["unknown-line", "path of the platform’s origin"]],
   unchecked: [["unknown-line", "path of the platform’s origin"]],
 };
@@ -53,7 +56,8 @@ function panelsAt(name, make, keys) {
   const made = make(data);
   panels.push(...made);
   for (const panel of made) panel.redraw(axis);
-  holder.append(legend(...keys, ...marked), element("div", { class: made.length === 2 ? "panels two" : "panels" }, ...made.map((panel) => panel.figure)));
+  const layout = made.length === 2 ? "panels two" : "panels";
+  holder.append(legend(...keys, ...marked), element("div", { class: layout }, ...made.map((panel) => panel.figure)));
   connect(made, cursor, data.samples);
   if (cursor.position !== undefined) cursor.position = cursor.position;
   if (panels.length === made.length) offerAxes();
@@ -81,8 +85,8 @@ function offerAxes() {
 
 const stage = element("div", {
   class: "stage", tabindex: "0", role: "img",
-  "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to come " +
-    "nearer, space to play.",
+  "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to " +
+    "come nearer, space to play.",
 });
 let player;
 let viewer;
@@ -105,7 +109,8 @@ function drawRobot() {
   root.classList.toggle("has-viewer", Boolean(viewer));
   if (!viewer) {
     stage.remove();
-    holder.append(element("p", { class: "note" }, "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."));
+    holder.append(element("p", { class: "note" },
+      "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."));
     return;
   }
   player.offerReset(() => viewer.resetView());
@@ -113,8 +118,8 @@ function drawRobot() {
   cursor.onMove((position) => viewer.show(position));
   onThemeChange(() => viewer.setTheme());
   stage.addEventListener("keydown", (event) => {
-    const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], "+": [0, 0, 0.87],
-      "-": [0, 0, 1.15] }[event.key];
+    const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1],
+      "+": [0, 0, 0.87], "-": [0, 0, 1.15] }[event.key];
     if (turn) viewer.orbit(...turn);
     else if (event.key === " ") player.toggle();
     else return;
@@ -123,8 +128,8 @@ function drawRobot() {
   const bar = element("span", { class: "colour-scale", "aria-hidden": "true" });
   bar.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map(tensionColour).join(", ")})`;
   holder.append(
-    element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar, " upper limit; thick, ringed and ",
-      element("b", {}, "!"), ": out of its limits."),
+    element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar,
+      " upper limit; thick, ringed and ", element("b", {}, "!"), ": out of its limits."),
     legend(...PATH_KEYS[data.verdict],
       ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
       ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
@@ -144,7 +149,8 @@ const jobs = [
   furnishMove,
   () => panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]),
   () => performance.mark("interactive"), // of what is read first; the rest answers as it is drawn
-  () => panelsAt("lengths", lengthPanels, [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]),
+  () => panelsAt("lengths", lengthPanels,
+    [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]),
   () => data.margins.from.length > 0 &&
     panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]),
   () => panelsAt("pose", posePanels, []),
@@ -179,7 +185,8 @@ function begin() {
 // After the first picture of the page, or without one, where nobody looks.
 if (globalThis.PerformanceObserver?.supportedEntryTypes?.includes("paint")) {
   new PerformanceObserver((seen) => {
-    if (seen.getEntriesByName("first-contentful-paint").length > 0) begin(); // the first paint may be of the background alone
+    // The first paint may be of the background alone.
+    if (seen.getEntriesByName("first-contentful-paint").length > 0) begin();
   }).observe({ type: "paint", buffered: true });
 }
 setTimeout(begin, LONGEST_BLANK);

@@ -73,9 +73,12 @@ export function planeFigure(data, cursor) {
       transform: `translate(${x0} ${y0}) scale(${(x1 - x0) / plane.columns} ${(y1 - y0) / plane.rows})`,
     });
     cellPaths(plane).forEach((d, kind) => raster.append(svg("path", { class: KINDS[kind][0], d })));
-    const clip = svg("svg", { x: x0, y: y0, width: x1 - x0, height: y1 - y0, viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}` });
+    const clip = svg("svg", {
+      x: x0, y: y0, width: x1 - x0, height: y1 - y0, viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}`,
+    });
     const pairs = (list) => list.flatMap((_, k) => (k % 2 ? [] : [place([list[k], list[k + 1]])]));
-    clip.append(svg("path", { class: "chart", d: plane.charts.map((corners) => polyline(pairs(corners), "Z")).join("") }));
+    const charts = plane.charts.map((corners) => polyline(pairs(corners), "Z"));
+    clip.append(svg("path", { class: "chart", d: charts.join("") }));
     let locus = "";
     for (let k = 0; k < plane.singular.length; k += 4) locus += polyline(pairs(plane.singular.slice(k, k + 4)));
     clip.append(svg("path", { class: "singular", d: locus }));
@@ -84,7 +87,8 @@ export function planeFigure(data, cursor) {
     const way = polyline(piece(samples, 0, cursor.last).map(place));
     clip.append(svg("path", { class: "casing", d: way }), svg("path", { class: "path", d: way }));
     for (const s of stretches) {
-      clip.append(svg("path", { class: s.violated ? "violated" : "opening", d: polyline(piece(samples, s.from, s.to).map(place)) }));
+      const d = polyline(piece(samples, s.from, s.to).map(place));
+      clip.append(svg("path", { class: s.violated ? "violated" : "opening", d }));
     }
     const dots = plane.waypoints.map((w) => place(w)).map(([cx, cy]) => svg("circle", { cx, cy, r: 2.4 }));
     clip.append(svg("g", { class: "waypoints" }, ...dots));
@@ -114,8 +118,9 @@ export function planeFigure(data, cursor) {
   });
   plot.setAttribute("aria-hidden", "true"); // the figure says what it shows
   const shares = KINDS.map((_, kind) => plane.cells.split(String(kind)).length - 1);
-  const description = `The plane of ${plane.names[0]} and ${plane.names[1]}: ${text((100 * shares[0]) / plane.cells.length, 2)} % of what is ` +
-    `shown keeps all limits${hasPath ? "; the path leads through it from S to G" : ""}.`;
+  const description = `The plane of ${plane.names[0]} and ${plane.names[1]}: ` +
+    `${text((100 * shares[0]) / plane.cells.length, 2)} % of what is shown ` +
+    `keeps all limits${hasPath ? "; the path leads through it from S to G" : ""}.`;
   const marker = svg("circle", { class: "here", r: 6 });
   plot.append(marker);
   cursor.onMove((position) => {

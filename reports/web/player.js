@@ -45,8 +45,8 @@ class Readout {
     this.where = element("p", { class: "where" });
     this.pose = element("p", { class: "pose" });
     this.rows = data.robot.tension.map((_, i) => {
-      const row = { tension: element("td", { class: "n" }), length: element("td", { class: "n" }), f: new Meter(), d: new Meter(),
-        flag: element("td", { class: "flag" }) };
+      const row = { tension: element("td", { class: "n" }), length: element("td", { class: "n" }),
+        f: new Meter(), d: new Meter(), flag: element("td", { class: "flag" }) };
       row.element = element("tr", {}, element("th", { scope: "row" }, String(i + 1)), row.tension,
         element("td", {}, row.f.bar), row.length, element("td", {}, row.d.bar), row.flag);
       return row;
@@ -66,7 +66,8 @@ class Readout {
     const segment = Math.min(Math.floor(position), Math.max(segments - 1, 0));
     const says = axes.filter((axis) => axis.name !== "segment").map((axis) => axis.says(position));
     const state = STATUS[status(this.data, position)];
-    this.where.textContent = [`Segment ${segment}, s = ${fixed(position - segment, 3)}`, ...says, state].filter(Boolean).join(" · ");
+    const at = `Segment ${segment}, s = ${fixed(position - segment, 3)}`;
+    this.where.textContent = [at, ...says, state].filter(Boolean).join(" · ");
     const places = decimalsFor(1e-2 * lengthUnit.factor);
     const p = samples.p.map((column) => fixed(between(column, where) * lengthUnit.factor, places));
     const angles = samples.angles.map((column) => fixed(degrees(between(column, where)), 2));
@@ -98,7 +99,9 @@ export class Player {
     this.play = element("button", { type: "button", class: "play" }, "▶ Play");
     this.previous = element("button", { type: "button", "aria-label": "Previous segment" }, "◀ Segment");
     this.next = element("button", { type: "button", "aria-label": "Next segment" }, "Segment ▶");
-    this.slider = element("input", { type: "range", min: 0, max: 1000, step: 1, value: 0, "aria-label": "Place along the move" });
+    this.slider = element("input", {
+      type: "range", min: 0, max: 1000, step: 1, value: 0, "aria-label": "Place along the move",
+    });
     this.duration = element("select", { "aria-label": "Duration of the whole move when played" });
     const offer = (seconds, words) => this.duration.append(element("option", { value: seconds }, words));
     if (this.pace.seconds > 0) offer(this.pace.seconds, `as timed (${text(this.pace.seconds, 3)} s)`);

@@ -187,7 +187,11 @@ function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high
       }
       drawn.push(Plot.lineY(rows, { x: "x", y: (d) => d.y[1], stroke: "var(--curve)", strokeWidth: 1.5, clip: true }));
       if (rows.length === 1) { // a single pose has no line
-        if (isBand) drawn.push(Plot.ruleX(rows, { x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], stroke: "var(--curve)", strokeWidth: 5, strokeOpacity: 0.5 }));
+        if (isBand) {
+          drawn.push(Plot.ruleX(rows, {
+            x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], stroke: "var(--curve)", strokeWidth: 5, strokeOpacity: 0.5,
+          }));
+        }
         drawn.push(Plot.dot(rows, { x: "x", y: (d) => d.y[1], fill: "var(--curve)", r: 3 }));
       }
       drawn.push(before);
@@ -264,20 +268,24 @@ function marginPanel(data, title, unit, proved, sampled, needed) {
   const positive = extent(proved, sampled.filter((x) => x > 0));
   const log = Boolean(all && all[0] > 0 && positive[1] / positive[0] > 30);
   const domain = log ? [positive[0] / 1.5, positive[1] * 1.5]
-    : [Math.min(needed, all ? Math.max(all[0], needed - (all[1] - needed)) : needed), all ? all[1] + 0.08 * (all[1] - needed) : 1];
+    : [Math.min(needed, all ? Math.max(all[0], needed - (all[1] - needed)) : needed),
+      all ? all[1] + 0.08 * (all[1] - needed) : 1];
   if (!(domain[1] > domain[0])) domain[1] = domain[0] + 1;
   return new Panel({
     title,
-    rest: provedSpan ? `${data.verdict === "proved" ? "" : "where proved, "}at least ${atMost(provedSpan[0])} ${unit}` : "",
+    rest: provedSpan
+      ? `${data.verdict === "proved" ? "" : "where proved, "}at least ${atMost(provedSpan[0])} ${unit}` : "",
     description: `${title} margin along the move: ` +
-      (provedSpan ? `proved to be at least ${atMost(provedSpan[0])} ${unit}; it has to exceed ${needed}.` : "not proved."),
+      (provedSpan ? `proved to be at least ${atMost(provedSpan[0])} ${unit}; it has to exceed ${needed}.`
+        : "not proved."),
     domain,
     log,
     label: unit === "×" ? "factor" : `margin [${unit}]`,
     draw: (axis, across) => {
       const { behind, before } = marks(data, axis, domain);
       const floor = domain[0];
-      const bounds = steps(data.margins.from, data.margins.to, proved.map((x) => (x === null ? null : log ? floor : needed)), proved, axis.at);
+      const starts = proved.map((x) => (x === null ? null : log ? floor : needed));
+      const bounds = steps(data.margins.from, data.margins.to, starts, proved, axis.at);
       const drawn = [behind];
       if (!log && floor < needed) {
         drawn.push(Plot.rect([0], { x1: across[0], x2: across[1], y1: floor, y2: needed, fill: "var(--forbidden)" }));
@@ -326,7 +334,8 @@ export function posePanels(data) {
           strokeDasharray: dashes[c], clip: true,
         })), before];
       },
-      says: (where) => names.map((name, c) => `${name} ${fixed(between(columns[c], where), decimals)}`).join(", ") + ` ${label}`,
+      says: (where) =>
+        names.map((name, c) => `${name} ${fixed(between(columns[c], where), decimals)}`).join(", ") + ` ${label}`,
     });
   };
   const scaled = (columns, f) => columns.map((column) => column.map((x) => (x === null ? NaN : f(x))));

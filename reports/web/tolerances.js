@@ -47,5 +47,6 @@ export function toleranceFigure(data) {
   });
   plot.setAttribute("aria-hidden", "true"); // the figure says what it shows
   const description = "Tolerances, the tightest first: " + rows.map((t) => `${t.label} ${words(t)}`).join("; ") + ".";
-  return element("figure", { class: "tolerance-figure" }, element("div", { role: "img", "aria-label": description }, plot));
+  return element("figure", { class: "tolerance-figure" },
+    element("div", { role: "img", "aria-label": description }, plot));
 }

@@ -124,7 +124,9 @@ class Viewer {
       load: new MeshLambertMaterial(),
       // Drawn in front of the platform, which would hide it.
       tube: new MeshBasicMaterial({ transparent: true, opacity: 0.45, depthWrite: false, depthTest: false }),
-      ghost: new MeshBasicMaterial({ transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false, depthTest: false }),
+      ghost: new MeshBasicMaterial({
+        transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false, depthTest: false,
+      }),
       out: new MeshBasicMaterial(),
     };
     const base = robot.base.map(vector);
@@ -204,7 +206,8 @@ class Viewer {
   /// The path of the platform's origin, coloured by what is proved; that of the load point, thin; and the tube.
   paths() {
     const { samples, robot, tube_m: tube, stretches } = this.data;
-    const places = [...new Set([...samples.position, ...stretches.flatMap((s) => [s.from, s.to])])].sort((a, b) => a - b);
+    const ends = stretches.flatMap((s) => [s.from, s.to]);
+    const places = [...new Set([...samples.position, ...ends])].sort((a, b) => a - b);
     const origins = places.map((p) => this.pose(p)[0]);
     const loads = places.map((p) => {
       const [origin, q] = this.pose(p);
@@ -216,7 +219,10 @@ class Viewer {
       if (kept.length < 2) return;
       const geometry = new LineGeometry().setPositions(kept.flatMap((p) => [p.x, p.y, p.z]));
       // Drawn in front of the platform, which would hide it.
-      const material = new LineMaterial({ linewidth: width, depthTest: false, transparent: true, dashed, dashSize: 0.02 / this.scale, gapSize: 0.015 / this.scale });
+      const material = new LineMaterial({
+        linewidth: width, depthTest: false, transparent: true,
+        dashed, dashSize: 0.02 / this.scale, gapSize: 0.015 / this.scale,
+      });
       const mesh = new Line2(geometry, material);
       mesh.computeLineDistances();
       mesh.renderOrder = 1;
@@ -226,7 +232,8 @@ class Viewer {
     line(loads, "--soft", 1.5, true);
     const kinds = places.map((p, k) => (k === 0 ? undefined : status(this.data, (places[k - 1] + p) / 2)));
     const styles = {
-      proved: ["--proved", 3, false], open: ["--undecided", 6, true], violated: ["--refuted", 7, false], unknown: ["--curve", 3, true],
+      proved: ["--proved", 3, false], open: ["--undecided", 6, true],
+      violated: ["--refuted", 7, false], unknown: ["--curve", 3, true],
     };
     for (let k = 1; k < places.length; ) {
       let end = k;
@@ -253,7 +260,8 @@ class Viewer {
     for (const position of witness ? [witness.position, witness.to].filter((p) => p !== null) : []) {
       const [p, q] = this.pose(position);
       const ghost = new Group();
-      ghost.add(...this.body(robot.platform.map(vector), this.materials.ghost, this.materials.ghost, 0.006 / this.scale));
+      const { ghost: material } = this.materials;
+      ghost.add(...this.body(robot.platform.map(vector), material, material, 0.006 / this.scale));
       ghost.position.copy(p);
       ghost.quaternion.copy(q);
       this.world.add(ghost);
@@ -278,7 +286,8 @@ class Viewer {
       const share = (x) => (x - lower) / (upper - lower);
       const [low, high] = [share(f - below), share(f + above)];
       const slack = 1e-6 * (robot.length[i][1] - robot.length[i][0]); // samples are rounded
-      const out = !(low > 0 && high < 1) || !(length > robot.length[i][0] - slack && length < robot.length[i][1] + slack);
+      const out = !(low > 0 && high < 1) ||
+        !(length > robot.length[i][0] - slack && length < robot.length[i][1] + slack);
       mesh.material.color.set(tensionColour(low < 1 - high ? low : high));
       span(mesh, a, b, (out ? 1.6 * CABLE : CABLE) / this.scale);
       mesh.userData.rings.forEach((ring, k) => {
@@ -295,7 +304,10 @@ class Viewer {
   }
 
   setTheme() {
-    const colours = { base: "--base", frame: "--base", platform: "--band", load: "--ink", tube: "--curve", ghost: "--mark", out: "--ink" };
+    const colours = {
+      base: "--base", frame: "--base", platform: "--band", load: "--ink", tube: "--curve", ghost: "--mark",
+      out: "--ink",
+    };
     for (const [name, property] of Object.entries(colours)) this.materials[name].color.set(themed(property));
     for (const { material, name } of this.lines) material.color.set(themed(name));
     this.draw();
@@ -327,7 +339,8 @@ class Viewer {
     const height = Math.asin(offset.y / offset.length());
     const around = Math.atan2(offset.x, offset.z) + azimuth;
     const above = Math.min(Math.max(height + elevation, -1.5), 1.5);
-    offset.set(Math.cos(above) * Math.sin(around), Math.sin(above), Math.cos(above) * Math.cos(around)).multiplyScalar(distance);
+    offset.set(Math.cos(above) * Math.sin(around), Math.sin(above), Math.cos(above) * Math.cos(around))
+      .multiplyScalar(distance);
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
     this.draw();
@@ -360,7 +373,8 @@ class Viewer {
     const { clientWidth: width, clientHeight: height } = this.holder;
     this.tags.forEach((tag, i) => {
       const at = this.world.localToWorld(vector(this.data.robot.base[i]).lerp(this.ends[i], 0.42)).project(this.camera);
-      tag.style.transform = `translate(-50%, -50%) translate(${((at.x + 1) / 2) * width}px, ${((1 - at.y) / 2) * height}px)`;
+      const [x, y] = [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height];
+      tag.style.transform = `translate(-50%, -50%) translate(${x}px, ${y}px)`;
     });
   }
 }

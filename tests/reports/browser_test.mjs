@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// browser_test.mjs TAUT WRITE_SAMPLES CASES [SCREENSHOTS]: reports of planned, audited and made-up certificates, in Debian's
-// Chromium. Needs npm's packages (scripts/install-web) and chromium; fails without them. Prints sizes and times; asserts none.
+// browser_test.mjs TAUT WRITE_SAMPLES CASES [SCREENSHOTS]: reports of planned, audited and made-up certificates, in
+// Debian's Chromium. Needs npm's packages (scripts/install-web) and chromium; fails without them. Prints sizes and
+// times; asserts none.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -54,8 +55,9 @@ before(async () => {
     args: ["--no-sandbox", "--host-resolver-rules=MAP * ~NOTFOUND", ...args],
   });
   [withWebgl, withoutWebgl] = await Promise.all([launch(WEBGL), launch(NO_WEBGL)]);
-  for (const name of ["robot1-slice-qs-qg", "robot2-sphere-sigma-free-q2-q3", "robot2-free-q2-q3", "robot2-implicit-rail",
-    "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move", "tutorial/04-tolerances"]) plan(name);
+  for (const name of ["robot1-slice-qs-qg", "robot2-sphere-sigma-free-q2-q3", "robot2-free-q2-q3",
+    "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
+    "tutorial/04-tolerances"]) plan(name);
   audit("robot1-geodesic", inAudits("robot1-geodesic.tum"));
   audit("robot1-cable-lengths", inAudits("robot1-cable-lengths.csv"));
   audit("robot1-straight-qs-qg", inAudits("robot1-straight-qs-qg.csv"));
@@ -109,7 +111,8 @@ const shown = (page, selector) => page.locator(selector).first().isVisible();
 /// Where the labels of the six cables stand: they move with the robot.
 const labels = (page) => page.$$eval(".labels span", (spans) => spans.map((span) => span.style.transform));
 const cursors = (page) => page.$$eval(".cursor", (lines) => lines.map((line) => Number(line.getAttribute("x1"))));
-const frames = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const frames = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 test("console errors and requests are noticed", async () => {
   writeFileSync(join(directory, "broken.html"), `<!DOCTYPE html><html class="drawn"><title>x</title><img src="x.png">
@@ -143,12 +146,15 @@ for (const [name, expected] of Object.entries(PAGES)) {
     for (const id of SECTIONS) assert.ok(await has(page, `section#${id}`), id);
     assert.equal(await has(page, "section#theorem"), name !== "undecided.html", "a claim, where one is proved");
     assert.ok(await shown(page, ".stage canvas"), "the robot");
-    assert.equal(await has(page, ".still") && await shown(page, ".still"), false, "no still picture beside the moving one");
+    const still = await has(page, ".still") && await shown(page, ".still");
+    assert.equal(still, false, "no still picture beside the moving one");
     assert.equal(await page.locator(".panel .drawing svg").count(), expected.panels);
     assert.equal(await has(page, ".plane-figure svg"), expected.plane === true, "plane");
     assert.equal(await has(page, ".tolerance-figure svg"), expected.tolerances === true, "tolerances");
-    assert.equal(await page.locator(".drawing svg").evaluateAll((plots) => plots.some((p) => /NaN|Infinity/.test(p.outerHTML))), false);
-    assert.equal(await has(page, '.drawing [aria-label="rect"] rect[fill^="var(--mark)"], .drawing [aria-label="rect"] rect[fill^="var(--undecided)"]'),
+    const drawings = page.locator(".drawing svg");
+    assert.equal(await drawings.evaluateAll((plots) => plots.some((p) => /NaN|Infinity/.test(p.outerHTML))), false);
+    assert.equal(await has(page, '.drawing [aria-label="rect"] rect[fill^="var(--mark)"], ' +
+      '.drawing [aria-label="rect"] rect[fill^="var(--undecided)"]'),
       expected.stretches === true, "stretches");
     assert.equal(await has(page, "p.unscripted:visible"), false);
     await picture(page, name.replaceAll("/", "-"));
@@ -169,7 +175,8 @@ test("playing moves the robot and the plots' cursor, and ends", async () => {
   const page = await open("robot2-free-q2-q3");
   const start = await labels(page);
   assert.equal(start.length, 6);
-  await page.selectOption(".controls select", "60"); // so that it is still playing when it is paused, on a slow machine, too
+  // So that it is still playing when it is paused, on a slow machine, too.
+  await page.selectOption(".controls select", "60");
   await page.click(".controls .play");
   // These wait until it is so: a slow machine may take a while for a frame.
   await page.waitForFunction((was) => document.querySelector(".labels span").style.transform !== was, start[0]);
@@ -276,7 +283,9 @@ test("without WebGL the still picture stands in", async () => {
 
 test("without a script there are words, tables and the still picture", async () => {
   const page = await open("robot1-slice-qs-qg", { javaScriptEnabled: false });
-  for (const id of [...SECTIONS_OF_THEOREMS, "move", "tensions", "lengths", "plane"]) assert.ok(await shown(page, `#${id} h2`), id);
+  for (const id of [...SECTIONS_OF_THEOREMS, "move", "tensions", "lengths", "plane"]) {
+    assert.ok(await shown(page, `#${id} h2`), id);
+  }
   assert.ok(await shown(page, ".still svg"));
   assert.ok(await shown(page, ".unscripted"));
   await close(page);
@@ -333,7 +342,9 @@ test("of a certificate that was not checked, nothing is drawn as proved", async 
   const page = await open("unchecked.html");
   assert.ok(await shown(page, ".stage canvas"));
   assert.equal(await page.locator(".panel .drawing svg").count(), 14, "no margins");
-  for (const place of ["#move", "#tensions"]) assert.doesNotMatch(await page.locator(`${place} > [data-plot]`).innerText(), /proved/);
+  for (const place of ["#move", "#tensions"]) {
+    assert.doesNotMatch(await page.locator(`${place} > [data-plot]`).innerText(), /proved/);
+  }
   await close(page);
 });
 
@@ -344,7 +355,8 @@ test("axe finds nothing to complain about", async () => {
     const session = await page.context().newCDPSession(page); // which the page's policy does not bind
     await session.send("Runtime.evaluate", { expression: axe });
     const { result } = await session.send("Runtime.evaluate", {
-      expression: "axe.run().then(({ violations }) => JSON.stringify(violations.map((v) => [v.id, v.nodes.map((n) => n.html.slice(0, 160)).slice(0, 4)])))",
+      expression: "axe.run().then(({ violations }) => JSON.stringify(violations.map((v) => " +
+        "[v.id, v.nodes.map((n) => n.html.slice(0, 160)).slice(0, 4)])))",
       awaitPromise: true,
       returnByValue: true,
     });
@@ -357,13 +369,17 @@ test("200 segments: how large, how soon", async () => {
   const page = await open("robot1-planned");
   const times = await page.evaluate(() => {
     const at = (mark) => performance.getEntriesByName(mark)[0]?.startTime ?? NaN;
-    return { read: at("first-contentful-paint"), begun: at("readable"), interactive: at("interactive"), drawn: at("drawn") };
+    return {
+      read: at("first-contentful-paint"), begun: at("readable"), interactive: at("interactive"), drawn: at("drawn"),
+    };
   });
   const size = statSync(page.file).size;
-  console.log(`200 segments: ${(size / 1e6).toFixed(2)} MB, text and tables after ${Math.round(times.read)} ms, plots and ` +
-    `controls answer after ${Math.round(times.interactive)} ms, all drawn after ${Math.round(times.drawn)} ms`);
+  console.log(`200 segments: ${(size / 1e6).toFixed(2)} MB, text and tables after ${Math.round(times.read)} ms, ` +
+    `plots and controls answer after ${Math.round(times.interactive)} ms, all drawn after ` +
+    `${Math.round(times.drawn)} ms`);
   assert.ok(size < 3e6);
   // A second after the page was read nobody waits any longer.
-  assert.ok(times.read <= times.begun || times.begun >= 1000, "text and tables are on the screen before anything is drawn");
+  assert.ok(times.read <= times.begun || times.begun >= 1000,
+    "text and tables are on the screen before anything is drawn");
   await close(page);
 });

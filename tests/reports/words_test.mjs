@@ -10,7 +10,8 @@ const number = (words) => Number(words.replace("−", "-"));
 function* numbers(count) {
   let state = 12345;
   const random = () => (state = (state * 1103515245 + 12345) % 2 ** 31) / 2 ** 31;
-  for (let i = 0; i < count; ++i) yield (random() < 0.5 ? -1 : 1) * (1 + 9 * random()) * 10 ** Math.floor(random() * 16 - 8);
+  const digits = () => 1 + 9 * random();
+  for (let i = 0; i < count; ++i) yield (random() < 0.5 ? -1 : 1) * digits() * 10 ** Math.floor(random() * 16 - 8);
 }
 
 test("rounded to the side that keeps the sentence true, by a digit at most", () => {
