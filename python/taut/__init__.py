@@ -34,9 +34,9 @@ __all__ = ["Case", "Certificate", "CheckResult", "InputError", "InternalError", 
 __version__: str = _taut.version
 
 Floats = NDArray[np.float64]
-#: Called at most twenty times a second, in the calling thread, with the stage ("planning", "auditing", "seeking provable
-#: shares" or "trying changes"), the number of charts, segments, shares or changes that are done, and their total (0:
-#: unknown). An exception that it raises ends the work and reaches the caller.
+#: Called at most twenty times a second, in the calling thread, with the stage ("planning", "auditing", "seeking
+#: provable shares" or "trying changes"), the number of charts, segments, shares or changes that are done, and their
+#: total (0: unknown). An exception that it raises ends the work and reaches the caller.
 Progress = Callable[[str, int, int], Any]
 FileName = Union[str, "os.PathLike[str]"]
 #: Default time limit of the checker [s].

@@ -493,8 +493,8 @@ def tolerant(pr, pa, boxes=8, below=0.98, samples=4, without=None):
     return of_segments(pr, pa, segments)
 
 
-# With tolerances the checker bounds the wrench scale by the least margin over the largest variation of a box: 1 + m / v.
-# That may be far below the truth.
+# With tolerances the checker bounds the wrench scale by the least margin over the largest variation of a box:
+# 1 + m / v. That may be far below the truth.
 SCALE_BELOW = 0.7
 
 KINDS = {'base_anchor_m': ['0.0001'] * 6, 'platform_anchor_m': ['0.0001'] * 6, 'load_point_m': '0.0002',

@@ -43,8 +43,8 @@ class Angles(InFolder):
 
     def case(self, space, *waypoints):
         """Robot 1 with another space and query."""
-        text = re.sub(r"(?s)\nspace:.*?\nplanner:", f"\nspace: {space}\nquery: {{waypoints: [{', '.join(waypoints)}]}}\nplanner:",
-                      text_of(CASE))
+        text = re.sub(r"(?s)\nspace:.*?\nplanner:",
+                      f"\nspace: {space}\nquery: {{waypoints: [{', '.join(waypoints)}]}}\nplanner:", text_of(CASE))
         return self.write("case.yaml", re.sub(r"(?m)^expect:.*", "expect: proved", text))
 
 
@@ -86,7 +86,8 @@ class RollPitchAndYaw(Angles):
         self.assertGreater(len(rows), len(self.rows))
         for path_row in self.rows:
             q = quaternion(*self.angles(path_row))
-            nearest = max(abs(sum(a * float(row[name]) for a, name in zip(q, ("qx", "qy", "qz", "qw")))) for row in rows)
+            nearest = max(abs(sum(a * float(row[name]) for a, name in zip(q, ("qx", "qy", "qz", "qw"))))
+                          for row in rows)
             self.assertAlmostEqual(nearest, 1, places=12)
 
     def test_a_log_of_these_angles_is_audited_as_the_same_path(self):
@@ -110,8 +111,8 @@ class RollPitchAndYaw(Angles):
         self.assertIn("geodesic", said)
         self.check(self.path("audit", "certificate.json"), CASE, "--path", log, "--expect", "proved")
         refused = self.taut("audit", CASE, log, "--interpolation", "straight", "--out", self.path("q"), code=3)
-        self.assertIn("got quaternions to be joined straight in roll-pitch-yaw angles, expected columns of these angles",
-                      refused)
+        self.assertIn("got quaternions to be joined straight in roll-pitch-yaw angles, expected columns of these "
+                      "angles", refused)
         self.assertFalse(os.path.exists(self.path("q")))
 
     def test_angles_become_the_quaternions_of_the_same_poses(self):
@@ -119,7 +120,8 @@ class RollPitchAndYaw(Angles):
                        lambda row: [self.angles(row)[0] * 180 / pi, *self.position(row), *self.angles(row)[1:]])
         for law in ("geodesic", "cable-lengths"):
             self.taut("audit", CASE, log, "--interpolation", law, "--out", self.path(law))
-            self.check(self.path(law, "certificate.json"), CASE, "--path", self.path(law, "path.csv"), "--expect", "proved")
+            self.check(self.path(law, "certificate.json"), CASE, "--path", self.path(law, "path.csv"),
+                       "--expect", "proved")
             for waypoint, row in zip(self.certificate(law)["path"]["waypoints"], self.rows, strict=True):
                 q = [float.fromhex(x) for x in waypoint["quaternion"]]
                 inner = sum(a * b for a, b in zip(q, quaternion(*self.angles(row))))
@@ -139,18 +141,21 @@ class RollPitchAndYaw(Angles):
         self.check(self.path("winches", "certificate.json"), CASE, "--path", log, "--expect", "proved")
 
     def test_a_refuted_path_is_described_in_them(self):
-        log = self.write("tilt.csv", "px[mm],py[mm],pz[mm],roll[deg],pitch[deg],yaw[deg]\n0,0,350,0,0,34\n0,0,350,0,170,34\n")
+        log = self.write("tilt.csv", "px[mm],py[mm],pz[mm],roll[deg],pitch[deg],yaw[deg]\n"
+                         "0,0,350,0,0,34\n0,0,350,0,170,34\n")
         self.taut("audit", CASE, log, "--out", self.path("tilt"), code=1)
         report = text_of(self.path("tilt", "report.html"))
         self.assertRegex(report, r"roll = [-\d.]+°, pitch = [-\d.]+°, yaw = [-\d.]+°")
 
     def test_columns_of_other_angles_are_refused_with_a_hint(self):
-        log = self.write("tt.csv", "px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]\n0,0,350,0,0,34\n0,0,350,0,1,34\n")
-        self.assertIn("got the unknown column 'phi', which is understood with 'angles: tilt-and-torsion' under 'space' of the case",
-                      self.taut("audit", CASE, log, "--out", self.path("x"), code=3))
-        log = self.write("rpy.csv", "px[mm],py[mm],pz[mm],roll[deg],pitch[deg],yaw[deg]\n0,0,350,0,0,34\n0,0,350,0,1,34\n")
-        self.assertIn("got the unknown column 'roll', which is understood with 'angles: roll-pitch-yaw' under 'space' of the case",
-                      self.taut("audit", ROBOT1, log, "--out", self.path("x"), code=3))
+        log = self.write("tt.csv", "px[mm],py[mm],pz[mm],phi[deg],theta[deg],sigma[deg]\n"
+                         "0,0,350,0,0,34\n0,0,350,0,1,34\n")
+        self.assertIn("got the unknown column 'phi', which is understood with 'angles: tilt-and-torsion' under 'space' "
+                      "of the case", self.taut("audit", CASE, log, "--out", self.path("x"), code=3))
+        log = self.write("rpy.csv", "px[mm],py[mm],pz[mm],roll[deg],pitch[deg],yaw[deg]\n"
+                         "0,0,350,0,0,34\n0,0,350,0,1,34\n")
+        self.assertIn("got the unknown column 'roll', which is understood with 'angles: roll-pitch-yaw' under 'space' "
+                      "of the case", self.taut("audit", ROBOT1, log, "--out", self.path("x"), code=3))
         self.assertFalse(os.path.exists(self.path("x")))
 
 
@@ -158,7 +163,8 @@ class Other(Angles):
     def planned(self, space, *waypoints):
         case = self.case(space, *waypoints)
         self.taut("plan", case, "--out", self.path("plan"))
-        self.check(self.path("plan", "certificate.json"), case, "--path", self.path("plan", "path.csv"), "--expect", "proved")
+        self.check(self.path("plan", "certificate.json"), case, "--path", self.path("plan", "path.csv"),
+                   "--expect", "proved")
         return self.certificate("plan")["margins"]
 
     def test_the_same_turn_has_the_same_margins_in_all(self):
@@ -178,20 +184,22 @@ class Other(Angles):
         case = self.case(f"{{angles: {{axis: [-0.1, 0, -1]}}, slice: {{{place}}}}}", "{turn: 20 deg}", "{turn: 40 deg}")
         self.assertIn("rejected: the certificate is about another problem",
                       self.check(self.path("plan", "certificate.json"), case, code=1))
-        back = self.planned(f"{{angles: {{axis: [-0.1, 0, -1]}}, slice: {{{place}}}}}", "{turn: -20 deg}", "{turn: -40 deg}")
+        back = self.planned(f"{{angles: {{axis: [-0.1, 0, -1]}}, slice: {{{place}}}}}",
+                            "{turn: -20 deg}", "{turn: -40 deg}")
         for key, least in one.items():
             self.assertAlmostEqual(float(back[key]) / float(least), 1, delta=0.05)
 
     def test_words_of_other_angles_are_understood_in_errors(self):
         text = text_of(ROBOT1)
-        for wrong, word, angles in (("{phi: -2.3, yaw: 1.6}", "yaw", "roll-pitch-yaw"), ("{phi: -2.3, gamma: 1.6}", "gamma", "zyz"),
+        for wrong, word, angles in (("{phi: -2.3, yaw: 1.6}", "yaw", "roll-pitch-yaw"),
+                                    ("{phi: -2.3, gamma: 1.6}", "gamma", "zyz"),
                                     ("{turn: 1}", "turn", "{axis: [x, y, z]}")):
             case = self.write("wrong.yaml", text.replace("{phi: -2.3, theta: 1.6}", wrong))
             self.assertNotEqual(text_of(case), text)
             said = self.taut("plan", case, "--out", self.path("x"), code=3)
             self.assertRegex(said, r"wrong.yaml:\d+:\d+: query.waypoints\[0\]: got the unknown key '" + word)
-            self.assertIn(f"which is understood with 'angles: {angles}' under 'space' of the case (it has tilt-and-torsion "
-                          "angles), expected phi, theta", said)
+            self.assertIn(f"which is understood with 'angles: {angles}' under 'space' of the case (it has "
+                          "tilt-and-torsion angles), expected phi, theta", said)
         self.assertFalse(os.path.exists(self.path("x")))
 
     def test_a_law_of_poses_in_other_angles_is_refused(self):
@@ -201,10 +209,12 @@ class Other(Angles):
         certificate = self.certificate("audit")
         names = ["px", "py", "pz", "roll", "pitch", "yaw"]
         certificate["problem"]["space"] = {
-            "angles": "roll-pitch-yaw", "constants": {}, "constraints": [], "flip": None, "pose": dict(zip(names, names)),
+            "angles": "roll-pitch-yaw", "constants": {}, "constraints": [], "flip": None,
+            "pose": dict(zip(names, names)),
             "parameters": [{"name": n, "kind": "real" if k < 3 else "periodic"} for k, n in enumerate(names)]}
         wrong = self.write("wrong.json", json.dumps(certificate))
-        for command in (("audit", CASE, wrong, "--out", self.path("x")), ("report", wrong, "--out", self.path("r.html"))):
+        for command in (("audit", CASE, wrong, "--out", self.path("x")),
+                        ("report", wrong, "--out", self.path("r.html"))):
             self.assertIn("wrong.json", self.taut(*command, code=3))
         self.check(wrong, CASE, code=3)
 

@@ -29,8 +29,8 @@ MACHINE = """taut: 1
 name: constrained
 units: {length: mm}
 robot:
-  base_anchors: [[0, 300, 0],[0, 300, 0],[-259.8076, -150, 0],[-259.8076, -150, 0],[259.8076, -150, 0],[259.8076, -150, 0]]
-  platform_anchors: [[-129.9038, 75, 0],[129.9038, 75, 0],[0, -150, 0],[-129.9038, 75, 0],[129.9038, 75, 0],[0, -150, 0]]
+  base_anchors: [[0,300,0], [0,300,0], [-259.8076,-150,0], [-259.8076,-150,0], [259.8076,-150,0], [259.8076,-150,0]]
+  platform_anchors: [[-129.9038,75,0], [129.9038,75,0], [0,-150,0], [-129.9038,75,0], [129.9038,75,0], [0,-150,0]]
   tension: %s
   length: [200, 600]
 load:
@@ -158,7 +158,8 @@ class Audit(Audits):
         self.assertEqual(places, sorted(places))
         self.assertEqual(run(CHECK, self.path("out", "certificate.json")).returncode, 0)
         # Audited again from its certificate it has the same path.
-        again = self.audit(os.path.join(AUDITS, "robot1-cable-lengths.yaml"), self.path("out", "certificate.json"), out="again")
+        again = self.audit(os.path.join(AUDITS, "robot1-cable-lengths.yaml"), self.path("out", "certificate.json"),
+                           out="again")
         self.assertEqual(again["verdict"], "proved")
         self.assertEqual(self.certificate("again")["path"], certificate["path"])
 
@@ -228,7 +229,8 @@ class Audit(Audits):
         path = self.write("path.csv", COLUMNS + rows.format(z=276))
         refused = run(TAUT, "audit", case, path, "--out", self.path("refused"))
         self.assertEqual(refused.returncode, 3, refused.stdout)
-        self.assertIn("path.csv, line 2: got a pose off the constraints, by 0.0267 of the platform's size", refused.stderr)
+        self.assertIn("path.csv, line 2: got a pose off the constraints, by 0.0267 of the platform's size",
+                      refused.stderr)
         near = self.audit(case, self.write("near.csv", COLUMNS + rows.format(z="272.5")))
         self.assertEqual(near["verdict"], "proved")
         # A certificate chooses its normals. These lead aside.
@@ -242,11 +244,13 @@ class Audit(Audits):
         forged = self.write("forged.json", sealed(certificate))
         checked = run(CHECK, forged)
         self.assertEqual(checked.returncode, 1, checked.stdout + checked.stderr)
-        self.assertIn("the pose on the constraints may not be next to what the path states at a waypoint", checked.stdout)
+        self.assertIn("the pose on the constraints may not be next to what the path states at a waypoint",
+                      checked.stdout)
         self.assertEqual(run(TAUT, "audit", case, forged, "--out", self.path("forged")).returncode, 3)
 
     def test_witnesses_are_where_parameters_are_in_their_ranges(self):
-        # The straight line stays in the range of px, the motion on the cylinder does not, and is violated inside and outside.
+        # The straight line stays in the range of px, the motion on the cylinder does not, and is violated inside and
+        # outside.
         case = self.write("case.yaml", MACHINE % (
             "[[0.01, 1.59]" + ", [0.01, 60]" * 5 + "]",
             '{free: {px: [-100, 59], py: [-300, 300], pz: [50, 600]}, implicit: ["px^2 + py^2 - 60^2"]}'))
@@ -301,7 +305,8 @@ class Audit(Audits):
         anchors = ["[0, 300, 0]", "[0, 300, 0]", "[0, -150, 0]", "[-259.8076, -150, 0]",
                    "[259.8076, -150, 0]", "[259.8076, -150, 0]"]
         machine = MACHINE % ("[0.01, 60]", "{}")
-        machine = re.sub(r"base_anchors: .*", f"base_anchors: [{', '.join(anchors)}]", machine).replace("space: {}\n", "")
+        machine = re.sub(r"base_anchors: .*", f"base_anchors: [{', '.join(anchors)}]", machine)
+        machine = machine.replace("space: {}\n", "")
         case = self.write("case.yaml", machine)
         path = self.write("met.csv", COLUMNS + "0,0,272,0,0,0\n0,0,0,0,0,0\n")
         said = run(TAUT, "audit", case, path, "--interpolation", "cable-lengths", "--out", self.path("refused"))

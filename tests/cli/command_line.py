@@ -22,7 +22,10 @@ def run(*arguments, **options):
 
 
 def interrupt(process, after):
-    """Sends Ctrl-C's signal, so many seconds after the process has begun to heed it, which on a busy machine may take a while."""
+    """Sends Ctrl-C's signal, so many seconds after the process has begun to heed it.
+
+    On a busy machine that may take a while.
+    """
     def heeds():
         with open(f"/proc/{process.pid}/status", encoding="utf-8") as file:
             caught = re.search(r"^SigCgt:\s*(\w+)", file.read(), re.M).group(1)

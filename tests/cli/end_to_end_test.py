@@ -39,7 +39,8 @@ class EndToEnd(InFolder):
         self.assertEqual(lines, 5)
         planned = run(TAUT, "plan", self.write("tolerant.yaml", tolerant), "--out", self.out)
         self.assertEqual(planned.returncode, 0, planned.stdout + planned.stderr)
-        self.assertRegex(planned.stdout.replace("\n  ", " "), r"Each alone, with all others as stated: base anchors \d+ %")
+        self.assertRegex(planned.stdout.replace("\n  ", " "),
+                         r"Each alone, with all others as stated: base anchors \d+ %")
         self.assertEqual(run(TAUT, "init", self.path("a 'quoted' name.yaml")).returncode, 0)
         self.assertIn("name: \"new-case\"\n", text_of(self.path("a 'quoted' name.yaml")))
 
@@ -62,7 +63,8 @@ class EndToEnd(InFolder):
                 paths = ["controller.csv", "path.csv"] if verdict == "proved" else []
                 self.assertEqual(sorted(os.listdir(out)), ["certificate.json", *paths, "report.html"])
                 checked = run(CHECK, os.path.join(out, "certificate.json"), case)
-                self.assertEqual(checked.returncode, 2 if verdict == "undecided" else 0, checked.stdout + checked.stderr)
+                self.assertEqual(checked.returncode, 2 if verdict == "undecided" else 0,
+                                 checked.stdout + checked.stderr)
 
     def cost(self, case):
         result = run(TAUT, "plan", os.path.join(CASES, case + ".yaml"), "--out", self.path(case), "--json")
@@ -96,7 +98,8 @@ class EndToEnd(InFolder):
         case = self.write("off.yaml", good.replace("{px: 81.0918,", "{px: 86.0907,"))
         result = run(TAUT, "plan", case, "--out", self.path("never"))
         self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
-        self.assertRegex(result.stderr, r"off\.yaml:\d+:\d+: query\.waypoints\[0\]: got a waypoint that is .* mm and 0 rad off")
+        self.assertRegex(result.stderr,
+                         r"off\.yaml:\d+:\d+: query\.waypoints\[0\]: got a waypoint that is .* mm and 0 rad off")
 
     def test_a_certificate_of_one_case_is_not_accepted_for_another(self):
         run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
@@ -143,8 +146,9 @@ class EndToEnd(InFolder):
         self.assertFalse(os.path.exists(self.path("never.html")))
 
     def test_a_range_end_that_no_binary64_keeps_is_not_proved(self):
-        text = re.sub(r"slice: {.*}", "surface: {parameters: {u: [-0.1, 0.1]}, pose: {px: 0, py: 0, pz: 350, phi: -2.3, "
-                      "theta: 1.5 + u, sigma: 0.6}}", text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml")))
+        text = re.sub(r"slice: {.*}", "surface: {parameters: {u: [-0.1, 0.1]}, pose: {px: 0, py: 0, pz: 350, "
+                      "phi: -2.3, theta: 1.5 + u, sigma: 0.6}}",
+                      text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml")))
         text = re.sub(r"  waypoints:.*?\n\n", "  waypoints:\n    - {u: -0.1}\n    - {u: 0.1}\n\n", text, flags=re.S)
         result = run(TAUT, "plan", self.write("range.yaml", text), "--out", self.out)
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
@@ -220,17 +224,18 @@ class EndToEnd(InFolder):
 
     def test_an_unreachable_goal_names_what_was_exhausted(self):
         # Only the straight way from q_s to q_g is left, which slackens a cable.
-        text = re.sub(r"slice: {.*}", "surface: {parameters: {u: [0, 1]}, pose: {px: 0, py: 0, pz: 350, phi: -2.3 + 4*u, "
-                      "theta: 1.6 + u/10, sigma: 34 deg}}", text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml")))
+        text = re.sub(r"slice: {.*}", "surface: {parameters: {u: [0, 1]}, pose: {px: 0, py: 0, pz: 350, "
+                      "phi: -2.3 + 4*u, theta: 1.6 + u/10, sigma: 34 deg}}",
+                      text_of(os.path.join(CASES, "robot1-slice-qs-qg.yaml")))
         text = re.sub(r"  waypoints:.*?\n\n", "  waypoints:\n    - {u: 0}\n    - {u: 1}\n\n", text, flags=re.S)
         for strategy in ("astar", "greedy"):
             with self.subTest(strategy=strategy):
                 case = self.write("straight.yaml", text.replace("astar", strategy))
                 result = run(TAUT, "plan", case, "--out", self.out)
                 self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-                self.assertRegex(result.stdout, r"undecided: no path from waypoint 0 to 1 of the query: the component of the "
-                                 r"start was covered by \d+ charts of radius 0.15 .* not met; best so far: a chart whose "
-                                 r"distance to waypoint 1 is [\d.]+.* evidence, not proof")
+                self.assertRegex(result.stdout, r"undecided: no path from waypoint 0 to 1 of the query: the component "
+                                 r"of the start was covered by \d+ charts of radius 0.15 .* not met; best so far: a "
+                                 r"chart whose distance to waypoint 1 is [\d.]+.* evidence, not proof")
 
     def test_one_lowered_anchor_in_the_certificate_is_noticed(self):
         run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
@@ -242,8 +247,8 @@ class EndToEnd(InFolder):
         case = os.path.join(CASES, "tutorial", "02-a-slack-start.yaml")
         result = run(TAUT, "plan", case, "--out", self.out)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("refuted: at waypoint 0 of the query the length of cable 3 reaches at least 580.5 mm, not below its "
-                      "upper limit of 550 mm.\n", result.stdout)
+        self.assertIn("refuted: at waypoint 0 of the query the length of cable 3 reaches at least 580.5 mm, not below "
+                      "its upper limit of 550 mm.\n", result.stdout)
         self.assertEqual(self.certificate()["verdict"], "refuted")
 
     def test_bad_input_exits_with_3_says_where_and_writes_nothing(self):
@@ -272,7 +277,8 @@ class EndToEnd(InFolder):
     def test_missing_files_and_wrong_flags_exit_with_3(self):
         case = os.path.join(CASES, "robot1-slice-qs-qg.yaml")
         in_the_way = self.write("file", "")
-        for arguments in (["plan", self.path("none.yaml")], ["plan"], ["plan", case, "--speed", "9"], ["plan", case, "--budget", "0"], [], ["fly"],
+        for arguments in (["plan", self.path("none.yaml")], ["plan"], ["plan", case, "--speed", "9"],
+                          ["plan", case, "--budget", "0"], [], ["fly"],
                           ["plan", case, "--out", in_the_way], ["report", self.path("none.json")],
                           ["report", self.write("no.json", "{")], ["report", self.write("list.json", "[]")]):
             with self.subTest(arguments=arguments):
@@ -298,7 +304,8 @@ class EndToEnd(InFolder):
         self.assertEqual(said.returncode, 2, said.stdout + said.stderr)
         self.assertRegex(said.stdout, r"waypoint \d of the query: the tolerances are too large for a proof at "
                                       r"margin (tension|length)_(min|max) of cable \d \[U6\]")
-        self.assertRegex(said.stdout, r"In the way: the (tension|length) of cable \d at waypoint \d of the query, limit")
+        self.assertRegex(said.stdout,
+                         r"In the way: the (tension|length) of cable \d at waypoint \d of the query, limit")
         self.assertRegex(said.stdout.replace("\n  ", " "),
                          r"Waypoint \d of the query is provable at [\d.]+ % of all tolerances and deviations")
         for far_too_large in (5, 100):

@@ -60,8 +60,8 @@ class Json(InFolder):
         self.assertRegex(undecided["messages"][0]["code"], r"^U1[0-9]$")
         self.assertNotIn("[U", undecided["messages"][0]["text"])
         self.printed(TAUT, "plan", ROBOT1, "--out", self.path("d"), "--max-seconds", "0", code=2)
-        grown = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("e"), "--save-atlas", self.path("atlas"), "--grow",
-                             code=0)
+        grown = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("e"), "--save-atlas", self.path("atlas"),
+                             "--grow", code=0)
         self.assertTrue(grown["growth"]["whole"])
 
     def test_audits(self):

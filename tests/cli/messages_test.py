@@ -51,7 +51,8 @@ class Messages(InFolder):
     def test_a_start_that_is_singular_but_for_rounding_is_called_singular(self):
         turned = ("theta: 0, sigma: 0}", "theta: 0, sigma: 90}")
         said = self.plan(turned, code=1)
-        self.assertRegex(said, r"(?m)^refuted: at waypoint 0 of the query the platform is at a singular pose, or so near one")
+        self.assertRegex(said, r"(?m)^refuted: at waypoint 0 of the query the platform is at a singular pose, or so "
+                               r"near one")
         self.assertNotRegex(said, r"\d{9}")
         report = self.report()
         self.assertIn("singular pose, or so near one", report)
@@ -62,8 +63,8 @@ class Messages(InFolder):
 
     def test_a_waypoint_out_of_range_names_parameter_value_and_range(self):
         said = self.plan(("px: [-1500, 1500]", "px: [-1500, 1100]"), ("px: 500, py", "px: 1100, py"), code=2)
-        self.assertRegex(said, r"waypoint 1 of the query: .*: px is 1\.1 and so, but for rounding, at an end of its range, "
-                               r"its range is from -1\.5 to 1\.1 \(SI: m, rad\) \[U1\]")
+        self.assertRegex(said, r"waypoint 1 of the query: .*: px is 1\.1 and so, but for rounding, at an end of its "
+                               r"range, its range is from -1\.5 to 1\.1 \(SI: m, rad\) \[U1\]")
 
     def test_a_reversed_gravity_is_suspected(self):
         reversed_gravity = ("gravity: [0, 0, -9.81]", "gravity: [0, 0, 9.81]")
@@ -71,18 +72,21 @@ class Messages(InFolder):
         self.assertIn(question, self.plan(reversed_gravity, code=1))
         self.assertIn(question, self.report())
         self.assertIn(question, run(TAUT, "show", self.path("altered.yaml")).stdout)
-        self.assertIn(question, self.audit(self.table("px,py,pz,phi,theta,sigma", (0, 0, 2, 0, 0, 0), (.1, 0, 2, 0, 0, 0)), 1,
-                                           self.path("altered.yaml")))
+        table = self.table("px,py,pz,phi,theta,sigma", (0, 0, 2, 0, 0, 0), (.1, 0, 2, 0, 0, 0))
+        self.assertIn(question, self.audit(table, 1, self.path("altered.yaml")))
         self.assertNotIn(question, self.plan(("mass: 300 kg", "mass: 50 t"), code=1), "too heavy is another fault")
         self.assertNotIn(question, run(TAUT, "show", self.case).stdout)
 
     def test_tabs_in_indentation_are_named(self):
-        for old, new, line in (("  tension: [50 N", "\ttension: [50 N", 26), ("    - [0, 3000, 8000]", "  \t- [0, 3000, 8000]", 13)):
+        for old, new, line in (("  tension: [50 N", "\ttension: [50 N", 26),
+                               ("    - [0, 3000, 8000]", "  \t- [0, 3000, 8000]", 13)):
             said = run(TAUT, "show", self.altered((old, new)))
             self.assertEqual(said.returncode, 3)
             line = self.text[:self.text.index(old)].count("\n") + 1
-            self.assertRegex(said.stderr, rf"altered\.yaml:{line}:\d: got a tab .* YAML forbids tabs in indentation \[E3\]")
-        self.assertEqual(run(TAUT, "show", self.altered(("tension: [50 N", "tension:\t[50 N"))).returncode, 0, "elsewhere they may be")
+            self.assertRegex(said.stderr,
+                             rf"altered\.yaml:{line}:\d: got a tab .* YAML forbids tabs in indentation \[E3\]")
+        elsewhere = self.altered(("tension: [50 N", "tension:\t[50 N"))
+        self.assertEqual(run(TAUT, "show", elsewhere).returncode, 0, "elsewhere they may be")
 
     # --- What may be wrong with a path ---
 
@@ -106,8 +110,8 @@ class Messages(InFolder):
     def test_swapped_columns_are_named(self):
         names = "px,py,pz,phi,theta,sigma"
         said = self.audit(self.table(names, (2, .1, 0, 0, 0, 0), (2, .1, .1, 0, 0, 0)), 1, self.wide())
-        self.assertIn("In line 2 the pose is outside the limits. With px and pz exchanged it would be within all of them: "
-                      "are these two columns swapped?", said)
+        self.assertIn("In line 2 the pose is outside the limits. With px and pz exchanged it would be within all of "
+                      "them: are these two columns swapped?", said)
         self.assertNotIn("swapped", self.audit(self.table(names, (0, .1, 2, 0, 0, 0), (.1, .1, 2, 0, 0, 0)), 0))
 
     def test_swapped_lengths_are_named(self):
@@ -144,12 +148,13 @@ class Messages(InFolder):
     # --- The command line ---
 
     def test_the_nearest_command_and_option_are_suggested(self):
-        for arguments, expected in ((["pln", self.case], "got 'pln', did you mean 'plan'? Expected a command: plan audit"),
-                                    (["frobnicate"], "got 'frobnicate', expected a command: plan audit"),
-                                    (["plan", self.case, "--buget", "3"], "got the unknown option '--buget', did you mean '--budget'?"),
-                                    (["audit", self.case, "--jsno"], "got the unknown option '--jsno', did you mean '--json'?"),
-                                    (["show", self.case, "--rainbow"], "got the unknown option '--rainbow', expected one that"),
-                                    (["show", self.case, "more"], "got 'more', expected no further argument")):
+        for arguments, expected in (
+                (["pln", self.case], "got 'pln', did you mean 'plan'? Expected a command: plan audit"),
+                (["frobnicate"], "got 'frobnicate', expected a command: plan audit"),
+                (["plan", self.case, "--buget", "3"], "got the unknown option '--buget', did you mean '--budget'?"),
+                (["audit", self.case, "--jsno"], "got the unknown option '--jsno', did you mean '--json'?"),
+                (["show", self.case, "--rainbow"], "got the unknown option '--rainbow', expected one that"),
+                (["show", self.case, "more"], "got 'more', expected no further argument")):
             said = run(TAUT, *arguments)
             self.assertEqual((said.returncode, said.stdout), (3, ""))
             self.assertTrue(said.stderr.startswith(expected), said.stderr)
@@ -158,8 +163,8 @@ class Messages(InFolder):
     # --- Words and units ---
 
     def test_one_is_not_many(self):
-        said = self.plan(("px: 500, py: -300, pz: 3500, phi: 0, theta: 5, sigma: 10", "px: 1, py: 0, pz: 2000, phi: 0, theta: 0, sigma: 1"),
-                         code=0)
+        said = self.plan(("px: 500, py: -300, pz: 3500, phi: 0, theta: 5, sigma: 10",
+                          "px: 1, py: 0, pz: 2000, phi: 0, theta: 0, sigma: 1"), code=0)
         self.assertIn("1 segment in 1 box.", said)
         for noun in ("segment", "boxe", "chart", "edge", "waypoint", "row", "stretche"):
             self.assertNotRegex(said, rf"(?<!\d)1 {noun}s\b")
@@ -178,17 +183,20 @@ class Messages(InFolder):
         metres = self.text
         for numbers in re.findall(r"\[-?\d[^\]\[]*\]", metres.split("load:")[0]):
             if "N" not in numbers and " m" not in numbers:
-                metres = metres.replace(numbers, "[" + ", ".join(f"{float(x) / 1000:g}" for x in numbers[1:-1].split(",")) + "]")
+                in_metres = ", ".join(f"{float(x) / 1000:g}" for x in numbers[1:-1].split(","))
+                metres = metres.replace(numbers, "[" + in_metres + "]")
         for old, new in (("[0, 0, -200]", "[0, 0, -0.2]"),
                          ("[0, 0, -333], at_tolerance: 10}", "[0, 0, -0.333], at_tolerance: 0.01}"),
                          ("px: [-1500, 1500], py: [-1500, 1500], pz: [1000, 6000]",
                           "px: [-1.5, 1.5], py: [-1.5, 1.5], pz: [1, 6]")):
             self.assertIn(old, metres)
             metres = metres.replace(old, new)
-        metres = metres.replace("pz: 2000", "pz: 2").replace("px: 500, py: -300, pz: 3500", "px: 0.5, py: -0.3, pz: 3.5")
+        metres = metres.replace("pz: 2000", "pz: 2")
+        metres = metres.replace("px: 500, py: -300, pz: 3500", "px: 0.5, py: -0.3, pz: 3.5")
         self.text = metres
         said = self.plan(*in_kN, code=0)
-        self.assertIn(f"Proved margins: tension {float(base['tension_N']) / 1000:g} kN, length {float(base['length_m']):g} m", said)
+        self.assertIn(f"Proved margins: tension {float(base['tension_N']) / 1000:g} kN, "
+                      f"length {float(base['length_m']):g} m", said)
         self.assertRegex(said, r"origin moves 1\.609 m, ")
         report = self.report()
         self.assertRegex(report, r"every tension stays at least 0\.\d+ kN inside its limits")
@@ -209,10 +217,11 @@ class Messages(InFolder):
     def test_growing_says_what_it_may_cost_and_ends_with_its_budget(self):
         atlas = self.path("crane.atlas")
         said = self.plan(code=0, options=["--save-atlas", atlas, "--grow", "--grow-seconds", "1"])
-        self.assertRegex(said, r"Growing the atlas to all charts that can be reached, 200000 at most \(planner\.max_charts\): as it "
-                               r"begins, these would take about [\d.e+]+ s and a file of [\d.e+]+ MB\. It ends after 1 s")
-        self.assertRegex(said, r"Atlas of \d+ charts, NOT all that can be reached, written to .*: growing ended after [\d.]+ s "
-                               r"\(--grow-seconds\), with \d+ charts complete")
+        self.assertRegex(said, r"Growing the atlas to all charts that can be reached, 200000 at most "
+                               r"\(planner\.max_charts\): as it begins, these would take about [\d.e+]+ s and a file "
+                               r"of [\d.e+]+ MB\. It ends after 1 s")
+        self.assertRegex(said, r"Atlas of \d+ charts, NOT all that can be reached, written to .*: growing ended after "
+                               r"[\d.]+ s \(--grow-seconds\), with \d+ charts complete")
         self.assertTrue(os.path.isfile(atlas))
         again = self.plan(code=0, options=["--atlas", atlas, "--json"])
         self.assertGreater(json.loads(again)["charts_stored"], 0, "what was saved is of use")

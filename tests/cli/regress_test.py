@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`taut regress` through the command line: what runs, what counts as a difference, what is written, and with which exit code.
+"""`taut regress` through the command line: what runs, what counts as a difference, what is written, and the exit code.
 
 Usage: regress_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
@@ -127,7 +127,8 @@ class Regress(InFolder):
             json.dump(content, file)
         os.remove(self.path("cases", "b.yaml"))
         self.assertIn("b.yaml: is in the baseline, and is no more", self.regress("--baseline", baseline, code=1))
-        for text in ("", "{}", '{"format": "taut-baseline", "version": 1}', '{"format": "taut-baseline", "version": 2}'):
+        for text in ("", "{}", '{"format": "taut-baseline", "version": 1}',
+                     '{"format": "taut-baseline", "version": 2}'):
             self.write("baseline.json", text)
             self.regress("--baseline", baseline, code=3)
 

@@ -122,7 +122,8 @@ class Report(unittest.TestCase):
                 for command in (("report", path), ("audit", CASE, path)):
                     result = run(TAUT, *command)
                     self.assertEqual((result.returncode, result.stdout), (3, ""))
-                    self.assertRegex(result.stderr, rf"^taut: {re.escape(path)}: got .*{said}.*, expected a certificate \[E\d\]\n$")
+                    self.assertRegex(result.stderr,
+                                     rf"^taut: {re.escape(path)}: got .*{said}.*, expected a certificate \[E\d\]\n$")
                     self.assertNotIn("exception", result.stderr)
 
     def test_plan_has_its_certificate_checked(self):
@@ -275,8 +276,9 @@ class Report(unittest.TestCase):
         with open(browser, "w", encoding="utf-8") as file:
             file.write(f"#!/bin/sh\nsleep {mark} &\nwait\n")
         os.chmod(browser, 0o755)
-        with subprocess.Popen([TAUT, "report", self.certificate, "--pdf"], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, env={**os.environ, "TAUT_BROWSER": browser}) as process:
+        with subprocess.Popen([TAUT, "report", self.certificate, "--pdf"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "TAUT_BROWSER": browser}) as process:
             interrupt(process, 0.5)
             _, said = process.communicate(timeout=30)
         self.assertEqual((process.returncode, said), (2, "taut: interrupted: nothing was written\n"))

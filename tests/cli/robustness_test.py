@@ -24,7 +24,8 @@ RESULTS = ("certificate.json", "controller.csv", "path.csv", "report.html")
 
 
 def may_mount():
-    return os.geteuid() == 0 and subprocess.run(["unshare", "--mount", "true"], capture_output=True, check=False).returncode == 0
+    return os.geteuid() == 0 and subprocess.run(["unshare", "--mount", "true"], capture_output=True,
+                                                check=False).returncode == 0
 
 
 class Robustness(InFolder):
@@ -153,7 +154,8 @@ class Robustness(InFolder):
         codes = set()
         for megabytes in range(24, 64, 4):
             ran = subprocess.run(["bash", "-c", 'ulimit -v "$1"; shift; exec "$@"', "bash", str(megabytes << 10), TAUT,
-                                  "plan", CASE, "--out", self.path("out")], capture_output=True, timeout=120, check=False)
+                                  "plan", CASE, "--out", self.path("out")],
+                                 capture_output=True, timeout=120, check=False)
             codes.add(ran.returncode)
             self.assertNotIn(ran.returncode, (1, 2), ran.stdout)
             if os.path.exists(self.path("out")):
@@ -167,7 +169,8 @@ class Robustness(InFolder):
                     [CHECK, self.path("out", "certificate.json")])
         for command in commands:
             def ends_with(kilobytes, command=command):
-                limited = ["bash", "-c", 'ulimit -c 0; ulimit -v "$1"; shift; exec "$@"', "bash", str(kilobytes), *command]
+                limited = ["bash", "-c", 'ulimit -c 0; ulimit -v "$1"; shift; exec "$@"', "bash", str(kilobytes),
+                           *command]
                 return subprocess.run(limited, capture_output=True, timeout=120, check=False).returncode
             too_little, enough = 4 << 10, 256 << 10
             while enough - too_little > 512:
@@ -188,7 +191,8 @@ class Robustness(InFolder):
         for ending in (".yaml", ".svg"):
             os.symlink("loop" + ending, self.path("loop" + ending))
         long_name = self.path("x" * 300)
-        for name, reason in ((self.path("loop"), "Too many levels of symbolic links"), (long_name, "File name too long")):
+        for name, reason in ((self.path("loop"), "Too many levels of symbolic links"),
+                             (long_name, "File name too long")):
             for arguments in (["report", certificate, "--text", "--out", name], ["report", certificate, "--out", name],
                               ["report", name], ["plan", CASE, "--out", name], ["plan", CASE, "--save-atlas", name],
                               ["plan", CASE, "--sign", name], ["audit", AUDITED, name, "--out", self.path("audit")],

@@ -133,9 +133,11 @@ class Sensitivity(unittest.TestCase):
         text = text_of(LOOSE)
         said = run(TAUT, "audit", self.write(text), path, "--out", self.folder.name)
         self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
-        found = re.search(r"The path is provable at ([\d.]+) % of all tolerances and deviations of the load", said.stdout)
+        found = re.search(r"The path is provable at ([\d.]+) % of all tolerances and deviations of the load",
+                          said.stdout)
         self.assertTrue(found, said.stdout)
-        self.assertRegex(said.stdout, r"In the way: the (tension|length) of cable \d at s = [\d.e-]+ of segment \d+, limit")
+        self.assertRegex(said.stdout,
+                         r"In the way: the (tension|length) of cable \d at s = [\d.e-]+ of segment \d+, limit")
         share = float(found.group(1)) / 100
         self.assertLess(share, 1)
         report = text_of(os.path.join(self.folder.name, "report.html"))

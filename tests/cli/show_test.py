@@ -27,8 +27,9 @@ class Show(unittest.TestCase):
     def test_numbers_are_those_of_the_case_and_of_its_certificate(self):
         said = run(TAUT, "show", CASE)
         self.assertEqual((said.returncode, said.stderr), (0, ""))
-        for expected in ("(-190.5256, -110, 0)", "(-112.5833, 65, 0)", "0.05 to 0.5", "100 to 550", "phi = -2.3", "floating point",
-                         "semi-axis of the force: 0.01 N", "semi-axis of the moment: 0.001 N·m", "Nothing is proved here"):
+        for expected in ("(-190.5256, -110, 0)", "(-112.5833, 65, 0)", "0.05 to 0.5", "100 to 550", "phi = -2.3",
+                         "floating point", "semi-axis of the force: 0.01 N", "semi-axis of the moment: 0.001 N·m",
+                         "Nothing is proved here"):
             self.assertIn(expected, said.stdout)
         shown = json.loads(run(TAUT, "show", CASE, "--json").stdout)
         with tempfile.TemporaryDirectory() as folder:
@@ -52,7 +53,8 @@ class Show(unittest.TestCase):
             rotation = rotation_of(pose)
             total = [0.0] * 3
             for i, cable in enumerate(waypoint["cables"]):
-                end = [pose[c] + sum(rotation[k][j] * b[i][j] for j in range(3)) for k, c in enumerate(("px", "py", "pz"))]
+                end = [pose[c] + sum(rotation[k][j] * b[i][j] for j in range(3))
+                       for k, c in enumerate(("px", "py", "pz"))]
                 along = [end[k] - a[i][k] for k in range(3)]
                 length = sum(x * x for x in along) ** 0.5
                 self.assertAlmostEqual(length, cable["length_m"], places=12)
@@ -86,8 +88,8 @@ class Show(unittest.TestCase):
             broken = os.path.join(folder, "broken.yaml")
             with open(broken, "w", encoding="utf-8") as file:
                 file.write("taut: 1\nname: <b>\n")
-            for arguments, code in (([broken], "E3"), ([os.path.join(folder, "none.yaml")], "E2"), ([CASE, "--out", "x.png"], "E1"),
-                                    ([CASE, "--colour"], "E1")):
+            for arguments, code in (([broken], "E3"), ([os.path.join(folder, "none.yaml")], "E2"),
+                                    ([CASE, "--out", "x.png"], "E1"), ([CASE, "--colour"], "E1")):
                 said = run(TAUT, "show", *arguments)
                 self.assertEqual((said.returncode, said.stdout), (3, ""))
                 self.assertRegex(said.stderr, rf"\[{code}\]")

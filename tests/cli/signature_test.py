@@ -99,11 +99,13 @@ class Signature(InFolder):
 
     def test_other_keys_are_bad_input_before_anything_is_planned(self):
         self.make_key("rsa", "-algorithm", "RSA")
-        openssl("pkey", "-in", self.path("me.pem"), "-aes256", "-passout", "pass:secret", "-out", self.path("locked.pem"))
+        openssl("pkey", "-in", self.path("me.pem"), "-aes256", "-passout", "pass:secret",
+                "-out", self.path("locked.pem"))
         for name, seen in (("rsa.pem", "a private key of type RSA"), ("locked.pem", "an encrypted private key"),
                            ("me.pub", "a public key"), ("none.pem", "No such file"), ("", "Is a directory")):
             with self.subTest(name=name):
-                result = run(TAUT, "plan", CASE, "--out", self.path("never"), "--sign", self.path(name), stdin=subprocess.DEVNULL)
+                result = run(TAUT, "plan", CASE, "--out", self.path("never"), "--sign", self.path(name),
+                             stdin=subprocess.DEVNULL)
                 self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
                 self.assertIn(seen, result.stderr)
                 self.assertFalse(os.path.exists(self.path("never")))

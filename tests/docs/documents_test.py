@@ -61,7 +61,8 @@ class Documents(unittest.TestCase):
         sources = (".cc", ".h", ".h.in", ".py", ".js", ".mjs", ".css", ".cmake", ".cmake.in", ".sh", "CMakeLists.txt")
         count = 0
         for folder, folders, files in os.walk(SOURCE):
-            folders[:] = [name for name in folders if name not in ("build", "node_modules", "out", ".git", "__pycache__")]
+            folders[:] = [name for name in folders
+                          if name not in ("build", "node_modules", "out", ".git", "__pycache__")]
             for path in (os.path.join(folder, name) for name in files):
                 with open(path, "rb") as file:
                     beginning = file.read(200)
@@ -91,7 +92,8 @@ class Documents(unittest.TestCase):
         case = re.search(r"^\./taut plan (\S+)", text_of(DOCUMENTS[0]), re.M).group(1)
         with tempfile.TemporaryDirectory() as folder:
             os.symlink(os.path.join(SOURCE, "cases"), os.path.join(folder, "cases"))
-            said = subprocess.run([TAUT, "plan", case], cwd=folder, capture_output=True, text=True, timeout=280, check=True)
+            said = subprocess.run([TAUT, "plan", case], cwd=folder, capture_output=True, text=True, timeout=280,
+                                  check=True)
         self.assertEqual(without_times(said.stdout), without_times(shown))
 
     def test_every_link_leads_somewhere(self):

@@ -102,7 +102,8 @@ class Layers(unittest.TestCase):
         self.assertEqual([wrong for path in files for wrong in wrong_includes(path, text_of(path))], [])
 
     def test_no_link_runs_up(self):
-        files = [path for path in product_files("CMakeLists.txt") if path.count("/") and not path.startswith("examples")]
+        files = [path for path in product_files("CMakeLists.txt")
+                 if path.count("/") and not path.startswith("examples")]
         links = [text_of(path) for path in files]
         self.assertGreater(sum(text.count("target_link_libraries") for text in links), 14)
         self.assertEqual([wrong for path, text in zip(files, links) for wrong in wrong_links(path, text)], [])
@@ -113,14 +114,15 @@ class Layers(unittest.TestCase):
 
         self.assertEqual(include("base/files.h", '"cli/console.h"'), ["base/files.h: cli/console.h"])
         self.assertEqual(include("checker/check.cc", '"case/case_file.h"'), ["checker/check.cc: case/case_file.h"])
-        self.assertEqual(include("checker/check.cc", '"../certify/margin.h"'), ["checker/check.cc: ../certify/margin.h"])
+        self.assertEqual(include("checker/check.cc", '"../certify/margin.h"'),
+                         ["checker/check.cc: ../certify/margin.h"])
         self.assertEqual(include("certify/motion/motion.h", '"certify/box_proof.h"'),
                          ["certify/motion/motion.h: certify/box_proof.h"])
         self.assertEqual(include("kinematics/model.h", "<taut/taut.h>"), ["kinematics/model.h: api/taut/taut.h"])
         self.assertEqual(include("checker/taut_check.cc", '"case/case_file.h"'), [])
         self.assertEqual(include("checker/taut_check.cc", '"checker/check.h"'), [])
-        for target, link in (("taut_checker", "taut_case"), ("taut-check", "taut_certify"), ("taut_atlas", "taut::certify"),
-                             ("taut_python", "taut_app")):
+        for target, link in (("taut_checker", "taut_case"), ("taut-check", "taut_certify"),
+                             ("taut_atlas", "taut::certify"), ("taut_python", "taut_app")):
             self.assertEqual(wrong_links("there", f"target_link_libraries({target}\n  PUBLIC taut_common {link})"),
                              [f"there: {target} to {link}"])
         self.assertEqual(wrong_links("there", "target_link_libraries(taut-check PRIVATE taut_checker taut_case)"), [])

@@ -14,7 +14,8 @@ BUILD, *PROGRAMS = sys.argv[1:]
 
 
 def readelf(*arguments):
-    return subprocess.run(["readelf", "--wide", *arguments], capture_output=True, text=True, check=True, timeout=60).stdout
+    return subprocess.run(["readelf", "--wide", *arguments], capture_output=True, text=True, check=True,
+                          timeout=60).stdout
 
 
 class Hardening(unittest.TestCase):

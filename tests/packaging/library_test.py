@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Installs taut into a folder of its own, and builds and runs what uses it there: the examples, and a program on its layers.
+"""Installs taut into a folder of its own, and builds and runs what uses it: the examples, and a program on its layers.
 
 Usage: library_test.py BUILD_DIR SOURCE_DIR TAUT_CHECK
 """

@@ -91,7 +91,8 @@ class Packages(unittest.TestCase):
         self.assertEqual(said, f"taut {found.group('value')}\n")
         self.assertIn(f'DESCRIPTION "{project["project"]["description"]}"', lists["."])
         for name in build["cmake"]["define"]:
-            self.assertTrue(name.startswith("CMAKE_") or re.search(rf"(option|set)\({name} ", "".join(lists.values())), name)
+            self.assertTrue(name.startswith("CMAKE_") or
+                            re.search(rf"(option|set)\({name} ", "".join(lists.values())), name)
         for component in build["install"]["components"]:
             self.assertRegex(lists["packaging"], rf"COMPONENT {component}\b")
         for target in build["build"]["targets"]:

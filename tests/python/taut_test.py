@@ -56,7 +56,8 @@ def command(*arguments):
 class Cases(unittest.TestCase):
     def test_of_a_file(self):
         case = taut.Case.load(ROBOT1)
-        self.assertEqual((case.name, case.parameters, case.query_waypoints), ("robot1-slice-qs-qg", ["phi", "theta"], 2))
+        self.assertEqual((case.name, case.parameters, case.query_waypoints),
+                         ("robot1-slice-qs-qg", ["phi", "theta"], 2))
         self.assertEqual(case.tension_limits_N.tolist(), [[0.05, 0.5]] * 6)
         self.assertEqual(case.length_limits_m.shape, (6, 2))
 
@@ -66,8 +67,8 @@ class Cases(unittest.TestCase):
             drawing = os.path.join(folder, "robot.svg")
             said = subprocess.run([TAUT, "show", ROBOT1], capture_output=True, text=True, check=True, timeout=60)
             self.assertEqual(case.summary(), said.stdout)
-            said = subprocess.run([TAUT, "show", ROBOT1, "--json", "--out", drawing], capture_output=True, text=True, check=True,
-                                  timeout=60)
+            said = subprocess.run([TAUT, "show", ROBOT1, "--json", "--out", drawing], capture_output=True, text=True,
+                                  check=True, timeout=60)
             self.assertEqual({"command": "show", **case.summary_data()}, json.loads(said.stdout))
             with open(drawing, encoding="utf-8") as file:
                 self.assertEqual(case._repr_svg_(), file.read())
@@ -118,7 +119,8 @@ class Cases(unittest.TestCase):
     def test_that_is_wrong_says_where(self):
         wrong = copy.deepcopy(ROBOT)
         wrong["robot"]["tension"] = [0.5, 0.05]
-        with self.assertRaisesRegex(taut.InputError, r"crane:\d+:\d+: robot\.tension\[0\]: got \[0\.5, 0\.05\], expected") as caught:
+        with self.assertRaisesRegex(taut.InputError, r"crane:\d+:\d+: robot\.tension\[0\]: got \[0\.5, 0\.05\], "
+                                                     r"expected") as caught:
             taut.Case(wrong, "crane")
         self.assertEqual((caught.exception.file, caught.exception.field), ("crane", "robot.tension[0]"))
         self.assertGreater(caught.exception.line, 20)
@@ -144,7 +146,8 @@ class Cases(unittest.TestCase):
                                       timeout=60)
                 with self.assertRaises(taut.InputError) as caught:
                     call()
-                self.assertEqual((said.returncode, said.stderr), (3, f"taut: {caught.exception} [{caught.exception.code}]\n"))
+                self.assertEqual((said.returncode, said.stderr),
+                                 (3, f"taut: {caught.exception} [{caught.exception.code}]\n"))
                 self.assertTrue(str(caught.exception).startswith(f"{caught.exception.file}:{caught.exception.line}:"))
 
 
@@ -205,7 +208,8 @@ class Certificates(unittest.TestCase):
     def test_have_samples(self):
         samples = self.planned.samples(100)
         n = len(samples.position)
-        self.assertEqual([samples.p_m.shape, samples.quaternion.shape, samples.tension_lower_N.shape], [(n, 3), (n, 4), (n, 6)])
+        self.assertEqual([samples.p_m.shape, samples.quaternion.shape, samples.tension_lower_N.shape],
+                         [(n, 3), (n, 4), (n, 6)])
         self.assertTrue((samples.tension_lower_N > 0.05).all() and (samples.tension_upper_N < 0.5).all())
         self.assertTrue(np.allclose(np.linalg.norm(samples.quaternion, axis=1), 1))
 
@@ -251,7 +255,8 @@ class Proofs(unittest.TestCase):
 
     def test_of_arrays_bit_for_bit(self):
         waypoints = self.path.waypoints[:4] + np.array([[0, 0], [1e-16, 0], [0, np.spacing(1.0)], [0, 0]])
-        proved = taut.prove(self.case, waypoints, half_turns=self.path.half_turns[:4], times=[0, 0.1, "0.25", np.float64(1) / 3])
+        proved = taut.prove(self.case, waypoints, half_turns=self.path.half_turns[:4],
+                            times=[0, 0.1, "0.25", np.float64(1) / 3])
         self.assertEqual(proved.path.waypoints.tobytes(), waypoints.tobytes())
         self.assertEqual(proved.path.times, ("0.0", "0.1", "0.25", repr(1 / 3)))
         self.assertTrue(proved.is_proved)
@@ -365,7 +370,8 @@ class Documents(unittest.TestCase):
 
     def names_of_the_reader(self):
         """What the reader of a document has already."""
-        return {"taut": taut, "waypoints": [[0.1, 0.2], [0.2, 0.3]], "phi": np.linspace(0, 10, 5), "theta": np.linspace(5, 20, 5)}
+        return {"taut": taut, "waypoints": [[0.1, 0.2], [0.2, 0.3]],
+                "phi": np.linspace(0, 10, 5), "theta": np.linspace(5, 20, 5)}
 
 
 class Running(unittest.TestCase):
@@ -373,7 +379,8 @@ class Running(unittest.TestCase):
         values = np.repeat([[-2.3, 1.6], [-2.29, 1.61]], 2000, axis=0)[::1] + np.linspace(0, 1e-3, 4000)[:, np.newaxis]
         seen = []
         case = taut.Case.load(ROBOT1)
-        taut.audit(case, values, columns=["phi[rad]", "theta[rad]"], progress=lambda *at: seen.append((threading.get_ident(), *at)))
+        taut.audit(case, values, columns=["phi[rad]", "theta[rad]"],
+                   progress=lambda *at: seen.append((threading.get_ident(), *at)))
         self.assertTrue(seen)
         for thread, stage, done, total in seen:
             self.assertEqual((thread, stage, total), (threading.get_ident(), "auditing", 3999))

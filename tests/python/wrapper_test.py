@@ -17,7 +17,8 @@ class Wrapper(unittest.TestCase):
     def test_the_module_is_found(self):
         clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
         with tempfile.TemporaryDirectory() as elsewhere:
-            said = subprocess.run([os.path.join(SOURCE, "taut-python"), "-B", "-c", "import taut; print(taut.__file__)"],
+            said = subprocess.run([os.path.join(SOURCE, "taut-python"), "-B", "-c",
+                                   "import taut; print(taut.__file__)"],
                                   cwd=elsewhere, env=clean, capture_output=True, text=True, check=False, timeout=280)
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertTrue(said.stdout.startswith(os.path.join(SOURCE, "build", "release", "python", "taut")), said.stdout)
