@@ -111,7 +111,8 @@ class TAUT_EXPORT Case {
 
   /// The load as it was understood, in kg, t, N, kN, N m and m, a sentence each: in all, the extremes of each
   /// component, then item by item, as `taut show` prints it. Read it before you rely on a verdict: a slip of units
-  /// shows there. Its numbers are `load` in summary_json(). @throws InputError for numbers beyond the range of binary64.
+  /// shows there. Its numbers are `load` in summary_json().
+  /// @throws InputError for numbers beyond the range of binary64.
   [[nodiscard]] std::vector<std::string> load_statement() const;
   /// What may not be meant as it was typed, each with its place in the file: what the commands print as warnings.
   [[nodiscard]] std::vector<std::string> warnings() const;
