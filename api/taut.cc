@@ -591,15 +591,32 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
 
 namespace {
 
+/// The path that is meant: the one given, else the case's.
+AuditRequest audit_request(const Case::Content& content, const PathInput& path,
+                           const std::optional<Interpolation>& interpolation) {
+  AuditRequest request{path, std::nullopt};
+  if (interpolation) request.law = inner(*interpolation);
+  return resolved(request, content.the_case, content.file);
+}
+
+/// Does the work on a path. Where the caller's progress threw, and so interrupted it, that is thrown again.
+template <class Work>
+auto prove_path_within(ProgressBridge& relay, const Work& work) {
+  try {
+    return prove_within(ErrorCode::kPath, work);
+  } catch (const Interrupted&) {
+    relay.rethrow();
+    throw;
+  }
+}
+
 Certificate audit_input(const Case& the_case, const PathInput& path, const AuditOptions& options) {
   ProgressBridge relay(options.progress, options.stop);
   const auto work = [&] {
     const Case::Content& content = the_case.content();
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
-    AuditRequest request{path, std::nullopt};
-    if (options.interpolation) request.law = inner(*options.interpolation);
-    request = resolved(request, content.the_case, content.file);
+    const AuditRequest request = audit_request(content, path, options.interpolation);
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
     PathSource source(content.the_case.problem, request.path, request.law);
     std::string text;
@@ -611,12 +628,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());
   };
-  try {
-    return prove_within(ErrorCode::kPath, work);
-  } catch (const Interrupted&) {
-    relay.rethrow();
-    throw;
-  }
+  return prove_path_within(relay, work);
 }
 
 }  // namespace
@@ -643,9 +655,7 @@ std::string sensitivity_of(const Case& the_case, const PathInput& path, const Se
     const Case::Content& content = the_case.content();
     nlohmann::json found;
     if (!path.name.empty() || content.the_case.audit) {
-      AuditRequest request{path, std::nullopt};
-      if (options.interpolation) request.law = inner(*options.interpolation);
-      request = resolved(request, content.the_case, content.file);
+      const AuditRequest request = audit_request(content, path, options.interpolation);
       PathSource source(content.the_case.problem, request.path, request.law);
       found = to_json(source.problem(),
                       audit_sensitivity(content.the_case, source, options.budget_seconds, progress, relay.token()));
@@ -657,12 +667,7 @@ std::string sensitivity_of(const Case& the_case, const PathInput& path, const Se
     if (relay.token().stop_requested()) throw Interrupted("interrupted");
     return found.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   };
-  try {
-    return prove_within(ErrorCode::kPath, work);
-  } catch (const Interrupted&) {
-    relay.rethrow();
-    throw;
-  }
+  return prove_path_within(relay, work);
 }
 
 }  // namespace
