@@ -15,6 +15,7 @@ inline constexpr const char* kStyle = R"css(
   --inside: #7fc8a4; --tension: #cfe0f1; --length: #fbe6bd; --both: #e7e3ea; --singular: #c4161c; --chart: #26323b;
   --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418;
   --base: #8b949e; --platform: #cfe0f1;
+  --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
 }
 @media (prefers-color-scheme: dark) {
   :root {
@@ -25,6 +26,7 @@ inline constexpr const char* kStyle = R"css(
     --inside: #2f7d5b; --tension: #24374a; --length: #4d3f1f; --both: #2a2730; --singular: #ff6b62; --chart: #dfe6ec;
     --path: #ffffff; --casing: #101418; --start: #101418; --goal: #ffffff;
     --base: #77818b; --platform: #2b5378;
+    --calm: #aeb8c2; --near: #e0a030; --near-ink: #f0b94d; --close: #ff8f5c; --out: #ff8a80;
   }
 }
 * { box-sizing: border-box; }
