@@ -1,31 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `taut explain`: what the short code behind a message means, what usually causes it and what to do. One table, of
-// which docs/errors.md is a print.
+// `taut explain`: what the short code behind a message means (reports/summary/explanations.h).
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
-#include <vector>
-
-#include "base/input_error.h"
 
 namespace taut {
-
-inline constexpr const char* kInternalCode = "F1";
-inline constexpr const char* kUntrustworthyCode = "F2";
-inline constexpr const char* kBrowserFailedCode = "F3";
-
-struct Explanation {
-  std::string code;
-  const char* title;    ///< what is wrong or open, in a few words
-  const char* meaning;  ///< sentences
-  const char* causes;
-  const char* remedy;
-  const char* example;  ///< a line that a program prints
-};
-
-/// All explanations: reasons of "undecided" (certify/undecided.h), kinds of wrong input, failures.
-[[nodiscard]] const std::vector<Explanation>& explanations();
 
 struct ExplainArguments {
   std::string code;  ///< or empty: all

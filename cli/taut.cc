@@ -23,6 +23,7 @@
 #include "cli/console.h"
 #include "cli/doctor_command.h"
 #include "cli/explain_command.h"
+#include "reports/summary/explanations.h"
 #include "cli/init_command.h"
 #include "cli/output.h"
 #include "cli/pdf.h"

@@ -10,118 +10,193 @@ namespace taut {
 
 namespace {
 
-/// The text, or "________" to write on if it is empty.
+/// The text, or a line to write on if it is empty.
 Html or_blank(const std::string& text) {
   return text.empty() ? html("<span class=\"blank\"></span>") : html("<bdi>{}</bdi>", text);
 }
 
 Html masthead(const Summary& s) {
   return html(
-      "<div class=\"masthead\"><p>Motion report for a cable-driven hexapod</p>\n<dl>"
-      "<div><dt>Document</dt><dd>{}</dd></div><div><dt>Revision</dt><dd>{}</dd></div><div><dt>Date</dt><dd>{}</dd></"
-      "div>"
+      "<div class=\"masthead\"><p>Motion proof report for a cable-driven hexapod · appendix to a lift plan</p>\n<dl>"
+      "<div><dt>Document</dt><dd>{}</dd></div><div><dt>Rev</dt><dd>{}</dd></div><div><dt>Date</dt><dd>{}</dd></div>"
       "</dl></div>\n",
       or_blank(s.document), or_blank(s.revision), or_blank(s.date));
 }
 
-Html verdict(const Summary& s) {
-  Html body = html("<p>{}</p>\n", s.headline);
-  for (const std::string& sentence : s.details) body += html("<p>{}</p>\n", sentence);
-  if (!s.closest.empty()) {
-    Html items;
-    for (const std::string& sentence : s.closest) items += html("<li>{}</li>\n", sentence);
-    body += html("<ul>{}</ul>\n", items);
-  }
-  return html("<div class=\"verdict {}\">{}</div>\n", s.verdict, body);
-}
-
-/// A drawing of the range on a scale from 0 to slightly above the upper limit, with the limits.
-Html bar(const Use& use) {
-  constexpr double kWidth = 100;
-  const double full = 1.06 * use.upper_limit;
-  const auto at = [&](double x) { return std::clamp(kWidth * x / full, 0.0, kWidth); };
-  const double from = at(use.range.lower);
-  const double to = at(use.range.upper);
-  const bool is_out = use.range.lower <= use.lower_limit || use.range.upper >= use.upper_limit;
-  constexpr double kThinnest = 0.8;
-  return html(
-      "<svg class=\"use{}\" viewBox=\"0 0 100 10\" preserveAspectRatio=\"none\" aria-hidden=\"true\">"
-      "<path class=\"rail\" d=\"M0 5H100\"/><rect x=\"{:.2f}\" y=\"2\" width=\"{:.2f}\" height=\"6\"/>"
-      "<path class=\"limit\" d=\"M{:.2f} 0V10M{:.2f} 0V10\"/></svg>",
-      is_out ? html(" out") : Html(), from, std::max(to - from, kThinnest), at(use.lower_limit), at(use.upper_limit));
-}
-
-Html cables(const ReportContext& scene, const CableUse& use) {
-  if (use.source == CableUse::Source::kNone) return {};
-  const RobotText& robot = scene.certificate.problem.robot;
-  const DisplayUnit& force = scene.illustration.units.force;
-  const DisplayUnit& length = scene.illustration.units.length;
+/// What the verdict is about, before the verdict.
+Html scope(const Summary& s) {
   Html rows;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const Use& t = use.tension[i];
-    const Use& d = use.length[i];
-    const Limits& f = robot.tension_N[i];
-    const Limits& l = robot.length_m[i];
-    rows += html(
-        "<tr><th scope=\"row\" class=\"n\">{}</th><td class=\"n\">{} – {}</td><td class=\"n\">{} – {}</td><td>{}</td>"
-        "<td class=\"n\"><b>{} %</b></td><td class=\"n\">{} – {}</td><td class=\"n\">{} – {}</td><td>{}</td>"
-        "<td class=\"n\"><b>{} %</b></td></tr>\n",
-        i + 1, force.down(t.range.lower), force.up(t.range.upper), force.exact(f.lower), force.exact(f.upper), bar(t),
-        rounded_up(t.used_percent(), 3), length.down(d.range.lower), length.up(d.range.upper), length.exact(l.lower),
-        length.exact(l.upper), bar(d), rounded_up(d.used_percent(), 3));
-  }
-  const bool is_proved = use.source != CableUse::Source::kSamples;
-  return html(
-      "<div class=\"scroll\"><table class=\"cables\"><caption>{}</caption>\n<thead><tr><th scope=\"col\" "
-      "class=\"n\">Cable</th>"
-      "<th scope=\"col\" class=\"n\">Tension [{}]</th><th scope=\"col\" class=\"n\">Limits [{}]</th>"
-      "<th scope=\"col\"><span class=\"unseen\">Tension between 0 and its limits</span></th><th scope=\"col\" "
-      "class=\"n\">of upper limit</th>"
-      "<th scope=\"col\" class=\"n\">Length [{}]</th><th scope=\"col\" class=\"n\">Limits [{}]</th>"
-      "<th scope=\"col\"><span class=\"unseen\">Length between 0 and its limits</span></th><th scope=\"col\" "
-      "class=\"n\">of upper limit</th></tr></thead>\n"
-      "<tbody>{}</tbody></table></div>\n<p class=\"note\">{}</p>\n",
-      use_caption(use.source), force.name(), force.name(), length.name(), length.name(), rows,
-      is_proved
-          ? "Least and greatest values, rounded outward. This program computed them anew with interval arithmetic over "
-            "the "
-            "certificate's boxes; the certificate itself states the reserves only, and the report claims nothing "
-            "beyond it."
-          : "Least and greatest values at sampled poses, in floating point. Between samples they may be exceeded.");
-}
-
-Html facts(const Summary& s) {
-  Html rows;
+  const auto row = [&](const char* title, const Html& text) {
+    rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", title, text);
+  };
+  row("Move", html("{}", s.move));
+  Html load = html("{}", s.load.total);
+  if (s.load.items.empty()) load += html(" {}", s.load.spread);
+  for (const auto& [name, words] : s.load.items) load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), words);
+  row("Load", load);
   for (const Statement& statement : s.statements) {
     const std::string_view key = statement.key;
-    const Html more = key == "assumptions" || key == "not_covered"
-                          ? html(" <a class=\"more\" href=\"#assumptions\">In full</a>")
-                          : Html();
-    rows += html("<div class=\"{}\"><dt>{}</dt><dd>{}{}</dd></div>\n", statement.key, statement.title, statement.text,
-                 more);
+    if (key == "limits" || key == "tolerances") row(statement.title, html("{}", statement.text));
   }
-  return html("<dl class=\"facts\">\n{}</dl>\n", rows);
+  return html("<dl class=\"scope\">\n{}</dl>\n", rows);
 }
 
-Html signatures() {
+// ---- The verdict.
+
+Html icon(const std::string& verdict) {
+  const char* const path = verdict == "proved"    ? "M4 13l5.5 5.5L20 6.5"
+                           : verdict == "refuted" ? "M5 5l14 14M19 5L5 19"
+                                                  : "M12 4v10M12 18.5v1";
+  return html("<svg class=\"icon\" viewBox=\"0 0 24 24\" aria-hidden=\"true\"><path d=\"{}\"/></svg>", path);
+}
+
+/// What stands beside the verdict: the second program, the machine, collisions.
+Html checks(const ReportContext& scene) {
+  const bool is_confirmed = scene.recheck.result == Recheck::Result::kConfirmed;
+  const Html recheck = is_confirmed ? html("Re-checked by a second program <b>✓</b>")
+                       : scene.recheck.result == Recheck::Result::kNoClaim ? html("There is no claim to re-check")
+                                                                           : html("<b>Not re-checked</b>");
+  const Html machine = scene.certificate.problem.tolerances ? html("Machine within the stated tolerances")
+                                                            : html("Machine exactly as typed: <b>no tolerances</b>");
+  return html("<ul class=\"checks\"><li>{}</li><li>{}</li><li>Collisions: <b>not checked</b></li></ul>", recheck,
+              machine);
+}
+
+Html band(const ReportContext& scene, const Summary& s) {
+  return html("<div class=\"band {}\"><p class=\"word\">{}{}</p><p class=\"headline\">{}</p>{}</div>\n", s.verdict,
+              icon(s.verdict), s.word, s.headline, checks(scene));
+}
+
+Html tiles(const Summary& s) {
+  if (s.key_numbers.empty()) return {};
+  Html result;
+  for (const KeyNumber& n : s.key_numbers) {
+    result += html("<div class=\"tile {}\"><dt>{}</dt><dd class=\"value\">{}</dd><dd class=\"detail\">{}</dd></div>\n",
+                   name(n.nearness), n.title, n.value, n.detail);
+  }
+  return html("<dl class=\"tiles\">\n{}</dl>\n", result);
+}
+
+// ---- The cables.
+
+/// The range between its slack limit and its top limit, drawn.
+Html bar(const Use& use, Nearness nearness) {
+  constexpr double kWidth = 100;
+  const double width = use.upper_limit - use.lower_limit;
+  const auto at = [&](double x) { return std::clamp(kWidth * (x - use.lower_limit) / width, 0.0, kWidth); };
+  constexpr double kThinnest = 1.2;
+  const double from = std::min(at(use.range.lower), kWidth - kThinnest);
+  const double to = std::max(at(use.range.upper), from + kThinnest);
+  return html(
+      "<svg class=\"use {}\" viewBox=\"-1 0 102 10\" preserveAspectRatio=\"none\" aria-hidden=\"true\">"
+      "<path class=\"rail\" d=\"M0 5H100\"/><rect x=\"{:.2f}\" y=\"1.5\" width=\"{:.2f}\" height=\"7\"/>"
+      "<path class=\"limit\" d=\"M0 0V10M100 0V10\"/></svg>",
+      name(nearness), from, to - from);
+}
+
+/// "between slack limit 0.05 and top limit 0.5 N", or of each cable its own.
+Html bar_head(const ReportContext& scene) {
+  const RobotText& robot = scene.certificate.problem.robot;
+  const DisplayUnit& force = scene.illustration.units.force;
+  const bool is_one = std::ranges::all_of(robot.tension_N, [&](const Limits& l) { return l == robot.tension_N[0]; });
+  if (!is_one) return html("between its slack limit and its top limit");
+  return html("between slack limit {} and top limit {} {}", force.exact(robot.tension_N[0].lower),
+              force.exact(robot.tension_N[0].upper), force.name());
+}
+
+Html cables(const ReportContext& scene, const Summary& s) {
+  if (s.cables.empty()) return {};
   Html rows;
-  for (const char* role : {"Prepared by", "Checked by", "Approved by"}) {
-    rows += html("<tr><th scope=\"row\">{}</th><td></td><td></td><td></td></tr>\n", role);
+  for (const CableLine& c : s.cables) {
+    rows += html(
+        "<tr><th scope=\"row\" class=\"n\">{}</th><td class=\"n\">{} – {}</td><td>{}</td><td class=\"n {}\">{}</td>"
+        "<td class=\"n {}\">{}</td><td class=\"n {}\">{}</td></tr>\n",
+        c.cable + 1, c.from, c.to, bar(s.use.tension[c.cable], worse(c.slack, c.top)), name(c.slack), c.above_slack,
+        name(c.top), c.of_top, name(c.length), c.length_left);
   }
   return html(
-      "<table class=\"sign\"><caption class=\"unseen\">Signatures</caption><thead><tr><td></td><th "
-      "scope=\"col\">Name</th>"
-      "<th scope=\"col\">Date</th><th scope=\"col\">Signature</th></tr></thead>\n<tbody>{}</tbody></table>\n",
-      rows);
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table of the cables\"><table "
+      "class=\"cables\"><caption>{}</caption>\n<thead><tr><th scope=\"col\" class=\"n\">Cable</th><th scope=\"col\" "
+      "class=\"n\">Tension [{}]</th><th scope=\"col\">{}</th><th scope=\"col\" class=\"n\">above slack</th><th "
+      "scope=\"col\" class=\"n\">of top limit</th><th scope=\"col\" class=\"n\">length left</th></tr></thead>\n"
+      "<tbody>{}</tbody></table></div>\n",
+      use_caption(s.use.source), scene.illustration.units.force.name(), bar_head(scene), rows);
+}
+
+/// What the colours mean, and what the numbers rest on.
+Html cables_note(const Summary& s) {
+  if (s.cables.empty()) return {};
+  const bool is_proved = s.use.source != CableUse::Source::kSamples;
+  return html(
+      "<p class=\"note\">Worst first. Amber from 75 % of a limit of tension (less than +33.3 % above slack), or with "
+      "less "
+      "than 5 % of the range of lengths left; vermilion from 95 %, or with less than 2 %. {}</p>\n",
+      is_proved
+          ? "Proved bounds, rounded outward; taut-check proves the margins that bound them, this program the rest."
+          : "At sampled poses, in floating point: between samples they may be exceeded.");
+}
+
+// ---- What has to be confirmed elsewhere, and the declaration.
+
+Html not_covered(const Summary& s) {
+  Html items;
+  for (const std::string& item : s.not_covered) items += html("<li>{}</li>", item);
+  return html(
+      "<div class=\"uncovered\"><p><b>{}</b> <a class=\"more\" href=\"#assumptions\">in "
+      "full</a></p><ul>{}</ul></div>\n",
+      s.verdict == "proved" ? "This proof does not cover — confirm elsewhere:"
+                            : "Besides, this report says nothing about:",
+      items);
+}
+
+Html declaration(const Summary& s) {
+  const std::string digest = s.footer_sha256.substr(0, 8);
+  Html text;
+  const char* last = "Acknowledged by";
+  if (s.verdict == "proved") {
+    last = "Lift supervisor";
+    text = html(
+        "<b>By signing</b> I confirm that machine, load and limits above and under <a href=\"#robot\">Robot and "
+        "load</a> "
+        "are those of the machine that is used, that what this proof does not cover is covered by document <span "
+        "class=\"blank\"></span>, and that taut-check accepted this certificate (SHA-256 <span "
+        "class=\"digest\">{}…</span>).",
+        digest);
+  } else if (s.verdict == "refuted") {
+    text = html(
+        "<b>By signing</b> I acknowledge that this move breaks the limits stated above and must not be run as it is "
+        "(certificate with SHA-256 <span class=\"digest\">{}…</span>).",
+        digest);
+  } else {
+    text = html(
+        "<b>By signing</b> I acknowledge that nothing is proved about this move, and that this report does not release "
+        "it (certificate with SHA-256 <span class=\"digest\">{}…</span>).",
+        digest);
+  }
+  Html boxes;
+  for (const auto& [role, by] :
+       {std::pair("Prepared", s.prepared_by), std::pair("Checked", std::string()), std::pair(last, std::string())}) {
+    boxes += html("<div><span>{}</span><b><bdi>{}</bdi></b><small>name, date, signature</small></div>", role, by);
+  }
+  return html("<p class=\"declaration\">{}</p>\n<div class=\"signatures\">{}</div>\n", text, boxes);
+}
+
+Html details(const Summary& s) {
+  Html result;
+  for (const std::string& sentence : s.details) result += html("<p>{}</p>\n", sentence);
+  return result.empty() ? result : html("<div class=\"details\">{}</div>\n", result);
 }
 
 }  // namespace
 
-Html first_page(const ReportContext& scene, const Summary& summary) {
-  return html(
-      "<header class=\"first\">\n{}<h1><bdi>{}</bdi> <small>(name given in the case, not "
-      "checked)</small></h1>\n{}{}{}{}</header>\n",
-      masthead(summary), summary.name, verdict(summary), facts(summary), cables(scene, summary.use), signatures());
+Html first_page(const ReportContext& scene, const Summary& s) {
+  const Html title = html(
+      "<h1><bdi>{}</bdi></h1>\n<p class=\"note unverified\">Title and names are text of the case, which nothing "
+      "checks.</p>\n",
+      s.title);
+  return html("<header class=\"first {}\">\n{}{}{}{}{}{}<div class=\"duo\"><div>{}{}{}</div></div>{}</header>\n",
+              s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), details(s), cables(scene, s),
+              cables_note(s), not_covered(s), declaration(s));
 }
 
 }  // namespace taut

@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "reports/page/first_page.h"
+#include "reports/page/first_page_style.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
@@ -87,9 +88,9 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), kStyle, kFirstPageStyle, footer_style(summary.document), body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

@@ -32,7 +32,7 @@ inline constexpr const char* kStyle = R"css(
 * { box-sizing: border-box; }
 html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 100%; }
 body {
-  max-width: 1040px; margin: 0 auto; padding: 40px 28px 72px;
+  max-width: 1160px; margin: 0 auto; padding: 40px 28px 72px;
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif;
 }
 h1 small { font-size: 14px; font-weight: 400; }
@@ -47,36 +47,6 @@ code, .digest, td { overflow-wrap: anywhere; }
 pre { background: var(--tile); padding: 12px 14px; border-radius: 6px; white-space: pre-wrap; overflow-wrap: anywhere; }
 .soft, .note { color: var(--soft); }
 .note { font-size: 14px; }
-.masthead {
-  display: flex; flex-wrap: wrap; justify-content: space-between; gap: 4px 28px;
-  font-size: 14px; color: var(--soft);
-}
-.masthead p, .masthead dl { margin: 0; }
-.masthead dl { display: flex; flex-wrap: wrap; gap: 4px 24px; }
-.masthead dl > div { display: flex; gap: 8px; }
-.masthead dd { margin: 0; color: var(--ink); font-weight: 600; }
-.blank { display: inline-block; min-width: 70px; border-bottom: 1px solid var(--soft); }
-.verdict { border-left: 6px solid; padding: 2px 0 2px 20px; margin: 14px 0 18px; }
-.verdict p, .verdict ul { max-width: 92ch; }
-.verdict p:first-child { font-size: 20px; line-height: 1.35; font-weight: 650; margin-top: 0; }
-.verdict ul { padding-left: 20px; }
-.verdict.proved { border-color: var(--proved); } .verdict.proved p:first-child { color: var(--proved); }
-.verdict.refuted { border-color: var(--refuted); } .verdict.refuted p:first-child { color: var(--refuted); }
-.verdict.undecided, .verdict.unchecked { border-color: var(--undecided); }
-.verdict.undecided p:first-child, .verdict.unchecked p:first-child { color: var(--undecided); }
-.facts { margin: 14px 0; font-size: 14.5px; line-height: 1.45; }
-.facts > div {
-  display: grid; grid-template-columns: 110px 1fr; gap: 16px;
-  padding: 5px 0; border-top: 1px solid var(--line);
-}
-.facts dt { color: var(--soft); font-weight: 600; }
-.facts dd { margin: 0; overflow-wrap: anywhere; }
-.facts .not_covered dt, .facts .not_covered dd { font-weight: 600; color: var(--ink); }
-.cables td, .cables th { padding: 4px 12px 4px 0; vertical-align: middle; white-space: nowrap; }
-.cables b { color: var(--ink); }
-svg.use { display: block; width: 92px; height: 12px; }
-svg.use rect { fill: var(--curve); } svg.use.out rect { fill: var(--refuted); }
-svg.use .rail { stroke: var(--line); stroke-width: 1; } svg.use .limit { stroke: var(--limit); stroke-width: 1.5; }
 .unseen { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 caption { text-align: left; font-size: 13px; font-weight: 600; color: var(--soft); padding: 6px 0 4px; }
 nav { font-size: 14px; display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 20px; }
@@ -135,13 +105,8 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
 .cable.marked { stroke: var(--mark); stroke-width: 2.6; }
 .tag { fill: var(--paper); stroke: var(--soft); stroke-width: 0.8; }
 .load { fill: var(--mark); }
-.sign { width: 100%; margin: 18px 0 0; table-layout: fixed; }
-.sign td, .sign th { border: 1px solid var(--line); padding: 8px 10px; }
-.sign thead td { border: 0; } .sign thead th { border-width: 0 0 1px; padding: 2px 10px; }
-.sign th:first-child, .sign td:first-child { width: 110px; }
 @media (max-width: 760px) {
   .panels, .panels.two { grid-template-columns: 1fr; }
-  .facts > div { grid-template-columns: 1fr; gap: 0; }
 }
 @media print {
   @page {
@@ -164,24 +129,12 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   h2, h3, caption, summary { break-after: avoid; }
   p { orphans: 3; widows: 3; }
   caption { white-space: nowrap; }
-  figure, tr, blockquote, .sign, .formulas, .verdict, pre { break-inside: avoid; }
+  figure, tr, blockquote, .formulas, .band, .signatures, pre { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }
-  .first { break-after: page; font-size: 8.6pt; line-height: 1.36; }
-  .first p { margin: 3pt 0; }
-  .masthead { font-size: 8.6pt; }
-  .verdict { margin: 6pt 0; padding-left: 10pt; }
-  .verdict p, .verdict ul { max-width: none; margin: 3pt 0; }
-  .verdict p:first-child { font-size: 12pt; }
-  .facts { font-size: 8.4pt; line-height: 1.34; margin: 6pt 0; }
-  .facts > div { grid-template-columns: 58pt 1fr; gap: 8pt; padding: 2.2pt 0; }
   .panels { grid-template-columns: repeat(3, 1fr); gap: 10px; } .panels.two { grid-template-columns: repeat(2, 1fr); }
   table { font-size: 7.5pt; max-width: 100%; } th, td { padding-right: 7pt; } td.n { white-space: normal; }
   .cables td.n { white-space: nowrap; } caption { font-size: 8.4pt; }
-  .first .cables td, .first .cables th { padding: 1.6pt 6pt 1.6pt 0; }
-  .first .note { font-size: 7.5pt; line-height: 1.3; max-width: none; }
-  .sign { margin-top: 8pt; } .sign td, .sign th { padding: 6pt 6pt; font-size: 8.4pt; }
-  .sign th:first-child, .sign td:first-child { width: 76pt; }
   td code, th code, td.digest, td .digest { font-size: inherit; } .scroll { overflow: visible; }
   details::details-content { content-visibility: visible; block-size: auto; }
   summary { display: none; }

@@ -63,34 +63,27 @@ bool add_samples(const ReportContext& scene, CableUse& use) {
   return is_any;
 }
 
+CableUse empty_use(const ReportContext& scene) {
+  const RobotText& robot = scene.certificate.problem.robot;
+  return {CableUse::Source::kNone, empty_uses(robot.tension_N), empty_uses(robot.length_m)};
+}
+
 }  // namespace
 
 CableUse cable_use(const ReportContext& scene) {
-  const RobotText& robot = scene.certificate.problem.robot;
-  CableUse use{CableUse::Source::kNone, empty_uses(robot.tension_N), empty_uses(robot.length_m)};
-  if (add_proved(scene, use)) {
-    use.source = scene.ranges_are_whole ? CableUse::Source::kProved : CableUse::Source::kProvedParts;
-  } else if (!found_no_path(scene.certificate) && add_samples(scene, use)) {
-    use.source = CableUse::Source::kSamples;
-  }
+  CableUse use = empty_use(scene);
+  if (!add_proved(scene, use)) return sampled_use(scene);
+  use.source = scene.ranges_are_whole ? CableUse::Source::kProved : CableUse::Source::kProvedParts;
   return use;
 }
 
-ClosestUse closest(const std::array<Use, kCables>& uses) {
-  ClosestUse result;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const Use& use = uses[i];
-    const double width = use.upper_limit - use.lower_limit;
-    for (const bool is_upper : {false, true}) {
-      const double share = (is_upper ? use.upper_limit - use.range.upper : use.range.lower - use.lower_limit) / width;
-      if (!(share < least)) continue;
-      least = share;
-      result = {static_cast<int>(i), is_upper, is_upper ? use.upper_limit : use.lower_limit,
-                is_upper ? use.range.upper : use.range.lower, is_upper ? use.greatest_at : use.least_at};
-    }
+CableUse sampled_use(const ReportContext& scene) {
+  CableUse use = empty_use(scene);
+  const bool is_implied = scene.certificate.path.interpolation == Interpolation::kCableLengths;
+  if (!is_implied && !found_no_path(scene.certificate) && add_samples(scene, use)) {
+    use.source = CableUse::Source::kSamples;
   }
-  return result;
+  return use;
 }
 
 }  // namespace taut

@@ -40,16 +40,9 @@ struct CableUse {
   std::array<Use, kCables> length;
 };
 
+/// What is proved where anything is, else of samples.
 [[nodiscard]] CableUse cable_use(const ReportContext& scene);
-
-/// The cable that comes closest to one of its limits, measured by the width between them.
-struct ClosestUse {
-  int cable = 0;          ///< 0…5
-  bool is_upper = false;  ///< which limit
-  double limit = 0;
-  double value = 0;  ///< the end of the range next to the limit
-  double at = 0;     ///< position
-};
-[[nodiscard]] ClosestUse closest(const std::array<Use, kCables>& uses);
+/// Of samples of the whole path; nothing for laws of implied poses, whose samples may not be poses of the motion.
+[[nodiscard]] CableUse sampled_use(const ReportContext& scene);
 
 }  // namespace taut

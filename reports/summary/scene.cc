@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "certificate/certificate_reader.h"
+#include "problem/decimal.h"
 
 namespace taut {
 
@@ -23,6 +25,41 @@ PathRanges ranges_of(const Certificate& certificate, const std::vector<std::vect
   RangeOptions options;
   if (count > kManyBoxes) options.most_halvings = 0;
   return path_ranges(Prover(certificate.problem), certificate.path, boxes, options);
+}
+
+using Rational = boost::multiprecision::cpp_rational;
+
+constexpr double kRounding = 1e-15;  ///< more than the conversion to binary64 and the subtraction of this err by
+
+double below(const Rational& x) {
+  const auto nearest = x.convert_to<double>();
+  return nearest - kRounding * std::abs(nearest);
+}
+double above(const Rational& x) { return -below(Rational(-x)); }
+
+/// Cuts off what the theorem's margin of this segment excludes; unless nothing is left, as where that margin is false.
+void cut(Range& range, const Limits& limits, const DecimalText& margin) {
+  const Rational distance = Decimal::parse(margin).rational();
+  const double lower = std::max(range.lower, below(Rational(Decimal::parse(limits.lower).rational() + distance)));
+  const double upper = std::min(range.upper, above(Rational(Decimal::parse(limits.upper).rational() - distance)));
+  if (lower <= upper) range = {lower, upper};
+}
+
+/// The margins that the checker proved are sharper at some places than what is enclosed anew, so that two numbers would
+/// be stated for one thing.
+PathRanges tightened(PathRanges ranges, const Certificate& certificate) {
+  const RobotText& robot = certificate.problem.robot;
+  for (std::size_t k = 0; k < std::min(ranges.segments.size(), certificate.segments.size()); ++k) {
+    const std::optional<Margins>& margins = certificate.segments[k].margins;
+    if (!margins) continue;
+    for (BoxRanges& box : ranges.segments[k]) {
+      for (std::size_t i = 0; i < kCables; ++i) {
+        cut(box.tension[i], robot.tension_N[i], margins->tension_N);
+        cut(box.length[i], robot.length_m[i], margins->length_m);
+      }
+    }
+  }
+  return ranges;
 }
 
 std::vector<std::vector<DyadicBox>> boxes_of(const Certificate& certificate) {
@@ -95,7 +132,7 @@ ReportContext::ReportContext(Certificate stated, Recheck checked)
       sampler(certificate.problem),
       samples(sampler.along(certificate.path, kPathSamples)),
       travel(sampler, certificate.path),
-      ranges(ranges_of(certificate, boxes)) {
+      ranges(tightened(ranges_of(certificate, boxes), certificate)) {
   ranges_are_whole = !certificate.segments.empty() && certificate.segments.size() == certificate.path.segments() &&
                      ranges.missing == 0 && std::ranges::all_of(boxes, is_covered);
 }

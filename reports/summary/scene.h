@@ -30,8 +30,8 @@ struct ReportContext {
   Sampler sampler;
   std::vector<PathSample> samples;  ///< along the whole path
   Travel travel;                    ///< how far into the move a place is
-  /// Enclosures over the certificate's boxes, computed anew without floating point: proved where the certificate is
-  /// right.
+  /// Enclosures over the certificate's boxes, computed anew without floating point, and no wider than the margins that
+  /// the certificate states of each segment: proved where the certificate is right.
   PathRanges ranges;
   /// Whether they are those of the whole path: the boxes leave no gaps, and all of them were enclosed.
   bool ranges_are_whole = false;

@@ -9,6 +9,7 @@
 #include "certificate/worst_loads.h"
 #include "certify/undecided.h"
 #include "problem/decimal.h"
+#include "reports/summary/explanations.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/wording.h"
@@ -83,33 +84,7 @@ bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
   return std::abs(number(value)) > kSingularTension * greatest;
 }
 
-/// The segment that a margin of the whole path comes from.
-std::string where_least(const Certificate& certificate, DecimalText Margins::*margin) {
-  const auto states_least = [&](const CertificateSegment& segment) {
-    return segment.margins && (*segment.margins).*margin == (*certificate.margins).*margin;
-  };
-  const auto least = std::ranges::find_if(certificate.segments, states_least);
-  return least == certificate.segments.end() ? "no segment"
-                                             : fmt::format("segment {}", least - certificate.segments.begin());
-}
-
-std::string deviating(const Certificate& certificate) {
-  return certificate.problem.tolerances ? ", for every machine within the stated tolerances" : "";
-}
-
 // ---- Details of a verdict.
-
-std::vector<std::string> proved_details(const ReportContext& scene) {
-  const Certificate& certificate = scene.certificate;
-  const DisplayUnits& units = scene.illustration.units;
-  return {fmt::format(
-      "Reserves, proved for the whole move: every tension stays at least {} inside its limits (least in {}), every "
-      "length at least {} (least in {}), and the set of loads could grow at least {}-fold before a tension reaches a "
-      "limit (least in {}).",
-      quantity(certificate.margins->tension_N, false, units), where_least(certificate, &Margins::tension_N),
-      quantity(certificate.margins->length_m, true, units), where_least(certificate, &Margins::length_m),
-      plain(certificate.margins->wrench_scale), where_least(certificate, &Margins::wrench_scale))};
-}
 
 /// "3 stretches of the path are violated, …"
 std::string stretches_text(const Certificate& certificate) {
@@ -227,9 +202,8 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
 
 std::vector<std::string> undecided_details(const ReportContext& scene) {
   const OpenPart& open = *scene.certificate.undecided;
-  std::vector<std::string> result = {
-      "It was neither proved nor refuted: that does not mean that it is unsafe, and it is no evidence that it is safe.",
-      fmt::format("Reason, as the certificate gives it: {}.", with_code(open.reason))};
+  std::vector<std::string> result = {"This does not mean that the move is unsafe, nor is it evidence that it is safe.",
+                                     fmt::format("What is open: {}.", with_code(open.reason))};
   if (open.segment) {
     const double from = *open.segment + (open.box ? open.box->first.approx() : 0.0);
     const std::string box =
@@ -241,6 +215,9 @@ std::vector<std::string> undecided_details(const ReportContext& scene) {
   if (!scene.certificate.stretches.empty()) {
     result.push_back(
         fmt::format("In all, {} could not be decided.", plural(scene.certificate.stretches.size(), "stretch")));
+  }
+  if (const Explanation* const explanation = explanation_of(open.reason)) {
+    result.push_back(fmt::format("What would settle it: {}", explanation->remedy));
   }
   std::ranges::copy(sampled_details(scene), std::back_inserter(result));
   return result;
@@ -260,22 +237,11 @@ std::string law_text(const Certificate& certificate) {
 
 std::string motion_text(const ReportContext& scene) {
   const Path& path = scene.certificate.path;
-  if (path.waypoints.empty()) return "The certificate contains no path.";
-  if (found_no_path(scene.certificate)) {
-    return "No path was found. What is shown of one joins the waypoints asked for by straight lines, and is not a "
-           "plan.";
-  }
+  if (path.waypoints.empty() || found_no_path(scene.certificate) || path.segments() == 0) return move_text(scene);
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) { return pose_text(scene, scene.sampler.at(path, position).pose); };
-  if (path.segments() == 0) return fmt::format("A single pose: {}.", pose(0));
-  std::string text =
-      fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",
-                  plural(path.segments(), "segment"), law_text(scene.certificate),
-                  distance_text(scene.travel.distance_m(segments)), scene.travel.turned_rad(segments) * kDegrees);
-  const auto begin = scene.travel.time_s(0);
-  const auto end = scene.travel.time_s(segments);
-  if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
-  return text + fmt::format(". From {} to {}. Positions and angles here are rounded.", pose(0), pose(segments));
+  return fmt::format("{} From {} to {}. Positions and angles here are rounded.", move_text(scene), pose(0),
+                     pose(segments));
 }
 
 /// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
@@ -303,6 +269,27 @@ std::string margins_text(const DecimalText& tension_N, const DecimalText& length
                          const DisplayUnits& units) {
   return fmt::format("Proved margins: tension {}, length {}, wrench_scale {}.", quantity(tension_N, false, units),
                      quantity(length_m, true, units), plain(wrench_scale));
+}
+
+std::string move_text(const ReportContext& scene) {
+  const Path& path = scene.certificate.path;
+  if (path.waypoints.empty()) return "The certificate contains no path.";
+  if (found_no_path(scene.certificate)) {
+    return "No path was found. What is shown of one joins the waypoints asked for by straight lines, and is not a "
+           "plan.";
+  }
+  const auto segments = static_cast<double>(path.segments());
+  if (path.segments() == 0) {
+    return fmt::format("A single pose: {}.", pose_text(scene, scene.sampler.at(path, 0).pose));
+  }
+  std::string text =
+      fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",
+                  plural(path.segments(), "segment"), law_text(scene.certificate),
+                  distance_text(scene.travel.distance_m(segments)), scene.travel.turned_rad(segments) * kDegrees);
+  const auto begin = scene.travel.time_s(0);
+  const auto end = scene.travel.time_s(segments);
+  if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
+  return text + ".";
 }
 
 std::string tolerances_text(const std::optional<TolerancesText>& tolerances, const DisplayUnits& units) {
@@ -357,6 +344,20 @@ std::string not_covered_text(const Problem& problem) {
                          : "Errors of manufacture, measurement and control. ");
 }
 
+}  // namespace
+
+std::vector<std::string> not_covered_items(const Problem& problem) {
+  return {"collisions of cables, platform, load and surroundings",
+          "stretch, sag, wear; pulleys, winches, brakes",
+          "strength of anchors, fittings and structure",
+          "loss of a cable, drive, sensor or power",
+          "wind, impact and vibration beyond the stated load",
+          problem.tolerances ? "errors of manufacture and control beyond the tolerances"
+                             : "errors of manufacture, measurement and control"};
+}
+
+namespace {
+
 std::string recheck_text(const Recheck& recheck) {
   switch (recheck.result) {
     case Recheck::Result::kUnchecked: break;
@@ -372,18 +373,29 @@ std::string recheck_text(const Recheck& recheck) {
 
 }  // namespace
 
+const char* verdict_word(const ReportContext& scene) {
+  if (scene.verdict == "unchecked") return "UNCHECKED";
+  if (scene.verdict == "proved") return "PROVED";
+  if (scene.verdict == "refuted") return "DO NOT RUN";
+  return found_no_path(scene.certificate) ? "NO PATH FOUND" : "NO DECISION";
+}
+
 std::string headline(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   if (scene.verdict == "unchecked") {
-    return "UNCHECKED: whether this certificate is right is not known, and nothing that it claims is repeated here.";
+    return "Whether this certificate is right is not known, and nothing that it claims is repeated here.";
   }
-  if (scene.verdict == "undecided") return "Undecided: nothing is claimed about this move.";
   if (scene.verdict == "proved") {
     return fmt::format(
-        "Proved: at every pose of this move, under every load stated below{}, all six cables stay taut, below their "
-        "greatest "
-        "tension and within their lengths, and no singular pose is met.",
-        deviating(certificate));
+        "Everywhere on this move, for every load in the stated set{}, no cable goes slack, none exceeds its tension or "
+        "length limit, and the platform stays controllable.",
+        certificate.problem.tolerances ? " and every machine within the stated tolerances" : "");
+  }
+  if (found_no_path(certificate)) {
+    return "The planner found no path. That does not prove that there is none. Nothing is claimed.";
+  }
+  if (scene.verdict == "undecided") {
+    return "Undecided: this move was neither proved nor refuted, so nothing is claimed about it.";
   }
   const PathWitness& witness = certificate.witness->violation;
   const bool by_load = !witness.singular && !is_length(witness);
@@ -391,7 +403,7 @@ std::string headline(const ReportContext& scene) {
                      violation_text(witness, certificate.problem.robot, scene.illustration.units),
                      !by_load            ? ""
                      : witness.deviation ? ", under a load that is covered"
-                                         : ", under a load of the set stated below");
+                                         : ", under a load of the stated set");
 }
 
 std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units) {
@@ -419,36 +431,8 @@ std::vector<std::string> verdict_details(const ReportContext& scene) {
             "Neither does it mean that the move is unsafe, nor is it evidence that it is safe. To know run: taut-check "
             "certificate.json CASE.yaml"};
   }
-  if (scene.verdict == "proved") return proved_details(scene);
+  if (scene.verdict == "proved") return {};
   return scene.verdict == "refuted" ? refuted_details(scene) : undecided_details(scene);
-}
-
-std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use) {
-  if (scene.verdict != "proved" || use.source != CableUse::Source::kProved) return {};
-  const RobotText& robot = scene.certificate.problem.robot;
-  const DisplayUnits& units = scene.illustration.units;
-  const auto sentence = [&](const std::array<Use, kCables>& uses, bool length) {
-    const ClosestUse c = closest(uses);
-    const Limits& limits = (length ? robot.length_m : robot.tension_N).at(static_cast<std::size_t>(c.cable));
-    const DecimalText& limit = c.is_upper ? limits.upper : limits.lower;
-    const std::string which =
-        fmt::format("By the ranges below, cable {} comes closest to a limit of {}, the {} one, {}: ", c.cable + 1,
-                    length ? "length" : "tension", c.is_upper ? "upper" : "lower", place_text(scene, c.at));
-    const Rational exact_limit = Decimal::parse(limit).rational();
-    const Rational beside =
-        c.is_upper ? Rational(exact_limit - Rational(c.value)) : Rational(Rational(c.value) - exact_limit);
-    for (const int digits : {4, 6, 9, 12, 15}) {
-      const std::string value = c.is_upper ? rounded_up(c.value, digits) : rounded_down(c.value, digits);
-      const Rational shown = Decimal::parse(value).rational();
-      if (c.is_upper ? shown >= exact_limit : shown <= exact_limit) continue;
-      const std::string room = c.is_upper ? rounded_down(below(beside * 100 / exact_limit), 3) + " % below"
-                                          : quantity(rounded_down(below(beside), 3), length, units) + " above";
-      return fmt::format("{}it stays at or {} {}, at least {} the limit of {}.", which, c.is_upper ? "below" : "above",
-                         quantity(value, length, units), room, quantity(limit, length, units));
-    }
-    return fmt::format("{}nearer than these ranges tell. The limit is {}.", which, quantity(limit, length, units));
-  };
-  return {sentence(use.tension, false), sentence(use.length, true)};
 }
 
 namespace {

@@ -13,6 +13,10 @@
 
 namespace taut {
 
+/// The verdict in a word or two that nobody misreads: "PROVED", "DO NOT RUN", "NO DECISION", "NO PATH FOUND",
+/// "UNCHECKED".
+[[nodiscard]] const char* verdict_word(const ReportContext& scene);
+
 /// The verdict in one sentence.
 [[nodiscard]] std::string headline(const ReportContext& scene);
 
@@ -20,13 +24,14 @@ namespace taut {
 /// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding.
 [[nodiscard]] std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units);
 
-/// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the reason
-/// and where; for a proved one its reserves.
+/// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the reason,
+/// where, and what would settle it; none for a proved one.
 [[nodiscard]] std::vector<std::string> verdict_details(const ReportContext& scene);
 
-/// How close the move comes to limits of tension and of length: "Cable 3 comes closest to a limit of tension …".
-/// Nothing unless the whole move is proved.
-[[nodiscard]] std::vector<std::string> closest_text(const ReportContext& scene, const CableUse& use);
+/// "20 segments, straight in the parameters of the case. The platform's origin travels 8 m and …": the move, briefly.
+[[nodiscard]] std::string move_text(const ReportContext& scene);
+/// What the verdict says nothing about, an item each, in few words.
+[[nodiscard]] std::vector<std::string> not_covered_items(const Problem& problem);
 
 /// A statement of the report and its subject.
 struct Statement {

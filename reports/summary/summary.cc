@@ -14,26 +14,23 @@ namespace taut {
 
 namespace {
 
-struct CableRow {
-  std::array<std::string, 7> cells;  ///< cable; least, greatest and share of tension; of length
-};
+/// Heads and rows of the table of cables; no rows where nothing is known.
+using Row = std::array<std::string, 6>;
 
-CableRow cable_heads(const DisplayUnits& units) {
+Row cable_heads(const DisplayUnits& units) {
   const std::string& force = units.force.name();
-  const std::string& length = units.length.name();
-  return {{"Cable", fmt::format("Tension from [{}]", force), fmt::format("to [{}]", force), "of limit",
-           fmt::format("Length from [{}]", length), fmt::format("to [{}]", length), "of limit"}};
+  return {"Cable",
+          fmt::format("Tension from [{}]", force),
+          fmt::format("to [{}]", force),
+          "above slack",
+          "of top limit",
+          "length left"};
 }
 
-std::vector<CableRow> cable_rows(const CableUse& use, const DisplayUnits& units) {
-  std::vector<CableRow> rows;
-  if (use.source == CableUse::Source::kNone) return rows;
-  const auto percent = [](const Use& x) { return rounded_up(x.used_percent(), 3) + " %"; };
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const Use& t = use.tension[i];
-    const Use& d = use.length[i];
-    rows.push_back({{std::to_string(i + 1), units.force.down(t.range.lower), units.force.up(t.range.upper), percent(t),
-                     units.length.down(d.range.lower), units.length.up(d.range.upper), percent(d)}});
+std::vector<Row> cable_rows(const std::vector<CableLine>& cables) {
+  std::vector<Row> rows;
+  for (const CableLine& c : cables) {
+    rows.push_back({std::to_string(c.cable + 1), c.from, c.to, c.above_slack, c.of_top, c.length_left});
   }
   return rows;
 }
@@ -83,9 +80,13 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       revision(options.revision),
       date(options.date),
       name(scene.certificate.problem.name),
+      title(name),
       verdict(scene.verdict),
+      word(verdict_word(scene)),
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
+      move(move_text(scene)),
+      not_covered(not_covered_items(scene.certificate.problem)),
       statements(taut::statements(scene)),
       load(load_statement(scene.certificate.problem.load)),
       use(cable_use(scene)),
@@ -94,7 +95,12 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       problem_sha256(scene.certificate.problem_sha256),
       path_sha256(scene.certificate.path_sha256),
       footer_sha256(scene.certificate.footer_sha256) {
-  closest = closest_text(scene, use);
+  // On a move that is not proved, what is proved of its parts says nothing of the whole.
+  if (scene.verdict != "proved" && use.source == CableUse::Source::kProvedParts) {
+    if (const CableUse sampled = sampled_use(scene); sampled.source != CableUse::Source::kNone) use = sampled;
+  }
+  key_numbers = taut::key_numbers(scene, use);
+  cables = cable_lines(scene, use);
   if (scene.illustration.headroom)
     headroom = headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
 }
@@ -118,21 +124,16 @@ std::string to_text(const Summary& s) {
   const auto line = [&](const std::string& content) { text += sanitize(content) + "\n"; };
   line(fmt::format("{}{}{}: {} ({})", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
                    s.date.empty() ? "" : ", " + s.date, s.name, kNameNote));
-  line(s.headline);
+  line(fmt::format("{}: {}", s.word, s.headline));
+  for (const KeyNumber& n : s.key_numbers) line(fmt::format("  {}: {} ({})", n.title, n.value, n.detail));
   for (const std::string& sentence : s.details) line(sentence);
-  for (const std::string& sentence : s.closest) line(sentence);
   for (const std::string& sentence : s.headroom) line(sentence);
-  if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
+  if (const std::vector<Row> rows = cable_rows(s.cables); !rows.empty()) {
     line(use_caption(s.use.source) + ":");
-    const CableRow heads = cable_heads(s.units);
-    constexpr std::size_t kFirstWidth = 16;
-    const std::size_t width = std::max(kFirstWidth, heads.cells[1].size());
-    const auto row = [&](const CableRow& cable) {
-      const auto& c = cable.cells;
-      line(fmt::format("  {:>5} {:>{}} {:>10} {:>8} {:>17} {:>10} {:>8}", c[0], c[1], width, c[2], c[3], c[4], c[5],
-                       c[6]));
+    const auto row = [&](const Row& c) {
+      line(fmt::format("  {:>5} {:>18} {:>10} {:>12} {:>12} {:>12}", c[0], c[1], c[2], c[3], c[4], c[5]));
     };
-    row(heads);
+    row(cable_heads(s.units));
     std::ranges::for_each(rows, row);
   }
   for (const Statement& statement : s.statements)
@@ -149,16 +150,19 @@ std::string to_markdown(const Summary& s) {
   if (!s.revision.empty()) head += ", revision " + s.revision;
   if (!s.date.empty()) head += ", " + s.date;
   if (!head.empty()) text += markdown(head) + "\n\n";
-  text += fmt::format("**{}**\n\n", markdown(s.headline));
+  text += fmt::format("**{}**: {}\n\n", s.word, markdown(s.headline));
+  for (const KeyNumber& n : s.key_numbers) {
+    text += fmt::format("- {}: **{}** ({})\n", markdown(n.title), markdown(n.value), markdown(n.detail));
+  }
+  if (!s.key_numbers.empty()) text += "\n";
   for (const std::string& sentence : s.details) text += markdown(sentence) + "\n\n";
-  for (const std::string& sentence : s.closest) text += fmt::format("- {}\n", markdown(sentence));
   for (const std::string& sentence : s.headroom) text += fmt::format("- {}\n", markdown(sentence));
-  if (!s.closest.empty() || !s.headroom.empty()) text += "\n";
-  if (const std::vector<CableRow> rows = cable_rows(s.use, s.units); !rows.empty()) {
+  if (!s.headroom.empty()) text += "\n";
+  if (const std::vector<Row> rows = cable_rows(s.cables); !rows.empty()) {
     text += markdown(use_caption(s.use.source)) + ":\n\n|";
-    for (const std::string& cell : cable_heads(s.units).cells) text += fmt::format(" {} |", markdown(cell));
-    text += "\n|" + std::string("---:|---:|---:|---:|---:|---:|---:|") + "\n";
-    for (const auto& [cells] : rows) {
+    for (const std::string& cell : cable_heads(s.units)) text += fmt::format(" {} |", markdown(cell));
+    text += "\n|" + std::string("---:|---:|---:|---:|---:|---:|") + "\n";
+    for (const Row& cells : rows) {
       text += "|";
       for (const std::string& cell : cells) text += fmt::format(" {} |", cell);
       text += "\n";
@@ -190,6 +194,15 @@ nlohmann::json to_json(const Summary& s) {
       cables.push_back({{"cable", i + 1}, {"tension_N", one(s.use.tension[i])}, {"length_m", one(s.use.length[i])}});
     }
   }
+  json numbers = json::array();
+  for (const KeyNumber& n : s.key_numbers) {
+    numbers.push_back({{"key", n.key},
+                       {"title", n.title},
+                       {"value", n.value},
+                       {"detail", n.detail},
+                       {"nearness", name(n.nearness)},
+                       {"proved", n.is_proved}});
+  }
   const auto text_or_null = [](const std::string& text) { return text.empty() ? json() : json(text); };
   return {
       {"document", text_or_null(s.document)},
@@ -197,9 +210,10 @@ nlohmann::json to_json(const Summary& s) {
       {"date", text_or_null(s.date)},
       {"case", s.name},
       {"verdict", s.verdict},
+      {"word", s.word},
       {"headline", s.headline},
       {"details", s.details},
-      {"closest", s.closest},
+      {"key_numbers", numbers},
       {"headroom", s.headroom},
       {"statements", statements},
       {"load", to_json(s.load)},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/summary/key_numbers.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 
@@ -17,12 +18,18 @@ struct Summary {
   std::string document;  ///< its number
   std::string revision;  ///< may be empty, like the date
   std::string date;
-  std::string name;     ///< of the case; nothing checks it
-  std::string verdict;  ///< "proved" or "refuted", if the checker made a theorem; else "undecided" or "unchecked"
+  std::string name;         ///< of the case; nothing checks it, nor what follows
+  std::string title;        ///< of the document: the case's, else its name
+  std::string prepared_by;  ///< may be empty
+  std::string verdict;      ///< "proved" or "refuted", if the checker made a theorem; else "undecided" or "unchecked"
+  std::string word;         ///< the verdict as nobody misreads it: "DO NOT RUN"
   std::string headline;
   std::vector<std::string> details;
-  std::vector<std::string> closest;
+  std::vector<KeyNumber> key_numbers;
+  std::vector<CableLine> cables;      ///< those nearest to their limits first
   std::vector<std::string> headroom;  ///< what stands in the way, or how far the proof reaches; nothing checks it
+  std::string move;                   ///< travel, turn and law, briefly
+  std::vector<std::string> not_covered;
   std::vector<Statement> statements;
   LoadStatement load;
   CableUse use;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A still plot of one cable along the whole path, for the first page of a move that is not proved: samples, the limits,
+// and the place where one is broken.
+#pragma once
+
+#include "reports/page/markup.h"
+#include "reports/summary/scene.h"
+
+namespace taut {
+
+struct CablePlot {
+  std::size_t cable = 0;  ///< 0…5
+  bool is_length = false;
+  std::optional<double> marked;  ///< a position on the path, which is marked
+};
+
+/// Nothing where the path has no samples. Values far beyond the limits are cut off at the frame.
+[[nodiscard]] Html cable_plot(const ReportContext& scene, const CablePlot& plot);
+
+}  // namespace taut
