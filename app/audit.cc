@@ -31,6 +31,7 @@ class BatchWriter {
         law_(source.law()),
         tightens_(source.segments() <= kMostReported),
         has_times_(source.has_times()),
+        has_lines_(source.counts_lines()),
         has_tubes_(!source.problem().space.constraints.empty()),
         has_pose_tubes_(source.law() == Interpolation::kCableLengths),
         certificate_(certificate),
@@ -41,6 +42,9 @@ class BatchWriter {
     for (const std::string& text : batch.waypoint_texts) certificate_.add_waypoint(text);
     for (std::size_t i = batch.old_waypoints; has_times_ && i < batch.waypoints.size(); ++i) {
       certificate_.add_time(time_text(batch.waypoints[i]));
+    }
+    for (std::size_t i = batch.old_waypoints; has_lines_ && i < batch.waypoints.size(); ++i) {
+      result_.lines.add(batch.waypoints[i].line);
     }
     csv_(batch.csv);
     for (std::size_t i = 0; i < batch.segments.size(); ++i) {
@@ -187,7 +191,7 @@ class BatchWriter {
   std::vector<checker::MotionBox> way_;  ///< of stretches before the first witness, where the motion is implied
   bool tightens_;
   std::vector<std::shared_ptr<const Batch>> kept_;  ///< whose segments are not written yet
-  bool has_times_, has_tubes_, has_pose_tubes_;
+  bool has_times_, has_lines_, has_tubes_, has_pose_tubes_;
   CertificateWriter& certificate_;
   const WriteText& csv_;
   Audit result_;
@@ -286,6 +290,7 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.margins = audit.margins;
   ending.source = source.source();
   ending.illustration = {{"kind", "audit"}, {"units", to_json(options.units)}};
+  if (source.counts_lines()) ending.illustration["lines"] = audit.lines.to_json();
   if (audit.verdict == Verdict::kRefuted) ending.witness = first_witness(audit);
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);
   if (options.headroom_seconds > 0 && audit.segments <= kMostReported) {

@@ -20,6 +20,7 @@
 #include "certificate/certificate_writer.h"
 #include "certificate/signature.h"
 #include "certify/headroom.h"
+#include "reports/summary/file_lines.h"
 
 namespace taut {
 
@@ -78,6 +79,7 @@ struct Audit {
   std::size_t stretches_open = 0;         ///< without
   std::vector<AuditedStretch> stretches;  ///< the first of them
   std::optional<Headroom> headroom{};     ///< where it was sought
+  FileLines lines{};                      ///< on which its waypoints stand; none where the path is a certificate's
   double seconds = 0;
 };
 

@@ -58,8 +58,10 @@ class PathSource {
   [[nodiscard]] std::size_t segments() const { return waypoints_ - control_points(law_) + 1; }
   [[nodiscard]] bool has_times() const;
   [[nodiscard]] const std::string& name() const { return path_; }
+  /// Whether SourceWaypoint::line counts lines; else it counts waypoints.
+  [[nodiscard]] bool counts_lines() const { return !certificate_; }
   /// "line" or "waypoint": what SourceWaypoint::line counts.
-  [[nodiscard]] const char* place_name() const { return certificate_ ? "waypoint" : "line"; }
+  [[nodiscard]] const char* place_name() const { return counts_lines() ? "line" : "waypoint"; }
 
   /// False behind the last. @throws InputError, also where the file changed since it was read first.
   [[nodiscard]] bool next(SourceWaypoint& result);

@@ -73,9 +73,9 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
     const Statics<double>& s = sample.statics;
     const double d = s.length[plot.cable];
     const double f = s.tension[plot.cable];
-    values.emplace_back(sample.position, plot.is_length ? Range{d, d}
-                                                        : Range{f - s.tension_below[plot.cable],
-                                                                f + s.tension_above[plot.cable]});
+    values.emplace_back(sample.position, plot.is_length
+                                             ? Range{d, d}
+                                             : Range{f - s.tension_below[plot.cable], f + s.tension_above[plot.cable]});
   }
   const DisplayUnit& unit = scene.illustration.units.of(plot.is_length);
   const double right = kWidth - kRight;
@@ -84,13 +84,14 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
     return html("<rect class=\"forbidden\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", kLeft, from,
                 right - kLeft, to - from);
   };
-  const Html mark = plot.marked ? html("<path class=\"mark\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", frame.x(*plot.marked), kTop,
-                                       bottom)
-                                : Html();
-  const std::string what =
-      fmt::format("{} of cable {} along the move [{}]", plot.is_length ? "Length" : "Tension", plot.cable + 1, unit.name());
+  const Html mark =
+      plot.marked ? html("<path class=\"mark\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", frame.x(*plot.marked), kTop, bottom)
+                  : Html();
+  const std::string what = fmt::format("{} of cable {} along the move [{}]", plot.is_length ? "Length" : "Tension",
+                                       plot.cable + 1, unit.name());
   return html(
-      "<figure class=\"cable-plot\"><figcaption>{}, sampled; shaded: beyond a limit{}</figcaption><svg viewBox=\"0 0 {} "
+      "<figure class=\"cable-plot\"><figcaption>{}, sampled; shaded: beyond a limit{}</figcaption><svg viewBox=\"0 0 "
+      "{} "
       "{}\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"band\" d=\"{}\"/>{}{}{}<rect class=\"frame\" x=\"{}\" "
       "y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">start</text><text x=\"{}\" y=\"{}\" "
       "class=\"end\">end</text></svg></figure>\n",

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/page/cable_plot.h"
+#include "reports/summary/broken_limits.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -136,6 +138,63 @@ Html cables_note(const Summary& s) {
           : "At sampled poses, in floating point: between samples they may be exceeded.");
 }
 
+// ---- What is broken.
+
+/// "0.0499 N or less, limit 0.05 N" of a proved violation, or the sampled value.
+Html amount(const ReportContext& scene, const BrokenLimit& broken) {
+  if (broken.is_singular) return html("the cables cannot balance every load");
+  const bool is_upper = taut::is_upper(broken.margin);
+  const DisplayUnit& unit = scene.illustration.units.of(is_length(broken.margin));
+  const double limit = ScalarTraits<double>::from_decimal(broken.limit);
+  const std::string value = is_upper ? down_text(broken.value, limit, unit) : up_text(broken.value, limit, unit);
+  const char* const sense = !broken.is_proved() ? "about " : is_upper ? "at least " : "at most ";
+  return html("{}{} {}; limit {} {}", sense, value, unit.name(), unit.exact(broken.limit), unit.name());
+}
+
+Html what(const BrokenLimit& broken) {
+  if (broken.is_singular) return html("<b>Singular pose</b>");
+  const int cable = broken.margin.cable + 1;
+  if (is_length(broken.margin)) {
+    return html("<b>Cable {}</b> too {}", cable, is_upper(broken.margin) ? "long" : "short");
+  }
+  return html("<b>Cable {}</b> {}", cable, is_upper(broken.margin) ? "above its top tension" : "below its slack limit");
+}
+
+Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& all) {
+  Html rows;
+  for (const BrokenLimit& broken : all) {
+    const std::string lines = rows_text(scene, broken.position);
+    const Html stretches = broken.stretches > 1 ? html(" In {} stretches.", broken.stretches) : Html();
+    rows += html("<tr><td>{}</td><td>{}</td><td>{}{}{}</td><td>{}</td></tr>\n", what(broken), amount(scene, broken),
+                 place_text(scene, broken.position), lines.empty() ? Html() : html(", {}", lines), stretches,
+                 broken.is_proved() ? html("proved") : html("sampled"));
+  }
+  return html(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Limits that are broken\"><table "
+      "class=\"broken\"><caption>Limits that this move breaks, the gravest first</caption>\n<thead><tr><th "
+      "scope=\"col\">What</th><th scope=\"col\">How far</th><th scope=\"col\">Where it is worst</th><th "
+      "scope=\"col\">Known by</th></tr></thead>\n<tbody>{}</tbody></table></div>\n",
+      rows);
+}
+
+/// The cable whose limit is broken most, or next to a singular pose the one whose tension swings most.
+CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
+  const BrokenLimit& gravest = all.front();
+  CablePlot plot{0, false, gravest.position};
+  const auto named = std::ranges::find_if(all, [](const BrokenLimit& broken) { return !broken.is_singular; });
+  if (named != all.end()) {
+    plot.cable = static_cast<std::size_t>(named->margin.cable);
+    plot.is_length = is_length(named->margin);
+  }
+  return plot;
+}
+
+Html broken(const ReportContext& scene) {
+  const std::vector<BrokenLimit> all = broken_limits(scene);
+  if (all.empty()) return {};
+  return broken_table(scene, all) + cable_plot(scene, gravest_plot(all));
+}
+
 // ---- What has to be confirmed elsewhere, and the declaration.
 
 Html not_covered(const Summary& s) {
@@ -194,9 +253,15 @@ Html first_page(const ReportContext& scene, const Summary& s) {
       "<h1><bdi>{}</bdi></h1>\n<p class=\"note unverified\">Title and names are text of the case, which nothing "
       "checks.</p>\n",
       s.title);
-  return html("<header class=\"first {}\">\n{}{}{}{}{}{}<div class=\"duo\"><div>{}{}{}</div></div>{}</header>\n",
-              s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), details(s), cables(scene, s),
-              cables_note(s), not_covered(s), declaration(s));
+  const Html beside = s.verdict == "proved" ? cables(scene, s) + cables_note(s) : broken(scene) + details(s);
+  return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\"><div>{}</div></div>\n{}{}</header>\n",
+              s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), beside, not_covered(s),
+              declaration(s));
+}
+
+Html cables_section(const ReportContext& scene, const Summary& s) {
+  if (s.verdict == "proved" || s.cables.empty()) return {};
+  return section("cables", "The cables", cables(scene, s) + cables_note(s));
 }
 
 }  // namespace taut

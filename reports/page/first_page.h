@@ -7,6 +7,11 @@
 
 namespace taut {
 
+/// Scope, verdict, the numbers that matter, the machine where it matters most, what is not covered, and the declaration
+/// to sign. A move that is not proved has what stands against it in place of the six cables.
 [[nodiscard]] Html first_page(const ReportContext& scene, const Summary& summary);
+
+/// The six cables of a move that is not proved, behind the first page.
+[[nodiscard]] Html cables_section(const ReportContext& scene, const Summary& summary);
 
 }  // namespace taut

@@ -79,9 +79,10 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Summary summary(scene, options);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   const Html claim = is_claimed ? margins(scene) + theorem(scene.certificate) + tolerances(scene) : Html();
-  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
-                    headroom(scene) + plot_sections(scene) + claim + assumptions(scene.certificate.problem) +
-                    robot(scene) + path_section(scene) + inputs(scene.certificate) + recheck(scene);
+  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) +
+                    cables_section(scene, summary) + stretches(scene) + headroom(scene) + plot_sections(scene) + claim +
+                    assumptions(scene.certificate.problem) + robot(scene) + path_section(scene) +
+                    inputs(scene.certificate) + recheck(scene);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
@@ -90,7 +91,8 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
       "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), kStyle, kFirstPageStyle, footer_style(summary.document), body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), kStyle, kFirstPageStyle, footer_style(summary.document), body.str(),
+      page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

@@ -32,6 +32,7 @@ Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
       stats[key] = value.is_string() ? value.get<std::string>() : value.dump();
     }
   }
+  if (illustration.contains("lines")) lines = FileLines(illustration.at("lines").value());
   if (illustration.contains("headroom")) headroom = headroom_from_json(illustration.at("headroom"));
   if (!illustration.contains("charts") || parameters != 2) return;
   for (const JsonCursor& entry : illustration.at("charts").elements()) {

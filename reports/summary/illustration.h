@@ -11,6 +11,7 @@
 
 #include "certify/headroom.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/file_lines.h"
 
 namespace taut {
 
@@ -25,6 +26,7 @@ struct Illustration {
   std::vector<Chart> charts;                 ///< none unless the space has two parameters
   std::map<std::string, std::string> stats;  ///< of the search, as printed
   DisplayUnits units;                        ///< the case's, in which the report shows results
+  FileLines lines;                           ///< of an audited file, where waypoints stand
 
   Illustration() = default;
   /// @throws InputError for a missing key or a wrong type.

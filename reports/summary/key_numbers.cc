@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 
 #include "problem/decimal.h"
 #include "reports/summary/wording.h"
@@ -19,31 +17,13 @@ namespace {
 constexpr auto kDigits = {3, 4, 6, 9, 12, 15};
 constexpr double kPercent = 100;
 
-double parsed(const std::string& text) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
-/// The fewest digits that keep a value on its side of the limit, rounded towards the limit. `is_upper`: which limit.
+/// A percentage or factor, rounded away from what it is a bound of, in the fewest digits that tell it from `limit`.
 std::string apart(double value, double limit, bool is_upper) {
   std::string text;
   for (const int digits : kDigits) {
     text = is_upper ? rounded_up(value, digits) : rounded_down(value, digits);
-    const double shown = parsed(text);
-    if (is_upper ? (shown < limit) == (value < limit) : (shown > limit) == (value > limit)) break;
-  }
-  return text;
-}
-
-/// The same in a unit, without its name.
-std::string apart(double value, double limit, bool is_upper, const DisplayUnit& unit) {
-  std::string text;
-  for (const int digits : kDigits) {
-    text = is_upper ? unit.up(value, digits) : unit.down(value, digits);
-    const double shown = parsed(text);
-    const double shown_limit = unit.approx(limit);
-    if (is_upper ? (shown < shown_limit) == (value < limit) : (shown > shown_limit) == (value > limit)) break;
+    const double shown = number_in(text);
+    if ((shown < limit) == (value < limit) && (shown > limit) == (value > limit)) break;
   }
   return text;
 }
@@ -106,9 +86,10 @@ KeyNumber slack_number(const ReportContext& scene, const CableUse& use) {
   const DisplayUnit& force = scene.illustration.units.force;
   const std::size_t i = greatest([&](std::size_t k) { return slack_use(use.tension[k]); });
   const Use& t = use.tension[i];
-  return {"slack", "Closest to going slack", fmt::format("Cable {}: {}", i + 1,
+  return {"slack", "Closest to going slack",
+          fmt::format("Cable {}: {}", i + 1,
                       t.range.lower > t.lower_limit ? above_slack(t, force) : amount(t.range.lower, false, force)),
-          fmt::format("{} {}, limit {} {} · {}", apart(t.range.lower, t.lower_limit, false, force), force.name(),
+          fmt::format("{} {}, limit {} {} · {}", down_text(t.range.lower, t.lower_limit, force), force.name(),
                       force.exact(scene.certificate.problem.robot.tension_N[i].lower), force.name(),
                       at(scene, use, t.least_at)),
           slack_nearness(t)};
@@ -118,9 +99,10 @@ KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
   const DisplayUnit& force = scene.illustration.units.force;
   const std::size_t i = greatest([&](std::size_t k) { return use.tension[k].used(); });
   const Use& t = use.tension[i];
-  return {"top", "Highest tension", fmt::format("Cable {}: {}", i + 1,
+  return {"top", "Highest tension",
+          fmt::format("Cable {}: {}", i + 1,
                       t.range.upper < t.upper_limit ? of_top(t) : amount(t.range.upper, true, force)),
-          fmt::format("{} {} of {} {} · {}", apart(t.range.upper, t.upper_limit, true, force), force.name(),
+          fmt::format("{} {} of {} {} · {}", up_text(t.range.upper, t.upper_limit, force), force.name(),
                       force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
                       at(scene, use, t.greatest_at)),
           top_nearness(t)};
@@ -133,15 +115,15 @@ KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
   const Limits& limits = scene.certificate.problem.robot.length_m[i];
   const bool is_upper = d.upper_limit - d.range.upper < d.range.lower - d.lower_limit;
   const double left = length_left(d);
-  return {"length", "Least length left",
-          fmt::format("Cable {}: {}{} {}", i + 1, left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
-          fmt::format("{} {} of {} {} {} · {}",
-                      is_upper ? apart(d.range.upper, d.upper_limit, true, length)
-                               : apart(d.range.lower, d.lower_limit, false, length),
-                      length.name(), is_upper ? "at most" : "at least",
-                      length.exact(is_upper ? limits.upper : limits.lower), length.name(),
-                      at(scene, use, is_upper ? d.greatest_at : d.least_at)),
-          length_nearness(d)};
+  return {
+      "length", "Least length left",
+      fmt::format("Cable {}: {}{} {}", i + 1, left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
+      fmt::format(
+          "{} {} of {} {} {} · {}",
+          is_upper ? up_text(d.range.upper, d.upper_limit, length) : down_text(d.range.lower, d.lower_limit, length),
+          length.name(), is_upper ? "at most" : "at least", length.exact(is_upper ? limits.upper : limits.lower),
+          length.name(), at(scene, use, is_upper ? d.greatest_at : d.least_at)),
+      length_nearness(d)};
 }
 
 /// The same thresholds as of a tension: 4/3 and 20/19 are 75 % and 95 % used.
@@ -213,8 +195,8 @@ std::vector<CableLine> cable_lines(const ReportContext& scene, const CableUse& u
     const Use& t = use.tension[i];
     const Use& d = use.length[i];
     const double left = length_left(d);
-    lines.push_back({i, apart(t.range.lower, t.lower_limit, false, force),
-                     apart(t.range.upper, t.upper_limit, true, force), above_slack(t, force), of_top(t),
+    lines.push_back({i, down_text(t.range.lower, t.lower_limit, force), up_text(t.range.upper, t.upper_limit, force),
+                     above_slack(t, force), of_top(t),
                      fmt::format("{}{} {}", left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
                      slack_nearness(t), top_nearness(t), length_nearness(d)});
   }

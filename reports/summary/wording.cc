@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "certify/arithmetic/big_float.h"
 #include "problem/decimal.h"
@@ -37,6 +39,36 @@ std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metr
 
 std::string rounded_down(double x, int digits) { return rounded(x, digits, MPFR_RNDD); }
 std::string rounded_up(double x, int digits) { return rounded(x, digits, MPFR_RNDU); }
+
+double number_in(const std::string& text) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+namespace {
+
+/// @param text  of the value with so many digits, in the unit
+template <class Text>
+std::string told_apart(double value, double limit, double shown_limit, const Text& text) {
+  std::string result;
+  for (const int digits : {3, 4, 6, 9, 12, 15}) {
+    result = text(value, digits);
+    const double shown = number_in(result);
+    if ((shown < shown_limit) == (value < limit) && (shown > shown_limit) == (value > limit)) break;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string up_text(double si, double limit_si, const DisplayUnit& unit) {
+  return told_apart(si, limit_si, unit.approx(limit_si), [&](double x, int digits) { return unit.up(x, digits); });
+}
+
+std::string down_text(double si, double limit_si, const DisplayUnit& unit) {
+  return told_apart(si, limit_si, unit.approx(limit_si), [&](double x, int digits) { return unit.down(x, digits); });
+}
 
 std::string angle_text(const ExpressionText& radians) {
   constexpr std::string_view kOpen = "(";

@@ -19,6 +19,13 @@ namespace taut {
 /// `digits` significant digits, rounded towards −∞ or +∞, without an exponent if it is readable without.
 [[nodiscard]] std::string rounded_down(double x, int digits = 4);
 [[nodiscard]] std::string rounded_up(double x, int digits = 4);
+/// The number that a text of these begins with; not a number if it is none.
+[[nodiscard]] double number_in(const std::string& text);
+/// An SI value in a unit, without its name, in the fewest digits (at least three) that keep it on its side of a limit:
+/// rounded up, for what stays below an upper limit or is proved at most that.
+[[nodiscard]] std::string up_text(double si, double limit_si, const DisplayUnit& unit);
+/// The same rounded down, for what stays above a lower limit or is proved at least that.
+[[nodiscard]] std::string down_text(double si, double limit_si, const DisplayUnit& unit);
 /// "0.2°" if the angle was typed in degrees, else "0.0035 rad"; exactly the same angle.
 [[nodiscard]] std::string angle_text(const ExpressionText& radians);
 

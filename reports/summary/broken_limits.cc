@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/summary/broken_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include "certify/severity.h"
+#include "reports/summary/hints.h"
+
+namespace taut {
+namespace {
+
+double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
+
+bool is_same(const BrokenLimit& a, const BrokenLimit& b) {
+  return a.is_singular ? b.is_singular : !b.is_singular && a.margin == b.margin;
+}
+
+BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness) {
+  BrokenLimit broken;
+  broken.proof = witness;
+  broken.is_singular = witness.singular;
+  broken.severity = severity(witness, scene.certificate.problem.robot);
+  broken.position = broken.to = position(witness.at);
+  if (witness.singular) {
+    broken.to = position(witness.to);
+    return broken;
+  }
+  broken.margin = witness.margin;
+  broken.limit = witness.limit;
+  broken.value = number(is_upper(witness.margin) ? witness.value_lower : witness.value_upper);
+  return broken;
+}
+
+/// Adds a limit, or keeps the graver of what is known of it.
+void add(std::vector<BrokenLimit>& all, BrokenLimit broken) {
+  const auto known = std::ranges::find_if(all, [&](const BrokenLimit& other) { return is_same(other, broken); });
+  if (known == all.end()) {
+    all.push_back(std::move(broken));
+  } else if (broken.severity > known->severity) {
+    *known = std::move(broken);
+  }
+}
+
+/// What the witnesses of a stretch break; with them the certificate's own, which may be inside the stretch.
+std::vector<BrokenLimit> broken_in(const ReportContext& scene, const Stretch& stretch) {
+  std::vector<BrokenLimit> result;
+  if (!stretch.violations) return result;
+  add(result, broken_limit(scene, stretch.violations->first.violation));
+  add(result, broken_limit(scene, stretch.violations->second.violation));
+  if (!scene.certificate.witness) return result;
+  BrokenLimit gravest = broken_limit(scene, scene.certificate.witness->violation);
+  const auto [from, to] = std::minmax(gravest.position, gravest.to);
+  if (from >= position(stretch.begin) && to <= position(stretch.end)) add(result, std::move(gravest));
+  return result;
+}
+
+std::vector<BrokenLimit> proved_limits(const ReportContext& scene) {
+  std::vector<BrokenLimit> all;
+  if (scene.certificate.witness) add(all, broken_limit(scene, scene.certificate.witness->violation));
+  for (const Stretch& stretch : scene.certificate.stretches) {
+    for (BrokenLimit& broken : broken_in(scene, stretch)) {
+      const auto known = std::ranges::find_if(all, [&](const BrokenLimit& other) { return is_same(other, broken); });
+      broken.stretches = known == all.end() ? 1 : ++known->stretches;
+      add(all, std::move(broken));
+    }
+  }
+  return all;
+}
+
+/// Where det J is 0 in a sample, or first changes its sign between two.
+std::optional<BrokenLimit> sampled_singular_pose(const ReportContext& scene) {
+  BrokenLimit broken;
+  broken.is_singular = true;
+  broken.severity = std::numeric_limits<double>::infinity();
+  if (const std::vector<double> changes = sign_changes(scene.samples); !changes.empty()) {
+    broken.to = changes.front();
+    for (const PathSample& sample : scene.samples) {
+      if (sample.position < broken.to && sample.statics.regular) broken.position = sample.position;
+    }
+    return broken;
+  }
+  const auto singular = std::ranges::find_if(
+      scene.samples, [&](const PathSample& s) { return is_nearly_singular(scene.sampler.model(), s.statics); });
+  if (singular == scene.samples.end()) return std::nullopt;
+  broken.position = broken.to = singular->position;
+  return broken;
+}
+
+std::vector<BrokenLimit> sampled_limits(const ReportContext& scene) {
+  std::vector<BrokenLimit> all;
+  if (auto singular = sampled_singular_pose(scene)) all.push_back(*std::move(singular));
+  const Model<double>& model = scene.sampler.model();
+  const RobotText& robot = scene.certificate.problem.robot;
+  for (const PathSample& sample : scene.samples) {
+    for (const MarginId margin : all_margins()) {
+      if (!is_length(margin) && !sample.statics.regular) continue;
+      BrokenLimit broken;
+      broken.margin = margin;
+      broken.value = limited_quantity(sample.statics, margin);
+      const double beyond = -slack(model, broken.value, margin);
+      if (!(beyond >= 0)) continue;
+      const Limits& limits = limits_of(robot, margin);
+      broken.limit = is_upper(margin) ? limits.upper : limits.lower;
+      broken.severity = beyond / (number(limits.upper) - number(limits.lower));
+      broken.position = broken.to = sample.position;
+      add(all, std::move(broken));
+    }
+  }
+  return all;
+}
+
+void sort_by_severity(std::vector<BrokenLimit>& limits) {
+  std::ranges::stable_sort(limits, std::greater<>(), &BrokenLimit::severity);
+}
+
+}  // namespace
+
+std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
+  std::vector<BrokenLimit> result = proved_limits(scene);
+  sort_by_severity(result);
+  const Certificate& certificate = scene.certificate;
+  const bool is_shown = certificate.path.segments() > 0 && !found_no_path(certificate) &&
+                        certificate.path.interpolation != Interpolation::kCableLengths;
+  if (!is_shown || certificate.verdict == Verdict::kProved) return result;
+  std::vector<BrokenLimit> sampled = sampled_limits(scene);
+  sort_by_severity(sampled);
+  const std::size_t proved = result.size();
+  for (BrokenLimit& broken : sampled) {
+    const auto is_known = [&](const BrokenLimit& other) { return is_same(other, broken); };
+    if (std::any_of(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(proved), is_known)) continue;
+    result.push_back(std::move(broken));
+  }
+  return result;
+}
+
+std::string rows_text(const ReportContext& scene, double position) {
+  const auto& source = scene.certificate.source;
+  if (!source) return "";
+  const auto last = static_cast<double>(scene.certificate.path.segments());
+  const double at = std::clamp(position, 0.0, last);
+  const auto before = scene.illustration.lines.line_of(static_cast<std::size_t>(std::floor(at)));
+  const auto behind = scene.illustration.lines.line_of(static_cast<std::size_t>(std::ceil(at)));
+  if (!before || !behind) return "";
+  const std::string file = std::filesystem::path(source->file).filename().string();
+  if (*before == *behind) return fmt::format("line {} of {}", *before, file);
+  return fmt::format("lines {}-{} of {}", *before, *behind, file);
+}
+
+}  // namespace taut
