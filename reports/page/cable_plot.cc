@@ -61,7 +61,7 @@ Html limit(const Frame& frame, double value, const std::string& text) {
 }  // namespace
 
 Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
-  if (scene.samples.empty() || found_no_path(scene.certificate)) return {};
+  if (scene.certificate.path.segments() == 0 || scene.samples.empty() || found_no_path(scene.certificate)) return {};
   const RobotText& robot = scene.certificate.problem.robot;
   const Limits& limits = (plot.is_length ? robot.length_m : robot.tension_N)[plot.cable];
   const double lower = ScalarTraits<double>::from_decimal(limits.lower);

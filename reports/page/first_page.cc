@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/severity.h"
 #include "reports/page/cable_plot.h"
 #include "reports/summary/broken_limits.h"
 #include "reports/summary/wording.h"
@@ -160,21 +161,30 @@ Html what(const BrokenLimit& broken) {
   return html("<b>Cable {}</b> {}", cable, is_upper(broken.margin) ? "above its top tension" : "below its slack limit");
 }
 
+/// All that are proved, and of the sampled ones as many as fill the table; then how many there are besides.
 Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& all) {
+  constexpr std::size_t kMostRows = 6;
+  const auto proved = static_cast<std::size_t>(std::ranges::count_if(all, &BrokenLimit::is_proved));
+  const std::size_t shown = std::min(all.size(), std::max(kMostRows, proved));
   Html rows;
-  for (const BrokenLimit& broken : all) {
+  for (std::size_t k = 0; k < shown; ++k) {
+    const BrokenLimit& broken = all[k];
     const std::string lines = rows_text(scene, broken.position);
-    const Html stretches = broken.stretches > 1 ? html(" In {} stretches.", broken.stretches) : Html();
+    const Html stretches = broken.stretches > 1 ? html("; in {} stretches", broken.stretches) : Html();
     rows += html("<tr><td>{}</td><td>{}</td><td>{}{}{}</td><td>{}</td></tr>\n", what(broken), amount(scene, broken),
-                 place_text(scene, broken.position), lines.empty() ? Html() : html(", {}", lines), stretches,
-                 broken.is_proved() ? html("proved") : html("sampled"));
+                 place_text(scene, broken.position), lines.empty() ? Html() : html("; <bdi>{}</bdi>", lines), stretches,
+                 broken.is_proved() ? html("<b>proved</b>") : html("samples"));
   }
+  const Html more = shown == all.size() ? Html()
+                                        : html("<p class=\"note\">Samples show {} besides.</p>\n",
+                                               plural(all.size() - shown, "broken limit"));
   return html(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Limits that are broken\"><table "
-      "class=\"broken\"><caption>Limits that this move breaks, the gravest first</caption>\n<thead><tr><th "
-      "scope=\"col\">What</th><th scope=\"col\">How far</th><th scope=\"col\">Where it is worst</th><th "
-      "scope=\"col\">Known by</th></tr></thead>\n<tbody>{}</tbody></table></div>\n",
-      rows);
+             "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Limits that are broken\"><table "
+             "class=\"broken\"><caption>Limits that this move breaks, the gravest first</caption>\n<thead><tr><th "
+             "scope=\"col\">What</th><th scope=\"col\">How far</th><th scope=\"col\">Where it is worst</th><th "
+             "scope=\"col\">Known by</th></tr></thead>\n<tbody>{}</tbody></table></div>\n",
+             rows) +
+         more;
 }
 
 /// The cable whose limit is broken most, or next to a singular pose the one whose tension swings most.
@@ -257,6 +267,16 @@ Html first_page(const ReportContext& scene, const Summary& s) {
   return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\"><div>{}</div></div>\n{}{}</header>\n",
               s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), beside, not_covered(s),
               declaration(s));
+}
+
+Html verdict_section(const Summary& s) {
+  Html rows;
+  for (const Statement& statement : s.statements) {
+    const std::string_view key = statement.key;
+    if (key == "limits" || key == "tolerances") continue;
+    rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", statement.title, statement.text);
+  }
+  return section("verdict", "The verdict in full", html("<dl class=\"facts\">\n{}</dl>\n", rows));
 }
 
 Html cables_section(const ReportContext& scene, const Summary& s) {

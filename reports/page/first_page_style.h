@@ -65,6 +65,14 @@ inline constexpr const char* kFirstPageStyle = R"css(
 .use.near rect { fill: var(--near); }
 .use.close rect, .use.out rect { fill: var(--close); }
 .use .limit { stroke: var(--limit); stroke-width: 1.2; fill: none; vector-effect: non-scaling-stroke; }
+.broken { width: 100%; font-size: 13.5px; }
+.broken td { padding: 5px 12px 5px 0; line-height: 1.35; }
+.broken td b { color: inherit; }
+.facts { margin: 14px 0; font-size: 14.5px; line-height: 1.45; }
+.facts > div { display: grid; grid-template-columns: 110px 1fr; gap: 4px 16px; padding: 5px 0; }
+.facts dt { color: var(--soft); font-weight: 600; }
+.facts dd { margin: 0; overflow-wrap: anywhere; }
+.cable-plot { max-width: 760px; }
 .cable-plot figcaption { font-size: 13px; margin: 4px 0; }
 .cable-plot svg { width: 100%; height: auto; display: block; }
 .cable-plot text { font-size: 12px; fill: var(--soft); }
@@ -94,7 +102,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .band .word { font-size: 25px; white-space: normal; }
   .checks { border-left: none; border-top: 1px solid rgb(255 255 255 / 0.5); padding: 8px 0 0; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 1fr); }
-  .scope > div { grid-template-columns: minmax(0, 1fr); gap: 0; }
+  .scope > div, .facts > div { grid-template-columns: minmax(0, 1fr); gap: 0; }
   .tiles { grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 8px; }
   .tile { padding: 7px 10px 8px; }
   .tile .value { font-size: 18px; }
@@ -117,6 +125,9 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .details { font-size: 8.4pt; margin: 4pt 0; }
   .duo { gap: 10pt; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 41fr) minmax(0, 59fr); }
+  .facts { font-size: 8.4pt; line-height: 1.34; margin: 6pt 0; }
+  .facts > div { grid-template-columns: 58pt 1fr; gap: 8pt; padding: 2.2pt 0; }
+  .broken { font-size: 7.6pt; } .broken td { padding: 2pt 6pt 2pt 0; }
   .cables caption { white-space: normal; font-size: 8.4pt; }
   .first .cables td, .first .cables th { padding: 2.2pt 5pt 2.2pt 0; font-size: 7.6pt; }
   .use { min-width: 60pt; height: 8pt; print-color-adjust: exact; }

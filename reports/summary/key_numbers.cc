@@ -75,21 +75,20 @@ std::string at(const ReportContext& scene, const CableUse& use, double position)
   return use.source == CableUse::Source::kProved ? place : place + "; sampled, not proved";
 }
 
-/// "−18.8 N"
-std::string amount(double value, bool up, const DisplayUnit& unit) {
-  const double size = std::abs(value);
-  const std::string digits = up == (value > 0) ? unit.up(size, 3) : unit.down(size, 3);
-  return fmt::format("{}{} {}", value < 0 ? "−" : "", digits, unit.name());
+/// "−18.8 N": a value beyond a limit, rounded towards it.
+std::string amount(double value, const DisplayUnit& unit) {
+  return fmt::format("{}{} {}", value < 0 ? "−" : "", unit.down(std::abs(value), 3), unit.name());
 }
 
 KeyNumber slack_number(const ReportContext& scene, const CableUse& use) {
   const DisplayUnit& force = scene.illustration.units.force;
   const std::size_t i = greatest([&](std::size_t k) { return slack_use(use.tension[k]); });
   const Use& t = use.tension[i];
+  const bool is_kept = t.range.lower > t.lower_limit;
   return {"slack", "Closest to going slack",
-          fmt::format("Cable {}: {}", i + 1,
-                      t.range.lower > t.lower_limit ? above_slack(t, force) : amount(t.range.lower, false, force)),
-          fmt::format("{} {}, limit {} {} · {}", down_text(t.range.lower, t.lower_limit, force), force.name(),
+          fmt::format("Cable {}: {}", i + 1, is_kept ? above_slack(t, force) : amount(t.range.lower, force)),
+          fmt::format("{}limit {} {} · {}",
+                      is_kept ? down_text(t.range.lower, t.lower_limit, force) + " " + force.name() + ", " : "slack ",
                       force.exact(scene.certificate.problem.robot.tension_N[i].lower), force.name(),
                       at(scene, use, t.least_at)),
           slack_nearness(t)};
@@ -99,13 +98,14 @@ KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
   const DisplayUnit& force = scene.illustration.units.force;
   const std::size_t i = greatest([&](std::size_t k) { return use.tension[k].used(); });
   const Use& t = use.tension[i];
-  return {"top", "Highest tension",
-          fmt::format("Cable {}: {}", i + 1,
-                      t.range.upper < t.upper_limit ? of_top(t) : amount(t.range.upper, true, force)),
-          fmt::format("{} {} of {} {} · {}", up_text(t.range.upper, t.upper_limit, force), force.name(),
-                      force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
-                      at(scene, use, t.greatest_at)),
-          top_nearness(t)};
+  const bool is_kept = t.range.upper < t.upper_limit;
+  return {
+      "top", "Highest tension", fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(t) : amount(t.range.upper, force)),
+      fmt::format("{}{} {} · {}",
+                  is_kept ? up_text(t.range.upper, t.upper_limit, force) + " " + force.name() + " of " : "top limit ",
+                  force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
+                  at(scene, use, t.greatest_at)),
+      top_nearness(t)};
 }
 
 KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
@@ -134,10 +134,30 @@ Nearness growth_nearness(double factor) {
   return factor <= kClose ? Nearness::kClose : factor <= kNear ? Nearness::kNear : Nearness::kCalm;
 }
 
+/// The first `digits` significant digits of a positive decimal: rounded down.
+std::string truncated(const DecimalText& decimal, int digits) {
+  const std::string all = plain(decimal);
+  std::string text;
+  int significant = 0;
+  bool is_fraction = false;
+  for (const char c : all) {
+    is_fraction |= c == '.';
+    const bool is_digit = c >= '0' && c <= '9';
+    if (is_digit && (significant > 0 || c != '0')) ++significant;
+    if (significant > digits && is_fraction) break;
+    text += is_digit && significant > digits ? '0' : c;
+  }
+  return Decimal::parse(text).text();
+}
+
 /// "× 1.14" of an exact factor, rounded down to three digits, or to as many as show that it is above 1.
 std::string factor_text(const DecimalText& factor) {
-  const auto x = ScalarTraits<double>::from_decimal(factor);
-  return "× " + apart(below(x), 1, false);
+  std::string text;
+  for (const int digits : kDigits) {
+    text = truncated(factor, digits);
+    if (Decimal::parse(text) > Decimal::parse("1")) break;
+  }
+  return "× " + text;
 }
 
 KeyNumber growth_number(const ReportContext& scene) {
@@ -161,7 +181,7 @@ std::optional<KeyNumber> share_number(const ReportContext& scene) {
   const double share = ScalarTraits<double>::from_decimal(all.share);
   const bool is_none = Decimal::parse(all.share).sign() == 0;
   return KeyNumber{"growth", "Provable share of tolerances and loads",
-                   is_none ? "none" : rounded_down(below(kPercent * share), 3) + " %",
+                   is_none ? "none" : truncated((Decimal::parse(all.share) * Decimal::parse("100")).text(), 3) + " %",
                    is_none ? "not even the nominal machine under its nominal load; not re-checked"
                            : "of all that is stated, together; not re-checked",
                    growth_nearness(share)};
@@ -171,6 +191,7 @@ std::optional<KeyNumber> share_number(const ReportContext& scene) {
 
 std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use) {
   std::vector<KeyNumber> numbers;
+  if (scene.verdict == "unchecked") return numbers;
   const bool is_proved = use.source == CableUse::Source::kProved && scene.verdict == "proved";
   if (is_proved || use.source == CableUse::Source::kSamples) {
     for (const auto& make : {slack_number, top_number, length_number}) {

@@ -21,7 +21,8 @@ struct KeyNumber {
 };
 
 /// Proved where the whole move is proved: then rounded so that every one of them is true of the move. Else of samples,
-/// and marked so in their details. None where nothing is known.
+/// and marked so in their details. None where nothing is known, or
+/// nothing was checked.
 [[nodiscard]] std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use);
 
 /// How one cable uses its limits, as text of three digits, or of as many as tell it from the limit.

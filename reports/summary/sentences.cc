@@ -47,7 +47,7 @@ std::string quantity(const DecimalText& value, bool length, const DisplayUnits& 
 /// sentence true.
 std::string shortened(const PathWitness& witness, const DecimalText& value, bool up, const DisplayUnits& units) {
   const double x = number(value);
-  for (const int digits : {4, 6, 9, 12, 15}) {
+  for (const int digits : {3, 4, 6, 9, 12, 15}) {
     const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
     const Decimal rounded = Decimal::parse(text);
     // `x` was rounded to nearest: a last check.
@@ -175,9 +175,8 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
               ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
               : "");
     }
-    result.push_back(fmt::format("{} Where: {}, at {}. The pose there, rounded: {}.{}", by,
-                                 place_text(scene, position(witness.at)), point_text(certificate, witness.at),
-                                 pose_at(position(witness.at)), machine));
+    result.push_back(fmt::format("{} Where: {}. The pose there, rounded: {}.{}", by,
+                                 place_text(scene, position(witness.at)), pose_at(position(witness.at)), machine));
     if (certificate.witness->loads) {
       result.push_back(
           fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
@@ -443,9 +442,15 @@ std::string proof_text(const ReportContext& scene) {
   if (scene.verdict == "unchecked") return "None that was checked.";
   if (scene.verdict == "undecided") return "None: nothing is claimed.";
   const std::size_t boxes = count_boxes(certificate);
-  if (boxes == 0) return "Interval arithmetic at the witness.";
+  std::string witness;
+  if (certificate.witness) {
+    const PathWitness& violation = certificate.witness->violation;
+    witness = "at the witness, " + point_text(certificate, violation.at);
+    if (violation.singular) witness += " to " + point_text(certificate, violation.to);
+  }
+  if (boxes == 0) return fmt::format("Interval arithmetic {}.", witness);
   return fmt::format("Interval arithmetic, {} in {} without sampling{}.", plural(boxes, "box"),
-                     plural(certificate.segments.size(), "segment"), certificate.witness ? ", and at the witness" : "");
+                     plural(certificate.segments.size(), "segment"), witness.empty() ? "" : ", and " + witness);
 }
 
 }  // namespace

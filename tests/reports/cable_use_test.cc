@@ -44,19 +44,17 @@ TEST(CableUse, SaysWhatItRestsOn) {
       << "its waypoints are the query's alone";
 }
 
-TEST(Closest, IsTheCableNextToALimitByTheWidthBetweenThem) {
-  std::array<Use, kCables> uses;
-  uses.fill({{4, 6}, 0, 10, 1, 2});
-  EXPECT_EQ(closest(uses).cable, 0);
-  uses[3].range = {4, 9};
-  EXPECT_EQ(closest(uses).cable, 3);
-  EXPECT_TRUE(closest(uses).is_upper);
-  EXPECT_EQ(closest(uses).value, 9);
-  EXPECT_EQ(closest(uses).at, 2);
-  uses[5] = {{50, 500}, 0, 1000, 7, 8};
-  EXPECT_EQ(closest(uses).cable, 5);
-  EXPECT_FALSE(closest(uses).is_upper);
-  EXPECT_EQ(closest(uses).at, 7);
+TEST(CableUse, OfSamplesIsOfTheWholePath) {
+  nlohmann::json certificate = sample::proved();
+  certificate["segments"].erase(1);
+  const ReportContext scene = sample::scene(certificate);
+  const CableUse sampled = sampled_use(scene);
+  EXPECT_EQ(sampled.source, CableUse::Source::kSamples);
+  for (const PathSample& sample : scene.samples) {
+    EXPECT_LE(sampled.length[2].range.lower, sample.statics.length[2]);
+    EXPECT_GE(sampled.length[2].range.upper, sample.statics.length[2]);
+  }
+  EXPECT_EQ(sampled_use(sample::scene(sample::no_path())).source, CableUse::Source::kNone);
 }
 
 TEST(Use, IsNeverSaidToBeLessThanItIs) {

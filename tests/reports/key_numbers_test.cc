@@ -40,8 +40,8 @@ TEST(KeyNumbers, OfAProvedMoveAreTrueOfIt) {
 
 TEST(KeyNumbers, AgreeWithTheMarginsOfTheCertificate) {
   nlohmann::json certificate = sample::proved();
-  for (nlohmann::json* margins : {&certificate["margins"], &certificate["segments"][0]["margins"],
-                                  &certificate["segments"][1]["margins"]}) {
+  for (nlohmann::json* margins :
+       {&certificate["margins"], &certificate["segments"][0]["margins"], &certificate["segments"][1]["margins"]}) {
     (*margins)["length_m"] = "0.01065";  // sharper than the boxes' enclosures, and true
   }
   EXPECT_EQ(numbers_of(certificate)[2].value, "Cable 5: 10.6 mm") << "0.01065 m, rounded down";
@@ -50,8 +50,8 @@ TEST(KeyNumbers, AgreeWithTheMarginsOfTheCertificate) {
 TEST(KeyNumbers, AreNeverRoundedOntoTheLimitThatIsKept) {
   // The least length of cable 1 along this path is about 308.44 mm.
   nlohmann::json certificate = sample::proved();
-  for (nlohmann::json* margins : {&certificate["margins"], &certificate["segments"][0]["margins"],
-                                  &certificate["segments"][1]["margins"]}) {
+  for (nlohmann::json* margins :
+       {&certificate["margins"], &certificate["segments"][0]["margins"], &certificate["segments"][1]["margins"]}) {
     (*margins)["length_m"] = "1e-5";
   }
   certificate["problem"]["robot"]["length_m"][0][0] = "0.30841";

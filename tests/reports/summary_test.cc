@@ -27,8 +27,13 @@ TEST(Summary, SaysTheSameAsTextMarkdownAndJson) {
     const nlohmann::json json = to_json(summary);
     EXPECT_THAT(text,
                 StartsWith("LP-17, revision C, 2024-02-29: robot1-slice (name given in the case, not checked)\n"));
-    EXPECT_THAT(text, HasSubstr(summary.headline + "\n"));
+    EXPECT_THAT(text, HasSubstr(summary.word + ": " + summary.headline + "\n"));
+    EXPECT_EQ(json["word"], summary.word);
     EXPECT_EQ(json["headline"], summary.headline);
+    ASSERT_EQ(json["key_numbers"].size(), summary.key_numbers.size());
+    for (const KeyNumber& number : summary.key_numbers) {
+      EXPECT_THAT(text, HasSubstr(number.title + ": " + number.value + " (" + number.detail + ")"));
+    }
     EXPECT_EQ(json["verdict"], certificate["verdict"]);
     EXPECT_EQ(json["document"], "LP-17");
     for (const Statement& statement : summary.statements) {
@@ -44,7 +49,7 @@ TEST(Summary, RoundsProvedRangesOutward) {
   const nlohmann::json json = to_json(summary_of(sample::proved()));
   EXPECT_EQ(json["cables_source"], "proved");
   const nlohmann::json& tension = json["cables"][2]["tension_N"];
-  EXPECT_THAT(to_text(summary_of(sample::proved())), HasSubstr("      3           0.1016     0.1201"));
+  EXPECT_THAT(to_text(summary_of(sample::proved())), HasSubstr("      3              0.101      0.121"));
   EXPECT_GE(tension["least"], 0.1016);
   EXPECT_LE(tension["greatest"], 0.1201);
   EXPECT_EQ(tension["upper_limit"], 0.5);
@@ -55,10 +60,10 @@ TEST(Summary, RepeatsNothingOfAnUncheckedCertificate) {
        {sample::proved(), sample::refuted(), sample::singular(), sample::undecided()}) {
     const Summary summary(sample::unchecked(certificate), {});
     EXPECT_EQ(summary.verdict, "unchecked");
-    EXPECT_THAT(to_text(summary), HasSubstr("UNCHECKED: whether this certificate is right is not known"));
+    EXPECT_THAT(to_text(summary), HasSubstr("UNCHECKED: Whether this certificate is right is not known"));
     EXPECT_THAT(to_text(summary), HasSubstr("so <it> is"));
     for (const char* claim :
-         {"Proved:", "Refuted:", "Undecided:", "Reserves", "0.0425", "0.8123", "the determinant may"}) {
+         {"PROVED", "Refuted:", "Undecided:", "× 2.71", "0.0425", "0.8123", "the determinant may"}) {
       EXPECT_THAT(to_text(summary), Not(HasSubstr(claim)));
     }
     EXPECT_NE(to_json(summary)["cables_source"], "proved");

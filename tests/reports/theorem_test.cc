@@ -61,8 +61,8 @@ TEST(Theorem, IsMadeOfNothingThatIsNotAccepted) {
 
 TEST(Theorem, IsWhatAReportShows) {
   const std::string text = text_summary(checker::check(bytes()));
-  EXPECT_THAT(text, HasSubstr("Proved: at every pose of this move"));
-  EXPECT_THAT(text, HasSubstr("every tension stays at least 0.01764834 N inside its limits"));
+  EXPECT_THAT(text, HasSubstr("PROVED: Everywhere on this move"));
+  EXPECT_THAT(text, HasSubstr("Closest to going slack: Cable "));
 }
 
 TEST(Report, OfWhatIsUncheckedHasNoVerdictAndNoMargins) {
@@ -72,9 +72,9 @@ TEST(Report, OfWhatIsUncheckedHasNoVerdictAndNoMargins) {
     const CheckResult checked = checker::check(certificate, no_time);
     ASSERT_EQ(checked.outcome, Outcome::kUnchecked);
     for (const std::string& report : {html_report(checked), text_summary(checked), markdown_summary(checked)}) {
-      EXPECT_THAT(report, HasSubstr("UNCHECKED: "));
-      EXPECT_THAT(report, Not(HasSubstr("Proved:")));
-      EXPECT_THAT(report, Not(HasSubstr("Reserves")));
+      EXPECT_THAT(report, HasSubstr("UNCHECKED"));
+      EXPECT_THAT(report, Not(HasSubstr("PROVED")));
+      EXPECT_THAT(report, Not(HasSubstr("Closest to going slack")));
       EXPECT_THAT(report, Not(HasSubstr("0.01764834")));
     }
     EXPECT_EQ(json_summary(checked)["verdict"], "unchecked");
