@@ -6,12 +6,15 @@
 
 #include "base/input_error.h"
 #include "base/sanitize.h"
+#include "reports/page/appendix.h"
 #include "reports/page/first_page.h"
 #include "reports/page/first_page_style.h"
+#include "reports/page/margins.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
 #include "reports/page/style.h"
+#include "reports/page/typeface.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -26,18 +29,18 @@ Html contents(const ReportContext& scene) {
   const bool has_path = !scene.samples.empty();
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   link(has_path, "move", "The move");
-  link(!scene.certificate.stretches.empty(), "stretches", "Stretches");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");
   link(is_plane(scene.certificate.problem.space), "plane", "Plane");
-  link(is_claimed && count_boxes(scene.certificate) > 0, "margins", "Margins");
-  link(is_claimed, "theorem", "Claim");
+  link(!scene.certificate.stretches.empty(), "stretches", "Stretches");
+  link(true, "robot", "Machine and load");
   link(is_claimed && scene.certificate.problem.tolerances.has_value(), "tolerances", "Tolerances");
   link(true, "assumptions", "Assumptions");
-  link(true, "robot", "Robot");
   link(true, "path", "Path");
-  link(true, "inputs", "Digests");
+  link(is_claimed, "theorem", "Claim");
+  link(is_claimed && count_boxes(scene.certificate) > 0, "margins", "Margins");
+  link(true, "appendix", "Appendix");
   link(true, "recheck", "Check again");
   return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
 }
@@ -62,14 +65,35 @@ void require_plain(const ReportOptions& options) {
   require(options.date, "date");
 }
 
-/// The style sheet's part for the page's footer, with the document's number and the page number. @pre the document's
-/// number has no quote or backslash.
-std::string footer_style(const std::string& document) {
+/// The text as a string of a style sheet, which none of its characters can end.
+std::string css_string(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain =
+        byte >= 0x80 || (byte >= 0x20 && byte != 0x7f && std::string_view("\"\\<>&").find(c) == std::string_view::npos);
+    result += is_plain ? std::string(1, c) : fmt::format("\\{:x} ", byte);
+  }
+  return result + "\"";
+}
+
+/// The verdict as it stands at the head of each printed page.
+std::string_view verdict_word(std::string_view verdict) {
+  if (verdict == "proved") return "PROVED";
+  if (verdict == "refuted") return "REFUTED: DO NOT RUN";
+  return verdict == "undecided" ? "NO DECISION" : "UNCHECKED";
+}
+
+/// The style sheet's part for head and foot of the printed pages: case, verdict and document; date and page.
+std::string running_head(const Summary& summary) {
+  const std::string revision = summary.revision.empty() ? "" : " · revision " + summary.revision;
   return fmt::format(
-      "@media print {{ @page {{ @bottom-left {{ content: \"{}\"; }} @bottom-right {{ content: \"Page \" counter(page) "
-      "\" of "
-      "\" counter(pages); }} }} }}\n",
-      document);
+      "@media print {{ @page {{ @top-left {{ content: {}; }} @top-right {{ content: {}; }} @bottom-left {{ content: "
+      "{}; "
+      "}} @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }} }}\n",
+      css_string(excerpt(summary.name)),
+      css_string(fmt::format("{} · {}{}", verdict_word(summary.verdict), summary.document, revision)),
+      css_string(summary.date));
 }
 
 }  // namespace
@@ -78,21 +102,27 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   require_plain(options);
   const Summary summary(scene, options);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
-  const Html claim = is_claimed ? margins(scene) + theorem(scene.certificate) + tolerances(scene) : Html();
-  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) +
-                    cables_section(scene, summary) + verdict_section(summary) + stretches(scene) + headroom(scene) +
-                    plot_sections(scene) + claim + assumptions(scene.certificate.problem) + robot(scene) +
-                    path_section(scene) + inputs(scene.certificate) + recheck(scene);
+  const Problem& problem = scene.certificate.problem;
+  // What a reader needs first comes first; then what the verdict is about; then how it was proved; then all digits.
+  const Html results =
+      move_section(scene) + cables_section(scene, summary) + plot_sections(scene) + headroom(scene) + stretches(scene);
+  const Html inputs_in_words =
+      machine(scene) + (is_claimed ? tolerances(scene) : Html()) + assumptions(problem) + path_section(scene);
+  const Html proof = verdict_section(summary) + (is_claimed ? theorem(scene.certificate) + margins(scene) : Html());
+  const Html exact = exact_load(scene) + space(problem) + exact_path(scene) + exact_stretches(scene) +
+                     (is_claimed ? exact_margins(scene) : Html()) + inputs(scene.certificate) + recheck(scene);
+  const Html body = first_page(scene, summary) + contents(scene) + results + inputs_in_words + proof +
+                    html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), kStyle, kFirstPageStyle, footer_style(summary.document), body.str(),
-      page_scripts(scene));
+      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, running_head(summary),
+      body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

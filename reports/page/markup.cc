@@ -27,6 +27,17 @@ std::string escape(std::string_view text) {
   return result;
 }
 
+Html without_tags(const Html& markup) {
+  Html result;
+  bool is_tag = false;
+  for (const char c : markup.markup_) {
+    if (c == '<') is_tag = true;
+    if (!is_tag) result.markup_ += c;
+    if (c == '>') is_tag = false;
+  }
+  return result;
+}
+
 Html table(const Html& caption, const std::vector<Column>& columns, const std::vector<std::vector<Html>>& rows) {
   Html head;
   for (const Column& column : columns) {
@@ -40,9 +51,13 @@ Html table(const Html& caption, const std::vector<Column>& columns, const std::v
     }
     body += html("<tr>{}</tr>\n", cells);
   }
-  return html(
-      "<div class=\"scroll\"><table><caption>{}</caption><thead><tr>{}</tr></thead>\n<tbody>{}</tbody></table></div>\n",
-      caption, head, body);
+  return scrollable(caption, html("<table><caption>{}</caption><thead><tr>{}</tr></thead>\n<tbody>{}</tbody></table>",
+                                  caption, head, body));
+}
+
+Html scrollable(const Html& name, const Html& body) {
+  return html("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">{}</div>\n", without_tags(name),
+              body);
 }
 
 Html folded(bool long_, const Html& summary, const Html& body) {

@@ -55,7 +55,11 @@ class Html {
 
  private:
   std::string markup_;
+  friend Html without_tags(const Html& markup);
 };
+
+/// The words of some markup, for the value of an attribute.
+[[nodiscard]] Html without_tags(const Html& markup);
 
 /// html("<b class=\"{}\">{}</b>", kind, text): the template is a literal, the arguments are escaped.
 template <class... Args>
@@ -71,6 +75,9 @@ struct Column {
 /// A table that scrolls sideways if it is wider than the page. The cells of each row are in the order of `columns`.
 [[nodiscard]] Html table(const Html& caption, const std::vector<Column>& columns,
                          const std::vector<std::vector<Html>>& rows);
+
+/// A box that scrolls sideways if `body` is wider than the page, by keys, too; `name` says what is in it.
+[[nodiscard]] Html scrollable(const Html& name, const Html& body);
 
 /// `body`, folded under `summary` if it is `long_`. On paper it is always shown in full.
 [[nodiscard]] Html folded(bool long_, const Html& summary, const Html& body);

@@ -148,8 +148,8 @@ std::string page_scripts(const ReportContext& scene) {
 
 std::string content_security_policy() {
   return fmt::format(
-      "default-src 'none'; script-src 'sha256-{}'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
-      "form-action 'none'",
+      "default-src 'none'; script-src 'sha256-{}'; style-src 'unsafe-inline'; img-src data:; font-src data:; "
+      "base-uri 'none'; form-action 'none'",
       page_script_sha256());
 }
 

@@ -2,9 +2,11 @@
 #include "reports/page/sections.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "certify/undecided.h"
-#include "problem/rational.h"
+#include "reports/page/table_sizes.h"
+#include "reports/summary/angles.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
@@ -14,10 +16,6 @@ namespace taut {
 
 namespace {
 
-constexpr std::size_t kLongTable = 14;   ///< rows; longer tables are folded on the screen
-constexpr std::size_t kMostRows = 300;   ///< of what is listed in full; longer lists are shown in blocks,
-constexpr std::size_t kBlocks = 100;     ///< so many at most
-constexpr std::size_t kLeastShown = 50;  ///< segments with the least margins
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// γ of segment k, where the path runs between poses.
@@ -97,21 +95,17 @@ Html each_cable(const std::array<DecimalText, kCables>& metres, const DisplayUni
   return list + html(" {}", unit.name());
 }
 
-Html triple(const std::array<DecimalText, 3>& metres, const DisplayUnit& unit) {
-  return html("({}, {}, {})", unit.exact(metres[0]), unit.exact(metres[1]), unit.exact(metres[2]));
-}
-
 Html robot_tables(const Problem& problem, const DisplayUnits& units) {
   std::vector<std::vector<Html>> cables;
   for (std::size_t i = 0; i < kCables; ++i) {
     const Limits& tension = problem.robot.tension_N[i];
     const Limits& length = problem.robot.length_m[i];
-    cables.push_back({html("{}", i + 1), triple(problem.robot.base_anchors_m[i], units.length),
-                      triple(problem.robot.platform_anchors_m[i], units.length),
+    cables.push_back({html("{}", i + 1), html("{}", triple(problem.robot.base_anchors_m[i], units.length)),
+                      html("{}", triple(problem.robot.platform_anchors_m[i], units.length)),
                       html("({}, {})", units.force.exact(tension.lower), units.force.exact(tension.upper)),
                       html("({}, {})", units.length.exact(length.lower), units.length.exact(length.upper))});
   }
-  return table(html("Cables: anchors and limits, exact"),
+  return table(html("Cables: anchors and limits, as the case states them"),
                {{html("Cable"), true},
                 {html("Base anchor a [{}]", units.length.name())},
                 {html("Platform anchor b [{}]", units.length.name())},
@@ -130,226 +124,55 @@ Html items_table(const LoadText& load) {
                {{html("Item")}, {html("What it is")}}, rows);
 }
 
-Html ellipsoid_table(const LoadText& load, const DisplayUnits& units) {
-  constexpr std::array<const char*, 6> kNames = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
-  std::vector<Column> columns = {{html("Component")}, {html("w<sub>0</sub>"), true}};
-  for (int j = 1; j <= 6; ++j) columns.push_back({html("E<sub>i{}</sub>", j), true});
-  std::vector<std::vector<Html>> rows;
-  for (std::size_t i = 0; i < 6; ++i) {
-    std::vector<Html> row = {html("{} [{}]", kNames[i], i < 3 ? "N" : "N·m"), html("{}", plain(load.wrench[i]))};
-    for (std::size_t j = 0; j < 6; ++j)
-      row.push_back(html("{}", rational_text(parse_rational((*load.ellipsoid)[i][j]))));
-    rows.push_back(std::move(row));
-  }
-  return html(
-             "<p>Load point p<sub>m</sub> = {} {} in the platform frame. Wrenches are about that point, in the axes of "
-             "the world. E in 1/N², 1/(N·N·m) and 1/(N·m)².</p>\n",
-             triple(load.point_m, units.length), units.length.name()) +
-         table(html("Centre load w<sub>0</sub> and matrix E of the set of loads, exact"), columns, rows);
-}
-
-Html load_table(const LoadText& load, const DisplayUnits& units) {
-  return items_table(load) + (load.ellipsoid ? ellipsoid_table(load, units) : Html());
-}
-
-Html space_tables(const Problem& problem) {
-  const SpaceText& space = problem.space;
-  std::vector<std::vector<Html>> rows;
-  for (std::size_t j = 0; j < space.parameters.size(); ++j) {
-    const Parameter& parameter = space.parameters[j];
-    Html range = html("any real number");
-    if (parameter.kind == ParameterKind::kPeriodic) range = html("an angle; values 2π apart are the same");
-    if (parameter.kind == ParameterKind::kRange) {
-      range = html("<code>{}</code> to <code>{}</code>", parameter.range_lower, parameter.range_upper);
-    }
-    Html typed;
-    for (const auto& waypoint : problem.query) {
-      typed += html("{}<code>{}</code>", typed.empty() ? Html() : html(", "), j < waypoint.size() ? waypoint[j] : "");
-    }
-    rows.push_back({html("<code>{}</code>", parameter.name), html("{}", unit(space, j)), range, typed});
-  }
-  std::vector<std::vector<Html>> pose;
-  const std::vector<std::string> names = pose_names(space.angles.kind);
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    pose.push_back(
-        {html("<code>{}</code>", names[c]), html("<code>{}</code>", space.pose[c]), html("{}", c < 3 ? "m" : "rad")});
-  }
-  Html constants;
-  for (const auto& [name, value] : space.constants) constants += html("<li><code>{} = {}</code></li>\n", name, value);
-  Html result =
-      html("<p>Angles: {}.</p>\n", rotation_formula(space.angles)) +
-      table(html("Parameters of the poses"),
-            {{html("Parameter")}, {html("Unit")}, {html("Values")}, {html("Waypoints asked for")}}, rows) +
-      table(html("Pose as a function of the parameters"), {{html("Pose")}, {html("Expression")}, {html("Unit")}}, pose);
-  if (!constants.empty()) result += html("<p>Constants, as the expressions use them:</p><ul>{}</ul>\n", constants);
-  Html constraints;
-  for (const ExpressionText& c : space.constraints) constraints += html("<li><code>{} = 0</code></li>\n", c);
-  if (!constraints.empty()) {
-    result +=
-        html("<p>Constraints, which every pose of the path fulfils exactly (m, rad):</p><ul>{}</ul>\n", constraints);
-  }
-  if (space.flip) result += html("<p>(φ, θ) and (φ + π, −θ) are the same pose, and count as such.</p>\n");
-  return result;
-}
-
-/// Exact parameters and rounded pose of every `step`th waypoint and of the last, side by side, or one below the other
-/// if that is too wide.
-Html waypoint_table(const ReportContext& scene, std::size_t step) {
-  constexpr std::size_t kSideBySide = 3;  // parameters that leave room for the pose on a printed page
-  const Path& path = scene.certificate.path;
-  const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
-  const Html what = html("{}", is_spline ? "Control point" : "Waypoint");
-  std::vector<Column> columns = {{what, true}};
-  const auto named = coordinates(scene.certificate);
-  for (const auto& [name, unit] : named) columns.push_back({html("<code>{}</code> {}", name, in_brackets(unit)), true});
-  std::vector<Column> pose_columns = {{what, true}};
-  const DisplayUnit& length = scene.illustration.units.length;
-  for (const char* name : {"px", "py", "pz"}) pose_columns.push_back({html("{} [{}]", name, length.name()), true});
-  const std::vector<std::string> angles = angle_symbols(scene.certificate.problem.space.angles.kind);
-  for (const std::string& symbol : angles) pose_columns.push_back({html("{} [°]", symbol), true});
-  std::vector<std::vector<Html>> rows;
-  std::vector<std::vector<Html>> pose_rows;
-  const std::size_t last = path.waypoints.size() - 1;
-  for (std::size_t k = 0; k <= last; k = k < last ? std::min(k + step, last) : last + 1) {
-    const Waypoint& waypoint = path.waypoints[k];
-    rows.push_back({html("{}", k)});
-    for (std::size_t j = 0; j < waypoint.x.size(); ++j) {
-      rows.back().push_back(html("{}", coordinate_text(waypoint.x[j], half_turns(waypoint, j))));
-    }
-    const Pose<double> pose =
-        is_spline ? scene.sampler.pose(waypoint) : scene.sampler.at(path, static_cast<double>(k)).pose;
-    pose_rows.push_back({html("{}", k)});
-    for (int c = 0; c < 3; ++c) pose_rows.back().push_back(html("{}", length.fixed(pose.p_WP(c), 6)));
-    for (std::size_t c = 0; c < angles.size(); ++c) {
-      pose_rows.back().push_back(html("{:.3f}", pose.angles[c] * kDegrees + 0.0));
-    }
-  }
-  if (named.size() > kSideBySide) {
-    // Groups of columns that fit on a page: px py pz, qx qy qz qw, L1 L2 L3, L4 L5 L6; or three parameters each.
-    Html tables;
-    for (std::size_t first = 1; first < columns.size();) {
-      const bool is_quaternion = has_poses(path.interpolation) && first == 4;
-      const std::size_t end = std::min(columns.size(), first + (is_quaternion ? 4 : kSideBySide));
-      const auto part = [&](const auto& row) {
-        auto cells = std::vector(row.begin() + static_cast<std::ptrdiff_t>(first),
-                                 row.begin() + static_cast<std::ptrdiff_t>(end));
-        cells.insert(cells.begin(), row.front());
-        return cells;
-      };
-      std::vector<std::vector<Html>> part_rows;
-      for (const std::vector<Html>& row : rows) part_rows.push_back(part(row));
-      tables += table(html("{}s: exact numbers", what), part(columns), part_rows);
-      first = end;
-    }
-    return tables + table(html("{}s: rounded poses", what), pose_columns, pose_rows);
-  }
-  columns.insert(columns.end(), pose_columns.begin() + 1, pose_columns.end());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    rows[k].insert(rows[k].end(), pose_rows[k].begin() + 1, pose_rows[k].end());
-  }
-  return table(html("{}s: exact parameters and rounded poses", what), columns, rows);
-}
-
 /// How the path follows the constraints, and how far that takes it from the waypoints.
 Html on_constraints(const ReportContext& scene) {
   const std::vector<double>& tubes = scene.certificate.path.tubes;
   const double widest = tubes.empty() ? 0 : *std::max_element(tubes.begin(), tubes.end());
   return html(
       " All poses of the motion lie on the constraints, exactly; waypoints lie near them, and the poses shown are "
-      "those "
-      "on them. The motion is at most {:.3g} (m, rad; r<sub>k</sub> along each column of N) from what the waypoints "
-      "alone "
-      "would give.",
+      "those on them. The motion is at most {:.3g} (m, rad; r<sub>k</sub> along each column of N) from what the "
+      "waypoints alone would give.",
       widest);
 }
 
-/// The printed row of a segment, or of several consecutive ones.
-struct MarginRow {
-  std::size_t first = 0, last = 0;  ///< segments
-  std::size_t boxes = 0;
-  int depth = 0;                     ///< of the narrowest box: it is 2^-depth wide
-  const Margins* tension = nullptr;  ///< of the segment with the least; null where none is proved
-  const Margins* length = nullptr;
-  const Margins* scale = nullptr;
-};
-
-double approximate(const std::string& margin) { return ScalarTraits<double>::from_decimal(margin); }
-
-MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t last) {
-  MarginRow row{first, last};
-  for (std::size_t k = first; k <= last; ++k) {
-    const CertificateSegment& segment = scene.certificate.segments[k];
-    row.boxes += segment.boxes.size();
-    for (const DyadicBox& box : scene.boxes[k]) row.depth = std::max(row.depth, box.depth);
-    if (!segment.margins) continue;
-    const Margins& margins = *segment.margins;
-    const auto keep_least = [&](const Margins*& least, DecimalText Margins::*margin) {
-      if (least == nullptr || approximate(margins.*margin) < approximate(least->*margin)) least = &margins;
-    };
-    keep_least(row.tension, &Margins::tension_N);
-    keep_least(row.length, &Margins::length_m);
-    keep_least(row.scale, &Margins::wrench_scale);
+/// Decimals of metres that make positions on this machine sure to a thousandth of its size.
+int position_decimals(const RobotText& robot) {
+  double size = 0;
+  for (const auto* anchors : {&robot.base_anchors_m, &robot.platform_anchors_m}) {
+    for (const auto& anchor : *anchors) {
+      for (const DecimalText& x : anchor) size = std::max(size, std::abs(ScalarTraits<double>::from_decimal(x)));
+    }
   }
-  return row;
+  constexpr int kDigits = 3;
+  return size > 0 ? kDigits - static_cast<int>(std::floor(std::log10(size))) : kDigits;
 }
 
-Html margin_table(const Certificate& certificate, const std::string& caption, const std::vector<MarginRow>& rows) {
-  const auto cell = [&](const Margins* least, DecimalText Margins::*margin) {
-    if (least == nullptr) return html("–");
-    const std::string& value = least->*margin;
-    return certificate.margins && value == (*certificate.margins).*margin ? html("<b>{}</b>", value)
-                                                                          : html("{}", value);
-  };
-  std::vector<std::vector<Html>> cells;
-  cells.reserve(rows.size());
-  for (const MarginRow& row : rows) {
-    cells.push_back({row.first == row.last ? html("{}", row.first) : html("{} – {}", row.first, row.last),
-                     html("{} → {}", row.first, row.last + control_points(certificate.path.interpolation) - 1),
-                     html("{}", row.boxes),
-                     row.boxes == 0   ? html("–")
-                     : row.depth == 0 ? html("1")
-                                      : html("2<sup>−{}</sup>", row.depth),
-                     cell(row.tension, &Margins::tension_N), cell(row.length, &Margins::length_m),
-                     cell(row.scale, &Margins::wrench_scale)});
+/// The pose at every `step`th waypoint and at the last, rounded.
+Html pose_table(const ReportContext& scene, std::size_t step) {
+  const Path& path = scene.certificate.path;
+  const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
+  const AngleKind kind = scene.certificate.problem.space.angles.kind;
+  const DisplayUnit& length = scene.illustration.units.length;
+  const int decimals = position_decimals(scene.certificate.problem.robot);
+  const char* const what = is_spline ? "Control point" : "Waypoint";
+  std::vector<Column> columns = {{html("{}", what), true}};
+  for (const char* name : {"px", "py", "pz"}) columns.push_back({html("{} [{}]", name, length.name()), true});
+  const std::vector<std::string> symbols = angle_symbols(kind);
+  for (const std::string& symbol : symbols) columns.push_back({html("{} [°]", symbol), true});
+  std::vector<std::vector<Html>> rows;
+  const std::size_t last = path.waypoints.size() - 1;
+  for (std::size_t k = 0; k <= last; k = k < last ? std::min(k + step, last) : last + 1) {
+    const Pose<double> pose =
+        is_spline ? scene.sampler.pose(path.waypoints[k]) : scene.sampler.at(path, static_cast<double>(k)).pose;
+    rows.push_back({html("{}", k)});
+    for (int c = 0; c < 3; ++c) rows.back().push_back(html("{}", length.fixed(pose.p_WP(c), decimals)));
+    const auto angles = customary_angles(kind, pose.angles);
+    for (std::size_t c = 0; c < symbols.size(); ++c) {
+      rows.back().push_back(html("{:.1f}", angles[c] * kDegrees + 0.0));
+    }
   }
-  return table(html("{}", caption),
-               {{html("Segment"), true},
-                {html("Waypoints"), true},
-                {html("Boxes"), true},
-                {html("Narrowest"), true},
-                {html("tension_N [N]"), true},
-                {html("length_m [m]"), true},
-                {html("wrench_scale [1]"), true}},
-               cells);
+  return table(html("{}s: poses, rounded", what), columns, rows);
 }
-
-/// The segments with the least margins: of each kind those that come first, in order along the path.
-std::vector<MarginRow> least_segments(const ReportContext& scene) {
-  const Certificate& certificate = scene.certificate;
-  std::vector<std::size_t> all;
-  for (std::size_t k = 0; k < certificate.segments.size(); ++k) {
-    if (certificate.segments[k].margins) all.push_back(k);
-  }
-  std::vector<double> scale(certificate.segments.size());
-  for (const std::size_t k : all) scale[k] = approximate(certificate.segments[k].margins->wrench_scale);
-  const std::size_t count = std::min(kLeastShown, all.size());
-  std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count), {},
-                            [&](std::size_t k) { return scale[k]; });
-  all.resize(count);
-  std::ranges::sort(all);
-  std::vector<MarginRow> rows;
-  for (const std::size_t k : all) rows.push_back(margin_row(scene, k, k));
-  return rows;
-}
-
-/// With these arguments Python writes canonical JSON, because a certificate has no fractional numbers.
-constexpr const char* kDigestCommand = R"(python3 -c '
-import json, hashlib
-c = json.load(open("certificate.json")); c.pop("footer"); c.pop("signature", None)
-for v in (c["problem"], c["path"], c):
-    text = json.dumps(v, sort_keys=True, separators=(",", ":"))
-    print(hashlib.sha256(text.encode()).hexdigest())
-')";
 
 }  // namespace
 
@@ -399,10 +222,10 @@ Html assumptions(const Problem& problem) {
   const Html exactness =
       problem.tolerances
           ? html(
-                "<li>Anchors, load and tracking differ from the numbers below by no more than the tolerances. Limits "
-                "and the shape of the set of loads are exactly as below.</li>\n")
+                "<li>Anchors, load and tracking differ from what is stated by no more than the tolerances. Limits and "
+                "the shape of the set of loads are exactly as stated.</li>\n")
           : html(
-                "<li>Anchors, limits and load are exactly the numbers below. Tolerances of manufacture, "
+                "<li>Anchors, limits and load are exactly as stated. Tolerances of manufacture, "
                 "measurement and control are not covered.</li>\n");
   const Html following =
       held
@@ -420,8 +243,8 @@ Html assumptions(const Problem& problem) {
            "<li>The motion is quasi-static: forces of inertia are covered only as far as the load contains "
            "them.</li>\n"
            "{}{}"
-           "<li>Waypoints are the binary64 numbers below; a typed coordinate that is no such number is moved by at "
-           "most half a unit in its last place.</li>\n"
+           "<li>Waypoints are the binary64 numbers of the appendix; a typed coordinate that is no such number is moved "
+           "by at most half a unit in its last place.</li>\n"
            "<li>Collisions of cables, platform and surroundings are not examined.</li>\n"
            "<li>Whether the numbers are those of a built machine is outside the proof. Where a case says that its "
            "geometry is a reconstruction, the claim is about the reconstruction.</li>\n</ul>\n",
@@ -483,36 +306,10 @@ Html tolerances(const ReportContext& scene) {
           note);
 }
 
-namespace {
-
-/// "taut 0.1.0"
-std::string text(const Generator& generator) {
-  const bool has_both = !generator.name.empty() && !generator.version.empty();
-  return generator.name + (has_both ? " " : "") + generator.version;
-}
-
-}  // namespace
-
-Html inputs(const Certificate& certificate) {
-  const auto digest = [](const std::string& text) { return html("<span class=\"digest\">{}</span>", text); };
-  const auto row = [](const Html& what, const Html& value) { return std::vector<Html>{what, value}; };
+Html machine(const ReportContext& scene) {
   return section(
-      "inputs", "Inputs and digests",
-      table(html("Inputs and digests"), {{html("What")}, {html("Value")}},
-            {row(html("name of the case (not checked)"), html("<bdi>{}</bdi>", certificate.problem.name)),
-             row(html("made by (not checked)"), html("<bdi>{}</bdi>", text(certificate.generator))),
-             row(html("problem_sha256"), digest(certificate.problem_sha256)),
-             row(html("path_sha256"), digest(certificate.path_sha256)),
-             row(html("footer.sha256"), digest(certificate.footer_sha256))}) +
-          html("<p class=\"note\">SHA-256 of the canonical JSON of the problem, of the path, and of the whole "
-               "certificate without its footer. taut-check compares them with what the certificate contains.</p>\n"));
-}
-
-Html robot(const ReportContext& scene) {
-  return section("robot", "Robot, load and space of poses",
-                 robot_tables(scene.certificate.problem, scene.illustration.units) + html("<h3>Load</h3>\n") +
-                     load_table(scene.certificate.problem.load, scene.illustration.units) +
-                     html("<h3>Poses that the platform may take</h3>\n") + space_tables(scene.certificate.problem));
+      "robot", "Machine and load",
+      robot_tables(scene.certificate.problem, scene.illustration.units) + items_table(scene.certificate.problem.load));
 }
 
 Html path_section(const ReportContext& scene) {
@@ -524,69 +321,25 @@ Html path_section(const ReportContext& scene) {
           : html(
                 "segment k is the piece of a spline that waypoints k to k + 3 control, passing through a waypoint only "
                 "where that stands three times in a row");
-  const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
+  const std::size_t step = step_for(count);
   const bool constrained = !scene.certificate.problem.space.constraints.empty();
   return section(
       "path", "Path",
-      html("<p>{}, numbered from 0; {}. Interpolation: "
-           "<code>{}</code>.{} Parameters are exact: the decimals read back to the binary64 numbers of the "
-           "certificate bit for bit, and a multiple of π is added where it is written. Pose coordinates are rounded, "
-           "and angles are not wrapped.</p>\n",
+      html("<p>{}, numbered from 0; {}. Interpolation: <code>{}</code>.{} {}Poses are rounded; the appendix has the "
+           "exact numbers.</p>\n",
            plural(count, "waypoint"), segments, interpolation_name(scene.certificate.path.interpolation),
-           constrained ? on_constraints(scene) : Html()) +
-          (step == 1 ? Html()
-                     : html("<p>Every {}th of them is shown; the certificate and path.csv have all.</p>\n", step)) +
-          folded(count > kLongTable, html("{}", plural(count, "waypoint")), waypoint_table(scene, step)));
-}
-
-Html margins(const ReportContext& scene) {
-  const Certificate& certificate = scene.certificate;
-  const std::size_t count = certificate.segments.size();
-  if (count_boxes(certificate) == 0) return {};
-  const std::size_t step = count <= kMostRows ? 1 : (count + kBlocks - 1) / kBlocks;
-  std::vector<MarginRow> rows;
-  for (std::size_t k = 0; k < count; k += step) rows.push_back(margin_row(scene, k, std::min(k + step, count) - 1));
-  Html tables;
-  if (step == 1) {
-    tables = folded(count > kLongTable, html("{}", plural(count, "segment")),
-                    margin_table(certificate, "Proved margins of each segment", rows));
-  } else {
-    tables =
-        html("<p>The certificate has all {}. Here are blocks of them, and those with the least wrench_scale.</p>\n",
-             plural(count, "segment")) +
-        folded(true, html("{}", plural(rows.size(), "block")),
-               margin_table(certificate,
-                            fmt::format("The least proved margins of blocks of {}", plural(step, "segment")), rows)) +
-        folded(true, html("The segments with the least wrench_scale"),
-               margin_table(certificate, "Proved margins of the segments with the least wrench_scale",
-                            least_segments(scene)));
-  }
-  const Html whole = certificate.margins ? html("; along the whole path it is at least <b>{}</b>",
-                                                plain(certificate.margins->wrench_scale))
-                                         : Html();
-  return section(
-      "margins", "Proved margins",
-      html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load in K, as the "
-           "certificate states them{}. <code>tension_N</code>: distance of a tension from its nearer limit. "
-           "<code>length_m</code>: the same for a length. <code>wrench_scale</code>: the factor by which the "
-           "semi-axes of K may grow before a tension reaches its limit{}. {}The true margins may be larger: a bound is "
-           "as sharp "
-           "as the proof needed it. Boxes are the intervals of s, from 0 to 1 along a segment, that were proved at one "
-           "go.</p>\n",
-           certificate.margins ? "" : ", for those parts of the path that it proves", whole,
-           certificate.margins ? "The least of each column is set in bold. " : "") +
-          tables);
+           constrained ? on_constraints(scene) : Html(),
+           step == 1 ? Html() : html("Every {}th of them is shown. ", step)) +
+          folded(count > kLongTable, html("{}", plural(count, "waypoint")), pose_table(scene, step)));
 }
 
 Html stretches(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   if (certificate.stretches.empty()) return {};
-  const auto place = [&](const PathPoint& point) {
-    return html("{}, s = {:.6g}", place_text(scene, position(point)), position(point) - point.index);
-  };
+  const auto place = [&](const PathPoint& point) { return html("{}", place_text(scene, position(point))); };
   const auto violation = [&](const PathWitness& end) {
-    return html("{}, {}, s = {}", violation_text(end, certificate.problem.robot, scene.illustration.units),
-                place_text(scene, position(end.at)), end.at.s.text());
+    return html("{}, {}", violation_text(end, certificate.problem.robot, scene.illustration.units),
+                place_text(scene, position(end.at)));
   };
   const std::size_t shown = std::min(certificate.stretches.size(), kMostRows);
   std::vector<std::vector<Html>> rows;
@@ -612,18 +365,6 @@ Html stretches(const ReportContext& scene) {
                  "proved at one pose, with an enclosure of the quantity."
                : "These stretches were left open; nothing is claimed of them.") +
           folded(rows.size() > kLongTable, html("{}", plural(certificate.stretches.size(), "stretch")), all) + rest);
-}
-
-Html recheck(const ReportContext& scene) {
-  return section(
-      "recheck", "How to check this again",
-      html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
-           "certificate, the case file and the path file. It should exit with {}.</p>\n<pre>taut-check "
-           "certificate.json CASE.yaml --path path.csv</pre>\n"
-           "<p>The printed digests can be computed without taut:</p>\n"
-           "<pre>{}</pre>\n"
-           "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
-           scene.verdict == "undecided" ? "2, undecided" : "0, accepted, if the claim is true", kDigestCommand));
 }
 
 }  // namespace taut

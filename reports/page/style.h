@@ -17,7 +17,7 @@ inline constexpr const char* kStyle = R"css(
   --base: #8b949e; --platform: #cfe0f1;
   --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
 }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
   :root {
     --paper: #14181c; --ink: #e4e7ea; --soft: #9aa5b0; --line: #323a42; --tile: #1d2329; --accent: #7db7ec;
     --proved: #58c48e; --refuted: #ff8a80; --undecided: #f0b94d;
@@ -33,7 +33,8 @@ inline constexpr const char* kStyle = R"css(
 html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 100%; }
 body {
   max-width: 1160px; margin: 0 auto; padding: 40px 28px 72px;
-  font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", "DejaVu Sans", sans-serif;
+  font: 16px/1.55 Inter, "Noto Sans Math", system-ui, "Liberation Sans", "DejaVu Sans", sans-serif;
+  font-variant-numeric: tabular-nums;
 }
 h1 small { font-size: 14px; font-weight: 400; }
 h1 { font-size: 30px; line-height: 1.2; margin: 6px 0 14px; letter-spacing: -0.01em; overflow-wrap: anywhere; }
@@ -52,11 +53,24 @@ caption { text-align: left; font-size: 13px; font-weight: 600; color: var(--soft
 nav { font-size: 14px; display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 20px; }
 nav a { text-decoration: none; }
 blockquote { margin: 12px 0; padding: 12px 18px; background: var(--tile); border-radius: 8px; max-width: 84ch; }
-.formulas { font: italic 17px/1.9 "STIX Two Text", Cambria, "Liberation Serif", "DejaVu Serif", Georgia, serif; }
+.formulas { font-style: italic; font-size: 16px; line-height: 1.9; }
 .formulas p { max-width: none; margin: 10px 0; padding-left: 18px; }
 .formulas .up, .formulas sub, .formulas sup { font-style: normal; }
 sub, sup { font-size: 70%; line-height: 0; }
 .scroll { position: relative; overflow-x: auto; margin: 10px 0; }
+/* Where a box scrolls sideways: a shade at the side that goes on, and a word. */
+.overflows {
+  --shade: color-mix(in srgb, var(--ink) 28%, transparent);
+  background:
+    linear-gradient(to right, var(--paper) 40%, transparent) left / 40px 100% no-repeat local,
+    linear-gradient(to left, var(--paper) 40%, transparent) right / 40px 100% no-repeat local,
+    linear-gradient(to right, var(--shade), transparent) left / 12px 100% no-repeat scroll,
+    linear-gradient(to left, var(--shade), transparent) right / 12px 100% no-repeat scroll;
+}
+.overflows::before {
+  content: "scroll sideways →"; display: block; position: sticky; left: 0; width: max-content;
+  font-size: 12px; color: var(--soft);
+}
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: 5px 18px 5px 0; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--soft); white-space: nowrap; }
@@ -110,36 +124,52 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
 }
 @media print {
   @page {
-    size: A4; margin: 15mm 15mm 17mm;
-    @bottom-left { font: 8pt sans-serif; color: #454c53; } @bottom-right { font: 8pt sans-serif; color: #454c53; }
+    size: A4; margin: 18mm 15mm 15mm;
+    font: 8pt Inter, "Noto Sans Math", sans-serif; color: #454c53;
+    @top-left { text-align: left; width: 60%; } @top-right { text-align: right; }
+    @bottom-left { text-align: left; } @bottom-right { text-align: right; }
   }
-  :root {
-    color-scheme: light;
-    --paper: #ffffff; --ink: #000000; --soft: #454c53; --line: #c9ced3; --tile: #f3f4f2; --accent: #1f5f99;
-    --proved: #1b7a4b; --refuted: #b3261e; --undecided: #8a5a00;
-    --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f6e3e0; --mark: #b3261e;
-    --c1: #c2570c; --c2: #5b4a9e;
-    --inside: #7fc8a4; --tension: #cfe0f1; --length: #fbe6bd; --both: #e7e3ea; --singular: #c4161c; --chart: #26323b;
-    --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418; --base: #8b949e; --platform: #cfe0f1;
-  }
+  @page :first { margin-top: 13mm; @top-left { content: none; } @top-right { content: none; } }
+  :root { color-scheme: light; --paper: #ffffff; --ink: #000000; --soft: #454c53; --line: #c9ced3; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  body { max-width: none; padding: 0; font-size: 10pt; line-height: 1.45; }
+  body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.4; }
   nav, .more { display: none; }
-  h1 { font-size: 17pt; margin: 4pt 0 6pt; } h2 { font-size: 14pt; margin-top: 22pt; }
+  h1 { font-size: 17pt; margin: 4pt 0 6pt; }
+  h2 { font-size: 12.5pt; margin: 14pt 0 4pt; padding-top: 7pt; } h3 { font-size: 10pt; margin: 10pt 0 3pt; }
+  p, ul, ol { margin: 4pt 0; max-width: none; } li { margin: 2pt 0; }
   h2, h3, caption, summary { break-after: avoid; }
   p { orphans: 3; widows: 3; }
-  caption { white-space: nowrap; }
-  figure, tr, blockquote, .formulas, .band, .signatures, pre { break-inside: avoid; }
+  .note { font-size: 8pt; }
+  figure, tr, blockquote, .formulas p, .band, .signatures, pre, li { break-inside: avoid; }
   thead { display: table-header-group; }
+  .scroll { overflow: visible; margin: 5pt 0; background: none; }
   .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }
-  .panels { grid-template-columns: repeat(3, 1fr); gap: 10px; } .panels.two { grid-template-columns: repeat(2, 1fr); }
-  table { font-size: 7.5pt; max-width: 100%; } th, td { padding-right: 7pt; } td.n { white-space: normal; }
-  .cables td.n { white-space: nowrap; } caption { font-size: 8.4pt; }
-  td code, th code, td.digest, td .digest { font-size: inherit; } .scroll { overflow: visible; }
+  .overflows::before { content: none; }
+  .panels { grid-template-columns: repeat(3, 1fr); gap: 4mm 5mm; margin: 4pt 0; }
+  .panels.two { grid-template-columns: repeat(2, 1fr); }
+  table { font-size: 7.5pt; max-width: 100%; } caption { font-size: 8pt; padding: 3pt 0 2pt; }
+  th, td { padding: 2pt 7pt 2pt 0; } td.n { white-space: normal; }
+  .cables td.n { white-space: nowrap; }
+  blockquote { margin: 5pt 0; padding: 6pt 10pt; max-width: none; }
+  .formulas { font-size: 9.5pt; line-height: 1.5; } .formulas p { margin: 3pt 0; padding-left: 8pt; }
+  code, pre, .digest { font-size: 7.5pt; } pre { padding: 5pt 7pt; }
+  td code, th code, td.digest, td .digest { font-size: inherit; }
+  details { margin: 4pt 0; }
   details::details-content { content-visibility: visible; block-size: auto; }
   summary { display: none; }
   .panels.robots { grid-template-columns: repeat(3, 1fr) !important; }
   a { color: inherit; text-decoration: none; }
+  /* The exact numbers, in two columns. */
+  .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
+  .appendix h2 { font-size: 10.5pt; margin-top: 10pt; }
+  .appendix > section:first-child > h2 { margin-top: 0; }
+  .appendix table { font-size: 6.8pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  .appendix .wide { column-span: all; }
+}
+/* Appendix A, B, …: those that there are. */
+.appendix { counter-reset: appendix; }
+.appendix > section > h2::before {
+  counter-increment: appendix; content: "Appendix " counter(appendix, upper-alpha) ". "; color: var(--soft);
 }
 )css";
 

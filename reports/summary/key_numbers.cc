@@ -134,32 +134,6 @@ Nearness growth_nearness(double factor) {
   return factor <= kClose ? Nearness::kClose : factor <= kNear ? Nearness::kNear : Nearness::kCalm;
 }
 
-/// The first `digits` significant digits of a positive decimal: rounded down.
-std::string truncated(const DecimalText& decimal, int digits) {
-  const std::string all = plain(decimal);
-  std::string text;
-  int significant = 0;
-  bool is_fraction = false;
-  for (const char c : all) {
-    is_fraction |= c == '.';
-    const bool is_digit = c >= '0' && c <= '9';
-    if (is_digit && (significant > 0 || c != '0')) ++significant;
-    if (significant > digits && is_fraction) break;
-    text += is_digit && significant > digits ? '0' : c;
-  }
-  return Decimal::parse(text).text();
-}
-
-/// "× 1.14" of an exact factor, rounded down to three digits, or to as many as show that it is above 1.
-std::string factor_text(const DecimalText& factor) {
-  std::string text;
-  for (const int digits : kDigits) {
-    text = truncated(factor, digits);
-    if (Decimal::parse(text) > Decimal::parse("1")) break;
-  }
-  return "× " + text;
-}
-
 KeyNumber growth_number(const ReportContext& scene) {
   const std::string& scale = scene.certificate.margins->wrench_scale;
   const std::optional<TolerancesText>& tolerances = scene.certificate.problem.tolerances;
@@ -167,7 +141,7 @@ KeyNumber growth_number(const ReportContext& scene) {
   if (tolerances) detail += ", with all tolerances as stated";
   return {"growth",
           "Load uncertainty could grow",
-          factor_text(scale),
+          "× " + growth_text(scale),
           detail,
           growth_nearness(ScalarTraits<double>::from_decimal(scale)),
           true};

@@ -10,6 +10,7 @@
 
 #include "certify/arithmetic/big_float.h"
 #include "problem/decimal.h"
+#include "reports/summary/angles.h"
 
 namespace taut {
 
@@ -68,6 +69,39 @@ std::string up_text(double si, double limit_si, const DisplayUnit& unit) {
 
 std::string down_text(double si, double limit_si, const DisplayUnit& unit) {
   return told_apart(si, limit_si, unit.approx(limit_si), [&](double x, int digits) { return unit.down(x, digits); });
+}
+
+std::string truncated(const DecimalText& decimal, int digits) {
+  const std::string text = plain(decimal);
+  const std::size_t exponent = std::min(text.find('e'), text.size());
+  std::string result;
+  int seen = 0;
+  bool is_fraction = false;
+  for (std::size_t k = 0; k < exponent; ++k) {
+    const char c = text[k];
+    const bool is_digit = c >= '0' && c <= '9';
+    if (is_digit && (seen > 0 || c != '0')) ++seen;
+    is_fraction = is_fraction || c == '.';
+    if (!is_digit || seen <= digits) {
+      result += c;
+    } else if (!is_fraction) {
+      result += '0';
+    }
+  }
+  if (result.ends_with('.')) result.pop_back();
+  return result + text.substr(exponent);
+}
+
+std::string growth_text(const DecimalText& factor) {
+  constexpr int kFewest = 3;
+  const auto most = static_cast<int>(factor.size());
+  int digits = kFewest;
+  while (digits < most && Decimal::parse(truncated(factor, digits)) == Decimal::parse("1")) ++digits;
+  return truncated(factor, digits);
+}
+
+std::string triple(const std::array<DecimalText, 3>& metres, const DisplayUnit& unit) {
+  return fmt::format("({}, {}, {})", unit.exact(metres[0]), unit.exact(metres[1]), unit.exact(metres[2]));
 }
 
 std::string angle_text(const ExpressionText& radians) {
@@ -162,8 +196,9 @@ std::string pose_text(const ReportContext& scene, const Pose<double>& pose) {
   const auto position = [&](int c) { return text(length.approx(pose.p_WP(c)), length.approx(1e-6)); };  // micrometres
   std::string result = fmt::format("p = ({}, {}, {}) {}", position(0), position(1), position(2), length.name());
   const std::vector<std::string> symbols = angle_symbols(scene.certificate.problem.space.angles.kind);
+  const auto angles = customary_angles(scene.certificate.problem.space.angles.kind, pose.angles);
   for (std::size_t c = 0; c < symbols.size(); ++c) {
-    result += fmt::format(", {} = {}°", symbols[c], text(pose.angles[c] * kDegrees, 1e-3));
+    result += fmt::format(", {} = {}°", symbols[c], text(angles[c] * kDegrees, 1e-3));
   }
   return result;
 }

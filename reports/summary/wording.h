@@ -2,6 +2,7 @@
 // Numbers, names and places as text.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,12 @@ namespace taut {
 [[nodiscard]] std::string up_text(double si, double limit_si, const DisplayUnit& unit);
 /// The same rounded down, for what stays above a lower limit or is proved at least that.
 [[nodiscard]] std::string down_text(double si, double limit_si, const DisplayUnit& unit);
+/// The first `digits` significant digits of a decimal, the rest cut off: rounded towards 0, exactly.
+[[nodiscard]] std::string truncated(const DecimalText& decimal, int digits = 3);
+/// "1.12", "1.0009": a factor of at least 1, cut off after three digits, or after the first that tells it from 1.
+[[nodiscard]] std::string growth_text(const DecimalText& factor);
+/// "(-190.5256, -110, 0)": exactly.
+[[nodiscard]] std::string triple(const std::array<DecimalText, 3>& metres, const DisplayUnit& unit);
 /// "0.2°" if the angle was typed in degrees, else "0.0035 rad"; exactly the same angle.
 [[nodiscard]] std::string angle_text(const ExpressionText& radians);
 
@@ -41,7 +48,8 @@ namespace taut {
 [[nodiscard]] std::string segment_text(const Certificate& certificate, int k);
 /// "s = 3/8 of segment 1, …"
 [[nodiscard]] std::string point_text(const Certificate& certificate, const PathPoint& point);
-/// "p = (0, 0, 350) mm, φ = …", in the case's angles: rounded to a micrometre and a thousandth of a degree.
+/// "p = (0, 0, 350) mm, φ = …", in the case's angles, within the range that people use: rounded to a
+/// micrometre and a thousandth of a degree.
 [[nodiscard]] std::string pose_text(const ReportContext& scene, const Pose<double>& pose);
 
 /// The signs of a pose's angles: φ, θ, σ; roll, pitch, yaw; α, β, γ; turn.

@@ -8,6 +8,7 @@ import { isDrawable, readData } from "./data.js";
 import { planeFigure } from "./plane.js";
 import { Player } from "./player.js";
 import { connect, legend, lengthPanels, marginPanels, posePanels, tensionPanels } from "./plots.js";
+import { watchScrolling } from "./scrolling.js";
 import style from "./style.css";
 import { toleranceFigure } from "./tolerances.js";
 import { element } from "./words.js";
@@ -21,6 +22,7 @@ const place = (name) => document.querySelector(`[data-plot="${name}"]`);
 
 document.head.append(element("style", {}, style));
 root.classList.add("scripted");
+watchScrolling();
 
 const marked = [
   ...(data.stretches.some((s) => s.violated) ? [["fill violated-stretch", "violations are proved"]] : []),
@@ -157,6 +159,7 @@ const jobs = [
   () => data.plane && place("plane")?.append(planeFigure(data, cursor)),
   () => data.tolerances.length > 0 && place("tolerances")?.append(toleranceFigure(data)),
   drawRobot,
+  watchScrolling, // what was drawn meanwhile
 ];
 
 /// Whether there is more to do.

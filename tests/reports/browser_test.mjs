@@ -348,22 +348,182 @@ test("of a certificate that was not checked, nothing is drawn as proved", async 
   await close(page);
 });
 
-test("axe finds nothing to complain about", async () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-  for (const options of [{}, { colorScheme: "dark" }]) {
-    const page = await open("tutorial/04-tolerances", options);
-    const session = await page.context().newCDPSession(page); // which the page's policy does not bind
-    await session.send("Runtime.evaluate", { expression: axe });
-    const { result } = await session.send("Runtime.evaluate", {
-      expression: "axe.run().then(({ violations }) => JSON.stringify(violations.map((v) => " +
-        "[v.id, v.nodes.map((n) => n.html.slice(0, 160)).slice(0, 4)])))",
-      awaitPromise: true,
-      returnByValue: true,
-    });
-    assert.deepEqual(JSON.parse(result.value), []);
-    await close(page);
-  }
+/// What axe says of the page as it is now, through the debugger, which the page's policy does not bind.
+async function axe(page, options = {}) {
+  page.debugger ??= await page.context().newCDPSession(page);
+  const source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+  await page.debugger.send("Runtime.evaluate", { expression: `globalThis.axe ?? (() => { ${source} })()` });
+  const { result, exceptionDetails } = await page.debugger.send("Runtime.evaluate", {
+    expression: `axe.run(${JSON.stringify(options)}).then(({ violations }) => JSON.stringify(violations.map((v) =>
+      [v.id, v.nodes.map((n) => n.html.slice(0, 160)).slice(0, 4)])))`,
+    awaitPromise: true,
+    returnByValue: true,
+  });
+  assert.equal(exceptionDetails, undefined);
+  return JSON.parse(result.value);
+}
+
+const DESKTOP = { width: 1100, height: 900 };
+const PHONE = { width: 390, height: 844 };
+const KINDS = [...Object.keys(PAGES), "proved.html", "no_path.html", "unchecked.html", "hostile.html"];
+
+test("axe notices what is wrong", async () => {
+  writeFileSync(join(directory, "bad.html"), `<!DOCTYPE html><html class="drawn" lang="en"><title>x</title><main>
+    <h1>x</h1><p style="color:#aaa;background:#fff">pale</p></main>`);
+  const page = await open("bad.html");
+  assert.deepEqual((await axe(page)).map(([id]) => id), ["color-contrast"]);
+  await page.context().close();
 });
+
+for (const name of KINDS) {
+  test(`${name}: axe finds nothing, and nothing sticks out, on desktop and phone, light and dark`, async () => {
+    const page = await open(name);
+    for (const viewport of [DESKTOP, PHONE]) {
+      await page.setViewportSize(viewport);
+      await frames(page);
+      const width = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(width <= viewport.width, `${width} px wide on a screen of ${viewport.width}`);
+      for (const colorScheme of ["light", "dark"]) {
+        await page.emulateMedia({ colorScheme });
+        assert.deepEqual(await axe(page), [], `${colorScheme}, ${viewport.width} px`);
+      }
+    }
+    await picture(page, `phone-dark-${name.replaceAll("/", "-")}`);
+    await close(page);
+  });
+}
+
+test("wide tables scroll in their own box, which says so and answers to keys; others are no stop", async () => {
+  const page = await open("robot1-planned", { viewport: PHONE });
+  for (const details of await page.$$("details:not([open]) > summary")) await details.click();
+  await frames(page);
+  const boxes = await page.$$eval(".scroll, .readout-table", (all) => all
+    .filter((box) => box.checkVisibility())
+    .map((box) => ({
+      wide: box.scrollWidth > box.clientWidth + 1,
+      focusable: box.tabIndex === 0,
+      name: box.getAttribute("role") === "region" && box.getAttribute("aria-label"),
+      hint: getComputedStyle(box, "::before").content,
+    })));
+  assert.ok(boxes.some(({ wide }) => wide) && boxes.some(({ wide }) => !wide));
+  for (const box of boxes) {
+    assert.equal(box.focusable, box.wide);
+    assert.equal(Boolean(box.name), box.wide);
+    assert.equal(box.hint.includes("scroll sideways"), box.wide);
+  }
+  const wide = page.locator(".overflows").first();
+  await wide.focus();
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => document.activeElement.scrollLeft > 0);
+  await close(page);
+});
+
+/// The fonts that the words inside the selected element are drawn in, by name.
+async function fonts(page, selector) {
+  page.debugger ??= await page.context().newCDPSession(page);
+  const { root } = await page.debugger.send("DOM.getDocument");
+  await page.debugger.send("CSS.enable");
+  const { nodeId } = await page.debugger.send("DOM.querySelector", { nodeId: root.nodeId, selector });
+  return (await page.debugger.send("CSS.getPlatformFontsForNode", { nodeId })).fonts;
+}
+
+for (const javaScriptEnabled of [true, false]) {
+  test(`the page brings its typeface, with script ${javaScriptEnabled ? "on" : "off"}`, async () => {
+    for (const name of ["robot1-slice-qs-qg", "robot2-implicit-rail", "tutorial/04-tolerances", "refuted.html"]) {
+      const page = await open(name, { javaScriptEnabled });
+      const used = await fonts(page, "main");
+      assert.ok(used.some((font) => font.isCustomFont && /^Inter/.test(font.familyName)), JSON.stringify(used));
+      for (const font of used.filter((font) => !font.isCustomFont)) assert.match(font.familyName, /Mono/);
+      await close(page);
+    }
+  });
+}
+
+test("the typeface has what reports write, and figures of equal width", async () => {
+  const page = await open("robot1-slice-qs-qg");
+  await page.evaluate(() => document.querySelector("main").insertAdjacentHTML("afterbegin",
+    `<p id="signs">≤ ≥ − ° · √ ± × ² ½ ⟹ → ≠ φ θ σ λ π Σ ₀ ℓ é ß Ł ő ✓ ⚠</p><p id="logic">∀ ∃ ∈ ∉</p>
+    <span id="ones">1111</span><br><span id="eights">8888</span>`));
+  await page.evaluate(() => document.fonts.ready);
+  for (const [selector, family] of [["#signs", /^Inter/], ["#logic", /^(Inter|Noto Sans Math)/]]) {
+    for (const font of await fonts(page, selector)) {
+      assert.ok(font.isCustomFont, `${selector}: ${font.familyName}`);
+      assert.match(font.familyName, family);
+    }
+  }
+  const [ones, eights] = await page.$$eval("#ones, #eights", (all) => all.map((x) => x.getBoundingClientRect().width));
+  assert.ok(Math.abs(ones - eights) < 0.01, `${ones} and ${eights} px`);
+  await close(page);
+});
+
+test("on paper the colours are those of light paper, whatever the reader's choice", async () => {
+  const page = await open("robot1-slice-qs-qg");
+  const colours = async (colorScheme) => {
+    await page.emulateMedia({ media: "print", colorScheme });
+    return page.evaluate(() => {
+      const style = getComputedStyle(document.documentElement);
+      const names = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules])
+        .flatMap((rule) => (rule.selectorText === ":root" ? [...rule.style].filter((x) => x.startsWith("--")) : []));
+      return [style.backgroundColor, ...names.map((name) => `${name}: ${style.getPropertyValue(name)}`)];
+    });
+  };
+  const light = await colours("light");
+  assert.equal(light[0], "rgb(255, 255, 255)");
+  assert.ok(light.length > 20);
+  assert.deepEqual(await colours("dark"), light);
+  await close(page);
+});
+
+/// Each page of a PDF, from the top of what is printed between head and foot: how far down there is ink, from 0 to 1.
+function fills(pdf) {
+  const A4 = 297; // [mm]
+  const [top, bottom] = [18, 15]; // margins [mm]
+  const pages = execFileSync("pdftoppm", ["-r", "30", "-gray", pdf], { maxBuffer: 1 << 28 });
+  const result = [];
+  for (let at = 0; at < pages.length;) {
+    const [head, width, height] = pages.toString("latin1", at, at + 40).match(/^P5\s+(\d+)\s+(\d+)\s+255\s/);
+    const pixels = pages.subarray(at + head.length, at + head.length + width * height);
+    const [first, last] = [top, A4 - bottom].map((mm) => Math.round((height * mm) / A4));
+    let lowest = first;
+    for (let row = first; row < last; ++row) {
+      if (pixels.subarray(row * width, (row + 1) * width).some((grey) => grey < 215)) lowest = row;
+    }
+    result.push((lowest - first) / (last - first));
+    at += head.length + width * height;
+  }
+  return result;
+}
+
+/// The words of each page, in lines.
+const wordsOf = (pdf) => execFileSync("pdftotext", ["-layout", pdf, "-"], { encoding: "utf8", maxBuffer: 1 << 28 })
+  .split("\f").slice(0, -1).map((page) => page.split("\n").map((line) => line.trim()).filter(Boolean));
+
+const PAPER = {
+  "robot1-slice-qs-qg": { verdict: "PROVED", most: 8 },
+  "tutorial/04-tolerances": { verdict: "PROVED", most: 9 },
+  "robot1-straight-qs-qg": { verdict: "REFUTED: DO NOT RUN", most: 9 },
+  "robot1-planned": { verdict: "PROVED", most: 12 },
+  "undecided.html": { verdict: "NO DECISION", most: 8 },
+  "tutorial/02-a-slack-start": { verdict: "NO DECISION", most: 8 },
+};
+
+for (const [name, expected] of Object.entries(PAPER)) {
+  test(`${name} on paper: head and foot on each page, and no page half empty`, async () => {
+    const page = await open(name, { browser: withoutWebgl, colorScheme: "dark" });
+    const pdf = join(directory, "paper.pdf");
+    await page.pdf({ path: pdf, preferCSSPageSize: true });
+    const number = await page.textContent(".masthead dd");
+    const pages = wordsOf(pdf);
+    console.log(`${name} on paper: ${fills(pdf).map((x) => `${Math.round(100 * x)} %`).join(", ")}`);
+    assert.ok(pages.length <= expected.most, `${pages.length} pages`);
+    pages.forEach((lines, k) => {
+      assert.match(lines.at(-1), new RegExp(`Page ${k + 1} of ${pages.length}$`));
+      if (k > 0) assert.ok(lines[0].includes(`${expected.verdict} · ${number}`), lines[0]);
+    });
+    for (const fill of fills(pdf).slice(1, -1)) assert.ok(fill > 0.6, `filled to ${fill}`);
+    await close(page);
+  });
+}
 
 test("200 segments: how large, how soon", async () => {
   const page = await open("robot1-planned");

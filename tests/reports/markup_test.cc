@@ -24,10 +24,14 @@ TEST(Markup, ReplacesControlCharactersThatHtmlForbids) {
 }
 
 TEST(Markup, MakesTablesWithOneCellAColumn) {
-  EXPECT_EQ(table(html("A & B"), {{html("k")}, {html("v"), true}}, {{html("a"), html("1")}}).str(),
-            "<div class=\"scroll\"><table><caption>A & B</caption><thead><tr><th scope=\"col\">k</th><th scope=\"col\" "
-            "class=\"n\">v</th></tr>"
+  EXPECT_EQ(table(html("A<sub>1</sub>"), {{html("k")}, {html("v"), true}}, {{html("a"), html("1")}}).str(),
+            "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"A1\"><table><caption>A<sub>1</sub>"
+            "</caption><thead><tr><th scope=\"col\">k</th><th scope=\"col\" class=\"n\">v</th></tr>"
             "</thead>\n<tbody><tr><td>a</td><td class=\"n\">1</td></tr>\n</tbody></table></div>\n");
+}
+
+TEST(Markup, GivesItsWordsForAnAttribute) {
+  EXPECT_EQ(without_tags(html("<i class=\"{}\">a</i> {}", "x>y", "<\"b\">")).str(), "a &lt;&quot;b&quot;&gt;");
 }
 
 }  // namespace

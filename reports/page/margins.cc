@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/page/margins.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "reports/page/table_sizes.h"
+#include "reports/summary/wording.h"
+
+namespace taut {
+namespace {
+
+constexpr std::size_t kLeastShown = 20;  ///< segments with the least margins, beside the blocks of a long path
+
+/// The printed row of a segment, or of several consecutive ones.
+struct MarginRow {
+  std::size_t first = 0, last = 0;  ///< segments
+  std::size_t boxes = 0;
+  int depth = 0;                     ///< of the narrowest box: it is 2^-depth wide
+  const Margins* tension = nullptr;  ///< that of the segment where this margin is least; null without any box
+  const Margins* length = nullptr;
+  const Margins* scale = nullptr;
+};
+
+double approximate(const DecimalText& margin) { return ScalarTraits<double>::from_decimal(margin); }
+
+MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t last) {
+  MarginRow row{first, last};
+  for (std::size_t k = first; k <= last; ++k) {
+    const CertificateSegment& segment = scene.certificate.segments[k];
+    row.boxes += segment.boxes.size();
+    for (const DyadicBox& box : scene.boxes[k]) row.depth = std::max(row.depth, box.depth);
+    if (!segment.margins) continue;
+    const Margins& margins = *segment.margins;
+    const auto keep_least = [&](const Margins*& least, DecimalText Margins::*margin) {
+      if (least == nullptr || approximate(margins.*margin) < approximate(least->*margin)) least = &margins;
+    };
+    keep_least(row.tension, &Margins::tension_N);
+    keep_least(row.length, &Margins::length_m);
+    keep_least(row.scale, &Margins::wrench_scale);
+  }
+  return row;
+}
+
+/// In bold where it is the least of the whole path.
+Html marked(const Certificate& certificate, const Margins* least, DecimalText Margins::*margin,
+            const std::string& text) {
+  const bool is_least = certificate.margins && least->*margin == (*certificate.margins).*margin;
+  return is_least ? html("<b>{}</b>", text) : html("{}", text);
+}
+
+Html segments_text(const MarginRow& row) {
+  return row.first == row.last ? html("{}", row.first) : html("{} – {}", row.first, row.last);
+}
+
+Html rounded_table(const ReportContext& scene, const std::string& caption, const std::vector<MarginRow>& rows) {
+  const Certificate& certificate = scene.certificate;
+  const DisplayUnits& units = scene.illustration.units;
+  const auto cell = [&](const Margins* least, DecimalText Margins::*margin, const auto& text_of) {
+    return least == nullptr ? html("–") : marked(certificate, least, margin, text_of(least->*margin));
+  };
+  const auto in = [](const DisplayUnit& unit) {
+    return [&unit](const DecimalText& si) { return truncated(unit.exact(si)); };
+  };
+  std::vector<std::vector<Html>> cells;
+  cells.reserve(rows.size());
+  for (const MarginRow& row : rows) {
+    cells.push_back(
+        {segments_text(row), html("{} → {}", row.first, row.last + control_points(certificate.path.interpolation) - 1),
+         html("{}", row.boxes), cell(row.tension, &Margins::tension_N, in(units.force)),
+         cell(row.length, &Margins::length_m, in(units.length)), cell(row.scale, &Margins::wrench_scale, growth_text)});
+  }
+  return table(html("{}", caption),
+               {{html("Segment"), true},
+                {html("Waypoints"), true},
+                {html("Boxes"), true},
+                {html("Tension to its nearer limit [{}]", units.force.name()), true},
+                {html("Length to its nearer limit [{}]", units.length.name()), true},
+                {html("Loads could grow to"), true}},
+               cells);
+}
+
+Html exact_table(const Certificate& certificate, const std::string& caption, const std::vector<MarginRow>& rows) {
+  std::vector<std::vector<Html>> cells;
+  cells.reserve(rows.size());
+  for (const MarginRow& row : rows) {
+    const auto cell = [&](const Margins* least, DecimalText Margins::*margin) {
+      return least == nullptr ? html("–") : marked(certificate, least, margin, least->*margin);
+    };
+    cells.push_back({segments_text(row),
+                     row.boxes == 0   ? html("–")
+                     : row.depth == 0 ? html("1")
+                                      : html("2<sup>−{}</sup>", row.depth),
+                     cell(row.tension, &Margins::tension_N), cell(row.length, &Margins::length_m),
+                     cell(row.scale, &Margins::wrench_scale)});
+  }
+  return table(html("{}", caption),
+               {{html("Segment"), true},
+                {html("Narrowest box"), true},
+                {html("tension_N"), true},
+                {html("length_m"), true},
+                {html("wrench_scale"), true}},
+               cells);
+}
+
+std::vector<MarginRow> rows_of(const ReportContext& scene, std::size_t step) {
+  std::vector<MarginRow> rows;
+  const std::size_t count = scene.certificate.segments.size();
+  for (std::size_t k = 0; k < count; k += step) rows.push_back(margin_row(scene, k, std::min(k + step, count) - 1));
+  return rows;
+}
+
+/// The segments whose loads may grow least, in order along the path.
+std::vector<MarginRow> least_segments(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < certificate.segments.size(); ++k) {
+    if (certificate.segments[k].margins) all.push_back(k);
+  }
+  std::vector<double> scale(certificate.segments.size());
+  for (const std::size_t k : all) scale[k] = approximate(certificate.segments[k].margins->wrench_scale);
+  const std::size_t count = std::min(kLeastShown, all.size());
+  std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count), {},
+                            [&](std::size_t k) { return scale[k]; });
+  all.resize(count);
+  std::ranges::sort(all);
+  std::vector<MarginRow> rows;
+  for (const std::size_t k : all) rows.push_back(margin_row(scene, k, k));
+  return rows;
+}
+
+constexpr const char* kLeastCaption = "The segments whose loads may grow least";
+
+}  // namespace
+
+Html margins(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
+  const std::size_t count = certificate.segments.size();
+  if (count_boxes(certificate) == 0) return {};
+  const std::size_t step = step_for(count);
+  const std::vector<MarginRow> rows = rows_of(scene, step);
+  const Html tables =
+      step == 1
+          ? folded(count > kLongTable, html("{}", plural(count, "segment")),
+                   rounded_table(scene, "Proved margins of each segment", rows))
+          : folded(true, html("{}", plural(rows.size(), "block")),
+                   rounded_table(
+                       scene, fmt::format("The least proved margins of blocks of {}", plural(step, "segment")), rows)) +
+                folded(true, html("{}", kLeastCaption), rounded_table(scene, kLeastCaption, least_segments(scene)));
+  return section(
+      "margins", "Proved margins",
+      html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load, rounded down{}. "
+           "The last column is the factor by which the semi-axes of the set of loads may grow before a tension reaches "
+           "its limit. {}The true margins may be larger: a bound is as sharp as the proof needed it. Boxes are the "
+           "intervals of a segment that were proved at one go.</p>\n",
+           certificate.margins ? "" : ", for those parts of the path that are proved",
+           certificate.margins ? "The least of each column is set in bold. " : "") +
+          tables);
+}
+
+Html exact_margins(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
+  const std::size_t count = certificate.segments.size();
+  if (count_boxes(certificate) == 0) return {};
+  const bool has_all = count <= kMostRows;
+  const Html whole =
+      certificate.margins
+          ? html(
+                "<p>Of the whole path: <code>tension_N</code> {}, <code>length_m</code> {}, "
+                "<code>wrench_scale</code> {}.</p>\n",
+                certificate.margins->tension_N, certificate.margins->length_m, certificate.margins->wrench_scale)
+          : Html();
+  const char* const caption = has_all ? "Margins of each segment, exact" : "The least margins of segments, exact";
+  return section("exact-margins", "Margins as the certificate states them",
+                 whole +
+                     (has_all ? Html()
+                              : html("<p>The certificate has all {}. Here are those with the least "
+                                     "<code>wrench_scale</code>.</p>\n",
+                                     plural(count, "segment"))) +
+                     folded(count > kLongTable, html("{}", caption),
+                            exact_table(certificate, caption, has_all ? rows_of(scene, 1) : least_segments(scene))));
+}
+
+}  // namespace taut
