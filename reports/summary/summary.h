@@ -17,7 +17,9 @@ struct Summary {
   std::string document;  ///< its number
   std::string revision;  ///< may be empty, like the date
   std::string date;
-  std::string name;     ///< of the case; nothing checks it
+  std::string name;   ///< of the case; nothing checks it
+  std::string title;  ///< as the case states it, else made from its name; nothing checks it
+  std::string machine, site, load_name, prepared_by;  ///< as the case states them; empty: it does not. Unchecked, too
   std::string verdict;  ///< "proved" or "refuted", if the checker made a theorem; else "undecided" or "unchecked"
   std::string headline;
   std::vector<std::string> details;
@@ -33,6 +35,9 @@ struct Summary {
 
 /// "TAUT-1A2B-3C4D-5E6F", made from the certificate's own digest; nothing if that is no digest.
 [[nodiscard]] std::string document_number(const std::string& footer_sha256);
+
+/// The title of a case that states none: "Robot1 slice qs qg" of "robot1-slice-qs-qg".
+[[nodiscard]] std::string title_from_name(const std::string& name);
 
 /// Lines of plain text, without control characters, for logs.
 [[nodiscard]] std::string to_text(const Summary& summary);
