@@ -72,7 +72,7 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   const Html claim = is_claimed ? margins(scene) + theorem(scene.certificate) + tolerances(scene) : Html();
   const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
-                    headroom(scene) + plot_sections(scene) + claim + assumptions(scene.certificate.problem) +
+                    headroom(scene) + plot_sections(scene) + claim + assumptions(scene.certificate) +
                     robot(scene) + path_section(scene) + inputs(scene.certificate) + recheck(scene);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.

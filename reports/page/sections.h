@@ -13,7 +13,7 @@ namespace taut {
 [[nodiscard]] Html tolerances(const ReportContext& scene);
 /// What stands in the way of a proof, or by how much it succeeds, as the certificate's illustration says.
 [[nodiscard]] Html headroom(const ReportContext& scene);
-[[nodiscard]] Html assumptions(const Problem& problem);
+[[nodiscard]] Html assumptions(const Certificate& certificate);
 /// What the certificate is made from, with digests.
 [[nodiscard]] Html inputs(const Certificate& certificate);
 /// Robot, load and space of poses.
