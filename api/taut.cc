@@ -36,6 +36,7 @@
 #include "reports/page/robot_drawing.h"
 #include "reports/summary/case_summary.h"
 #include "reports/summary/display_units.h"
+#include "reports/summary/illustration.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
 
@@ -333,6 +334,19 @@ InternalError::~InternalError() = default;
 
 // --- Cases -----------------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// The fields that are not empty, by their names.
+std::vector<std::pair<std::string, std::string>> stated_fields(const DocumentFields& fields) {
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const auto& [name, member] : kDocumentFields) {
+    if (!(fields.*member).empty()) result.emplace_back(name, fields.*member);
+  }
+  return result;
+}
+
+}  // namespace
+
 Case::Case(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Case Case::load(const std::string& file) {
@@ -348,6 +362,9 @@ Case Case::parse(const std::string& yaml, const std::string& name) {
 }
 
 const std::string& Case::name() const { return content_->the_case.problem.name; }
+std::vector<std::pair<std::string, std::string>> Case::document_fields() const {
+  return stated_fields(content_->the_case.document_fields);
+}
 const std::string& Case::description() const { return content_->the_case.description; }
 
 std::vector<std::string> Case::parameters() const {
@@ -421,6 +438,11 @@ Verdict Certificate::verdict() const {
 }
 
 const std::string& Certificate::case_name() const { return content_->stated.problem.name; }
+std::vector<std::pair<std::string, std::string>> Certificate::document_fields() const {
+  const nlohmann::json& illustration = content_->stated.illustration;
+  if (!illustration.is_object() || !illustration.contains("document_fields")) return {};
+  return stated_fields(document_fields_from_json(illustration.at("document_fields")));
+}
 
 Theorem::Theorem(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
@@ -582,7 +604,8 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
     const taut::Case& about = the_case.content().the_case;
     taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
-    certificate.illustration = {{"kind", "proof"}, {"units", to_json(about.units)}};
+    certificate.illustration = {
+        {"kind", "proof"}, {"units", to_json(about.units)}, {"document_fields", to_json(about.document_fields)}};
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
                                options.stop);
@@ -623,7 +646,8 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(
         source,
-        {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units, options.headroom_seconds},
+        {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units,
+         content.the_case.document_fields, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

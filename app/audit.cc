@@ -13,6 +13,7 @@
 #include "planner/time_budget.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/headroom_summary.h"
+#include "reports/summary/illustration.h"
 
 namespace taut {
 namespace {
@@ -289,7 +290,8 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.verdict = audit.verdict;
   ending.margins = audit.margins;
   ending.source = source.source();
-  ending.illustration = {{"kind", "audit"}, {"units", to_json(options.units)}};
+  ending.illustration = {
+      {"kind", "audit"}, {"units", to_json(options.units)}, {"document_fields", to_json(options.document_fields)}};
   if (source.counts_lines()) ending.illustration["lines"] = audit.lines.to_json();
   if (audit.verdict == Verdict::kRefuted) ending.witness = first_witness(audit);
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);

@@ -12,6 +12,7 @@
 #include "planner/time_budget.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/headroom_summary.h"
+#include "reports/summary/illustration.h"
 
 namespace taut {
 
@@ -72,6 +73,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   const Plan& plan = result.plan;
   nlohmann::json illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   illustration["units"] = to_json(the_case.units);
+  illustration["document_fields"] = to_json(the_case.document_fields);
   if (options.headroom_seconds > 0 && !stop.stop_requested()) {
     result.headroom = plan_headroom(the_case, plan, options.headroom_seconds, options.headroom_progress, stop);
     illustration["headroom"] = to_json(*result.headroom);

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/labels.h"
 #include "base/sanitize.h"
 #include "case/around_items.h"
 #include "case/fields.h"
@@ -490,9 +491,24 @@ std::string read_name(const Field& field) {
   return name;
 }
 
+DocumentFields read_document_fields(const Map& map) {
+  DocumentFields result;
+  for (const auto& [name, member] : kDocumentFields) {
+    const bool is_of_load = member == &DocumentFields::load_name;
+    const auto field = is_of_load ? map.at("load").open_map("the load, a map").find("name") : map.find(name);
+    if (!field) continue;
+    const bool is_document = member == &DocumentFields::document;
+    const char* const expected = is_document ? kDocumentExpected : kLabelExpected;
+    const std::string text = field->text(expected);
+    if (!is_label(text) || (is_document && !is_document_label(text))) field->fail(expected);
+    result.*member = text;
+  }
+  return result;
+}
+
 Case read_case(const Field& root) {
-  const Map map = root.map(
-      {"taut", "name", "units", "robot", "load", "tolerances", "space", "query", "planner", "audit", "expect"});
+  const Map map = root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot",
+                            "load", "tolerances", "space", "query", "planner", "audit", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }
@@ -504,6 +520,7 @@ Case read_case(const Field& root) {
   result.problem.robot = read_robot(map.at("robot"), units);
   result.problem.load = read_load(map.at("load"), units, result.warnings);
   if (is_around_items(map.at("load"))) result.items_in_ellipsoid = result.problem.load;
+  result.document_fields = read_document_fields(map);
   if (const auto field = map.find("tolerances")) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "case/document_fields.h"
 #include "problem/problem.h"
 #include "problem/units.h"
 
@@ -70,8 +71,9 @@ struct Case {
   std::optional<LoadText> items_in_ellipsoid;
   /// What may not be meant as it was typed, each with its place; for people, before a verdict.
   std::vector<std::string> warnings;
-  std::string description;  ///< the file's leading comment block, for reports
-  CaseUnits units;          ///< of numbers typed without one, for messages and results
+  DocumentFields document_fields;  ///< for the head of a report
+  std::string description;         ///< the file's leading comment block, for reports
+  CaseUnits units;                 ///< of numbers typed without one, for messages and results
 };
 
 /// A further check of a case. It throws FieldError, to which the reader adds the place in the file.

@@ -13,7 +13,7 @@
 namespace taut::case_fields {
 namespace {
 
-const std::vector<std::string> kLoadKeys = {"point", "wrench", "mass", "gravity", "ellipsoid", "items"};
+const std::vector<std::string> kLoadKeys = {"name", "point", "wrench", "mass", "gravity", "ellipsoid", "items"};
 
 using RationalPoint = std::array<Rational, 3>;
 

@@ -101,6 +101,9 @@ class TAUT_EXPORT Case {
   [[nodiscard]] static Case parse(const std::string& yaml, const std::string& name = "case");
 
   [[nodiscard]] const std::string& name() const;
+  /// What the case states for the head of a report, name and text: title, machine, site, load_name, document,
+  /// prepared_by. Nothing checks it.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> document_fields() const;
   [[nodiscard]] const std::string& description() const;       ///< the file's leading comment
   [[nodiscard]] std::vector<std::string> parameters() const;  ///< their names, in the order of waypoints
   [[nodiscard]] std::size_t query_waypoints() const;          ///< 0: there is nothing to plan
@@ -256,8 +259,10 @@ class TAUT_EXPORT Certificate {
   /// The theorem that the checker made of this text for plan(), prove() or audit(); nothing of a certificate that was
   /// loaded.
   [[nodiscard]] std::optional<Theorem> theorem() const;
-  [[nodiscard]] Verdict verdict() const;                 ///< the theorem's; kUndecided or kUnchecked without one
-  [[nodiscard]] const std::string& case_name() const;    ///< free text
+  [[nodiscard]] Verdict verdict() const;               ///< the theorem's; kUndecided or kUnchecked without one
+  [[nodiscard]] const std::string& case_name() const;  ///< free text
+  /// As Case::document_fields(), from the certificate's illustration: free text, no part of the claim.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> document_fields() const;
   [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved; none of an unchecked one
   [[nodiscard]] const std::string& reason() const;       ///< only if undecided
   [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty

@@ -70,6 +70,13 @@ class Case:
         return self._case.name
 
     @property
+    def document_fields(self) -> dict[str, str]:
+        """What the case states for the head of a report: title, machine, site, load_name, document, prepared_by.
+
+        Nothing checks it."""
+        return dict(self._case.document_fields)
+
+    @property
     def description(self) -> str:
         """The file's leading comment."""
         return self._case.description
@@ -261,6 +268,11 @@ class Certificate:
     @property
     def case_name(self) -> str:
         return self._certificate.case_name
+
+    @property
+    def document_fields(self) -> dict[str, str]:
+        """As Case.document_fields, from the certificate's illustration: free text, no part of the claim."""
+        return dict(self._certificate.document_fields)
 
     @property
     def stretches(self) -> list[Stretch]:

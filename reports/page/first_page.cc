@@ -32,8 +32,12 @@ Html scope(const Summary& s) {
   const auto row = [&](const char* title, const Html& text) {
     rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", title, text);
   };
+  for (const auto& [what, text] : {std::pair("Machine", s.machine), std::pair("Site", s.site)}) {
+    if (!text.empty()) row(what, html("<bdi>{}</bdi>", text));
+  }
   row("Move", html("{}", s.move));
-  Html load = html("{}", s.load.total);
+  Html load = s.load_name.empty() ? Html() : html("<bdi>{}</bdi>. ", s.load_name);
+  load += html("{}", s.load.total);
   if (s.load.items.empty()) load += html(" {}", s.load.spread);
   for (const auto& [name, words] : s.load.items) load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), words);
   row("Load", load);
@@ -209,7 +213,7 @@ Html broken(const ReportContext& scene) {
 
 Html not_covered(const Summary& s) {
   Html items;
-  for (const std::string& item : s.not_covered) items += html("<li>{}</li>", item);
+  for (const ScopeItem& item : s.not_covered) items += html("<li>{}</li>", item.brief);
   return html(
       "<div class=\"uncovered\"><p><b>{}</b> <a class=\"more\" href=\"#assumptions\">in "
       "full</a></p><ul>{}</ul></div>\n",

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reports/page/html_report.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
+#include "base/labels.h"
 #include "base/sanitize.h"
 #include "reports/page/appendix.h"
 #include "reports/page/first_page.h"
@@ -47,17 +47,10 @@ Html contents(const ReportContext& scene) {
 
 /// Checks document numbers, revisions and dates, which are put into a style sheet and printed.
 void require_plain(const ReportOptions& options) {
-  constexpr std::size_t kLongest = 40;
-  const auto is_plain = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           std::string_view(" .,:;/_+-#()").find(c) != std::string_view::npos;
-  };
   const auto require = [&](const std::string& text, const char* what) {
-    if (text.size() > kLongest || !std::ranges::all_of(text, is_plain)) {
-      throw InputError(
-          ErrorCode::kUse,
-          fmt::format("{}: got '{}', expected at most {} letters, digits, blanks and . , : ; / _ + - # ( )", what,
-                      excerpt(text), kLongest));
+    if (!is_document_label(text)) {
+      throw InputError(ErrorCode::kUse,
+                       fmt::format("{}: got '{}', expected {}", what, excerpt(text), kDocumentExpected));
     }
   };
   require(options.document, "document");
@@ -107,7 +100,7 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Html results =
       move_section(scene) + cables_section(scene, summary) + plot_sections(scene) + headroom(scene) + stretches(scene);
   const Html inputs_in_words =
-      machine(scene) + (is_claimed ? tolerances(scene) : Html()) + assumptions(problem) + path_section(scene);
+      machine(scene) + (is_claimed ? tolerances(scene) : Html()) + assumptions(scene.certificate) + path_section(scene);
   const Html proof = verdict_section(summary) + (is_claimed ? theorem(scene.certificate) + margins(scene) : Html());
   const Html exact = exact_load(scene) + space(problem) + exact_path(scene) + exact_stretches(scene) +
                      (is_claimed ? exact_margins(scene) : Html()) + inputs(scene.certificate) + recheck(scene);

@@ -9,6 +9,7 @@
 #include "reports/summary/angles.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
@@ -217,38 +218,17 @@ Html theorem(const Certificate& certificate) {
                       folded(false, html("Symbols"), symbols)));
 }
 
-Html assumptions(const Problem& problem) {
-  const bool held = problem.tolerances && problem.tolerances->cable_length_m;
-  const Html exactness =
-      problem.tolerances
-          ? html(
-                "<li>Anchors, load and tracking differ from what is stated by no more than the tolerances. Limits and "
-                "the shape of the set of loads are exactly as stated.</li>\n")
-          : html(
-                "<li>Anchors, limits and load are exactly as stated. Tolerances of manufacture, "
-                "measurement and control are not covered.</li>\n");
-  const Html following =
-      held
-          ? html(
-                "<li>The winches hold the lengths that the path commands, between waypoints too, within their "
-                "tolerance.</li>\n")
-          : html("<li>The controller follows the path as the interpolation law states, between waypoints too{}.</li>\n",
-                 problem.tolerances ? ", within the tolerances" : ", exactly");
+Html assumptions(const Certificate& certificate) {
+  const auto list = [](const std::vector<ScopeItem>& items) {
+    Html rows;
+    for (const ScopeItem& item : items) rows += html("<li>{}</li>\n", item.text);
+    return html("<ul>\n{}</ul>\n", rows);
+  };
   return section(
       "assumptions", "What is assumed, and what is not covered",
       html("<p>The claim is about a mathematical model. Whoever signs this report vouches that the machine "
-           "agrees with it.</p>\n<ul>\n"
-           "<li>Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no "
-           "pulleys.</li>\n"
-           "<li>The motion is quasi-static: forces of inertia are covered only as far as the load contains "
-           "them.</li>\n"
-           "{}{}"
-           "<li>Waypoints are the binary64 numbers of the appendix; a typed coordinate that is no such number is moved "
-           "by at most half a unit in its last place.</li>\n"
-           "<li>Collisions of cables, platform and surroundings are not examined.</li>\n"
-           "<li>Whether the numbers are those of a built machine is outside the proof. Where a case says that its "
-           "geometry is a reconstruction, the claim is about the reconstruction.</li>\n</ul>\n",
-           exactness, following));
+           "agrees with it.</p>\n<h3>Assumed</h3>\n{}<h3>Not covered</h3>\n{}",
+           list(assumed(certificate.problem, certificate.path.interpolation)), list(not_covered(certificate.problem))));
 }
 
 Html headroom(const ReportContext& scene) {

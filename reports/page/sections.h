@@ -15,7 +15,7 @@ namespace taut {
 /// Robot, limits and load, as the case states them.
 [[nodiscard]] Html machine(const ReportContext& scene);
 [[nodiscard]] Html tolerances(const ReportContext& scene);
-[[nodiscard]] Html assumptions(const Problem& problem);
+[[nodiscard]] Html assumptions(const Certificate& certificate);
 /// The path's waypoints as poses, rounded.
 [[nodiscard]] Html path_section(const ReportContext& scene);
 /// The claim, word by word and in formulas, with its symbols.

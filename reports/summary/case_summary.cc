@@ -12,6 +12,7 @@
 #include "problem/decimal.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
+#include "reports/summary/illustration.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/scene.h"
@@ -51,6 +52,17 @@ std::string columns(const std::vector<std::vector<std::string>>& rows) {
     text += "\n";
   }
   return text;
+}
+
+/// What the case states for the head of a report.
+std::string document_text(const DocumentFields& fields) {
+  std::string text;
+  for (const auto& [name, member] : kDocumentFields) {
+    std::string label = name;
+    std::ranges::replace(label, '_', ' ');
+    if (!(fields.*member).empty()) text += fmt::format("  {:<12} {}\n", label, fields.*member);
+  }
+  return text.empty() ? text : "For the head of the report; nothing checks it\n" + text + "\n";
 }
 
 std::string robot_text(const RobotText& robot, const DisplayUnits& units) {
@@ -198,6 +210,7 @@ std::string to_text(const CaseSummary& summary) {
       "{}, as it was understood. Nothing is proved here.\n"
       "Lengths in {}, forces in {} and moments in {}. Numbers of the case are exact, computed ones floating point.\n\n",
       problem.name, units.length.name(), units.force.name(), units.moment.name());
+  text += document_text(summary.source.document_fields);
   text += robot_text(problem.robot, units) + "\n";
   text += "Load\n";
   for (const std::string& line : lines(load_statement(summary.source))) text += "  " + line + "\n";
@@ -239,6 +252,7 @@ nlohmann::json to_json(const CaseSummary& summary) {
                          {"cables", cables}});
   }
   return {{"problem", to_json(summary.source.problem)},
+          {"document_fields", to_json(summary.source.document_fields)},
           {"load", to_json(load_statement(summary.source))},
           {"warnings", summary.source.warnings},
           {"path_law", law_text(summary.source)},

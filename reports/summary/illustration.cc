@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_cursor.h"
+#include "base/labels.h"
 #include "reports/summary/headroom_summary.h"
 
 namespace taut {
@@ -23,10 +24,34 @@ double approximation(const JsonCursor& field) {
 
 }  // namespace
 
+nlohmann::json to_json(const DocumentFields& fields) {
+  nlohmann::json result = nlohmann::json::object();
+  for (const auto& [name, member] : kDocumentFields) {
+    if (!(fields.*member).empty()) result[name] = fields.*member;
+  }
+  return result;
+}
+
+DocumentFields document_fields_from_json(const nlohmann::json& fields) {
+  DocumentFields result;
+  if (!fields.is_object()) return result;
+  for (const auto& [name, member] : kDocumentFields) {
+    const auto stated = fields.find(name);
+    if (stated == fields.end() || !stated->is_string()) continue;
+    const auto& text = stated->get_ref<const std::string&>();
+    const bool is_fit = is_label(text) && (member != &DocumentFields::document || is_document_label(text));
+    if (is_fit) result.*member = text;
+  }
+  return result;
+}
+
 Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
   const JsonCursor illustration(json, "illustration");
   if (!illustration.value().is_object()) return;
   if (illustration.contains("units")) units = display_units_from_json(illustration.at("units").value());
+  if (illustration.contains("document_fields")) {
+    document_fields = document_fields_from_json(illustration.at("document_fields").value());
+  }
   if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
     for (const auto& [key, value] : illustration.value()["stats"].items()) {
       stats[key] = value.is_string() ? value.get<std::string>() : value.dump();

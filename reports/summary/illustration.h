@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "case/document_fields.h"
 #include "certify/headroom.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/file_lines.h"
@@ -27,10 +28,16 @@ struct Illustration {
   std::map<std::string, std::string> stats;  ///< of the search, as printed
   DisplayUnits units;                        ///< the case's, in which the report shows results
   FileLines lines;                           ///< of an audited file, where waypoints stand
+  DocumentFields document_fields;            ///< the case's, for the head of the report
 
   Illustration() = default;
   /// @throws InputError for a missing key or a wrong type.
   Illustration(const nlohmann::json& json, std::size_t parameters);
 };
+
+/// The object `document_fields` of an illustration: the fields that are not empty, by their names.
+[[nodiscard]] nlohmann::json to_json(const DocumentFields& fields);
+/// Reads it. A field that a case could not state is taken as not stated: anybody can alter an illustration.
+[[nodiscard]] DocumentFields document_fields_from_json(const nlohmann::json& fields);
 
 }  // namespace taut

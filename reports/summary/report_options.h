@@ -19,7 +19,7 @@ struct Recheck {
 };
 
 struct ReportOptions {
-  std::string document;  ///< the document's number; empty: one made from the certificate's digest
+  std::string document;  ///< the document's number; empty: the case's, else one made from the certificate's digest
   std::string revision;  ///< empty: a line to write on
   std::string date;      ///< of the report; empty: a line to write on
 };

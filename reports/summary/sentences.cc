@@ -12,6 +12,7 @@
 #include "reports/summary/explanations.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/scope.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -322,41 +323,6 @@ std::string tolerances_text(const std::optional<TolerancesText>& tolerances, con
 
 namespace {
 
-std::string assumptions_text(const Problem& problem, Interpolation law) {
-  const bool is_held =
-      law == Interpolation::kCableLengths || (problem.tolerances && problem.tolerances->cable_length_m);
-  return fmt::format(
-      "Cables are massless, straight and inextensible and end in points. The motion is slow: inertia counts only as "
-      "far as the set of loads contains it. The machine is as stated{}; {}, between waypoints too.",
-      problem.tolerances ? ", within the tolerances" : "",
-      is_held ? "its winches hold the lengths that the path asks for" : "its controller follows the path");
-}
-
-std::string not_covered_text(const Problem& problem) {
-  return fmt::format(
-      "Collisions of cables, platform, load and surroundings. Sag, stretch and wear of cables, pulleys, winches, "
-      "brakes. "
-      "Strength of anchors, fittings and structure. Failure or loss of a cable, drive, sensor or power. Vibration, "
-      "wind and "
-      "impact beyond the set of loads. {}Whether the numbers stated are those of the machine that is used.",
-      problem.tolerances ? "Errors of manufacture, measurement and control beyond the tolerances stated. "
-                         : "Errors of manufacture, measurement and control. ");
-}
-
-}  // namespace
-
-std::vector<std::string> not_covered_items(const Problem& problem) {
-  return {"collisions of cables, platform, load and surroundings",
-          "stretch, sag, wear; pulleys, winches, brakes",
-          "strength of anchors, fittings and structure",
-          "loss of a cable, drive, sensor or power",
-          "wind, impact and vibration beyond the stated load",
-          problem.tolerances ? "errors of manufacture and control beyond the tolerances"
-                             : "errors of manufacture, measurement and control"};
-}
-
-namespace {
-
 std::string recheck_text(const Recheck& recheck) {
   switch (recheck.result) {
     case Recheck::Result::kUnchecked: break;
@@ -462,8 +428,8 @@ std::vector<Statement> statements(const ReportContext& scene) {
           {"load", "Loads", load_text(problem.load)},
           {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
           {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
-          {"assumptions", "Assumptions", assumptions_text(problem, certificate.path.interpolation)},
-          {"not_covered", "Not covered", not_covered_text(problem)},
+          {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},
+          {"not_covered", "Not covered", in_full(not_covered(problem))},
           {"proof", "Proof", proof_text(scene)},
           {"recheck", "Re-check", recheck_text(scene.recheck)}};
 }

@@ -30,8 +30,6 @@ namespace taut {
 
 /// "20 segments, straight in the parameters of the case. The platform's origin travels 8 m and …": the move, briefly.
 [[nodiscard]] std::string move_text(const ReportContext& scene);
-/// What the verdict says nothing about, an item each, in few words.
-[[nodiscard]] std::vector<std::string> not_covered_items(const Problem& problem);
 
 /// A statement of the report and its subject.
 struct Statement {

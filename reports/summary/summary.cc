@@ -73,20 +73,31 @@ const char* name(CableUse::Source source) {
   return "none";
 }
 
+/// The document's number: the one asked for, else the case's, else one made from the certificate's digest.
+std::string document_of(const ReportContext& scene, const ReportOptions& options) {
+  if (!options.document.empty()) return options.document;
+  const std::string& stated = scene.illustration.document_fields.document;
+  return stated.empty() ? document_number(scene.certificate.footer_sha256) : stated;
+}
+
 }  // namespace
 
 Summary::Summary(const ReportContext& scene, const ReportOptions& options)
-    : document(options.document.empty() ? document_number(scene.certificate.footer_sha256) : options.document),
+    : document(document_of(scene, options)),
       revision(options.revision),
       date(options.date),
       name(scene.certificate.problem.name),
-      title(name),
+      title(scene.illustration.document_fields.title),
+      machine(scene.illustration.document_fields.machine),
+      site(scene.illustration.document_fields.site),
+      load_name(scene.illustration.document_fields.load_name),
+      prepared_by(scene.illustration.document_fields.prepared_by),
       verdict(scene.verdict),
       word(verdict_word(scene)),
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
       move(move_text(scene)),
-      not_covered(not_covered_items(scene.certificate.problem)),
+      not_covered(taut::not_covered(scene.certificate.problem)),
       statements(taut::statements(scene)),
       load(load_statement(scene.certificate.problem.load)),
       use(cable_use(scene)),
@@ -101,8 +112,19 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
   }
   key_numbers = taut::key_numbers(scene, use);
   cables = cable_lines(scene, use);
+  if (title.empty()) title = title_from_name(name);
   if (scene.illustration.headroom)
     headroom = headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+}
+
+std::string title_from_name(const std::string& name) {
+  std::string title = name;
+  if (title.find(' ') == std::string::npos) {
+    std::ranges::replace_if(
+        title, [](char c) { return c == '-' || c == '_'; }, ' ');
+  }
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
 }
 
 std::string document_number(const std::string& footer_sha256) {
@@ -209,6 +231,11 @@ nlohmann::json to_json(const Summary& s) {
       {"revision", text_or_null(s.revision)},
       {"date", text_or_null(s.date)},
       {"case", s.name},
+      {"title", s.title},
+      {"machine", text_or_null(s.machine)},
+      {"site", text_or_null(s.site)},
+      {"load_name", text_or_null(s.load_name)},
+      {"prepared_by", text_or_null(s.prepared_by)},
       {"verdict", s.verdict},
       {"word", s.word},
       {"headline", s.headline},

@@ -8,6 +8,7 @@
 
 #include "reports/summary/key_numbers.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
 
 namespace taut {
@@ -18,18 +19,18 @@ struct Summary {
   std::string document;  ///< its number
   std::string revision;  ///< may be empty, like the date
   std::string date;
-  std::string name;         ///< of the case; nothing checks it, nor what follows
-  std::string title;        ///< of the document: the case's, else its name
-  std::string prepared_by;  ///< may be empty
-  std::string verdict;      ///< "proved" or "refuted", if the checker made a theorem; else "undecided" or "unchecked"
-  std::string word;         ///< the verdict as nobody misreads it: "DO NOT RUN"
+  std::string name;   ///< of the case; nothing checks it
+  std::string title;  ///< as the case states it, else made from its name; nothing checks it
+  std::string machine, site, load_name, prepared_by;  ///< as the case states them; empty: it does not. Unchecked, too
+  std::string verdict;  ///< "proved" or "refuted", if the checker made a theorem; else "undecided" or "unchecked"
+  std::string word;     ///< the verdict as nobody misreads it: "DO NOT RUN"
   std::string headline;
   std::vector<std::string> details;
   std::vector<KeyNumber> key_numbers;
   std::vector<CableLine> cables;      ///< those nearest to their limits first
   std::vector<std::string> headroom;  ///< what stands in the way, or how far the proof reaches; nothing checks it
   std::string move;                   ///< travel, turn and law, briefly
-  std::vector<std::string> not_covered;
+  std::vector<ScopeItem> not_covered;
   std::vector<Statement> statements;
   LoadStatement load;
   CableUse use;
@@ -40,6 +41,9 @@ struct Summary {
 
 /// "TAUT-1A2B-3C4D-5E6F", made from the certificate's own digest; nothing if that is no digest.
 [[nodiscard]] std::string document_number(const std::string& footer_sha256);
+
+/// The title of a case that states none: "Robot1 slice qs qg" of "robot1-slice-qs-qg".
+[[nodiscard]] std::string title_from_name(const std::string& name);
 
 /// Lines of plain text, without control characters, for logs.
 [[nodiscard]] std::string to_text(const Summary& summary);

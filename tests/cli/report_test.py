@@ -126,6 +126,29 @@ class Report(unittest.TestCase):
                                      rf"^taut: {re.escape(path)}: got .*{said}.*, expected a certificate \[E\d\]\n$")
                     self.assertNotIn("exception", result.stderr)
 
+    def test_text_for_its_head_comes_from_the_certificate_and_is_no_part_of_the_claim(self):
+        told = json.loads(run(TAUT, "report", self.certificate, "--json").stdout)
+        self.assertEqual(told["title"], "Turn the platform in place, 174°, Robot 1")
+        self.assertEqual(told["machine"], "Robot 1 (reconstructed)")
+        self.assertIsNone(told["site"])
+
+        def rename(certificate):
+            certificate["illustration"]["document_fields"] = {"document": "LP-3", "site": "Hall C", "title": "Lift 2"}
+        renamed = self.changed("renamed.json", rename)
+        self.assertEqual(run(CHECK, renamed, CASE).returncode, 0)
+        other = json.loads(run(TAUT, "report", renamed, "--json").stdout)
+        self.assertEqual((other["title"], other["document"], other["site"]), ("Lift 2", "LP-3", "Hall C"))
+        self.assertEqual(other["verdict"], "proved")
+        self.assertEqual(other["sha256"]["problem"], told["sha256"]["problem"])
+        self.assertIn("content: \"LP-3\"", self.page(renamed))
+        asked = json.loads(run(TAUT, "report", renamed, "--json", "--document", "LP-17").stdout)
+        self.assertEqual(asked["document"], "LP-17")
+
+    def page(self, certificate):
+        self.assertEqual(run(TAUT, "report", certificate, "--out", self.path("page.html")).returncode, 0)
+        with open(self.path("page.html"), encoding="utf-8") as file:
+            return file.read()
+
     def test_plan_has_its_certificate_checked(self):
         self.assertIn("Checked by taut-check", self.planned.stdout)
         with open(self.path("report.html"), encoding="utf-8") as file:

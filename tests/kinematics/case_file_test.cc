@@ -53,6 +53,43 @@ void expect_rejected(const Sections& sections, const std::string& message) {
   expect_rejected(sections.text(), message);
 }
 
+TEST(CaseFile, SaysWhatTheHeadOfADocumentShows) {
+  EXPECT_EQ(parse(Sections()).document_fields, DocumentFields());
+  Sections sections;
+  sections.head +=
+      "title: Turn in place, 174°\nmachine: 'Portal 2: six winches'\nsite: Hall B\n"
+      "document: LP-17/3\nprepared_by: A. Niemi\n";
+  sections.load =
+      "load: {name: 20 ft container, wrench: [0, 0, 1, 0, 0, 0], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 1]}}\n";
+  const DocumentFields fields = parse(sections).document_fields;
+  EXPECT_EQ(fields.title, "Turn in place, 174°");
+  EXPECT_EQ(fields.machine, "Portal 2: six winches");
+  EXPECT_EQ(fields.site, "Hall B");
+  EXPECT_EQ(fields.load_name, "20 ft container");
+  EXPECT_EQ(fields.document, "LP-17/3");
+  EXPECT_EQ(fields.prepared_by, "A. Niemi");
+  EXPECT_EQ(to_json(parse(sections).problem), to_json(parse(Sections()).problem)) << "no part of the problem";
+}
+
+TEST(CaseFile, RefusesWhatTheHeadOfADocumentCannotShow) {
+  const auto with = [](const std::string& line) {
+    Sections sections;
+    sections.head += line + "\n";
+    return sections;
+  };
+  expect_rejected(with("title: \"a\\u202Eb\""),
+                  "test.yaml:3:8: title: got 'a\\xe2\\x80\\xaeb', expected one line of 1");
+  expect_rejected(with("site: \"a\\nb\""), "test.yaml:3:7: site: got 'a\\x0ab', expected one line");
+  expect_rejected(with("machine: \"\""), "machine: got '', expected one line");
+  expect_rejected(with("prepared_by: [a, b]"), "prepared_by: got [a, b], expected one line");
+  expect_rejected(with("title: " + std::string(121, 'x')), "expected one line of 1 to 120 characters");
+  expect_rejected(with("document: 'a\"b'"), "document: got 'a\"b', expected at most 40 letters, digits, blanks");
+  expect_rejected(with("load_name: a"), "got the unknown key 'load_name'");
+  Sections sections;
+  sections.load = "load: {name: \"\\e[31m\", wrench: [0, 0, 1, 0, 0, 0], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 1]}}\n";
+  expect_rejected(sections, "load.name: got '\\x1b[31m', expected one line");
+}
+
 TEST(CaseFile, IsUtf8) {
   Sections sections;
   sections.head = "taut: 1\nname: \"Ger\u00e4t \u20ac \U0001F680 \u07ff\ud7ff\uffff\U0010ffff\"\n";

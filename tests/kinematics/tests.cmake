@@ -5,6 +5,7 @@ taut_add_test(kinematics expression LABELS unit LIBS taut::problem ${RAPIDCHECK_
 taut_add_test(kinematics rational LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics problem LABELS unit LIBS taut::case)
 taut_add_test(base sanitize LABELS unit LIBS taut::base)
+taut_add_test(base labels LABELS unit LIBS taut::base)
 taut_add_test(base nearest LABELS unit LIBS taut::base)
 taut_add_test(kinematics json_cursor LABELS unit LIBS taut::problem)
 taut_add_test(kinematics case_file LABELS unit LIBS taut::case ${RAPIDCHECK_LIBRARY})

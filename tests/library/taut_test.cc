@@ -84,7 +84,17 @@ TEST(Case, SaysTheLoadAndWhatMayNotBeMeant) {
   EXPECT_THAT(taut::Case::parse(text).load_statement(), testing::Contains(HasSubstr("the load is one ellipsoid")));
   text.insert(text.find("mass_tolerance"), "inertia: {box: [1, 1, 1]}, ");
   EXPECT_THAT(taut::Case::parse(text, "crane.yaml").warnings(),
-              testing::ElementsAre(AllOf(testing::StartsWith("crane.yaml:19:"), HasSubstr("is not used"))));
+              testing::ElementsAre(AllOf(testing::StartsWith("crane.yaml:23:"), HasSubstr("is not used"))));
+}
+
+TEST(Case, HasTextForTheHeadOfAReport) {
+  using Fields = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_EQ(taut::Case::load(kCases + "cranes/portal-20t.yaml").document_fields(),
+            (Fields{{"title", "Container to the second bay"},
+                    {"machine", "Portal 2, six winches"},
+                    {"site", "Hall B"},
+                    {"load_name", "20 ft container"}}));
+  EXPECT_EQ(taut::Case::load(kCases + "tutorial/01-a-free-move.yaml").document_fields(), Fields());
 }
 
 TEST(Case, ThatIsWrongSaysWhere) {
@@ -95,10 +105,10 @@ TEST(Case, ThatIsWrongSaysWhere) {
     FAIL();
   } catch (const taut::InputError& error) {
     EXPECT_EQ(error.file(), "crane.yaml");
-    EXPECT_EQ(error.line(), 33U);
+    EXPECT_EQ(error.line(), 35U);
     EXPECT_EQ(error.field(), "robot.tension[0]");
     EXPECT_EQ(error.code(), "E3");
-    EXPECT_THAT(error.what(), testing::StartsWith("crane.yaml:33:12: robot.tension[0]: got [0.5, 0.05], expected"));
+    EXPECT_THAT(error.what(), testing::StartsWith("crane.yaml:35:12: robot.tension[0]: got [0.5, 0.05], expected"));
   }
   EXPECT_THROW(static_cast<void>(taut::Case::load("/no/such/file.yaml")), taut::InputError);
 }
@@ -315,6 +325,7 @@ TEST(Certificate, IsSavedAndLoadedByteForByte) {
   const Certificate loaded = Certificate::load(file.path());
   EXPECT_EQ(loaded.text(), planned.text());
   EXPECT_EQ(loaded.case_name(), "robot1-slice-qs-qg");
+  EXPECT_EQ(loaded.document_fields(), taut::Case::load(kRobot1).document_fields());
 }
 
 TEST(Theorem, IsMadeByTheCheckerAlone) {

@@ -164,6 +164,8 @@ class Certificates(unittest.TestCase):
     def test_say_what_is_proved(self):
         self.assertTrue(self.planned.is_proved)
         self.assertEqual(self.planned.case_name, "robot1-slice-qs-qg")
+        self.assertEqual(self.planned.document_fields["title"], "Turn the platform in place, 174°, Robot 1")
+        self.assertEqual(self.planned.document_fields, self.case.document_fields)
         self.assertGreater(self.planned.theorem.margins.tension_N, 0)
         self.assertIsNone(self.planned.theorem.witness)
         self.assertEqual(self.planned.stretches, [])

@@ -45,6 +45,46 @@ TEST(Summary, SaysTheSameAsTextMarkdownAndJson) {
   }
 }
 
+TEST(Summary, ShowsWhatTheCaseStatesForTheHeadOfADocument) {
+  nlohmann::json certificate = sample::proved();
+  certificate["illustration"]["document_fields"] = {{"title", "Turn in place"}, {"machine", "Portal 2"},
+                                                    {"site", "Hall B"},         {"load_name", "container"},
+                                                    {"document", "LP-3"},       {"prepared_by", "A. Niemi"}};
+  const Summary summary = summary_of(certificate);
+  EXPECT_EQ(summary.title, "Turn in place");
+  const nlohmann::json json = to_json(summary);
+  EXPECT_EQ(json["title"], "Turn in place");
+  EXPECT_EQ(json["machine"], "Portal 2");
+  EXPECT_EQ(json["site"], "Hall B");
+  EXPECT_EQ(json["load_name"], "container");
+  EXPECT_EQ(json["prepared_by"], "A. Niemi");
+  EXPECT_EQ(json["document"], "LP-3");
+  EXPECT_EQ(to_json(summary_of(certificate, {"LP-17", "", ""}))["document"], "LP-17") << "what is asked for wins";
+}
+
+TEST(Summary, MakesATitleOfTheNameWhereTheCaseStatesNone) {
+  const nlohmann::json json = to_json(summary_of(sample::proved()));
+  EXPECT_EQ(json["title"], "Robot1 slice");
+  EXPECT_EQ(json["machine"], nullptr);
+  EXPECT_THAT(json["document"].get<std::string>(), StartsWith("TAUT-"));
+  EXPECT_EQ(title_from_name("portal_20t-gust"), "Portal 20t gust");
+  EXPECT_EQ(title_from_name("lift no-2 b_3"), "Lift no-2 b_3") << "that is no slug";
+  EXPECT_EQ(title_from_name(""), "");
+}
+
+TEST(Summary, TakesNoFieldThatACaseCouldNotState) {
+  for (const nlohmann::json& fields :
+       {nlohmann::json(7), nlohmann::json{{"title", 7}, {"document", nullptr}},
+        nlohmann::json{{"title", "a\u202Eb"}, {"document", "\";}"}}, nlohmann::json{{"title", std::string(121, 'x')}},
+        nlohmann::json{{"title", "a\nb"}, {"document", std::string(41, 'x')}}}) {
+    nlohmann::json certificate = sample::proved();
+    certificate["illustration"]["document_fields"] = fields;
+    const Summary summary = summary_of(certificate);
+    EXPECT_EQ(summary.title, "Robot1 slice") << fields;
+    EXPECT_THAT(summary.document, StartsWith("TAUT-")) << fields;
+  }
+}
+
 TEST(Summary, RoundsProvedRangesOutward) {
   const nlohmann::json json = to_json(summary_of(sample::proved()));
   EXPECT_EQ(json["cables_source"], "proved");

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a verdict assumes and what it does not cover: one list of each for the first page, the section behind it, the
+// summaries and the assurance case. docs/theory.md, section 11, repeats the sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificate/certificate.h"
+
+namespace taut {
+
+struct ScopeItem {
+  const char* key;    ///< for machines: "collisions"
+  std::string brief;  ///< for a list: "collisions"
+  std::string text;   ///< a sentence or two
+  std::string goal;   ///< what somebody else has to show: "Nothing collides." Only of what is not covered
+};
+
+/// What the machine must be like for the verdict to apply to it.
+[[nodiscard]] std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law);
+/// What the verdict says nothing about.
+[[nodiscard]] std::vector<ScopeItem> not_covered(const Problem& problem);
+
+/// The items' sentences, one after another.
+[[nodiscard]] std::string in_full(const std::vector<ScopeItem>& items);
+
+}  // namespace taut
