@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "reports/page/first_page.h"
+#include "reports/page/machine_style.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
@@ -89,7 +90,8 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
       "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), kStyle + std::string(kMachineStyle), footer_style(summary.document),
+      body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 foreach(header markup display_units samples scene travel report_data cable_use nearness load_statement style summary
-    html_report theorem)
+    machine_picture html_report theorem)
   taut_add_test(reports ${header} LABELS unit LIBS taut::reports fmt::fmt OpenSSL::Crypto)
 endforeach()
 
