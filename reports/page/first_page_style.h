@@ -97,7 +97,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
 }
 .signatures span { color: var(--soft); display: block; }
 .signatures small { position: absolute; left: 12px; bottom: 4px; font-size: 11px; color: var(--soft); }
-@media (max-width: 760px) {
+@media screen and (max-width: 760px) {
   .band { grid-template-columns: minmax(0, 1fr); padding: 14px 16px; }
   .band .word { font-size: 25px; white-space: normal; }
   .checks { border-left: none; border-top: 1px solid rgb(255 255 255 / 0.5); padding: 8px 0 0; }

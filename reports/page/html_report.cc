@@ -9,6 +9,7 @@
 #include "reports/page/appendix.h"
 #include "reports/page/first_page.h"
 #include "reports/page/first_page_style.h"
+#include "reports/page/machine_style.h"
 #include "reports/page/margins.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
@@ -70,13 +71,6 @@ std::string css_string(const std::string& text) {
   return result + "\"";
 }
 
-/// The verdict as it stands at the head of each printed page.
-std::string_view verdict_word(std::string_view verdict) {
-  if (verdict == "proved") return "PROVED";
-  if (verdict == "refuted") return "REFUTED: DO NOT RUN";
-  return verdict == "undecided" ? "NO DECISION" : "UNCHECKED";
-}
-
 /// The style sheet's part for head and foot of the printed pages: case, verdict and document; date and page.
 std::string running_head(const Summary& summary) {
   const std::string revision = summary.revision.empty() ? "" : " · revision " + summary.revision;
@@ -84,9 +78,8 @@ std::string running_head(const Summary& summary) {
       "@media print {{ @page {{ @top-left {{ content: {}; }} @top-right {{ content: {}; }} @bottom-left {{ content: "
       "{}; "
       "}} @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }} }}\n",
-      css_string(excerpt(summary.name)),
-      css_string(fmt::format("{} · {}{}", verdict_word(summary.verdict), summary.document, revision)),
-      css_string(summary.date));
+      css_string(excerpt(summary.title)),
+      css_string(fmt::format("{} · {}{}", summary.word, summary.document, revision)), css_string(summary.date));
 }
 
 }  // namespace
@@ -112,10 +105,11 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</"
+      "body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, running_head(summary),
-      body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kMachineStyle,
+      running_head(summary), body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

@@ -130,8 +130,10 @@ Html move_section(const ReportContext& scene) {
   return section(
       "move", "The move",
       place("move") +
-          html("<div class=\"still\">{}<p class=\"note\">Seen from the side, with the load pulling down; the dot "
-               "is the load point. Numbers are cables.</p></div>\n",
+          html("<div class=\"still\">{}<p class=\"note\">Dashed outlines are the platform at the start (S) and at the "
+               "goal (G). Posts and ground stand for whatever carries the anchors A1 to A6. Cables are coloured by "
+               "floating-point values at this place: grey is calm, amber from 75 % of a limit, dashed from 95 %, red "
+               "out of the limits.</p></div>\n",
                still_picture(scene)));
 }
 

@@ -34,7 +34,6 @@ html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 10
 body {
   max-width: 1160px; margin: 0 auto; padding: 40px 28px 72px;
   font: 16px/1.55 Inter, "Noto Sans Math", system-ui, "Liberation Sans", "DejaVu Sans", sans-serif;
-  font-variant-numeric: tabular-nums;
 }
 h1 small { font-size: 14px; font-weight: 400; }
 h1 { font-size: 30px; line-height: 1.2; margin: 6px 0 14px; letter-spacing: -0.01em; overflow-wrap: anywhere; }
@@ -119,7 +118,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
 .cable.marked { stroke: var(--mark); stroke-width: 2.6; }
 .tag { fill: var(--paper); stroke: var(--soft); stroke-width: 0.8; }
 .load { fill: var(--mark); }
-@media (max-width: 760px) {
+@media screen and (max-width: 760px) {
   .panels, .panels.two { grid-template-columns: 1fr; }
 }
 @media print {

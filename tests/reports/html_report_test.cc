@@ -141,16 +141,16 @@ TEST(HtmlReport, PrintsWhatItIsToldOfTheDocument) {
 
 TEST(HtmlReport, HeadsPrintedPagesWithTheVerdict) {
   for (const auto& [name, word] : std::vector<std::pair<std::string, std::string>>{{"proved", "PROVED"},
-                                                                                   {"refuted", "REFUTED: DO NOT RUN"},
+                                                                                   {"refuted", "DO NOT RUN"},
                                                                                    {"undecided", "NO DECISION"},
-                                                                                   {"no path", "NO DECISION"}}) {
+                                                                                   {"no path", "NO PATH FOUND"}}) {
     EXPECT_THAT(page_of(name), HasSubstr(fmt::format("content: \"{} · TAUT-CCCC-CCCC-CCCC\"", word))) << name;
   }
   EXPECT_THAT(html_report(sample::unchecked(sample::proved())), HasSubstr("content: \"UNCHECKED · TAUT-"));
   // The case's name may hold anything; here it tries to end the string, the rule and the style sheet.
   nlohmann::json certificate = sample::proved();
   certificate["problem"]["name"] = "a\"; } </style>\\\n& é";
-  EXPECT_THAT(report(certificate), HasSubstr("@top-left { content: \"a\\22 ; } \\3c /style\\3e \\5c \\5c x0A\\26  é\"; }"));
+  EXPECT_THAT(report(certificate), HasSubstr("@top-left { content: \"A\\22 ; } \\3c /style\\3e \\5c \\5c x0A\\26  é\"; }"));
 }
 
 TEST(HtmlReport, BringsItsTypeface) {
@@ -210,7 +210,7 @@ TEST(HtmlReport, MarksFreeTextAsNotChecked) {
   certificate["illustration"]["stats"] = {{"certified", "by nobody"}};
   const std::string page = report(certificate);
   EXPECT_THAT(
-      page, HasSubstr("<h1><bdi>robot1-slice</bdi></h1>\n<p class=\"note unverified\">Title and names are text of the "
+      page, HasSubstr("<h1><bdi>Robot1 slice</bdi></h1>\n<p class=\"note unverified\">Title and names are text of the "
                       "case, which nothing checks.</p>"));
   EXPECT_THAT(page, HasSubstr("made by (not checked)</td><td><bdi>Approved by nobody</bdi>"));
   EXPECT_THAT(page, HasSubstr("as the program that wrote the certificate says (not checked): certified: by nobody"));
