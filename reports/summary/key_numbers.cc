@@ -151,6 +151,7 @@ KeyNumber growth_number(const ReportContext& scene) {
           "× " + growth_text(scale),
           detail,
           growth_nearness(ScalarTraits<double>::from_decimal(scale)),
+          std::nullopt,
           true};
 }
 
