@@ -175,7 +175,8 @@ class BatchWriter {
     if (is_followed_) way_.insert(way_.end(), part.motion->begin(), part.motion->end());
   }
 
-  /// The gravest violation in place of the first, unless only to that one the motion is shown from the path's beginning.
+  /// Takes the gravest violation in place of the first; not where the motion is implied, as it is followed to the first
+  /// only.
   void choose_witness() {
     auto found = gravest_.find();
     if (!found) return;
