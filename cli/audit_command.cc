@@ -61,6 +61,13 @@ std::string text(const AuditedStretch& audited, const Case& the_case, const char
                              violation_text(last, robot, units));
 }
 
+/// The violation that the certificate's witness is about.
+std::string gravest_text(const Audit& audit, const Case& the_case, const char* place_name) {
+  const PathWitness& witness = audit.witness->violation;
+  return fmt::format("Gravest: {}: {}.\n", text(witness.at, audit.witness_place, place_name),
+                     violation_text(witness, the_case.problem.robot, DisplayUnits(the_case.units)));
+}
+
 std::string sentence(const Audit& audit, const DisplayUnits& units) {
   switch (audit.verdict) {
     case Verdict::kProved:
@@ -96,6 +103,7 @@ void print_stretches(const Audit& audit, const Case& the_case, const PathSource&
                            ? "This holds for every deviation within the case's tolerances."
                            : "The case states no tolerances: this is about a machine that is exactly as it says.");
   }
+  if (audit.witness) fmt::print("{}", gravest_text(audit, the_case, source.place_name()));
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
   for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], the_case, source.place_name()));
