@@ -123,28 +123,28 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
 }
 @media print {
   @page {
-    size: A4; margin: 18mm 15mm 15mm;
+    size: A4; margin: 16mm 15mm 14mm;
     font: 8pt Inter, "Noto Sans Math", sans-serif; color: #454c53;
     @top-left { text-align: left; width: 60%; } @top-right { text-align: right; }
     @bottom-left { text-align: left; } @bottom-right { text-align: right; }
   }
-  @page :first { margin-top: 13mm; @top-left { content: none; } @top-right { content: none; } }
+  @page :first { margin-top: 12mm; @top-left { content: none; } @top-right { content: none; } }
   :root { color-scheme: light; --paper: #ffffff; --ink: #000000; --soft: #454c53; --line: #c9ced3; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.4; }
   nav, .more { display: none; }
   h1 { font-size: 17pt; margin: 4pt 0 6pt; }
-  h2 { font-size: 12.5pt; margin: 14pt 0 4pt; padding-top: 7pt; } h3 { font-size: 10pt; margin: 10pt 0 3pt; }
+  h2 { font-size: 12.5pt; margin: 12pt 0 4pt; padding-top: 6pt; } h3 { font-size: 10pt; margin: 10pt 0 3pt; }
   p, ul, ol { margin: 4pt 0; max-width: none; } li { margin: 2pt 0; }
   h2, h3, caption, summary { break-after: avoid; }
   p { orphans: 3; widows: 3; }
   .note { font-size: 8pt; }
-  figure, tr, blockquote, .formulas p, .band, .signatures, pre, li { break-inside: avoid; }
+  h2, figure, tr, blockquote, .formulas p, .band, .signatures, pre, li { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll { overflow: visible; margin: 5pt 0; background: none; }
   .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }
   .overflows::before { content: none; }
-  .panels { grid-template-columns: repeat(3, 1fr); gap: 4mm 5mm; margin: 4pt 0; }
+  .panels { grid-template-columns: repeat(3, 1fr); gap: 3mm 5mm; margin: 4pt 0; }
   .panels.two { grid-template-columns: repeat(2, 1fr); }
   table { font-size: 7.5pt; max-width: 100%; } caption { font-size: 8pt; padding: 3pt 0 2pt; }
   th, td { padding: 2pt 7pt 2pt 0; } td.n { white-space: normal; }
@@ -158,11 +158,16 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   summary { display: none; }
   .panels.robots { grid-template-columns: repeat(3, 1fr) !important; }
   a { color: inherit; text-decoration: none; }
+  td:first-child { overflow-wrap: normal; }
+  th { white-space: normal; }
+  #path > details, #margins > details { columns: 2; column-gap: 8mm; }
+  #path > details:not(:has(tr:nth-child(70))), #margins > details:not(:has(tr:nth-child(70))) { break-inside: avoid; }
   /* The exact numbers, in two columns. */
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
-  .appendix h2 { font-size: 10.5pt; margin-top: 10pt; }
+  .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
   .appendix > section:first-child > h2 { margin-top: 0; }
-  .appendix table { font-size: 6.8pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  #exact-load td.n { white-space: nowrap; }
   .appendix .wide { column-span: all; }
 }
 /* Appendix A, B, …: those that there are. */

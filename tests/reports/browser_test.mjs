@@ -477,7 +477,7 @@ test("on paper the colours are those of light paper, whatever the reader's choic
 /// Each page of a PDF, from the top of what is printed between head and foot: how far down there is ink, from 0 to 1.
 function fills(pdf) {
   const A4 = 297; // [mm]
-  const [top, bottom] = [18, 15]; // margins [mm]
+  const [top, bottom] = [16, 14]; // margins [mm]
   const pages = execFileSync("pdftoppm", ["-r", "30", "-gray", pdf], { maxBuffer: 1 << 28 });
   const result = [];
   for (let at = 0; at < pages.length;) {
