@@ -10,6 +10,7 @@
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
+#include "reports/page/sticky_bar.h"
 #include "reports/page/style.h"
 #include "reports/summary/wording.h"
 
@@ -18,11 +19,11 @@ namespace taut {
 namespace {
 
 Html contents(const ReportContext& scene) {
-  Html links;
+  std::vector<ContentsLink> links;
   const auto link = [&](bool present, const char* id, const char* title) {
-    if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
+    if (present) links.push_back({id, title});
   };
-  const bool has_path = !scene.samples.empty();
+  const bool has_path = shows_path(scene);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   link(has_path, "move", "The move");
   link(!scene.certificate.stretches.empty(), "stretches", "Stretches");
@@ -38,7 +39,7 @@ Html contents(const ReportContext& scene) {
   link(true, "path", "Path");
   link(true, "inputs", "Digests");
   link(true, "recheck", "Check again");
-  return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
+  return sticky_bar(scene, links);
 }
 
 /// Checks document numbers, revisions and dates, which are put into a style sheet and printed.
@@ -78,18 +79,19 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Summary summary(scene, options);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   const Html claim = is_claimed ? margins(scene) + theorem(scene.certificate) + tolerances(scene) : Html();
-  const Html body = first_page(scene, summary) + contents(scene) + move_section(scene) + stretches(scene) +
-                    headroom(scene) + plot_sections(scene) + claim + assumptions(scene.certificate.problem) +
-                    robot(scene) + path_section(scene) + inputs(scene.certificate) + recheck(scene);
+  const Html body = first_page(scene, summary) + move_section(scene) + stretches(scene) + headroom(scene) +
+                    plot_sections(scene) + claim + assumptions(scene.certificate.problem) + robot(scene) +
+                    path_section(scene) + inputs(scene.certificate) + recheck(scene);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
-      "html>\n",
-      content_security_policy(), title.str(), kStyle, footer_style(summary.document), body.str(), page_scripts(scene));
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}</style>\n</head>\n<body>\n{}<main>\n{}</main>\n{}</body>\n"
+      "</html>\n",
+      content_security_policy(), title.str(), kStyle, kStickyBarStyle, footer_style(summary.document),
+      contents(scene).str(), body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {
