@@ -14,6 +14,7 @@
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
+#include "reports/page/sticky_bar.h"
 #include "reports/page/style.h"
 #include "reports/page/typeface.h"
 #include "reports/summary/wording.h"
@@ -23,11 +24,11 @@ namespace taut {
 namespace {
 
 Html contents(const ReportContext& scene) {
-  Html links;
+  std::vector<ContentsLink> links;
   const auto link = [&](bool present, const char* id, const char* title) {
-    if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
+    if (present) links.push_back({id, title});
   };
-  const bool has_path = !scene.samples.empty();
+  const bool has_path = shows_path(scene);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   link(has_path, "move", "The move");
   link(has_path, "tensions", "Tensions");
@@ -43,7 +44,7 @@ Html contents(const ReportContext& scene) {
   link(is_claimed && count_boxes(scene.certificate) > 0, "margins", "Margins");
   link(true, "appendix", "Appendix");
   link(true, "recheck", "Check again");
-  return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
+  return sticky_bar(scene, links);
 }
 
 /// Checks document numbers, revisions and dates, which are put into a style sheet and printed.
@@ -97,7 +98,7 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Html proof = verdict_section(summary) + (is_claimed ? theorem(scene.certificate) + margins(scene) : Html());
   const Html exact = exact_load(scene) + space(problem) + exact_path(scene) + exact_stretches(scene) +
                      (is_claimed ? exact_margins(scene) : Html()) + inputs(scene.certificate) + recheck(scene);
-  const Html body = first_page(scene, summary) + contents(scene) + results + inputs_in_words + proof +
+  const Html body = first_page(scene, summary) + results + inputs_in_words + proof +
                     html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
@@ -105,11 +106,11 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</"
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}{}</style>\n</head>\n<body>\n{}<main>\n{}</main>\n{}</"
       "body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kMachineStyle,
-      running_head(summary), body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kMachineStyle, kStickyBarStyle,
+      running_head(summary), contents(scene).str(), body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

@@ -59,20 +59,22 @@ Html bands_text(const ReportContext& scene) {
           : " Where there is none, nothing is proved.");
 }
 
+/// How the six plots of one quantity are arranged.
+constexpr const char* kArrangement = "All six share one scale. The cable that comes nearest to a limit is first.";
+
 Html tensions(const ReportContext& scene) {
-  return section(
-      "tensions", "Tensions along the path",
-      html(
-          "<p>For each cable all tensions that the loads in K can ask of it. {} Shaded red: beyond the limits.{}</p>\n",
-          bands_text(scene), marks_text(scene.certificate)) +
-          unscripted() + place("tensions"));
+  return section("tensions", "Tensions along the path",
+                 html("<p>For each cable all tensions that the loads in K can ask of it. {} {} Shaded red: beyond the "
+                      "limits.{}</p>\n",
+                      kArrangement, bands_text(scene), marks_text(scene.certificate)) +
+                     unscripted() + place("tensions"));
 }
 
 Html lengths(const ReportContext& scene) {
-  return section(
-      "lengths", "Cable lengths along the path",
-      html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.certificate)) +
-          unscripted() + place("lengths"));
+  return section("lengths", "Cable lengths along the path",
+                 html("<p>{} {} Shaded red: beyond the limits.{}</p>\n", kArrangement, bands_text(scene),
+                      marks_text(scene.certificate)) +
+                     unscripted() + place("lengths"));
 }
 
 Html margins_along(const ReportContext& scene) {
@@ -101,9 +103,10 @@ Html plane(const ReportContext& scene) {
     stats += html("{}{}: {}", stats.empty() ? Html() : html(" · "), key, value);
   return section(
       "plane", "The plane of the two parameters",
-      html("<p>C is the set of wrench-feasible poses. Colours and the line det J = 0 are floating-point samples on "
-           "a grid, and the atlas is where the planner looked: neither proves anything. Periodic parameters are drawn "
-           "unwrapped, so that the path is one line.{}</p>\n",
+      html("<p>C is the set of wrench-feasible poses. Its borders and the line det J = 0 are drawn between samples on "
+           "a grid, in floating point, and can miss what is smaller than the grid; the atlas is where the planner "
+           "looked: neither proves anything. Periodic parameters are drawn unwrapped, so that the path is one "
+           "line.{}</p>\n",
            scene.certificate.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
           unscripted() + place("plane") +
           (stats.empty() ? Html()
@@ -125,8 +128,10 @@ Html biting_tolerances(const ReportContext& scene) {
 
 }  // namespace
 
+bool shows_path(const ReportContext& scene) { return !scene.samples.empty() && !found_no_path(scene.certificate); }
+
 Html move_section(const ReportContext& scene) {
-  if (scene.samples.empty()) return {};
+  if (!shows_path(scene)) return {};
   return section(
       "move", "The move",
       place("move") +
@@ -138,7 +143,7 @@ Html move_section(const ReportContext& scene) {
 }
 
 Html plot_sections(const ReportContext& scene) {
-  if (scene.samples.empty()) return plane(scene);
+  if (!shows_path(scene)) return plane(scene);
   return tensions(scene) + lengths(scene) + margins_along(scene) + poses(scene) + plane(scene) +
          biting_tolerances(scene);
 }

@@ -10,9 +10,9 @@ inline constexpr const char* kStyle = R"css(
   color-scheme: light dark;
   --paper: #fdfdfb; --ink: #1d2329; --soft: #59636e; --line: #d9dde1; --tile: #f3f4f2; --accent: #1f5f99;
   --proved: #1b7a4b; --refuted: #b3261e; --undecided: #8a5a00;
-  --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f6e3e0; --mark: #b3261e;
+  --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f9ece9; --mark: #b3261e;
   --c1: #c2570c; --c2: #5b4a9e;
-  --inside: #7fc8a4; --tension: #cfe0f1; --length: #fbe6bd; --both: #e7e3ea; --singular: #c4161c; --chart: #26323b;
+  --inside: #84c99a; --tension: #92b8e6; --length: #f5b14c; --singular: #c4161c; --chart: #26323b;
   --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418;
   --base: #8b949e; --platform: #cfe0f1;
   --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
@@ -21,9 +21,9 @@ inline constexpr const char* kStyle = R"css(
   :root {
     --paper: #14181c; --ink: #e4e7ea; --soft: #9aa5b0; --line: #323a42; --tile: #1d2329; --accent: #7db7ec;
     --proved: #58c48e; --refuted: #ff8a80; --undecided: #f0b94d;
-    --band: #2b5378; --curve: #8cc4f5; --limit: #ff8a80; --forbidden: #3a2322; --mark: #ff8a80;
+    --band: #2b5378; --curve: #8cc4f5; --limit: #ff8a80; --forbidden: #2c1f20; --mark: #ff8a80;
     --c1: #f0a35e; --c2: #b3a4f0;
-    --inside: #2f7d5b; --tension: #24374a; --length: #4d3f1f; --both: #2a2730; --singular: #ff6b62; --chart: #dfe6ec;
+    --inside: #2f7d52; --tension: #2b4f7d; --length: #96621a; --singular: #ff6b62; --chart: #dfe6ec;
     --path: #ffffff; --casing: #101418; --start: #101418; --goal: #ffffff;
     --base: #77818b; --platform: #2b5378;
     --calm: #aeb8c2; --near: #e0a030; --near-ink: #f0b94d; --close: #ff8f5c; --out: #ff8a80;
@@ -98,9 +98,8 @@ svg .band { fill: var(--band); stroke: var(--band); stroke-width: 0.6; }
 .curve.c1 { stroke: var(--c1); stroke-dasharray: 6 3; }
 .curve.c2 { stroke: var(--c2); stroke-dasharray: 2 2.5; }
 .mark { stroke: var(--mark); stroke-width: 1.5; stroke-dasharray: 3 3; }
-.raster { shape-rendering: crispEdges; }
 svg .inside { fill: var(--inside); } svg .tension { fill: var(--tension); }
-svg .length { fill: var(--length); } svg .both { fill: var(--both); }
+svg .length { fill: var(--length); }
 .singular { stroke: var(--singular); stroke-width: 1.7; }
 .chart { stroke: var(--chart); stroke-width: 0.5; opacity: 0.55; }
 .casing { stroke: var(--casing); stroke-width: 5; stroke-linejoin: round; opacity: 0.85; }
