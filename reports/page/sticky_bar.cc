@@ -5,16 +5,14 @@
 #include <array>
 #include <string_view>
 
+#include "reports/summary/sentences.h"
+
 namespace taut {
 
 namespace {
 
-/// The verdict as the first page has it, in a word or two.
-const char* verdict_words(const ReportContext& scene) {
-  if (scene.verdict == "proved") return "✓ PROVED";
-  if (scene.verdict == "refuted") return "✕ DO NOT RUN";
-  if (scene.verdict == "unchecked") return "? UNCHECKED";
-  return found_no_path(scene.certificate) ? "? NO PATH FOUND" : "? NO DECISION";
+const char* sign(const ReportContext& scene) {
+  return scene.verdict == "proved" ? "✓" : scene.verdict == "refuted" ? "✕" : "?";
 }
 
 }  // namespace
@@ -30,10 +28,10 @@ Html sticky_bar(const ReportContext& scene, const std::vector<ContentsLink>& con
     if (std::ranges::find(kQuick, std::string_view(entry.id)) != kQuick.end()) quick += link;
   }
   return html(
-      "<header class=\"bar\"><a class=\"state {}\" href=\"#top\">{}</a>\n<div data-plot=\"bar\"></div>\n"
+      "<header class=\"bar\"><a class=\"state {}\" href=\"#top\">{} {}</a>\n<div data-plot=\"bar\"></div>\n"
       "<nav aria-label=\"Contents\"><span class=\"quick\">{}</span><details><summary>☰ <span class=\"word\">Contents"
       "</span></summary><div>{}</div></details></nav></header>\n",
-      scene.verdict, verdict_words(scene), quick, all);
+      scene.verdict, sign(scene), verdict_word(scene), quick, all);
 }
 
 }  // namespace taut
