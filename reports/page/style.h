@@ -155,6 +155,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
     --c1: #c2570c; --c2: #5b4a9e;
     --inside: #84c99a; --tension: #92b8e6; --length: #f5b14c; --singular: #c4161c; --chart: #26323b;
     --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418; --base: #8b949e; --platform: #cfe0f1;
+    --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
   }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   body { max-width: none; padding: 0; font-size: 10pt; line-height: 1.45; }
