@@ -22,8 +22,8 @@ inline constexpr const char* kStickyBarStyle = R"css(
 html { scroll-padding-top: 64px; }
 .bar {
   position: sticky; top: 0; z-index: 20; display: flex; align-items: center; gap: 8px 16px;
-  min-height: 48px; margin: -24px 0 16px; padding: 6px 0; background: var(--paper); font-size: 14px;
-  box-shadow: 0 0 0 100vmax var(--paper), 0 1px 0 100vmax var(--line); clip-path: inset(0 -100vmax -1px);
+  min-height: 48px; margin: -24px 0 16px; padding: 6px 0; font-size: 14px;
+  border-image: linear-gradient(var(--paper) calc(100% - 1px), var(--line) 0) fill 0 / 0 / 0 100vw;
 }
 .bar .state {
   flex: none; padding: 5px 12px; border-radius: 6px; font-weight: 700; letter-spacing: 0.02em; white-space: nowrap;

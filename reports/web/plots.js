@@ -167,7 +167,9 @@ function wholeRange(data, { index, name, uses, unit, factor }) {
     return "no bound: det J = 0 on the way (sampled)";
   }
   const range = uses.ranges[index].map((x) => x * factor);
-  return isProved ? `proved ${span(range, unit)}` : `sampled ${text(range[0], 3)} to ${text(range[1], 3)} ${unit}`;
+  if (isProved) return `proved ${span(range, unit)}`;
+  const [least, greatest] = range.map((x) => text(x, 3));
+  return least === greatest ? `sampled ${least} ${unit}` : `sampled ${least} to ${greatest} ${unit}`;
 }
 
 /// `cable`: low, middle, high: samples; limits and band in the shown unit; domain: of all six.
