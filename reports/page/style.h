@@ -141,7 +141,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   h2, figure, tr, blockquote, .formulas p, .band, .signatures, pre, li { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll { overflow: visible; margin: 5pt 0; background: none; }
-  .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }
+  .scroll:not(:has(tbody tr:nth-child(9))) { break-inside: avoid; }
   .overflows::before { content: none; }
   .panels { grid-template-columns: repeat(3, 1fr); gap: 3mm 5mm; margin: 4pt 0; }
   .panels.two { grid-template-columns: repeat(2, 1fr); }
@@ -160,13 +160,13 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   td:first-child { overflow-wrap: normal; }
   th { white-space: normal; }
   #path > details, #margins > details { columns: 2; column-gap: 8mm; }
-  #path > details:not(:has(tr:nth-child(70))), #margins > details:not(:has(tr:nth-child(70))) { break-inside: avoid; }
+  #path > details:not(:has(tr:nth-child(25))), #margins > details:not(:has(tr:nth-child(25))) { break-inside: avoid; }
   /* The exact numbers, in two columns. */
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
   .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
   .appendix > section:first-child > h2 { margin-top: 0; }
   .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
-  #exact-load td.n { white-space: nowrap; }
+  #exact-load td.n, #margins td.n { white-space: nowrap; }
   .appendix .wide { column-span: all; }
 }
 /* Appendix A, B, …: those that there are. */

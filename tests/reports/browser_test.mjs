@@ -554,11 +554,10 @@ for (const name of KINDS) {
       await frames(page);
       const width = await page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(width <= viewport.width, `${width} px wide on a screen of ${viewport.width}`);
-      for (const colorScheme of ["light", "dark"]) {
-        await page.emulateMedia({ colorScheme });
-        assert.deepEqual(await axe(page), [], `${colorScheme}, ${viewport.width} px`);
-      }
+      assert.deepEqual(await axe(page), [], `${viewport.width} px`);
     }
+    await page.emulateMedia({ colorScheme: "dark" });
+    assert.deepEqual(await axe(page, { runOnly: ["color-contrast"] }), [], "dark");
     await picture(page, `phone-dark-${name.replaceAll("/", "-")}`);
     await close(page);
   });
@@ -589,22 +588,26 @@ test("wide tables scroll in their own box, which says so and answers to keys; ot
   await close(page);
 });
 
-/// The fonts that the words inside the selected element are drawn in, by name.
+/// The fonts of the words that stand in the selected elements themselves.
 async function fonts(page, selector) {
   page.debugger ??= await page.context().newCDPSession(page);
   const { root } = await page.debugger.send("DOM.getDocument");
   await page.debugger.send("CSS.enable");
-  const { nodeId } = await page.debugger.send("DOM.querySelector", { nodeId: root.nodeId, selector });
-  return (await page.debugger.send("CSS.getPlatformFontsForNode", { nodeId })).fonts;
+  const { nodeIds } = await page.debugger.send("DOM.querySelectorAll", { nodeId: root.nodeId, selector });
+  const found = await Promise.all(
+    nodeIds.map((nodeId) => page.debugger.send("CSS.getPlatformFontsForNode", { nodeId })));
+  return found.flatMap((answer) => answer.fonts);
 }
 
 for (const javaScriptEnabled of [true, false]) {
   test(`the page brings its typeface, with script ${javaScriptEnabled ? "on" : "off"}`, async () => {
-    for (const name of ["robot1-slice-qs-qg", "robot2-implicit-rail", "tutorial/04-tolerances", "refuted.html"]) {
-      const page = await open(name, { javaScriptEnabled });
-      const used = await fonts(page, "main");
-      assert.ok(used.some((font) => font.isCustomFont && /^Inter/.test(font.familyName)), JSON.stringify(used));
-      for (const font of used.filter((font) => !font.isCustomFont)) assert.match(font.familyName, /Mono/);
+    for (const name of ["robot1-slice-qs-qg", "tutorial/04-tolerances", "refuted.html"]) {
+      const page = await open(name, { javaScriptEnabled, browser: withoutWebgl });
+      const used = await fonts(page, "h1 bdi, h2, p, li, dd, th, caption, .formulas *, .still text, .drawing text, " +
+        "tr:nth-child(2) td");
+      assert.ok(used.filter((font) => font.isCustomFont && /^Inter/.test(font.familyName)).length > 50);
+      const others = used.filter((font) => !font.isCustomFont).map((font) => font.familyName);
+      assert.deepEqual(others, [], "the reader's own fonts");
       await close(page);
     }
   });
@@ -691,7 +694,7 @@ for (const [name, expected] of Object.entries(PAPER)) {
       assert.match(lines.at(-1), new RegExp(`Page ${k + 1} of ${pages.length}$`));
       if (k > 0) assert.ok(lines[0].includes(`${expected.verdict} · ${number}`), lines[0]);
     });
-    for (const fill of fills(pdf).slice(1, -1)) assert.ok(fill > 0.6, `filled to ${fill}`);
+    for (const fill of fills(pdf).slice(1, -1)) assert.ok(fill > 0.5, `filled to ${fill}`);
     await close(page);
   });
 }

@@ -307,7 +307,7 @@ TEST(HtmlReport, ListsTheStretchesOfAnAudit) {
                                {"inner", nullptr},
                                {"reason", "nobody knows"}}};
   const std::string page = report(certificate);
-  EXPECT_THAT(page, HasSubstr("<td>0, 1/4</td>")) << "exact, in the appendix";
+  EXPECT_THAT(page, HasSubstr("<td>0, 1/4</td><td>1, 3/8</td><td>1, 3/8</td><td>0, 1</td>")) << "exact, segment and s";
   EXPECT_THAT(page,
               HasSubstr("In all, 1 stretch of the path has proved violations, and 1 stretch could not be decided"));
   EXPECT_THAT(page, HasSubstr("Outside of these stretches the path is proved"));
