@@ -181,6 +181,7 @@ class BatchWriter {
   void choose_witness() {
     auto found = gravest_.find();
     if (!found) return;
+    result_.witness_is_gravest = true;
     result_.witness_place = place(*found->batch, found->segment, found->witness.violation.at.s);
     result_.witness = std::move(found->witness);
   }

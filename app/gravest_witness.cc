@@ -12,13 +12,18 @@ namespace {
 
 constexpr std::size_t kMostProved = 4;  ///< of either kind that are tried
 
-/// A box around a point, small enough for its midpoint to be next to the point.
-DyadicBox box_around(const Dyadic& s) {
-  constexpr int kDepth = 24;
-  const boost::multiprecision::cpp_int cells = boost::multiprecision::cpp_int(1) << kDepth;
-  boost::multiprecision::cpp_int k = (s.k << kDepth) >> s.depth;
-  if (k >= cells) k = cells - 1;
-  return {std::move(k), kDepth};
+/// The largest of some boxes around the place of a violation whose midpoint is still next to that place; nothing where
+/// none is.
+std::optional<DyadicBox> box_around(const SuspectedViolation& violation) {
+  using boost::multiprecision::cpp_int;
+  const Dyadic& s = violation.at;
+  for (const int depth : {8, 12, 16, 24}) {
+    const cpp_int cells = cpp_int(1) << depth;
+    const cpp_int k = (s.k << depth) >> s.depth;
+    const DyadicBox box{k < cells ? k : cpp_int(cells - 1), depth};
+    if (box.mid() >= violation.from && box.mid() <= violation.to) return box;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -107,9 +112,9 @@ std::optional<GravestWitness::Found> GravestWitness::prove_limit(const Suspect& 
 std::optional<GravestWitness::Found> GravestWitness::prove_by_a_deviation(const Suspect& suspect) const {
   const Segment& segment = suspect.batch->segments[suspect.segment].segment;
   const SuspectedViolation worst = narrowed(prover_.sampler(), segment, suspect.violation);
-  const DyadicBox box = box_around(worst.at);
-  if (box.mid() < worst.from || box.mid() > worst.to) return std::nullopt;
-  const auto found = DeviationSearch(prover_, segment).refute(box, worst.margin);
+  const auto box = box_around(worst);
+  if (!box) return std::nullopt;
+  const auto found = DeviationSearch(prover_, segment).refute(*box, worst.margin);
   if (!found) return std::nullopt;
   const auto index = static_cast<int>(suspect.batch->first_segment + suspect.segment);
   return elaborated(suspect, path_witness(prover_, segment, index, *found));

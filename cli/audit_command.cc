@@ -103,7 +103,7 @@ void print_stretches(const Audit& audit, const Case& the_case, const PathSource&
                            ? "This holds for every deviation within the case's tolerances."
                            : "The case states no tolerances: this is about a machine that is exactly as it says.");
   }
-  if (audit.witness) fmt::print("{}", gravest_text(audit, the_case, source.place_name()));
+  if (audit.witness_is_gravest) fmt::print("{}", gravest_text(audit, the_case, source.place_name()));
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
   for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], the_case, source.place_name()));
