@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "app/audit_batch.h"
+#include "app/gravest_witness.h"
 #include "base/input_error.h"
 #include "planner/time_budget.h"
 #include "reports/summary/display_units.h"
@@ -25,9 +26,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 /// Takes batches in order, gives the writer what it needs, and keeps what a summary needs.
 class BatchWriter {
  public:
-  BatchWriter(const PathSource& source, const Elaborator& elaborator, CertificateWriter& certificate,
-              const WriteText& csv)
+  BatchWriter(const PathSource& source, const Prover& prover, const Elaborator& elaborator,
+              CertificateWriter& certificate, const WriteText& csv)
       : elaborator_(elaborator),
+        gravest_(prover, elaborator),
         problem_(source.problem()),
         law_(source.law()),
         tightens_(source.segments() <= kMostReported),
@@ -57,7 +59,7 @@ class BatchWriter {
       result_.boxes += result.boxes.size();
       result_.boxes_judged += result.boxes_judged;
       least_.add(result.boxes);
-      for (const SegmentStretch& stretch : result.stretches) add(batch, i, stretch);
+      for (const SegmentStretch& stretch : result.stretches) add(shared_batch, i, stretch);
     }
     result_.segments += batch.segments.size();
     if (tightens_) kept_.push_back(shared_batch);
@@ -69,6 +71,7 @@ class BatchWriter {
     if (tightens_) write_kept();
     if (result_.stretches_violated > 0) {
       result_.verdict = Verdict::kRefuted;
+      choose_witness();
     } else if (result_.stretches_open == 0) {
       result_.verdict = Verdict::kProved;
       result_.margins = least_.margins();
@@ -119,7 +122,8 @@ class BatchWriter {
   }
 
   /// Adds a stretch of segment i of a batch, or continues the last one with it where they meet.
-  void add(const Batch& batch, std::size_t i, const SegmentStretch& part) {
+  void add(const std::shared_ptr<const Batch>& shared_batch, std::size_t i, const SegmentStretch& part) {
+    const Batch& batch = *shared_batch;
     const Stretch& found = part.stretch;
     const FilePlace begin = place(batch, i, found.begin.s);
     const FilePlace end = place(batch, i, found.end.s);
@@ -127,6 +131,7 @@ class BatchWriter {
       close_stretch();
       open_ = AuditedStretch{{found.begin, found.end, std::nullopt, found.reason}, begin, end, {}, {}};
     }
+    if (!elaborator_.is_implied()) gravest_.add(shared_batch, i, part);
     Stretch& stretch = open_->stretch;
     stretch.end = found.end;
     open_->end = end;
@@ -145,6 +150,8 @@ class BatchWriter {
         std::vector<checker::MotionBox>& motion = stretch.violations->first.motion;
         motion.insert(motion.end(), way_.begin(), way_.end());
         has_witness_ = true;
+        result_.witness = stretch.violations->first;
+        result_.witness_place = open_->first;
       }
     }
     stretch.violations->second = last;
@@ -169,11 +176,22 @@ class BatchWriter {
     if (is_followed_) way_.insert(way_.end(), part.motion->begin(), part.motion->end());
   }
 
+  /// Takes the gravest violation in place of the first; not where the motion is implied, as it is followed to the first
+  /// only.
+  void choose_witness() {
+    auto found = gravest_.find();
+    if (!found) return;
+    result_.witness_is_gravest = true;
+    result_.witness_place = place(*found->batch, found->segment, found->witness.violation.at.s);
+    result_.witness = std::move(found->witness);
+  }
+
   void close_stretch() {
     if (!open_) return;
     certificate_.add_stretch(open_->stretch);
     const bool is_violated = open_->stretch.violations.has_value();
     ++(is_violated ? result_.stretches_violated : result_.stretches_open);
+    gravest_.end_stretch(is_violated);
     // A refuted audit shows a violation, whatever is open before it.
     const bool is_first_violation = is_violated && result_.stretches_violated == 1;
     if (result_.stretches.size() < Audit::kMaxListed) {
@@ -185,6 +203,7 @@ class BatchWriter {
   }
 
   const Elaborator& elaborator_;
+  GravestWitness gravest_;
   const Problem& problem_;
   Interpolation law_;
   bool has_witness_ = false;             ///< whether there was a violation that may refute
@@ -212,7 +231,7 @@ Audit run_pipeline(const Prover& prover, PathSource& source, CertificateWriter& 
   BatchReader reader(source, batch_segments);
   const Elaborator elaborator(source.problem(), source.law());
   const BatchProver batch_prover(prover, elaborator, source);
-  BatchWriter writer(source, elaborator, certificate, csv);
+  BatchWriter writer(source, prover, elaborator, certificate, csv);
   csv(batch_prover.csv_header());
   std::size_t done = 0;
   using BatchPointer = std::shared_ptr<Batch>;
@@ -247,14 +266,6 @@ OpenPart open_part(const Audit& audit) {
   const Stretch& open = audit.stretches.front().stretch;
   const Dyadic end = open.end.index == open.begin.index ? open.end.s : Dyadic{1, 0};
   return {open.reason, open.begin.index, std::pair(open.begin.s, end)};
-}
-
-/// The first violation.
-std::optional<Witness> first_witness(const Audit& audit) {
-  for (const AuditedStretch& listed : audit.stretches) {
-    if (listed.stretch.violations) return listed.stretch.violations->first;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -293,7 +304,7 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.illustration = {
       {"kind", "audit"}, {"units", to_json(options.units)}, {"document_fields", to_json(options.document_fields)}};
   if (source.counts_lines()) ending.illustration["lines"] = audit.lines.to_json();
-  if (audit.verdict == Verdict::kRefuted) ending.witness = first_witness(audit);
+  if (audit.verdict == Verdict::kRefuted) ending.witness = audit.witness;
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);
   if (options.headroom_seconds > 0 && audit.segments <= kMostReported) {
     const TimeBudget budget(options.headroom_seconds, stop);

@@ -79,6 +79,9 @@ struct Audit {
   std::size_t stretches_violated = 0;     ///< with a proved violation
   std::size_t stretches_open = 0;         ///< without
   std::vector<AuditedStretch> stretches;  ///< the first of them
+  std::optional<Witness> witness{};       ///< of the certificate, if the path is refuted
+  FilePlace witness_place{};              ///< of its `at`
+  bool witness_is_gravest = false;        ///< of all that were found; else the first, as the motion is implied
   std::optional<Headroom> headroom{};     ///< where it was sought
   FileLines lines{};                      ///< on which its waypoints stand; none where the path is a certificate's
   double seconds = 0;

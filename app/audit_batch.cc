@@ -3,11 +3,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "certificate/certificate_writer.h"
 
 namespace taut {
+namespace {
+
+/// How many places of a stretch are sampled on a segment, so that all of them take next to no time.
+int samples_for(std::size_t segments) {
+  constexpr std::size_t kInAll = 16'384;
+  constexpr std::size_t kFewest = 2;
+  constexpr std::size_t kMost = 256;
+  return static_cast<int>(std::clamp(kInAll / std::max<std::size_t>(segments, 1), kFewest, kMost));
+}
+
+}  // namespace
 
 Segment Batch::segment(Interpolation law, std::size_t i) const {
   Segment result{law, {}, 0};
@@ -72,7 +84,8 @@ BatchProver::BatchProver(const Prover& prover, const Elaborator& elaborator, con
       prover_(prover),
       problem_(source.problem()),
       law_(source.law()),
-      csv_(source.problem(), source.law(), source.has_times()) {}
+      csv_(source.problem(), source.law(), source.has_times()),
+      samples_(samples_for(source.segments())) {}
 
 void BatchProver::prove(Batch& batch, const std::stop_token& stop) const {
   const std::size_t first_waypoint = batch.first_segment;
@@ -121,6 +134,7 @@ SegmentStretch BatchProver::stretch(const Segment& segment, std::size_t number, 
       result.stretch.reason = Reason(Undecided::kKernel).text();
     }
   }
+  if (!elaborator_.is_implied()) result.sampled = sampled(segment, gap);
   if (elaborator_.is_implied()) {
     const auto& violations = result.stretch.violations;
     const Dyadic end = violations ? violations->first.violation.at.s : gap.end;
@@ -128,6 +142,15 @@ SegmentStretch BatchProver::stretch(const Segment& segment, std::size_t number, 
       result.motion.emplace();
       for (checker::Box& box : *boxes) result.motion->push_back({number, std::move(box)});
     }
+  }
+  return result;
+}
+
+SampledViolations BatchProver::sampled(const Segment& segment, const Gap& gap) const {
+  SampledViolations result = sample_violations(prover_.sampler(), segment, gap.begin, gap.end, samples_);
+  if (gap.singular) {
+    const DyadicBox& box = gap.singular->box;
+    result.singular = SuspectedViolation{true, {}, box.lower(), box.lower(), box.upper(), 0};
   }
   return result;
 }

@@ -12,6 +12,7 @@
 #include "app/path_source.h"
 #include "certificate/elaborate.h"
 #include "certify/gaps.h"
+#include "certify/gravest.h"
 #include "kinematics/pose_sampler.h"
 #include "path_io/path_csv.h"
 
@@ -23,6 +24,8 @@ struct SegmentStretch {
   /// If the motion is implied: boxes that show it from the beginning of the stretch to its first violation, or all
   /// along an open stretch; nothing where the kernel does not.
   std::optional<std::vector<checker::MotionBox>> motion;
+  /// If the motion is not implied: the gravest violations that seem to be inside.
+  SampledViolations sampled;
 };
 
 /// What is known of one segment, and what the certificate says of it.
@@ -83,12 +86,14 @@ class BatchProver {
  private:
   [[nodiscard]] SegmentResult prove(const Batch& batch, std::size_t i, const std::stop_token& stop) const;
   [[nodiscard]] SegmentStretch stretch(const Segment& segment, std::size_t number, const Gap& gap) const;
+  [[nodiscard]] SampledViolations sampled(const Segment& segment, const Gap& gap) const;
 
   const Elaborator& elaborator_;
   const Prover& prover_;
   const Problem& problem_;
   Interpolation law_;
   PathCsv csv_;
+  int samples_;  ///< in a stretch of a segment
 };
 
 }  // namespace taut

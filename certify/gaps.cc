@@ -23,7 +23,7 @@ std::vector<Gap> gaps(const SegmentSurvey& survey) {
       in_gap = false;
       continue;
     }
-    if (!in_gap) result.push_back({part.box.lower(), part.box.upper(), {}, {}, part.reason});
+    if (!in_gap) result.push_back({part.box.lower(), part.box.upper(), {}, {}, {}, part.reason});
     in_gap = true;
     Gap& gap = result.back();
     gap.end = part.box.upper();
@@ -31,6 +31,7 @@ std::vector<Gap> gaps(const SegmentSurvey& survey) {
     const bool throughout = part.kind == Kind::kViolated;
     if (!gap.first) gap.first = throughout ? at_end(*part.witness, false) : *part.witness;
     gap.last = throughout ? at_end(*part.witness, true) : *part.witness;
+    if (part.witness->singular && !gap.singular) gap.singular = part.witness;
     gap.reason = {};
   }
   return result;

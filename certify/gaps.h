@@ -16,7 +16,8 @@ struct Gap {
   /// Inner ends: the first and the last place in the gap where a violation is proved. They may be the same place; an
   /// open gap has none.
   std::optional<SegmentWitness> first, last;
-  Reason reason;  ///< only of an open gap: of its first box
+  std::optional<SegmentWitness> singular;  ///< the first one in the gap that is about a singular pose
+  Reason reason;                           ///< only of an open gap: of its first box
 };
 
 /// The gaps of a survey, in order along the segment.

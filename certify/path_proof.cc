@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/input_error.h"
+#include "certify/gravest.h"
 #include "certify/undecided.h"
 #include "problem/decimal.h"
 
@@ -52,6 +53,28 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
   return witness;
 }
 
+/// Whether `margin` is proved not to be positive where a segment stays.
+bool is_violated(const Prover& prover, const Segment& still, MarginId margin) {
+  const PrecisionLadder& ladder = prover.ladder();
+  for (std::size_t rung = 1; rung <= ladder.last(); ++rung) {
+    const PrecisionScope precision(ladder.bits(rung));
+    Faults<MpInterval>::clear();
+    const BoxEnclosure<MpInterval> enclosure = enclose_box(ladder.multiprecision(rung), still, DyadicBox());
+    const auto is_it = [&](const auto& of) { return of.id == margin && certainly_nonpositive(of.value.at_mid); };
+    if (std::ranges::any_of(enclosure.margins, is_it) && !Faults<MpInterval>::raised()) return true;
+  }
+  return false;
+}
+
+/// The limit that a refuted pose breaks by the largest share of the width between limits, as floating point sees it;
+/// `found`, which is proved, where that one is not.
+MarginId gravest_margin(const Prover& prover, const Segment& still, MarginId found) {
+  const DyadicBox whole;
+  const auto worst = worst_margin(prover.sampler(), still, whole.mid());
+  const bool is_other = worst && worst->severity > 0 && worst->margin != found;
+  return is_other && is_violated(prover, still, worst->margin) ? worst->margin : found;
+}
+
 /// Of waypoint `index`: refute_waypoint() on a segment that stays there.
 std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& still, int index, Reason& undecided,
                                        const std::stop_token& stop) {
@@ -64,7 +87,8 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   }
   const BoxVerdict verdict = prover.judge(still, whole);
   if (verdict.kind == BoxVerdict::Kind::kRefuted) {
-    return make_witness(prover, still, {false, verdict.worst, whole}, PathPoint{false, index, {}});
+    return make_witness(prover, still, {false, gravest_margin(prover, still, verdict.worst), whole},
+                        PathPoint{false, index, {}});
   }
   if (proof.witness && proof.witness->deviation) {
     return make_witness(prover, still, *proof.witness, PathPoint{false, index, {}});

@@ -67,8 +67,8 @@ void tighten_margins(const Prover& prover, const std::function<Segment(std::size
 [[nodiscard]] PathWitness path_witness(const Prover& prover, const Segment& segment, int index,
                                        const SegmentWitness& witness);
 
-/// Tries to prove or refute one pose. Returns the witness if it is refuted, else nothing; `undecided` is set to a
-/// reason if it could not be proved either.
+/// Tries to prove or refute one pose. Returns the witness if it is refuted, about the limit that is broken most, else
+/// nothing; `undecided` is set to a reason if it could not be proved either.
 [[nodiscard]] std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint& waypoint, int index,
                                                          Reason& undecided, const std::stop_token& stop = {});
 

@@ -131,13 +131,6 @@ class Confirmation {
 
   // ---- Witnesses ----------------------------------------------------------------------------------------------------
 
-  /// The first and the last place that a witness is about, along the path.
-  static std::pair<mpq_class, mpq_class> places(const Witness& witness) {
-    const mpq_class at = abscissa(witness.at);
-    const mpq_class to = witness.kind == WitnessKind::kSingular ? abscissa(witness.to) : at;
-    return std::minmax(at, to);
-  }
-
   void confirm_witness(const Witness& witness, const std::string& name) {
     if (witness.kind == WitnessKind::kSingular) {
       confirm_sign_change(witness, name);

@@ -64,6 +64,13 @@ std::string text(const AuditedStretch& audited, const Case& the_case, const char
                              violation_text(last, robot, units));
 }
 
+/// The violation that the certificate's witness is about.
+std::string gravest_text(const Audit& audit, const Case& the_case, const char* place_name) {
+  const PathWitness& witness = audit.witness->violation;
+  return fmt::format("Gravest: {}: {}.", text(witness.at, audit.witness_place, place_name),
+                     violation_text(witness, the_case.problem.robot, DisplayUnits(the_case.units)));
+}
+
 /// What follows the verdict.
 std::string sentence(const Audit& audit) {
   switch (audit.verdict) {
@@ -104,6 +111,7 @@ void print_stretches(const Audit& audit, const Case& the_case, const PathSource&
                       ? "This holds for every deviation within the case's tolerances."
                       : "The case states no tolerances: this is about a machine that is exactly as it says.");
   }
+  if (audit.witness_is_gravest) print_wrapped(gravest_text(audit, the_case, source.place_name()));
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
   for (std::size_t i = 0; i < shown; ++i) print_wrapped(text(audit.stretches[i], the_case, source.place_name()));

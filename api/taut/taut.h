@@ -209,7 +209,7 @@ class TAUT_EXPORT Theorem {
   [[nodiscard]] Verdict verdict() const;                 ///< kProved or kRefuted
   [[nodiscard]] const std::string& claim() const;        ///< in words
   [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
-  [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted
+  [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted; the gravest that was found
   /// SHA-256 of the text of the certificate that was proved, 64 lower-case hex digits.
   [[nodiscard]] const std::string& certificate_sha256() const;
 

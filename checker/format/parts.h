@@ -44,5 +44,9 @@ void read(const Cursor& json, Margins& margins);
 
 /// The place along the whole path, on which each segment has length 1.
 [[nodiscard]] inline mpq_class abscissa(const PathPoint& point) { return point.s + mpq_class(point.segment); }
+/// The first and the last place that a witness is about; the same but where it is singular.
+[[nodiscard]] std::pair<mpq_class, mpq_class> places(const Witness& witness);
+/// Whether a witness is about nothing outside of a stretch's outer ends.
+[[nodiscard]] bool is_inside(const Witness& witness, const Stretch& stretch);
 
 }  // namespace taut::checker

@@ -294,6 +294,17 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
   return witness;
 }
 
+std::pair<mpq_class, mpq_class> places(const Witness& witness) {
+  const mpq_class at = abscissa(witness.at);
+  const mpq_class to = witness.kind == WitnessKind::kSingular ? abscissa(witness.to) : at;
+  return std::minmax(at, to);
+}
+
+bool is_inside(const Witness& witness, const Stretch& stretch) {
+  const auto [first, last] = places(witness);
+  return first >= abscissa(stretch.begin) && last <= abscissa(stretch.end);
+}
+
 Stretch read_stretch(const Cursor& json, const Problem& problem, const Path& path) {
   Stretch stretch;
   const auto read_outer = [&](const Cursor& outer) {
@@ -306,11 +317,8 @@ Stretch read_stretch(const Cursor& json, const Problem& problem, const Path& pat
     if (inner.is_null()) return;
     inner.require_size(2);
     inner.elements([&](const Cursor& here, std::size_t) {
-      const Witness& witness = stretch.inner.emplace_back(read_witness(here, problem, path));
-      for (const PathPoint& point : {witness.at, witness.kind == WitnessKind::kSingular ? witness.to : witness.at}) {
-        here.require(abscissa(point) >= abscissa(stretch.begin) && abscissa(point) <= abscissa(stretch.end),
-                     "a place between the outer ends");
-      }
+      stretch.inner.push_back(read_witness(here, problem, path));
+      here.require(is_inside(stretch.inner.back(), stretch), "a place between the outer ends");
     });
     inner.require(abscissa(stretch.inner[0].at) <= abscissa(stretch.inner[1].at), "two witnesses in order");
   };

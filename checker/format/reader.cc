@@ -205,16 +205,15 @@ class Reader {
     (void)json.size();
     const bool is_audit = result_.problem.query.empty();
     json.require(is_audit && result_.verdict != Verdict::kProved, is_audit ? "null" : "null where nothing was audited");
-    bool is_violated = false;
     for_each("stretches", "stretches", [&](const Cursor& here, std::string_view text) {
-      const Stretch stretch = read_stretch(here, result_.problem, result_.path);
+      Stretch stretch = read_stretch(here, result_.problem, result_.path);
       const mpq_class begin = abscissa(stretch.begin);
       here.require(outer_.empty() || begin >= outer_.end(), "a stretch after the last one");
       outer_.append(begin, abscissa(stretch.end));
-      is_violated |= !stretch.inner.empty();
+      if (!stretch.inner.empty()) violated_.push_back({stretch.begin, stretch.end, {}});
       result_.stretch_texts.push_back(text);
     });
-    json.require(result_.verdict == Verdict::kRefuted || !is_violated, "open ones only, where nothing is refuted");
+    json.require(result_.verdict == Verdict::kRefuted || violated_.empty(), "open ones only, where nothing is refuted");
   }
 
   void read_segments(const Cursor& json) {
@@ -272,16 +271,9 @@ class Reader {
     if (result_.verdict != Verdict::kRefuted) return json.require(json.is_null(), "null");
     result_.witness = read_witness(json, result_.problem, result_.path);
     if (top_["stretches"].is_null()) return;
-    const auto without_motion = [](Json witness) {
-      witness["motion"] = nullptr;
-      return witness;
-    };
-    const Json witness = without_motion(json.json());
-    bool is_found = false;
-    for_each("stretches", "stretches", [&](const Cursor& stretch, std::string_view /*text*/) {
-      for (const Json& inner : stretch.json()["inner"]) is_found |= without_motion(inner) == witness;
-    });
-    json.require(is_found, "one of the stretches', but for its motion");
+    // It may be graver than those of the stretches, which are where violations begin and end.
+    const auto contains_it = [&](const Stretch& stretch) { return is_inside(*result_.witness, stretch); };
+    json.require(std::ranges::any_of(violated_, contains_it), "a place between the outer ends of a violated stretch");
   }
 
   void read_undecided(const Cursor& json) {
@@ -312,6 +304,7 @@ class Reader {
   Cursor top_;
   Certificate result_;
   Parts outer_;                                    ///< of the stretches
+  std::vector<Stretch> violated_;                  ///< outer ends of those that have witnesses
   std::array<std::optional<mpq_class>, 3> least_;  ///< margins of segments
   std::array<bool, 3> is_of_segment_{};  ///< whether a segment writes the top-level margin as the top level does
 };

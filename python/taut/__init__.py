@@ -191,7 +191,7 @@ class Theorem:
     verdict: str                 #: "proved" or "refuted"
     claim: str                   #: in words
     margins: Optional[Margins]   #: only if proved
-    witness: Optional[Witness]   #: only if refuted
+    witness: Optional[Witness]   #: only if refuted; the gravest that was found
     certificate_sha256: str      #: of the text of the certificate that was proved
 
 

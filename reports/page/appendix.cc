@@ -159,9 +159,9 @@ Html exact_stretches(const ReportContext& scene) {
                     witness([](const auto& pair) -> const auto& { return pair.first; }),
                     witness([](const auto& pair) -> const auto& { return pair.second; }), text(stretch.end)});
   }
-  const Html all =
-      table(html("Stretches that are not proved, exact: segment, s"),
-            {{html(""), true}, {html("From")}, {html("First witness")}, {html("Last witness")}, {html("To")}}, rows);
+  const Html all = table(
+      html("Stretches that are not proved, exact: segment, s"),
+      {{html("Stretch"), true}, {html("From")}, {html("First witness")}, {html("Last witness")}, {html("To")}}, rows);
   return section("exact-stretches", "Ends of the stretches, exact",
                  folded(rows.size() > kLongTable, html("{}", plural(stretches.size(), "stretch")), all));
 }
@@ -187,9 +187,8 @@ Html recheck(const ReportContext& scene) {
       html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
            "certificate, the case file and the path file. It should exit with {}.</p>\n<pre>taut-check "
            "certificate.json CASE.yaml --path path.csv</pre>\n"
-           "<p>The printed digests can be computed without taut:</p>\n"
-           "<pre>{}</pre>\n"
-           "<p>It prints problem_sha256, path_sha256 and footer.sha256.</p>\n",
+           "<p>This computes problem_sha256, path_sha256 and footer.sha256 without taut:</p>\n"
+           "<pre>{}</pre>\n",
            scene.verdict == "undecided" ? "2, undecided" : "0, accepted, if the claim is true", kDigestCommand));
 }
 

@@ -6,6 +6,7 @@
 
 #include "certify/severity.h"
 #include "reports/page/cable_plot.h"
+#include "reports/page/machine_picture.h"
 #include "reports/summary/broken_limits.h"
 #include "reports/summary/wording.h"
 
@@ -260,6 +261,47 @@ Html details(const Summary& s) {
   return result.empty() ? result : html("<div class=\"details\">{}</div>\n", result);
 }
 
+// ---- The machine.
+
+/// Where the machine is drawn, and why there.
+struct Place {
+  double position = 0;
+  std::string why;
+};
+
+Place place_of_picture(const ReportContext& scene, const Summary& s) {
+  if (scene.verdict == "refuted") {
+    const std::vector<BrokenLimit> all = broken_limits(scene);
+    if (!all.empty()) return {all.front().position, "Where it breaks its limits"};
+  }
+  if (const auto& open = scene.certificate.undecided; open && open->segment) {
+    return {*open->segment + (open->box ? open->box->first.approx() : 0.0), "Where it is open"};
+  }
+  if (const auto worst = worst_place(s.key_numbers)) return {*worst, "Worst place"};
+  return {0, "The machine"};
+}
+
+/// As near to its limits as a cable is at this pose, and where its own worst place is this one, as the table says.
+std::array<Nearness, kCables> nearness_there(const ReportContext& scene, const Summary& s, double position) {
+  constexpr double kThere = 1e-6;  // of a segment
+  const PathSample sample = scene.sampler.at(scene.certificate.path, position);
+  std::array<Nearness, kCables> nearness = nearness_at(scene.sampler.model(), sample.statics);
+  for (const CableLine& line : s.cables) {
+    const Use& use = s.use.tension[line.cable];
+    Nearness& cable = nearness[line.cable];
+    if (std::abs(use.least_at - position) < kThere) cable = worse(cable, line.slack);
+    if (std::abs(use.greatest_at - position) < kThere) cable = worse(cable, line.top);
+  }
+  return nearness;
+}
+
+Html picture(const ReportContext& scene, const Summary& s) {
+  if (scene.certificate.path.waypoints.empty()) return {};
+  const auto [position, why] = place_of_picture(scene, s);
+  return machine_picture(scene, position, nearness_there(scene, s, position),
+                         fmt::format("{}: {}", why, place_text(scene, position)));
+}
+
 }  // namespace
 
 Html first_page(const ReportContext& scene, const Summary& s) {
@@ -267,10 +309,11 @@ Html first_page(const ReportContext& scene, const Summary& s) {
       "<h1><bdi>{}</bdi></h1>\n<p class=\"note unverified\">Title and names are text of the case, which nothing "
       "checks.</p>\n",
       s.title);
-  const Html beside = s.verdict == "proved" ? cables(scene, s) + cables_note(s) : broken(scene) + details(s);
-  return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\"><div>{}</div></div>\n{}{}</header>\n",
-              s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), beside, not_covered(s),
-              declaration(s));
+  const bool is_proved = s.verdict == "proved";
+  const Html beside = is_proved ? cables(scene, s) + cables_note(s) + not_covered(s) : broken(scene) + details(s);
+  return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\">{}<div>{}</div></div>\n{}{}</header>\n",
+              s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), picture(scene, s), beside,
+              is_proved ? Html() : not_covered(s), declaration(s));
 }
 
 Html verdict_section(const Summary& s) {

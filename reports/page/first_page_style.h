@@ -49,6 +49,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
 .tile.out .value { color: var(--out); }
 .details { margin: 12px 0; font-size: 14.5px; }
 .details p { max-width: none; margin: 5px 0; }
+.duo > div > :first-child { margin-top: 0; }
 .duo { display: grid; grid-template-columns: minmax(0, 1fr); gap: 18px; }
 .duo:has(> figure) { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr); }
 .cables { width: 100%; }
@@ -78,7 +79,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
 .cable-plot text { font-size: 12px; fill: var(--soft); }
 .cable-plot .end { text-anchor: end; }
 .cable-plot .forbidden { fill: var(--forbidden); }
-.cable-plot .band { fill: var(--curve); stroke: var(--curve); stroke-width: 1.6; stroke-linejoin: round; }
+.cable-plot .band { fill: var(--curve); fill-opacity: 0.4; stroke: var(--curve); stroke-width: 1.4; stroke-linejoin: round; }
 .cable-plot .limit { stroke: var(--limit); stroke-width: 1.3; fill: none; }
 .cable-plot .mark { stroke: var(--ink); stroke-width: 1.4; stroke-dasharray: 5 4; fill: none; }
 .cable-plot .frame { fill: none; stroke: var(--soft); stroke-width: 0.8; }
@@ -87,7 +88,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   background: color-mix(in srgb, var(--near) 9%, var(--paper));
 }
 .uncovered p { margin: 0 0 4px; max-width: none; }
-.uncovered ul { columns: 2; column-gap: 26px; margin: 0; padding-left: 18px; max-width: none; }
+.uncovered ul { columns: 2; column-gap: 22px; margin: 0; padding-left: 18px; max-width: none; }
 .uncovered li { margin: 2px 0; break-inside: avoid; }
 .declaration { max-width: none; font-size: 14px; line-height: 1.5; }
 .signatures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 12px; margin-top: 8px; }
@@ -97,7 +98,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
 }
 .signatures span { color: var(--soft); display: block; }
 .signatures small { position: absolute; left: 12px; bottom: 4px; font-size: 11px; color: var(--soft); }
-@media (max-width: 760px) {
+@media screen and (max-width: 760px) {
   .band { grid-template-columns: minmax(0, 1fr); padding: 14px 16px; }
   .band .word { font-size: 25px; white-space: normal; }
   .checks { border-left: none; border-top: 1px solid rgb(255 255 255 / 0.5); padding: 8px 0 0; }
@@ -112,7 +113,8 @@ inline constexpr const char* kFirstPageStyle = R"css(
 @media print {
   .first { break-after: page; font-size: 8.4pt; line-height: 1.34; }
   .first p { margin: 2.5pt 0; }
-  .masthead { font-size: 8pt; }
+  .masthead { font-size: 7.2pt; gap: 2pt 10pt; } .masthead dl { gap: 2pt 9pt; } .blank { min-width: 34pt; }
+  .first figcaption { font-size: 8.4pt; }
   .scope { font-size: 7.9pt; line-height: 1.3; margin: 3pt 0 6pt; }
   .scope > div { grid-template-columns: 50pt 1fr; gap: 6pt; padding: 0.8pt 0; }
   .unverified { font-size: 6.8pt; margin: -3pt 0 2pt !important; }

@@ -10,10 +10,12 @@
 #include "reports/page/assurance_drawing.h"
 #include "reports/page/first_page.h"
 #include "reports/page/first_page_style.h"
+#include "reports/page/machine_style.h"
 #include "reports/page/margins.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
+#include "reports/page/sticky_bar.h"
 #include "reports/page/style.h"
 #include "reports/page/typeface.h"
 #include "reports/summary/wording.h"
@@ -23,11 +25,11 @@ namespace taut {
 namespace {
 
 Html contents(const ReportContext& scene) {
-  Html links;
+  std::vector<ContentsLink> links;
   const auto link = [&](bool present, const char* id, const char* title) {
-    if (present) links += html("<a href=\"#{}\">{}</a> ", id, title);
+    if (present) links.push_back({id, title});
   };
-  const bool has_path = !scene.samples.empty();
+  const bool has_path = shows_path(scene);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
   link(has_path, "move", "The move");
   link(has_path, "tensions", "Tensions");
@@ -45,7 +47,7 @@ Html contents(const ReportContext& scene) {
   link(true, "recheck", "Check again");
   link(true, "assurance", "Assurance case");
   link(true, "lift-plan", "Lift plan");
-  return html("<nav aria-label=\"Contents\">{}</nav>\n", links);
+  return sticky_bar(scene, links);
 }
 
 /// Checks document numbers, revisions and dates, which are put into a style sheet and printed.
@@ -73,13 +75,6 @@ std::string css_string(const std::string& text) {
   return result + "\"";
 }
 
-/// The verdict as it stands at the head of each printed page.
-std::string_view verdict_word(std::string_view verdict) {
-  if (verdict == "proved") return "PROVED";
-  if (verdict == "refuted") return "REFUTED: DO NOT RUN";
-  return verdict == "undecided" ? "NO DECISION" : "UNCHECKED";
-}
-
 /// The style sheet's part for head and foot of the printed pages: case, verdict and document; date and page.
 std::string running_head(const Summary& summary) {
   const std::string revision = summary.revision.empty() ? "" : " · revision " + summary.revision;
@@ -87,9 +82,8 @@ std::string running_head(const Summary& summary) {
       "@media print {{ @page {{ @top-left {{ content: {}; }} @top-right {{ content: {}; }} @bottom-left {{ content: "
       "{}; "
       "}} @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }} }}\n",
-      css_string(excerpt(summary.name)),
-      css_string(fmt::format("{} · {}{}", verdict_word(summary.verdict), summary.document, revision)),
-      css_string(summary.date));
+      css_string(excerpt(summary.title)),
+      css_string(fmt::format("{} · {}{}", summary.word, summary.document, revision)), css_string(summary.date));
 }
 
 }  // namespace
@@ -107,7 +101,7 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Html proof = verdict_section(summary) + (is_claimed ? theorem(scene.certificate) + margins(scene) : Html());
   const Html exact = exact_load(scene) + space(problem) + exact_path(scene) + exact_stretches(scene) +
                      (is_claimed ? exact_margins(scene) : Html()) + inputs(scene.certificate) + recheck(scene);
-  const Html body = first_page(scene, summary) + contents(scene) + results + inputs_in_words + proof +
+  const Html body = first_page(scene, summary) + results + inputs_in_words + proof +
                     html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact) +
                     assurance_section(scene, summary) + lift_plan_section(scene, summary);
   const Html title = html("Motion report: {}", summary.verdict);
@@ -116,11 +110,11 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</"
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}{}{}</style>\n</head>\n<body>\n{}<main>\n{}</main>\n{}</"
       "body>\n</"
       "html>\n",
-      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kAssuranceStyle,
-      running_head(summary), body.str(), page_scripts(scene));
+      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kMachineStyle, kStickyBarStyle,
+      kAssuranceStyle, running_head(summary), contents(scene).str(), body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kColumns = 320;
+constexpr int kDetailColumns = 160;
 constexpr std::size_t kMaxPolygons = 6000;  ///< drawn; more would only blacken the picture and swell the page
 
 Span nothing() { return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}; }
@@ -81,41 +82,45 @@ Span window(const ReportContext& scene, std::size_t j) {
   return {path.lower - margin, path.upper + margin};
 }
 
-/// Computes the cells, and the pieces of det J = 0 by marching squares on the cells' centres.
-void sample_grid(const Sampler& sampler, Plane& plane) {
-  const Span x = plane.window[0];  // no structured binding: clang 14 can't capture those
-  const Span y = plane.window[1];
-  const auto at = [&](double column, double row) -> std::array<double, 2> {
-    return {x.lower + x.length() * (column + 0.5) / plane.columns, y.upper - y.length() * (row + 0.5) / plane.rows};
-  };
-  std::vector<double> determinant;
-  for (int row = 0; row < plane.rows; ++row) {
-    for (int column = 0; column < plane.columns; ++column) {
-      const auto [u, v] = at(column, row);
+/// The fields over a window with so many cells.
+PlaneGrid sampled(const Sampler& sampler, const std::array<Span, 2>& window, int columns, int rows) {
+  PlaneGrid grid{window, columns, rows, {}, {}, {}};
+  const auto& [x, y] = window;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double u = x.lower + x.length() * (column + 0.5) / columns;
+      const double v = y.upper - y.length() * (row + 0.5) / rows;
       const Statics<double> s = statics(sampler.model(), sampler.pose({u, v}));
-      plane.cells += static_cast<char>('0' + static_cast<int>(feasibility(sampler.model(), s)));
-      determinant.push_back(s.regular ? s.determinant : 0);
+      const Reserves left = reserves(sampler.model(), s);
+      grid.tension.push_back(std::max(-1.0, left.tension));  // next to a singular pose it grows without bound
+      grid.length.push_back(left.length);
+      grid.determinant.push_back(s.regular ? s.determinant : 0);
     }
   }
-  for (int row = 0; row + 1 < plane.rows; ++row) {
-    for (int column = 0; column + 1 < plane.columns; ++column) {
-      std::vector<std::array<double, 2>> ends;
-      const auto edge = [&](int column0, int row0, int column1, int row1) {
-        const double a = determinant[row0 * plane.columns + column0];
-        const double b = determinant[row1 * plane.columns + column1];
-        if (!(a * b < 0)) return;
-        const double t = a / (a - b);
-        ends.push_back(at(column0 + t * (column1 - column0), row0 + t * (row1 - row0)));
-      };
-      edge(column, row, column + 1, row);
-      edge(column + 1, row, column + 1, row + 1);
-      edge(column, row + 1, column + 1, row + 1);
-      edge(column, row, column, row + 1);
-      for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
-        plane.singular.push_back({ends[i][0], ends[i][1], ends[i + 1][0], ends[i + 1][1]});
-      }
-    }
+  return grid;
+}
+
+/// The part of the window around the path, in the window's proportions; nothing if the path can be seen without it, or
+/// has no extent.
+std::optional<std::array<Span, 2>> detail_window(const ReportContext& scene, const std::array<Span, 2>& window) {
+  constexpr double kSmall = 0.25;  ///< of the window
+  constexpr double kLeast = 0.01;
+  constexpr double kAround = 1.7;  ///< times the path
+  std::array<Span, 2> path = {nothing(), nothing()};
+  for (const PathSample& sample : scene.samples) {
+    for (std::size_t j = 0; j < 2; ++j) path[j].include(sample.parameters[j]);
   }
+  const double share = std::max(path[0].length() / window[0].length(), path[1].length() / window[1].length());
+  if (!(share > 0 && share < kSmall)) return std::nullopt;
+  const double shown = kAround * std::max(share, kLeast);
+  std::array<Span, 2> result;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double width = shown * window[j].length();
+    const double middle = (path[j].lower + path[j].upper) / 2;
+    const double lower = std::clamp(middle - width / 2, window[j].lower, window[j].upper - width);
+    result[j] = {lower, lower + width};
+  }
+  return result;
 }
 
 }  // namespace
@@ -128,18 +133,63 @@ void Span::include(double x) {
 
 bool is_plane(const SpaceText& space) { return space.parameters.size() == 2 && space.constraints.empty(); }
 
+std::string contour_text(const std::vector<double>& field, int columns) {
+  constexpr int kLetters = 26;
+  constexpr double kLettersPerDecade = 6.25;
+  const int rows = static_cast<int>(field.size()) / columns;
+  const auto index = [&](int row, int column) { return static_cast<std::size_t>(row * columns + column); };
+  const auto is_positive = [&](std::size_t k) { return field[k] > 0; };
+  const auto is_at_contour = [&](int row, int column) {
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r) {
+      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c) {
+        if (is_positive(index(r, c)) != is_positive(index(row, column))) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<bool> matters(field.size());
+  double scale = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const std::size_t k = index(row, column);
+      matters[k] = is_at_contour(row, column);
+      if (matters[k] && std::isfinite(field[k])) scale = std::max(scale, std::abs(field[k]));
+    }
+  }
+  const auto letter = [&](std::size_t k) {
+    int level = kLetters - 1;
+    const double share = std::abs(field[k]) / scale;
+    if (matters[k] && share < 1) {  // not for NaN and infinity
+      const double below = std::min(-std::log10(share) * kLettersPerDecade, kLetters - 1.0);
+      level -= static_cast<int>(std::round(below));
+    }
+    return static_cast<char>((is_positive(k) ? 'A' : 'a') + level);
+  };
+  std::string text;
+  for (std::size_t k = 0; k < field.size();) {
+    const char here = letter(k);
+    std::size_t end = k + 1;
+    while (end < field.size() && letter(end) == here) ++end;
+    if (end - k > 1) text += std::to_string(end - k);
+    text += here;
+    k = end;
+  }
+  return text;
+}
+
 std::optional<Plane> sample_plane(const ReportContext& scene) {
   if (!is_plane(scene.certificate.problem.space)) return std::nullopt;
   const SpaceText& space = scene.certificate.problem.space;
-  Plane plane;
-  plane.window = {window(scene, 0), window(scene, 1)};
-  const auto& [x, y] = plane.window;
+  const std::array<Span, 2> shown = {window(scene, 0), window(scene, 1)};
+  const auto& [x, y] = shown;
   const auto has_width = [](const Span& span) { return span.length() > 0 && std::isfinite(span.length()); };
   if (!has_width(x) || !has_width(y)) return std::nullopt;
   const double ratio = unit(space, 0) == unit(space, 1) ? std::clamp(y.length() / x.length(), 0.3, 1.0) : 0.6;
-  plane.columns = kColumns;
-  plane.rows = static_cast<int>(std::round(kColumns * ratio));
-  sample_grid(scene.sampler, plane);
+  Plane plane;
+  plane.grid = sampled(scene.sampler, shown, kColumns, static_cast<int>(std::round(kColumns * ratio)));
+  if (const auto part = found_no_path(scene.certificate) ? std::nullopt : detail_window(scene, shown)) {
+    plane.detail = sampled(scene.sampler, *part, kDetailColumns, static_cast<int>(std::round(kDetailColumns * ratio)));
+  }
   for (const Illustration::Chart& chart : scene.illustration.charts) {
     for (const Image& image : images(space)) {
       const auto [u, v] = image.of({chart.centre[0], chart.centre[1]});

@@ -25,16 +25,31 @@ struct Span {
   void include(double x);
 };
 
-struct Plane {
-  std::array<Span, 2> window;  ///< the values of each parameter that are shown, which include the whole path
+/// Three signed fields, sampled at the centres of the cells of a grid over a window: row by row from the greatest value
+/// of the second parameter down, and each row from the least value of the first one up. (Not at its edges, where a
+/// parametrisation may degenerate.)
+struct PlaneGrid {
+  std::array<Span, 2> window;
   int columns = 0;
   int rows = 0;
-  /// '0' + Feasibility at the centre of each cell, row by row from the greatest value of the second parameter down.
-  std::string cells;
-  /// Pieces of the line det J = 0, from (x, y) to (x, y): the determinant changes sign between neighbouring cells.
-  std::vector<std::array<double, 4>> singular;
+  std::vector<double> tension;      ///< Reserves::tension, at least −1: positive where all tensions keep their limits
+  std::vector<double> length;       ///< Reserves::length
+  std::vector<double> determinant;  ///< det J; its zeros are the singular poses
+};
+
+struct Plane {
+  PlaneGrid grid;                   ///< its window includes the whole path
+  std::optional<PlaneGrid> detail;  ///< around the path, where that is small compared with the window
   std::vector<std::vector<std::array<double, 2>>> charts;  ///< polygons that reach into the window
 };
+
+/// A field as text, for contours at zero: for each cell a letter, upper case where the field is positive, lower case
+/// elsewhere (NaN included), after the number of equal letters in a run of several. A is least and Z greatest in
+/// magnitude, on a logarithmic scale: |x| is within 21 % of scale · 10^((letter − 25) · 0.16), letters counted from 0,
+/// as far as the scale reaches. `scale` is the greatest magnitude next to a change of sign. Cells that have no
+/// neighbour, diagonal ones included, of the other sign are Z or z, whatever their magnitude, because no contour
+/// depends on it.
+[[nodiscard]] std::string contour_text(const std::vector<double>& field, int columns);
 
 /// The plane of a report; nothing if there is none, or if its window would have no finite size.
 [[nodiscard]] std::optional<Plane> sample_plane(const ReportContext& scene);

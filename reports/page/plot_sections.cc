@@ -59,20 +59,22 @@ Html bands_text(const ReportContext& scene) {
           : " Where there is none, nothing is proved.");
 }
 
+/// How the six plots of one quantity are arranged.
+constexpr const char* kArrangement = "All six share one scale. The cable that comes nearest to a limit is first.";
+
 Html tensions(const ReportContext& scene) {
-  return section(
-      "tensions", "Tensions along the path",
-      html(
-          "<p>For each cable all tensions that the loads in K can ask of it. {} Shaded red: beyond the limits.{}</p>\n",
-          bands_text(scene), marks_text(scene.certificate)) +
-          unscripted() + place("tensions"));
+  return section("tensions", "Tensions along the path",
+                 html("<p>For each cable all tensions that the loads in K can ask of it. {} {} Shaded red: beyond the "
+                      "limits.{}</p>\n",
+                      kArrangement, bands_text(scene), marks_text(scene.certificate)) +
+                     unscripted() + place("tensions"));
 }
 
 Html lengths(const ReportContext& scene) {
-  return section(
-      "lengths", "Cable lengths along the path",
-      html("<p>{} Shaded red: beyond the limits.{}</p>\n", bands_text(scene), marks_text(scene.certificate)) +
-          unscripted() + place("lengths"));
+  return section("lengths", "Cable lengths along the path",
+                 html("<p>{} {} Shaded red: beyond the limits.{}</p>\n", kArrangement, bands_text(scene),
+                      marks_text(scene.certificate)) +
+                     unscripted() + place("lengths"));
 }
 
 Html margins_along(const ReportContext& scene) {
@@ -101,9 +103,10 @@ Html plane(const ReportContext& scene) {
     stats += html("{}{}: {}", stats.empty() ? Html() : html(" · "), key, value);
   return section(
       "plane", "The plane of the two parameters",
-      html("<p>C is the set of wrench-feasible poses. Colours and the line det J = 0 are floating-point samples on "
-           "a grid, and the atlas is where the planner looked: neither proves anything. Periodic parameters are drawn "
-           "unwrapped, so that the path is one line.{}</p>\n",
+      html("<p>C is the set of wrench-feasible poses. Its borders and the line det J = 0 are drawn between samples on "
+           "a grid, in floating point, and can miss what is smaller than the grid; the atlas is where the planner "
+           "looked: neither proves anything. Periodic parameters are drawn unwrapped, so that the path is one "
+           "line.{}</p>\n",
            scene.certificate.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
           unscripted() + place("plane") +
           (stats.empty() ? Html()
@@ -125,18 +128,22 @@ Html biting_tolerances(const ReportContext& scene) {
 
 }  // namespace
 
+bool shows_path(const ReportContext& scene) { return !scene.samples.empty() && !found_no_path(scene.certificate); }
+
 Html move_section(const ReportContext& scene) {
-  if (scene.samples.empty()) return {};
+  if (!shows_path(scene)) return {};
   return section(
       "move", "The move",
       place("move") +
-          html("<div class=\"still\">{}<p class=\"note\">Seen from the side, with the load pulling down; the dot "
-               "is the load point. Numbers are cables.</p></div>\n",
+          html("<div class=\"still\">{}<p class=\"note\">Dashed outlines are the platform at the start (S) and at the "
+               "goal (G). Posts and ground stand for whatever carries the anchors A1 to A6. Cables are coloured by "
+               "floating-point values at this place: grey is calm, amber from 75 % of a limit, dashed from 95 %, red "
+               "out of the limits.</p></div>\n",
                still_picture(scene)));
 }
 
 Html plot_sections(const ReportContext& scene) {
-  if (scene.samples.empty()) return plane(scene);
+  if (!shows_path(scene)) return plane(scene);
   return tensions(scene) + lengths(scene) + margins_along(scene) + poses(scene) + plane(scene) +
          biting_tolerances(scene);
 }

@@ -12,7 +12,10 @@
 
 namespace taut {
 
-/// The moving robot; nothing if there is no path.
+/// Whether there is a path to play and to plot: not where a planner found none, or the certificate has none.
+[[nodiscard]] bool shows_path(const ReportContext& scene);
+
+/// The moving robot; nothing if there is no path to show.
 [[nodiscard]] Html move_section(const ReportContext& scene);
 /// Tensions, lengths, margins and pose along the path, the plane of two parameters, and tolerances, as far as they
 /// exist.

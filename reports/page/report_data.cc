@@ -8,11 +8,15 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <span>
 
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
 #include "problem/scalar.h"
 #include "reports/page/plane.h"
+#include "reports/summary/cable_use.h"
+#include "reports/summary/nearness.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -71,7 +75,75 @@ json robot(const Model<double>& model) {
           {"length", length}};
 }
 
-/// Columns with one entry for each sample.
+/// How near a range comes to its limits: the class, and within it a number that grows towards the limits.
+struct Closeness {
+  Nearness nearness = Nearness::kCalm;
+  double use = 0;
+  auto operator<=>(const Closeness&) const = default;
+};
+
+Closeness closeness(const Use& use, bool is_length) {
+  const auto& [range, lower, upper, least_at, greatest_at] = use;
+  const double width = upper - lower;
+  if (is_length) {
+    return {nearness_of_length(range, lower, upper), 1 - std::min(range.lower - lower, upper - range.upper) / width};
+  }
+  const double of_slack = lower > 0 && range.lower > 0 ? lower / range.lower : 1 - (range.lower - lower) / width;
+  return {worse(nearness_to_slack(range, lower, upper), nearness_to_top(range, upper)),
+          std::max(of_slack, upper > 0 ? range.upper / upper : 1)};
+}
+
+/// What the whole path asks of one quantity of the six cables: ranges, how near they come to their limits, and the
+/// cables' indices, the nearest first.
+json cable_uses(const std::array<Use, kCables>& uses, bool is_length, bool is_proved) {
+  std::array<Closeness, kCables> close;
+  std::array<std::size_t, kCables> order{};
+  json ranges = json::array();
+  json classes = json::array();
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Range& range = uses[i].range;
+    order[i] = i;
+    close[i] = closeness(uses[i], is_length);
+    classes.push_back(name(close[i].nearness));
+    ranges.push_back(is_proved ? json{outward(range.lower, false), outward(range.upper, true)}
+                               : numbers(std::array{range.lower, range.upper}));
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return close[a] > close[b]; });
+  return {{"order", order}, {"nearness", classes}, {"ranges", ranges}};
+}
+
+void widen(Range& range, double low, double high) { range = {std::min(range.lower, low), std::max(range.upper, high)}; }
+
+/// Widens the ranges to all regular samples, between which more is possible, and to what the witness proves.
+void widen_to_the_whole_path(const ReportContext& scene, CableUse& use) {
+  for (const PathSample& sample : scene.samples) {
+    const Statics<double>& s = sample.statics;
+    for (std::size_t i = 0; i < kCables && s.regular; ++i) {
+      widen(use.tension[i].range, s.tension[i] - s.tension_below[i], s.tension[i] + s.tension_above[i]);
+      widen(use.length[i].range, s.length[i], s.length[i]);
+    }
+  }
+  if (!scene.certificate.witness || scene.certificate.witness->violation.singular) return;
+  const PathWitness& witness = scene.certificate.witness->violation;
+  const MarginKind kind = witness.margin.kind;
+  const bool is_length = kind == MarginKind::kLengthMin || kind == MarginKind::kLengthMax;
+  widen((is_length ? use.length : use.tension)[static_cast<std::size_t>(witness.margin.cable)].range,
+        ScalarTraits<double>::from_decimal(witness.value_lower),
+        ScalarTraits<double>::from_decimal(witness.value_upper));
+}
+
+/// What all of the path asks of the cables: proved, or else sampled; null where nothing is known.
+json cables(const ReportContext& scene) {
+  CableUse use = cable_use(scene);
+  if (use.source == CableUse::Source::kNone) return nullptr;
+  const bool is_proved = use.source == CableUse::Source::kProved;
+  if (!is_proved) widen_to_the_whole_path(scene, use);
+  return {{"is_proved", is_proved},
+          {"tension", cable_uses(use.tension, false, is_proved)},
+          {"length", cable_uses(use.length, true, is_proved)}};
+}
+
+/// Columns with one entry for each sample; of a path that was not found there is none.
 json samples(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   std::vector<double> position, distance, turned, scale, sign;
@@ -85,7 +157,8 @@ json samples(const ReportContext& scene) {
   std::optional<TiltAndTorsion> tilt;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  for (const PathSample& sample : scene.samples) {
+  const std::span path(scene.samples.data(), found_no_path(scene.certificate) ? 0 : scene.samples.size());
+  for (const PathSample& sample : path) {
     position.push_back(sample.position);
     distance.push_back(scene.travel.distance_m(sample.position));
     turned.push_back(scene.travel.turned_rad(sample.position));
@@ -290,24 +363,33 @@ json tolerances(const ReportContext& scene) {
   return result;
 }
 
+json grid(const PlaneGrid& grid) {
+  json window = json::array();
+  for (const Span& span : grid.window) window.push_back(numbers(std::array{span.lower, span.upper}));
+  return {{"window", window},
+          {"columns", grid.columns},
+          {"rows", grid.rows},
+          {"tension", contour_text(grid.tension, grid.columns)},
+          {"length", contour_text(grid.length, grid.columns)},
+          {"det_J", contour_text(grid.determinant, grid.columns)}};
+}
+
+/// Name, unit and the factor that brings parameter j into the unit in which it is shown.
+json plane_axis(const ReportContext& scene, std::size_t j) {
+  const SpaceText& space = scene.certificate.problem.space;
+  const DisplayUnits& units = scene.illustration.units;
+  const std::string si = unit(space, j);
+  json axis = {{"name", space.parameters[j].name}, {"unit", si}, {"factor", 1}};
+  if (si == "m") axis.update({{"unit", units.length.name()}, {"factor", units.length.approx(1)}});
+  if (si == "rad" && units.in_degrees) axis.update({{"unit", "°"}, {"factor", 180 / std::numbers::pi}});
+  return axis;
+}
+
 json plane(const ReportContext& scene) {
   const std::optional<Plane> plane = sample_plane(scene);
   if (!plane) return nullptr;
-  const SpaceText& space = scene.certificate.problem.space;
-  json names = json::array();
-  json units = json::array();
-  json window = json::array();
-  for (std::size_t j = 0; j < 2; ++j) {
-    names.push_back(space.parameters[j].name);
-    units.push_back(unit(space, j));
-    window.push_back(numbers(std::array{plane->window[j].lower, plane->window[j].upper}));
-  }
   // For thousands of points in a picture four digits suffice and keep the page small.
   const auto drawn = [&](double x) { return std::isfinite(x) ? json(shortened(x, 4)) : json(); };
-  json singular = json::array();
-  for (const auto& piece : plane->singular) {
-    for (const double x : piece) singular.push_back(drawn(x));
-  }
   json charts = json::array();
   for (const auto& polygon : plane->charts) {
     json corners = json::array();
@@ -320,16 +402,9 @@ json plane(const ReportContext& scene) {
   if (scene.certificate.path.waypoints.size() <= kMostBins) {
     for (const Waypoint& waypoint : scene.certificate.path.waypoints) waypoints.push_back(numbers(resolved(waypoint)));
   }
-  return {{"names", names},
-          {"units", units},
-          {"window", window},
-          {"rows", plane->rows},
-          {"columns", plane->columns},
-          {"cells", plane->cells},
-          {"singular", singular},
-          {"charts", charts},
-          {"all_charts", scene.illustration.charts.size()},
-          {"waypoints", waypoints}};
+  return {{"axes", {plane_axis(scene, 0), plane_axis(scene, 1)}},    {"grid", grid(plane->grid)},
+          {"detail", plane->detail ? grid(*plane->detail) : json()}, {"charts", charts},
+          {"all_charts", scene.illustration.charts.size()},          {"waypoints", waypoints}};
 }
 
 }  // namespace
@@ -351,6 +426,7 @@ json report_data(const ReportContext& scene) {
             {"force", display_unit(scene.illustration.units.force)}}},
           {"robot", robot(scene.sampler.model())},
           {"samples", samples(scene)},
+          {"cables", cables(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
           {"margins", margins(certificate.segments)},
           {"stretches", stretches(certificate)},

@@ -332,7 +332,8 @@ Html stretches(const ReportContext& scene) {
   }
   const Html all = table(
       html("Stretches that are not proved"),
-      {{html(""), true}, {html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}}, rows);
+      {{html("Stretch"), true}, {html("From")}, {html("To")}, {html("First violation")}, {html("Last violation")}},
+      rows);
   const Html rest =
       certificate.stretches.size() > shown
           ? html("<p>These are the first {}; the certificate has all {}.</p>\n", shown, certificate.stretches.size())

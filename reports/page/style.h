@@ -10,9 +10,9 @@ inline constexpr const char* kStyle = R"css(
   color-scheme: light dark;
   --paper: #fdfdfb; --ink: #1d2329; --soft: #59636e; --line: #d9dde1; --tile: #f3f4f2; --accent: #1f5f99;
   --proved: #1b7a4b; --refuted: #b3261e; --undecided: #8a5a00;
-  --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f6e3e0; --mark: #b3261e;
+  --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f9ece9; --mark: #b3261e;
   --c1: #c2570c; --c2: #5b4a9e;
-  --inside: #7fc8a4; --tension: #cfe0f1; --length: #fbe6bd; --both: #e7e3ea; --singular: #c4161c; --chart: #26323b;
+  --inside: #84c99a; --tension: #92b8e6; --length: #f5b14c; --singular: #c4161c; --chart: #26323b;
   --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418;
   --base: #8b949e; --platform: #cfe0f1;
   --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
@@ -21,9 +21,9 @@ inline constexpr const char* kStyle = R"css(
   :root {
     --paper: #14181c; --ink: #e4e7ea; --soft: #9aa5b0; --line: #323a42; --tile: #1d2329; --accent: #7db7ec;
     --proved: #58c48e; --refuted: #ff8a80; --undecided: #f0b94d;
-    --band: #2b5378; --curve: #8cc4f5; --limit: #ff8a80; --forbidden: #3a2322; --mark: #ff8a80;
+    --band: #2b5378; --curve: #8cc4f5; --limit: #ff8a80; --forbidden: #2c1f20; --mark: #ff8a80;
     --c1: #f0a35e; --c2: #b3a4f0;
-    --inside: #2f7d5b; --tension: #24374a; --length: #4d3f1f; --both: #2a2730; --singular: #ff6b62; --chart: #dfe6ec;
+    --inside: #2f7d52; --tension: #2b4f7d; --length: #96621a; --singular: #ff6b62; --chart: #dfe6ec;
     --path: #ffffff; --casing: #101418; --start: #101418; --goal: #ffffff;
     --base: #77818b; --platform: #2b5378;
     --calm: #aeb8c2; --near: #e0a030; --near-ink: #f0b94d; --close: #ff8f5c; --out: #ff8a80;
@@ -34,7 +34,6 @@ html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 10
 body {
   max-width: 1160px; margin: 0 auto; padding: 40px 28px 72px;
   font: 16px/1.55 Inter, "Noto Sans Math", system-ui, "Liberation Sans", "DejaVu Sans", sans-serif;
-  font-variant-numeric: tabular-nums;
 }
 h1 small { font-size: 14px; font-weight: 400; }
 h1 { font-size: 30px; line-height: 1.2; margin: 6px 0 14px; letter-spacing: -0.01em; overflow-wrap: anywhere; }
@@ -99,9 +98,8 @@ svg .band { fill: var(--band); stroke: var(--band); stroke-width: 0.6; }
 .curve.c1 { stroke: var(--c1); stroke-dasharray: 6 3; }
 .curve.c2 { stroke: var(--c2); stroke-dasharray: 2 2.5; }
 .mark { stroke: var(--mark); stroke-width: 1.5; stroke-dasharray: 3 3; }
-.raster { shape-rendering: crispEdges; }
 svg .inside { fill: var(--inside); } svg .tension { fill: var(--tension); }
-svg .length { fill: var(--length); } svg .both { fill: var(--both); }
+svg .length { fill: var(--length); }
 .singular { stroke: var(--singular); stroke-width: 1.7; }
 .chart { stroke: var(--chart); stroke-width: 0.5; opacity: 0.55; }
 .casing { stroke: var(--casing); stroke-width: 5; stroke-linejoin: round; opacity: 0.85; }
@@ -119,33 +117,33 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
 .cable.marked { stroke: var(--mark); stroke-width: 2.6; }
 .tag { fill: var(--paper); stroke: var(--soft); stroke-width: 0.8; }
 .load { fill: var(--mark); }
-@media (max-width: 760px) {
+@media screen and (max-width: 760px) {
   .panels, .panels.two { grid-template-columns: 1fr; }
 }
 @media print {
   @page {
-    size: A4; margin: 18mm 15mm 15mm;
+    size: A4; margin: 16mm 15mm 14mm;
     font: 8pt Inter, "Noto Sans Math", sans-serif; color: #454c53;
     @top-left { text-align: left; width: 60%; } @top-right { text-align: right; }
     @bottom-left { text-align: left; } @bottom-right { text-align: right; }
   }
-  @page :first { margin-top: 13mm; @top-left { content: none; } @top-right { content: none; } }
+  @page :first { margin-top: 12mm; @top-left { content: none; } @top-right { content: none; } }
   :root { color-scheme: light; --paper: #ffffff; --ink: #000000; --soft: #454c53; --line: #c9ced3; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.4; }
   nav, .more { display: none; }
   h1 { font-size: 17pt; margin: 4pt 0 6pt; }
-  h2 { font-size: 12.5pt; margin: 14pt 0 4pt; padding-top: 7pt; } h3 { font-size: 10pt; margin: 10pt 0 3pt; }
+  h2 { font-size: 12.5pt; margin: 12pt 0 4pt; padding-top: 6pt; } h3 { font-size: 10pt; margin: 10pt 0 3pt; }
   p, ul, ol { margin: 4pt 0; max-width: none; } li { margin: 2pt 0; }
   h2, h3, caption, summary { break-after: avoid; }
   p { orphans: 3; widows: 3; }
   .note { font-size: 8pt; }
-  figure, tr, blockquote, .formulas p, .band, .signatures, pre, li { break-inside: avoid; }
+  h2, figure, tr, blockquote, .formulas p, .band, .signatures, pre, li { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll { overflow: visible; margin: 5pt 0; background: none; }
-  .scroll:not(:has(tbody tr:nth-child(16))) { break-inside: avoid; }
+  .scroll:not(:has(tbody tr:nth-child(9))) { break-inside: avoid; }
   .overflows::before { content: none; }
-  .panels { grid-template-columns: repeat(3, 1fr); gap: 4mm 5mm; margin: 4pt 0; }
+  .panels { grid-template-columns: repeat(3, 1fr); gap: 3mm 5mm; margin: 4pt 0; }
   .panels.two { grid-template-columns: repeat(2, 1fr); }
   table { font-size: 7.5pt; max-width: 100%; } caption { font-size: 8pt; padding: 3pt 0 2pt; }
   th, td { padding: 2pt 7pt 2pt 0; } td.n { white-space: normal; }
@@ -159,11 +157,16 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   summary { display: none; }
   .panels.robots { grid-template-columns: repeat(3, 1fr) !important; }
   a { color: inherit; text-decoration: none; }
+  td:first-child { overflow-wrap: normal; }
+  th { white-space: normal; }
+  #path > details, #margins > details { columns: 2; column-gap: 8mm; }
+  #path > details:not(:has(tr:nth-child(25))), #margins > details:not(:has(tr:nth-child(25))) { break-inside: avoid; }
   /* The exact numbers, in two columns. */
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
-  .appendix h2 { font-size: 10.5pt; margin-top: 10pt; }
+  .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
   .appendix > section:first-child > h2 { margin-top: 0; }
-  .appendix table { font-size: 6.8pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  #exact-load td.n, #margins td.n { white-space: nowrap; }
   .appendix .wide { column-span: all; }
 }
 /* Appendix A, B, …: those that there are. */

@@ -85,13 +85,15 @@ KeyNumber slack_number(const ReportContext& scene, const CableUse& use) {
   const std::size_t i = greatest([&](std::size_t k) { return slack_use(use.tension[k]); });
   const Use& t = use.tension[i];
   const bool is_kept = t.range.lower > t.lower_limit;
-  return {"slack", "Closest to going slack",
+  return {"slack",
+          "Closest to going slack",
           fmt::format("Cable {}: {}", i + 1, is_kept ? above_slack(t, force) : amount(t.range.lower, force)),
           fmt::format("{}limit {} {} · {}",
                       is_kept ? down_text(t.range.lower, t.lower_limit, force) + " " + force.name() + ", " : "slack ",
                       force.exact(scene.certificate.problem.robot.tension_N[i].lower), force.name(),
                       at(scene, use, t.least_at)),
-          slack_nearness(t)};
+          slack_nearness(t),
+          t.least_at};
 }
 
 KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
@@ -100,12 +102,15 @@ KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
   const Use& t = use.tension[i];
   const bool is_kept = t.range.upper < t.upper_limit;
   return {
-      "top", "Highest tension", fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(t) : amount(t.range.upper, force)),
+      "top",
+      "Highest tension",
+      fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(t) : amount(t.range.upper, force)),
       fmt::format("{}{} {} · {}",
                   is_kept ? up_text(t.range.upper, t.upper_limit, force) + " " + force.name() + " of " : "top limit ",
                   force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
                   at(scene, use, t.greatest_at)),
-      top_nearness(t)};
+      top_nearness(t),
+      t.greatest_at};
 }
 
 KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
@@ -116,14 +121,16 @@ KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
   const bool is_upper = d.upper_limit - d.range.upper < d.range.lower - d.lower_limit;
   const double left = length_left(d);
   return {
-      "length", "Least length left",
+      "length",
+      "Least length left",
       fmt::format("Cable {}: {}{} {}", i + 1, left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
       fmt::format(
           "{} {} of {} {} {} · {}",
           is_upper ? up_text(d.range.upper, d.upper_limit, length) : down_text(d.range.lower, d.lower_limit, length),
           length.name(), is_upper ? "at most" : "at least", length.exact(is_upper ? limits.upper : limits.lower),
           length.name(), at(scene, use, is_upper ? d.greatest_at : d.least_at)),
-      length_nearness(d)};
+      length_nearness(d),
+      is_upper ? d.greatest_at : d.least_at};
 }
 
 /// The same thresholds as of a tension: 4/3 and 20/19 are 75 % and 95 % used.
@@ -144,6 +151,7 @@ KeyNumber growth_number(const ReportContext& scene) {
           "× " + growth_text(scale),
           detail,
           growth_nearness(ScalarTraits<double>::from_decimal(scale)),
+          std::nullopt,
           true};
 }
 
@@ -179,6 +187,17 @@ std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& u
     numbers.push_back(*share);
   }
   return numbers;
+}
+
+std::optional<double> worst_place(const std::vector<KeyNumber>& numbers) {
+  std::optional<double> place;
+  std::optional<Nearness> worst;
+  for (const KeyNumber& number : numbers) {
+    if (!number.position || (worst && number.nearness <= *worst)) continue;
+    worst = number.nearness;
+    place = number.position;
+  }
+  return place;
 }
 
 std::vector<CableLine> cable_lines(const ReportContext& scene, const CableUse& use) {

@@ -19,7 +19,8 @@
 namespace taut {
 namespace {
 
-constexpr mpfr_prec_t kBits = 256;  // E may be so close to singular that fewer can't tell that it has a root
+constexpr double kStandardGravity = 9.80665;  ///< [m/s²]
+constexpr mpfr_prec_t kBits = 256;            // E may be so close to singular that fewer can't tell that it has a root
 
 // --- Numbers and units -------------------------------------------------------------------------------------------
 
@@ -315,7 +316,6 @@ std::string total_text(const LoadText& load, const MassRange& mass, const LoadSt
   const std::string nominal = fmt::format("{} and {} about the load point {}", vector_text(s.nominal, 0),
                                           vector_text(s.nominal, 3), point_text(load.point_m));
   if (!s.mass_kg) {
-    constexpr double kStandardGravity = 9.80665;  // [m/s²]
     const double force = std::hypot(s.nominal[0], s.nominal[1], s.nominal[2]);
     const PeoplesUnit unit = unit_of_mass(force / kStandardGravity);
     const std::string weight = force > 0 && load.items.empty()
@@ -390,6 +390,20 @@ std::string quoted_name(const std::string& name) {
     }
   }
   return result + "'";
+}
+
+std::string brief_load(const LoadText& load) {
+  LoadStatement statement;
+  const MassRange mass = add_masses(load, statement);
+  if (statement.mass_kg) return range_text(mass.lower, mass.upper, unit_of_mass(statement.mass_kg->upper));
+  add_wrenches(load, statement);
+  const double force = std::hypot(statement.nominal[0], statement.nominal[1], statement.nominal[2]);
+  if (!(force > 0)) return "no force";
+  const PeoplesUnit unit = unit_of_force(force);
+  const double kg = force / kStandardGravity;
+  const PeoplesUnit of_mass = unit_of_mass(kg);
+  return fmt::format("{:.4g} {} ({:.3g} {})", force / std::pow(10.0, unit.power), unit.name,
+                     kg / std::pow(10.0, of_mass.power), of_mass.name);
 }
 
 LoadStatement load_statement(const LoadText& load) {

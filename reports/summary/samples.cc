@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taut {
 
@@ -78,16 +79,24 @@ std::vector<double> sign_changes(const std::vector<PathSample>& samples) {
   return changes;
 }
 
-Feasibility feasibility(const Model<double>& model, const Statics<double>& statics) {
-  bool tension = statics.regular;
-  bool length = true;
+Reserves reserves(const Model<double>& model, const Statics<double>& statics) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto within = [](double low, double high, double lower, double upper) {
+    const double least = std::min(low - lower, upper - high) / (upper - lower);
+    if (low > lower && high < upper) return least;
+    return least <= 0 ? least : -kInfinity;  // also for NaN
+  };
+  Reserves least = {statics.regular ? kInfinity : -kInfinity, kInfinity};
   for (std::size_t i = 0; i < kCables; ++i) {
-    length = length && statics.length[i] > model.length_lower[i] && statics.length[i] < model.length_upper[i];
-    tension = tension && statics.tension[i] - statics.tension_below[i] > model.tension_lower[i] &&
-              statics.tension[i] + statics.tension_above[i] < model.tension_upper[i];
+    const double length = statics.length[i];
+    least.length = std::min(least.length, within(length, length, model.length_lower[i], model.length_upper[i]));
+    if (!statics.regular) continue;
+    const double tension = statics.tension[i];
+    least.tension =
+        std::min(least.tension, within(tension - statics.tension_below[i], tension + statics.tension_above[i],
+                                       model.tension_lower[i], model.tension_upper[i]));
   }
-  if (tension) return length ? Feasibility::kInside : Feasibility::kLengthOut;
-  return length ? Feasibility::kTensionOut : Feasibility::kBothOut;
+  return least;
 }
 
 }  // namespace taut

@@ -52,8 +52,13 @@ struct SampledViolation {
 /// Positions of samples at which det J has another sign than at the sample before.
 [[nodiscard]] std::vector<double> sign_changes(const std::vector<PathSample>& samples);
 
-/// Which limits a pose keeps. At a singular pose the tensions count as out of limits.
-enum class Feasibility { kInside, kTensionOut, kLengthOut, kBothOut };
-[[nodiscard]] Feasibility feasibility(const Model<double>& model, const Statics<double>& statics);
+/// How far inside their limits all tensions and all lengths are at a pose: the least of the six cables, as a share of
+/// the width between its limits. Positive exactly where all of them are kept; not positive, and possibly infinite, at a
+/// singular pose.
+struct Reserves {
+  double tension = 0;
+  double length = 0;
+};
+[[nodiscard]] Reserves reserves(const Model<double>& model, const Statics<double>& statics);
 
 }  // namespace taut

@@ -104,7 +104,8 @@ std::string stretches_text(const Certificate& certificate) {
 std::vector<std::string> sampled_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   if (certificate.path.segments() == 0 || found_no_path(certificate) ||
-      certificate.path.interpolation == Interpolation::kCableLengths) {
+      certificate.path.interpolation == Interpolation::kCableLengths ||
+      (certificate.witness && certificate.witness->violation.singular)) {
     return {};
   }
   const std::vector<double> changes = sign_changes(scene.samples);
@@ -149,12 +150,17 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   };
   std::vector<std::string> result;
   if (witness.singular) {
-    result.push_back(
-        fmt::format("It lies between these two poses, at which the determinant of the force Jacobian has opposite "
-                    "signs: {}, {}; and "
-                    "{}, {}.",
-                    place_text(scene, position(witness.at)), pose_at(position(witness.at)),
-                    place_text(scene, position(witness.to)), pose_at(position(witness.to))));
+    const std::string from =
+        fmt::format("{}, {}", place_text(scene, position(witness.at)), pose_at(position(witness.at)));
+    const std::string to =
+        fmt::format("{}, {}", place_text(scene, position(witness.to)), pose_at(position(witness.to)));
+    result.push_back(from == to
+                         ? fmt::format("Where: {}, rounded. It lies between two poses next to each other, at which "
+                                       "the determinant of the force Jacobian has opposite signs.",
+                                       from)
+                         : fmt::format("It lies between these two poses, at which the determinant of the force "
+                                       "Jacobian has opposite signs: {}; and {}.",
+                                       from, to));
   } else {
     const double beyond = violation(witness);
     const double limit = number(witness.limit);

@@ -17,8 +17,11 @@
 //   witness     position, to, kind, cable; or null
 //   tube_m      how far the platform's origin may be from the path; or null
 //   tolerances  name, unit, stated, proved (how far this one alone may grow)
-//   plane       of two parameters, or null: names, units, window, rows, columns, cells, singular, charts, all_charts,
-//               waypoints
+//   cables      of the whole path, or null: is_proved (else sampled), tension and length: ranges (six pairs), nearness
+//               (six words, as nearness.h has them), order (the cables' indices, the nearest to its limits first)
+//   plane       of two parameters, or null: axes (name, unit, factor to it), grid and detail (or null) with window,
+//               columns, rows, and three fields as contour_text() packs them: tension, length, det_J; charts,
+//               all_charts, waypoints
 
 export function readData() {
   const data = JSON.parse(document.getElementById("data").textContent);

@@ -2,6 +2,7 @@
 // The script that the report's page runs in the reader's browser. It draws the plots and the robot into the places that
 // the page has for them. Without it the page has its words, its tables and a still picture of the robot.
 import { axes as usefulAxes } from "./axes.js";
+import { barPlayer, closeMenuAfterUse } from "./bar.js";
 import { onThemeChange, tensionColour } from "./colours.js";
 import { Cursor } from "./cursor.js";
 import { isDrawable, readData } from "./data.js";
@@ -23,6 +24,7 @@ const place = (name) => document.querySelector(`[data-plot="${name}"]`);
 document.head.append(element("style", {}, style));
 root.classList.add("scripted");
 watchScrolling();
+closeMenuAfterUse(document.querySelector(".bar details"));
 
 const marked = [
   ...(data.stretches.some((s) => s.violated) ? [["fill violated-stretch", "violations are proved"]] : []),
@@ -34,7 +36,7 @@ const enclosure = ["fill band", "proved enclosure"];
 const envelopeKeys = [
   ...(enclosed ? [enclosure] : []),
   ["fill envelope", "f₀ ± v, all loads in K (sampled)"],
-  ["curve", "f₀, the centre load (sampled)"],
+  ["calm-line", "f₀, the centre load (sampled)"],
 ];
 const limitKeys = [["limit", "limit"], ["fill forbidden", "beyond the limits"]];
 
@@ -101,6 +103,8 @@ function furnishMove() {
   player = new Player(data, cursor, axes);
   scene.append(player.readout.element);
   holder.append(scene, player.controls);
+  if (data.segments > 0) place("bar")?.append(barPlayer(player, cursor, axes));
+  else player.controls.replaceChildren(); // a single pose: there is nothing to play
   root.classList.toggle("has-viewer", isDrawable(data));
 }
 
@@ -123,7 +127,7 @@ function drawRobot() {
     const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1],
       "+": [0, 0, 0.87], "-": [0, 0, 1.15] }[event.key];
     if (turn) viewer.orbit(...turn);
-    else if (event.key === " ") player.toggle();
+    else if (event.key === " " && data.segments > 0) player.toggle();
     else return;
     event.preventDefault();
   });
@@ -152,7 +156,7 @@ const jobs = [
   () => panelsAt("tensions", tensionPanels, [...envelopeKeys, ...limitKeys]),
   () => performance.mark("interactive"), // of what is read first; the rest answers as it is drawn
   () => panelsAt("lengths", lengthPanels,
-    [...(enclosed ? [enclosure] : []), ["curve", "length (sampled)"], ...limitKeys]),
+    [...(enclosed ? [enclosure] : []), ["calm-line", "length (sampled)"], ...limitKeys]),
   () => data.margins.from.length > 0 &&
     panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]),
   () => panelsAt("pose", posePanels, []),

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plane of two parameters: where the limits are kept, the line det J = 0, the atlas, the path.
+// The plane of two parameters: where the limits are kept, the line det J = 0, the atlas, the path. The borders are
+// contours between samples on a grid.
 import * as Plot from "@observablehq/plot";
+import { clipped, outOfLimits, readField } from "./contours.js";
 import { between, locate } from "./data.js";
 import { key } from "./plots.js";
-import { element, fixed, text } from "./words.js";
+import { decimalsFor, element, fixed, symbol, text } from "./words.js";
 
 const KINDS = [
   ["inside", "in C: all limits kept"],
@@ -11,8 +13,11 @@ const KINDS = [
   ["length", "a length out of limits"],
   ["both", "both out of limits"],
 ];
-const MARGINS = { marginLeft: 56, marginRight: 16, marginTop: 12, marginBottom: 40 };
-const WIDTH = 900;
+const MARGINS = { marginLeft: 58, marginRight: 16, marginTop: 12, marginBottom: 40 };
+const WIDE = 900;
+const BESIDE = { main: 560, detail: 400 }; // where there is an enlarged part beside it
+const NARROW = 380;
+const narrow = matchMedia("(max-width: 640px)");
 
 function svg(name, attributes, ...children) {
   const result = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -21,27 +26,12 @@ function svg(name, attributes, ...children) {
   return result;
 }
 
-/// Runs of equal cells, row by row, as one path a kind; in units of a cell.
-function cellPaths({ rows, columns, cells }) {
-  const paths = ["", "", "", ""];
-  for (let row = 0; row < rows; ++row) {
-    for (let column = 0; column < columns; ) {
-      const kind = cells[row * columns + column];
-      let end = column + 1;
-      while (end < columns && cells[row * columns + end] === kind) ++end;
-      paths[Number(kind)] += `M${column} ${row}h${end - column}v1h${column - end}z`;
-      column = end;
-    }
-  }
-  return paths;
-}
-
 const round = (x) => Math.round(x * 10) / 10;
 
 function polyline(points, close = "") {
   let result = "";
   for (const [x, y] of points) result += `${result ? "L" : "M"}${round(x)} ${round(y)}`;
-  return result + close;
+  return points.length > 0 ? result + close : "";
 }
 
 /// Points of the path between two positions, ends included.
@@ -54,119 +44,241 @@ function piece({ position, parameters }, from, to) {
   return [at(from), ...inner, at(to)];
 }
 
-export function planeFigure(data, cursor) {
-  const { plane, samples, stretches, witness } = data;
-  const [[left, right], [bottom, top]] = plane.window;
-  const innerWidth = WIDTH - MARGINS.marginLeft - MARGINS.marginRight;
-  const height = Math.round((innerWidth * plane.rows) / plane.columns) + MARGINS.marginTop + MARGINS.marginBottom;
-  const label = (j) => plane.names[j] + (plane.units[j] ? ` [${plane.units[j]}]` : "");
-  const hasPath = samples.position.length > 0;
-  let place; // from parameters to pixels
+/// A grid of the data with its fields, and what they say of a cell: an index of KINDS.
+function readGrid(grid) {
+  const tension = readField(grid.tension);
+  const length = readField(grid.length);
+  const determinant = readField(grid.det_J);
+  const kind = (k) => (tension[k] > 0 ? 0 : 1) + (length[k] > 0 ? 0 : 2);
+  const counts = [0, 0, 0, 0];
+  tension.forEach((_, k) => ++counts[kind(k)]);
+  return { ...grid, tension, length, determinant, kind, counts };
+}
 
-  const drawing = (index, scales, values, { width }) => {
-    place = ([x, y]) => [scales.x(x), scales.y(y)];
-    const [x0, y0] = place([left, top]);
-    const [x1, y1] = place([right, bottom]);
-    const group = svg("g", { class: "plane" });
-    const raster = svg("g", {
-      class: "raster",
-      transform: `translate(${x0} ${y0}) scale(${(x1 - x0) / plane.columns} ${(y1 - y0) / plane.rows})`,
+/// Ticks at round angles, which powers of ten are not.
+function angleTicks([lower, upper], about) {
+  const step = [1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360].find((s) => (upper - lower) / s <= about);
+  if (!step || (upper - lower) / step < 2) return about;
+  const first = Math.ceil(lower / step - 1e-9);
+  const count = Math.floor(upper / step + 1e-9) - first + 1;
+  return Array.from({ length: count }, (_, k) => (first + k) * step);
+}
+
+/// Orange stripes on blue, for where both kinds of limits are broken.
+function hatching() {
+  return svg("defs", {}, svg("pattern", {
+    id: "plane-hatching", width: 8, height: 8, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)",
+  }, svg("rect", { width: 8, height: 8, class: "tension" }), svg("rect", { width: 4, height: 8, class: "length" })));
+}
+
+let clips = 0;
+
+/// One map: the plane in the window of a grid. Of a detail, the path's ends are labelled there and not on the whole.
+class PlaneMap {
+  constructor(data, cursor, grid, width, { detail, isDetail = false } = {}) {
+    Object.assign(this, { data, cursor, grid, width, detail, isDetail });
+    const { plane } = data;
+    this.window = grid.window.map((span, j) => span.map((x) => x * plane.axes[j].factor));
+    const innerWidth = width - MARGINS.marginLeft - MARGINS.marginRight;
+    this.height = Math.round((innerWidth * grid.rows) / grid.columns) + MARGINS.marginTop + MARGINS.marginBottom;
+    const label = ({ name, unit }) => symbol(name) + (unit ? ` [${unit}]` : "");
+    const axis = (j, ticks) => ({
+      domain: this.window[j], label: label(plane.axes[j]), labelArrow: "none", labelAnchor: "center",
+      ticks: plane.axes[j].unit === "°" ? angleTicks(this.window[j], ticks) : ticks, tickFormat: (x) => text(x),
     });
-    cellPaths(plane).forEach((d, kind) => raster.append(svg("path", { class: KINDS[kind][0], d })));
-    const clip = svg("svg", {
-      x: x0, y: y0, width: x1 - x0, height: y1 - y0, viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}`,
+    this.svg = Plot.plot({
+      width, height: this.height, ...MARGINS,
+      style: "background: none; color: inherit; font-size: 12px;",
+      x: axis(0, Math.round(width / 90)),
+      y: axis(1, Math.max(3, Math.round(this.height / 60))),
+      marks: [(index, scales) => this.draw(scales), Plot.frame({ stroke: "var(--soft)" })],
     });
-    const pairs = (list) => list.flatMap((_, k) => (k % 2 ? [] : [place([list[k], list[k + 1]])]));
-    const charts = plane.charts.map((corners) => polyline(pairs(corners), "Z"));
-    clip.append(svg("path", { class: "chart", d: charts.join("") }));
-    let locus = "";
-    for (let k = 0; k < plane.singular.length; k += 4) locus += polyline(pairs(plane.singular.slice(k, k + 4)));
-    clip.append(svg("path", { class: "singular", d: locus }));
-    group.append(raster, clip);
-    if (!hasPath) return group;
-    const way = polyline(piece(samples, 0, cursor.last).map(place));
-    clip.append(svg("path", { class: "casing", d: way }), svg("path", { class: "path", d: way }));
-    for (const s of stretches) {
-      const d = polyline(piece(samples, s.from, s.to).map(place));
-      clip.append(svg("path", { class: s.violated ? "violated" : "opening", d }));
+    this.svg.setAttribute("aria-hidden", "true"); // the figure says what it shows
+    this.marker = svg("circle", { class: "here", r: 6 });
+    this.svg.append(this.marker);
+  }
+
+  /// From parameters to pixels.
+  place([x, y]) {
+    const [{ factor: u }, { factor: v }] = this.data.plane.axes;
+    return [this.scales.x(x * u), this.scales.y(y * v)];
+  }
+
+  draw(scales) {
+    this.scales = scales;
+    const { data, grid } = this;
+    const [[left, right], [bottom, top]] = grid.window;
+    const [x0, y0] = this.place([left, top]);
+    const [x1, y1] = this.place([right, bottom]);
+    const frame = { x: x0, y: y0, width: x1 - x0, height: y1 - y0 };
+    const id = `plane-clip-${++clips}`;
+    const inFrame = svg("g", { class: "in-frame", "clip-path": `url(#${id})` });
+    const group = svg("g", { class: "plane" },
+      svg("defs", {}, svg("clipPath", { id }, svg("rect", frame))), hatching(), inFrame);
+    const toPixels = ([c, r]) =>
+      [x0 + (c / grid.columns) * (x1 - x0), y0 + (r / grid.rows) * (y1 - y0)];
+    const region = (field) =>
+      outOfLimits(field, grid.columns, grid.rows).map((ring) => polyline(ring.map(toPixels), "Z")).join("");
+    const tension = region(grid.tension);
+    const length = region(grid.length);
+    inFrame.append(svg("rect", { class: "inside", ...frame }), svg("path", { class: "tension", d: tension }),
+      svg("path", { class: "length", d: length }));
+    if (tension && length) {
+      inFrame.append(svg("clipPath", { id: `${id}-t` }, svg("path", { d: tension, "clip-rule": "evenodd" })),
+        svg("path", { class: "hatched", "clip-path": `url(#${id}-t)`, d: length }));
     }
-    const dots = plane.waypoints.map((w) => place(w)).map(([cx, cy]) => svg("circle", { cx, cy, r: 2.4 }));
-    clip.append(svg("g", { class: "waypoints" }, ...dots));
-    const disc = (position, kind, letter) => {
-      const [cx, cy] = place(piece(samples, position, position)[0]);
+    inFrame.append(svg("path", { class: "border", d: tension + length }));
+    const charts = data.plane.charts.map((corners) => {
+      const points = corners.flatMap((_, k) => (k % 2 ? [] : [[corners[k], corners[k + 1]]]));
+      return polyline(clipped(points, grid.window).map((p) => this.place(p)), "Z");
+    });
+    inFrame.append(svg("path", { class: "chart", d: charts.join("") }),
+      svg("path", { class: "singular", d: region(grid.determinant) }));
+    if (this.detail) this.drawDetailFrame(inFrame);
+    if (data.samples.position.length > 0) this.drawPath(inFrame, group);
+    else this.drawEnds(group, data.plane.waypoints[0], data.plane.waypoints.at(-1));
+    return group;
+  }
+
+  drawDetailFrame(parent) {
+    const [[left, right], [bottom, top]] = this.detail.window;
+    const [x, y] = this.place([left, top]);
+    const [x1, y1] = this.place([right, bottom]);
+    parent.append(svg("rect", { class: "enlarged", x, y, width: x1 - x, height: y1 - y }));
+  }
+
+  drawPath(inFrame, group) {
+    const { samples, plane, stretches, witness } = this.data;
+    const way = polyline(piece(samples, 0, this.cursor.last).map((p) => this.place(p)));
+    inFrame.append(svg("path", { class: "casing", d: way }), svg("path", { class: "path", d: way }));
+    for (const s of stretches) {
+      const d = polyline(piece(samples, s.from, s.to).map((p) => this.place(p)));
+      inFrame.append(svg("path", { class: s.violated ? "violated" : "opening", d }));
+    }
+    if (this.detail) return; // which has the rest
+    const dots = plane.waypoints.map((w) => this.place(w)).map(([cx, cy]) => svg("circle", { cx, cy, r: 2.4 }));
+    inFrame.append(svg("g", { class: "waypoints" }, ...dots));
+    this.drawEnds(group, ...[0, this.cursor.last].map((position) => piece(samples, position, position)[0]));
+    for (const position of witness ? [witness.position, witness.to].filter((p) => p !== null) : []) {
+      const [x, y] = this.place(piece(samples, position, position)[0]);
+      group.append(svg("path", { class: "witness", transform: `translate(${x} ${y})`, d: "M-8 -8L8 8M-8 8L8 -8" }));
+    }
+  }
+
+  drawEnds(group, start, goal) {
+    const disc = (at, kind, letter) => {
+      if (!at) return;
+      const [cx, cy] = this.place(at);
       const words = svg("text", { class: "letter", x: cx, y: cy + 4 });
       words.textContent = letter;
       group.append(svg("g", { class: kind }, svg("circle", { cx, cy, r: 9 }), words));
     };
-    disc(cursor.last, "goal", "G");
-    disc(0, "start", "S");
-    for (const position of witness ? [witness.position, witness.to].filter((p) => p !== null) : []) {
-      const [x, y] = place(piece(samples, position, position)[0]);
-      group.append(svg("path", { class: "witness", transform: `translate(${x} ${y})`, d: "M-8 -8L8 8M-8 8L8 -8" }));
-    }
-    return group;
-  };
+    if (this.data.segments > 0) disc(goal, "goal", "G");
+    disc(start, "start", "S");
+  }
 
-  const plot = Plot.plot({
-    width: WIDTH,
-    height,
-    ...MARGINS,
-    style: "background: none; color: inherit; font-size: 12px;",
-    x: { domain: [left, right], label: label(0), labelArrow: "none", labelAnchor: "center", ticks: 9 },
-    y: { domain: [bottom, top], label: label(1), labelArrow: "none", labelAnchor: "center", ticks: 7 },
-    marks: [drawing, Plot.frame({ stroke: "var(--soft)" })],
-  });
-  plot.setAttribute("aria-hidden", "true"); // the figure says what it shows
-  const shares = KINDS.map((_, kind) => plane.cells.split(String(kind)).length - 1);
-  const description = `The plane of ${plane.names[0]} and ${plane.names[1]}: ` +
-    `${text((100 * shares[0]) / plane.cells.length, 2)} % of what is shown ` +
-    `keeps all limits${hasPath ? "; the path leads through it from S to G" : ""}.`;
-  const marker = svg("circle", { class: "here", r: 6 });
-  plot.append(marker);
-  cursor.onMove((position) => {
-    const [x, y] = place(piece(samples, position, position)[0]);
-    marker.setAttribute("cx", x);
-    marker.setAttribute("cy", y);
-    marker.classList.add("shown");
-  });
+  /// The point of the window under the pointer, as shares of its width and height from the left and from the top.
+  pointed(event) {
+    const box = this.svg.getBoundingClientRect();
+    const px = ((event.clientX - box.left) / box.width) * this.width;
+    const py = ((event.clientY - box.top) / box.height) * this.height;
+    const u = (px - MARGINS.marginLeft) / (this.width - MARGINS.marginLeft - MARGINS.marginRight);
+    const v = (py - MARGINS.marginTop) / (this.height - MARGINS.marginTop - MARGINS.marginBottom);
+    return { px, py, u, v };
+  }
 
-  const readout = element("span", { class: "readout" }, "");
-  const pointed = (event) => {
-    const box = plot.getBoundingClientRect();
-    const px = ((event.clientX - box.left) / box.width) * WIDTH;
-    const py = ((event.clientY - box.top) / box.height) * height;
-    return [px, py];
-  };
-  plot.addEventListener("pointermove", (event) => {
-    const [px, py] = pointed(event);
-    const u = (px - MARGINS.marginLeft) / innerWidth;
-    const v = (py - MARGINS.marginTop) / (height - MARGINS.marginTop - MARGINS.marginBottom);
-    if (u < 0 || u >= 1 || v < 0 || v >= 1) return;
-    const kind = plane.cells[Math.floor(v * plane.rows) * plane.columns + Math.floor(u * plane.columns)];
-    readout.textContent =
-      `${plane.names[0]} = ${fixed(left + u * (right - left), 3)}, ` +
-      `${plane.names[1]} = ${fixed(top - v * (top - bottom), 3)}: ${KINDS[Number(kind)][1]}`;
-  });
-  plot.addEventListener("pointerdown", (event) => {
-    if (!hasPath) return;
-    const [px, py] = pointed(event);
-    let best = Infinity;
-    let nearest = 0;
+  /// What is under the pointer, in words; nothing outside the frame.
+  says(event) {
+    const { u, v } = this.pointed(event);
+    if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return undefined;
+    const { grid, data: { plane } } = this;
+    const cell = Math.floor(v * grid.rows) * grid.columns + Math.floor(u * grid.columns);
+    const [x, y] = [u, 1 - v].map((share, j) => {
+      const [lower, upper] = this.window[j];
+      const { name, unit } = plane.axes[j];
+      const space = unit && unit !== "°" ? " " : "";
+      return `${symbol(name)} = ${fixed(lower + share * (upper - lower), decimalsFor(upper - lower))}${space}${unit}`;
+    });
+    return `${x}, ${y}: ${KINDS[grid.kind(cell)][1]}`;
+  }
+
+  /// The position of the path next to the pointer, if it is near.
+  nearest(event) {
+    const { px, py } = this.pointed(event);
+    const { samples } = this.data;
+    let best = 24;
+    let nearest;
     samples.position.forEach((position, k) => {
-      const [x, y] = place(samples.parameters.map((column) => column[k]));
+      const [x, y] = this.place(samples.parameters.map((column) => column[k]));
       const distance = Math.hypot(x - px, y - py);
       if (distance < best) [best, nearest] = [distance, position];
     });
-    if (best < 24) cursor.position = nearest;
-  });
+    return nearest;
+  }
 
-  const keys = KINDS.map(([kind, words]) => key(`fill ${kind}`, words));
-  keys.push(key("singular", "det J = 0"));
-  if (hasPath) keys.push(key("path", "path, S to G"));
-  if (plane.charts.length > 0) keys.push(key("chart", `charts of the atlas (${plane.all_charts})`));
+  show(position) {
+    const [x, y] = this.place(piece(this.data.samples, position, position)[0]);
+    this.marker.setAttribute("cx", x);
+    this.marker.setAttribute("cy", y);
+    this.marker.classList.add("shown");
+  }
+}
+
+/// The legend: what is there, and nothing else.
+function legendKeys({ plane, samples, stretches, witness }, grids) {
+  const isThere = (kind) => grids.some((grid) => grid.counts[kind] > 0);
+  const keys = KINDS.flatMap(([kind, words], k) => (isThere(k) ? [key(`fill ${kind}`, words)] : []));
+  const isSingular = grids.some(({ determinant }) => determinant.some((x) => x > 0) && determinant.some((x) => x <= 0));
+  if (isSingular) keys.push(key("singular", "det J = 0"));
+  if (samples.position.length > 1) keys.push(key("path", "path, S to G"));
+  else if (samples.position.length > 0) keys.push(element("span", { class: "key" }, "S: the pose"));
+  else if (plane.waypoints.length > 0) keys.push(element("span", { class: "key" }, "S, G: what was asked for"));
+  const charts = plane.charts.filter((corners) => clipped(
+    corners.flatMap((_, k) => (k % 2 ? [] : [[corners[k], corners[k + 1]]])), grids[0].window).length > 0);
+  if (charts.length > 0) keys.push(key("chart", `charts of the atlas (${plane.all_charts})`));
   if (witness) keys.push(key("witness", "witness"));
   if (stretches.some((s) => s.violated)) keys.push(key("violated", "violated"));
   if (stretches.some((s) => !s.violated)) keys.push(key("opening", "left open"));
-  return element("figure", { class: "plane-figure" }, element("div", { role: "img", "aria-label": description }, plot),
-    element("figcaption", {}, element("span", { class: "legend" }, ...keys), readout));
+  if (grids.length > 1) keys.push(key("enlarged", "enlarged part"));
+  return keys;
+}
+
+export function planeFigure(data, cursor) {
+  const { plane, samples } = data;
+  const hasPath = samples.position.length > 0;
+  const grid = readGrid(plane.grid);
+  const detail = plane.detail ? readGrid(plane.detail) : undefined;
+  const grids = detail ? [grid, detail] : [grid];
+  const share = (100 * grid.counts[0]) / grid.tension.length;
+  const [x, y] = plane.axes.map(({ name }) => symbol(name));
+  const holder = element("div", {
+    class: detail ? "maps with-detail" : "maps", role: "img",
+    "aria-label": `The plane of ${x} and ${y}: at ${text(share, 2)} % of the sampled places all limits are kept` +
+      `${hasPath ? "; the path leads through it from S to G" : ""}.`,
+  });
+  const readout = element("span", { class: "readout" }, "");
+  let maps = [];
+
+  const show = (position) => maps.forEach((map) => map.show(position));
+  const draw = () => {
+    const widths = narrow.matches ? [NARROW, NARROW] : detail ? [BESIDE.main, BESIDE.detail] : [WIDE];
+    maps = [new PlaneMap(data, cursor, grid, widths[0], { detail })];
+    if (detail) maps.push(new PlaneMap(data, cursor, detail, widths[1], { isDetail: true }));
+    holder.replaceChildren(...maps.map((map) => map.svg));
+    for (const map of maps) {
+      map.svg.addEventListener("pointermove", (event) => {
+        readout.textContent = map.says(event) ?? readout.textContent;
+      });
+      map.svg.addEventListener("pointerdown", (event) => {
+        const nearest = map.nearest(event);
+        if (nearest !== undefined) cursor.position = nearest;
+      });
+    }
+    if (hasPath && cursor.position !== undefined) show(cursor.position);
+  };
+  draw();
+  narrow.addEventListener("change", draw);
+  if (hasPath) cursor.onMove(show);
+  return element("figure", { class: "plane-figure" }, holder,
+    element("figcaption", {}, element("span", { class: "legend" }, ...legendKeys(data, grids)), readout));
 }

@@ -156,6 +156,7 @@ export class Player {
     }
     this.playing = true;
     this.play.textContent = "❚❚ Pause";
+    this.onPlaying?.(true);
     if (this.share >= 1) this.goTo(0);
     let last = performance.now();
     const frame = (now) => {
@@ -172,6 +173,7 @@ export class Player {
   stop() {
     this.playing = false;
     this.play.textContent = "▶ Play";
+    this.onPlaying?.(false);
   }
 
   show(position) {

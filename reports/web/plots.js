@@ -58,14 +58,20 @@ function marks(data, axis, [bottom, top]) {
     y2: top,
     fill: (s) => (s.violated ? "var(--mark)" : "var(--undecided)"),
     stroke: (s) => (s.violated ? "var(--mark)" : "var(--undecided)"),
-    fillOpacity: 0.22,
-    strokeOpacity: 0.6,
+    fillOpacity: 0.16,
+    strokeOpacity: 0.5,
     strokeWidth: 1,
     clip: true,
   });
   const places = data.witness ? [data.witness.position, data.witness.to].filter((x) => x !== null) : [];
-  const before = Plot.ruleX(places.map(at), { stroke: "var(--mark)", strokeWidth: 1.6, strokeDasharray: "3 3" });
+  const before = Plot.ruleX(places.map(at), {
+    stroke: "var(--mark)", strokeWidth: 1.6, strokeDasharray: "3 3", clip: true,
+  });
   return { behind, before };
+}
+
+function limitLines(limits) {
+  return Plot.ruleY(limits, { stroke: "var(--limit)", strokeWidth: 1, strokeOpacity: 0.7, clip: true });
 }
 
 function beyondLimits([lower, upper], [bottom, top], [left, right], label) {
@@ -73,7 +79,7 @@ function beyondLimits([lower, upper], [bottom, top], [left, right], label) {
     Plot.rect([[bottom, lower], [upper, top]], {
       x1: left, x2: right, y1: (d) => d[0], y2: (d) => d[1], fill: "var(--forbidden)", clip: true,
     }),
-    Plot.ruleY([lower, upper], { stroke: "var(--limit)", strokeWidth: 1.2 }),
+    limitLines([lower, upper]),
     Plot.text([lower, upper], {
       x: right, y: (d) => d, text: label, dx: 4, textAnchor: "start", fill: "var(--limit)", clip: false,
     }),
@@ -82,16 +88,17 @@ function beyondLimits([lower, upper], [bottom, top], [left, right], label) {
 
 /// A figure with its plot and a line that says what is at the cursor.
 class Panel {
-  /// draw: (axis) → marks; says: (where in the samples, position) → text at the cursor; rest: the text without a
-  /// cursor.
+  /// draw: (axis) → marks; says: (where in the samples, position) → text at the cursor; rest: what is said of the whole
+  /// path.
   constructor({ title, keys, description, rest, size = NARROW, domain, label, log = false, draw, says }) {
-    Object.assign(this, { rest, size, domain, label, log, draw, says, description });
-    this.readout = element("span", { class: "readout" }, rest);
+    Object.assign(this, { size, domain, label, log, draw, says, description });
+    this.readout = element("span", { class: "readout" });
     this.holder = element("div", {
       class: "drawing", tabindex: "0", role: "img", "aria-label": `${description} Arrow keys move the cursor.`,
     });
     this.figure = element("figure", { class: "panel" },
-      element("figcaption", {}, element("span", { class: "title" }, title), keys ?? "", this.readout), this.holder);
+      element("figcaption", {}, element("span", { class: "title" }, title), keys ?? "",
+        rest ? element("span", { class: "range" }, rest) : "", this.readout), this.holder);
   }
 
   redraw(axis) {
@@ -148,88 +155,116 @@ function bandAt(band, bands, position) {
   return position <= bands.to[k] ? [band.lower[k], band.upper[k]] : undefined;
 }
 
-function cablePanel(data, cable, { name, unit, factor, limits, low, middle, high, band }) {
-  const scaled = (list) => list.map((x) => (x === null ? NaN : x * factor));
+const NEARNESS = { calm: "", near: "near limit", close: "close to limit", out: "out of limits" };
+
+/// The range over the whole path, and whether it is proved or sampled; "" if nothing is known.
+function wholeRange(data, { index, name, uses, unit, factor }) {
+  if (!uses) return "";
+  const { is_proved: isProved } = data.cables;
+  const signs = data.samples.sign;
+  if (name === "tension" && data.witness?.kind === "singular") return "no bound: a singular pose is on the way";
+  if (!isProved && name === "tension" && signs.some((sign) => sign !== signs[0])) {
+    return "no bound: det J = 0 on the way (sampled)";
+  }
+  const range = uses.ranges[index].map((x) => x * factor);
+  if (isProved) return `proved ${span(range, unit)}`;
+  const [least, greatest] = range.map((x) => text(x, 3));
+  return least === greatest ? `sampled ${least} ${unit}` : `sampled ${least} to ${greatest} ${unit}`;
+}
+
+/// `cable`: low, middle, high: samples; limits and band in the shown unit; domain: of all six.
+function cablePanel(data, cable) {
+  const { index, name, unit, limits, low, middle, high, band, domain, uses } = cable;
   const [bottom, top] = limits;
-  const proved = band && { lower: scaled(band.lower), upper: scaled(band.upper) };
-  const all = extent(low, high, ...(proved ? [proved.lower, proved.upper] : []));
-  const sampled = extent(low, high);
-  const domain = limitedDomain(limits, all);
   const decimals = decimalsFor(top - bottom);
   const isBand = low !== high;
-  const provedSpan = proved && extent(proved.lower, proved.upper);
-  const violated = data.witness && data.witness.cable === cable + 1 && data.witness.kind.startsWith(name);
+  const range = wholeRange(data, cable);
+  const nearness = uses ? uses.nearness[index] : "calm";
+  const colour = `var(--${nearness})`;
+  const violated = data.witness && data.witness.cable === index + 1 && data.witness.kind.startsWith(name);
   return new Panel({
-    title: `Cable ${cable + 1}`,
-    rest: span(provedSpan ?? sampled, unit),
+    title: `Cable ${index + 1}`,
+    keys: NEARNESS[nearness] ? element("span", { class: `nearness ${nearness}` }, NEARNESS[nearness]) : undefined,
+    rest: range,
     description:
-      `${name === "tension" ? "Tension" : "Length"} of cable ${cable + 1} along the move: ` +
-      (provedSpan && data.verdict === "proved"
-        ? `proved to stay between ${span(provedSpan, unit).replace("to", "and")}, `
-        : sampled ? `sampled between ${span(sampled, unit).replace("to", "and")}, ` : "") +
-      `limits ${text(bottom)} and ${text(top)} ${unit}.` + (violated ? " It is proved to be out of its limits." : ""),
+      `${name === "tension" ? "Tension" : "Length"} of cable ${index + 1} along the move: ` +
+      `${range ? `${range}, ` : ""}limits ${text(bottom)} and ${text(top)} ${unit}.` +
+      (violated ? " It is proved to be out of its limits." : ""),
     domain,
     label: `${name} [${unit}]`,
     draw: (axis, across) => {
       const { behind, before } = marks(data, axis, domain);
       const rows = curve(data, axis, low, middle, high);
-      const drawn = [...beyondLimits(limits, domain, across, (d) => text(d))];
-      drawn.push(behind);
-      if (proved) {
-        drawn.push(Plot.areaY(steps(data.bands.from, data.bands.to, proved.lower, proved.upper, axis.at), {
+      const drawn = [...beyondLimits(limits, domain, across, (d) => text(d)), behind];
+      if (band) {
+        drawn.push(Plot.areaY(steps(data.bands.from, data.bands.to, band.lower, band.upper, axis.at), {
           x: "x", y1: "lower", y2: "upper", fill: "var(--band)", clip: true,
         }));
       }
       if (isBand) {
         drawn.push(Plot.areaY(rows, {
-          x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], fill: "var(--curve)", fillOpacity: 0.35, clip: true,
+          x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], fill: colour, fillOpacity: 0.28, clip: true,
         }));
       }
-      drawn.push(Plot.lineY(rows, { x: "x", y: (d) => d.y[1], stroke: "var(--curve)", strokeWidth: 1.5, clip: true }));
+      drawn.push(Plot.lineY(rows, { x: "x", y: (d) => d.y[1], stroke: colour, strokeWidth: 1.8, clip: true }));
       if (rows.length === 1) { // a single pose has no line
         if (isBand) {
           drawn.push(Plot.ruleX(rows, {
-            x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], stroke: "var(--curve)", strokeWidth: 5, strokeOpacity: 0.5,
+            x: "x", y1: (d) => d.y[0], y2: (d) => d.y[2], stroke: colour, strokeWidth: 5, strokeOpacity: 0.5,
+            clip: true,
           }));
         }
-        drawn.push(Plot.dot(rows, { x: "x", y: (d) => d.y[1], fill: "var(--curve)", r: 3 }));
+        drawn.push(Plot.dot(rows, { x: "x", y: (d) => d.y[1], fill: colour, r: 3, clip: true }));
       }
       drawn.push(before);
       return drawn;
     },
     says: (where, position) => {
       const at = fixed(between(middle, where), decimals);
-      const found = band && bandAt(proved, data.bands, position);
-      const range = found
+      const found = band && bandAt(band, data.bands, position);
+      const spread = found
         ? ` (proved ${fixedAtMost(found[0], decimals)} to ${fixedAtLeast(found[1], decimals)})`
         : isBand ? ` (${fixed(between(low, where), decimals)} to ${fixed(between(high, where), decimals)})` : "";
-      return `${at}${range} ${unit}`;
+      return `here ${at}${spread} ${unit}`;
     },
   });
 }
 
+/// The panels of six cables on one scale, those nearest to their limits first.
+function cablePanels(data, { name, unit: { name: unit, factor }, limits, columns, bands }) {
+  const uses = data.cables?.[name];
+  const scaled = (list) => list.map((x) => (x === null ? NaN : x * factor));
+  const cables = limits.map((pair, index) => {
+    const band = bands && { lower: scaled(bands[index].lower), upper: scaled(bands[index].upper) };
+    return { index, name, unit, factor, uses, limits: pair.map((x) => x * factor), band, ...columns(index) };
+  });
+  const all = cables.flatMap(({ low, high, band }) => [low, high, ...(band ? [band.lower, band.upper] : [])]);
+  const domain = limitedDomain(extent(...cables.map((cable) => cable.limits)), extent(...all));
+  const order = uses?.order ?? cables.map(({ index }) => index);
+  return order.map((index) => cablePanel(data, { ...cables[index], domain }));
+}
+
 export function tensionPanels(data) {
-  const { name: unit, factor } = data.forceUnit;
-  return data.robot.tension.map((limits, i) => {
-    const f0 = data.samples.tension[i].map((x) => (x ?? NaN) * factor);
-    const below = data.samples.tension_below[i].map((x) => x * factor);
-    const above = data.samples.tension_above[i].map((x) => x * factor);
-    return cablePanel(data, i, {
-      name: "tension", unit, factor, limits: limits.map((x) => x * factor),
-      low: f0.map((f, k) => f - below[k]), middle: f0, high: f0.map((f, k) => f + above[k]),
-      band: data.bands && data.bands.from.length ? data.bands.tension[i] : null,
-    });
+  const { samples, forceUnit: unit, bands } = data;
+  return cablePanels(data, {
+    name: "tension", unit, limits: data.robot.tension, bands: bands?.from.length ? bands.tension : undefined,
+    columns: (i) => {
+      const middle = samples.tension[i].map((x) => (x ?? NaN) * unit.factor);
+      const low = middle.map((f, k) => f - samples.tension_below[i][k] * unit.factor);
+      const high = middle.map((f, k) => f + samples.tension_above[i][k] * unit.factor);
+      return { low, middle, high };
+    },
   });
 }
 
 export function lengthPanels(data) {
-  const { name: unit, factor } = data.lengthUnit;
-  return data.robot.length.map((limits, i) => {
-    const d = data.samples.length[i].map((x) => (x === null ? NaN : x * factor));
-    return cablePanel(data, i, {
-      name: "length", unit, factor, limits: limits.map((x) => x * factor), low: d, middle: d, high: d,
-      band: data.bands && data.bands.from.length ? data.bands.length[i] : null,
-    });
+  const { samples, lengthUnit: unit, bands } = data;
+  return cablePanels(data, {
+    name: "length", unit, limits: data.robot.length, bands: bands?.from.length ? bands.length : undefined,
+    columns: (i) => {
+      const middle = samples.length[i].map((x) => (x === null ? NaN : x * unit.factor));
+      return { low: middle, middle, high: middle };
+    },
   });
 }
 
@@ -288,7 +323,9 @@ function marginPanel(data, title, unit, proved, sampled, needed) {
       const bounds = steps(data.margins.from, data.margins.to, starts, proved, axis.at);
       const drawn = [behind];
       if (!log && floor < needed) {
-        drawn.push(Plot.rect([0], { x1: across[0], x2: across[1], y1: floor, y2: needed, fill: "var(--forbidden)" }));
+        drawn.push(Plot.rect([0], {
+          x1: across[0], x2: across[1], y1: floor, y2: needed, fill: "var(--forbidden)", clip: true,
+        }));
       }
       drawn.push(
         Plot.areaY(bounds, { x: "x", y1: "lower", y2: "upper", fill: "var(--band)", clip: true }),
@@ -297,7 +334,7 @@ function marginPanel(data, title, unit, proved, sampled, needed) {
           x: "x", y: (d) => (log && !(d.y[0] > 0) ? NaN : d.y[0]), stroke: "var(--c1)", strokeWidth: 1.2,
           strokeDasharray: "5 3", clip: true,
         }));
-      if (!log) drawn.push(Plot.ruleY([needed], { stroke: "var(--limit)", strokeWidth: 1.2 }));
+      if (!log) drawn.push(limitLines([needed]));
       return [...drawn, before];
     },
     says: (where, position) => {

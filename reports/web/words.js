@@ -39,6 +39,18 @@ export function decimalsFor(range) {
   return Math.min(9, Math.max(0, 3 - Math.ceil(Math.log10(range))));
 }
 
+const GREEK = {
+  alpha: "α", beta: "β", gamma: "γ", delta: "δ", epsilon: "ε", zeta: "ζ", eta: "η", theta: "θ", kappa: "κ", lambda: "λ",
+  mu: "μ", nu: "ν", xi: "ξ", rho: "ρ", sigma: "σ", tau: "τ", phi: "φ", chi: "χ", psi: "ψ", omega: "ω",
+};
+
+/// A name as it is written in formulas: "phi" is φ, "alpha2" α₂; others stay as they are.
+export function symbol(name) {
+  const [, letter, index] = name.match(/^([a-z]+)_?(\d*)$/) ?? [];
+  if (!Object.hasOwn(GREEK, letter ?? "")) return name;
+  return GREEK[letter] + index.replace(/\d/g, (digit) => String.fromCodePoint(0x2080 + Number(digit)));
+}
+
 export const degrees = (radians) => (radians * 180) / Math.PI;
 
 /// An element with attributes and children; text stays text.

@@ -49,6 +49,16 @@ TEST(Gaps, ARunIsOneGapWhateverItsBoxesAre) {
   EXPECT_TRUE(found[0].reason.empty());
 }
 
+TEST(Gaps, NameTheFirstSingularPoseInThem) {
+  const auto found =
+      gaps_of({part(Kind::kViolated, {0, 2}), part(Kind::kSingular, {2, 3}), part(Kind::kSingular, {3, 3}),
+               part(Kind::kProved, {2, 2}), part(Kind::kViolated, {3, 2})});
+  ASSERT_EQ(found.size(), 2u);
+  ASSERT_TRUE(found[0].singular.has_value());
+  EXPECT_EQ(found[0].singular->box, (DyadicBox{2, 3}));
+  EXPECT_FALSE(found[1].singular.has_value());
+}
+
 TEST(Gaps, AnOpenOneHasTheReasonOfItsFirstBox) {
   const auto found = gaps_of(
       {part(Kind::kOpen, {0, 2}), part(Kind::kOpen, {1, 2}), part(Kind::kProved, {2, 2}), part(Kind::kOpen, {3, 2})});

@@ -18,6 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+const std::string kOutside = "witness: expected a place between the outer ends of a violated stretch";
+
 std::string canonical(const Json& json) { return json.dump(-1, ' ', true); }
 
 std::string digest(const Json& json) { return sha256(json); }
@@ -371,9 +373,11 @@ TEST(Reader, NamesWhatIsWrongWithALoadOfItems) {
        {"/witness/loads/4/case", 2, "witness.loads[4].case: expected an integer from 0 to 1"},
        {"/witness/loads/3/vector", repeated(3, "0"), "witness.loads[3]: expected no key 'vector'"},
        {"/witness/loads/0/offset_m", kRemoved, "witness.loads[0]: expected the key 'offset_m'"},
-       {"/witness/kind", "length_min", "witness: expected no key 'loads'"},
-       {"/witness/loads", kRemoved, "witness: expected one of the stretches'"}});
-  Json without = refuted();
+       {"/witness/kind", "length_min", "witness: expected no key 'loads'"}});
+  Json without = refuted_by_loads();
+  without["witness"].erase("loads");
+  EXPECT_EQ(message(sealed(without)), "none");  // the witness of a path need not be one of a stretch
+  without = refuted();
   without["witness"]["loads"] = Json::array();
   EXPECT_NE(message(sealed(without)).find("witness: expected no key 'loads'"), std::string::npos);
   without = proved();
@@ -631,7 +635,11 @@ TEST(Reader, NamesWhatIsWrongWithARefutedCertificate) {
        {"/witness/kind", "tension_max", "witness.limit"},
        {"/witness/kind", "slack", "witness.kind: expected a kind of the format"},
        {"/witness/cable", 7, "witness.cable: expected an integer from 1 to 6"},
-       {"/witness/at/s", "1", "witness: expected one of the stretches', but for its motion"},
+       {"/witness/at/s", "1", kOutside.c_str()},
+       {"/witness/at/s", "1/8", kOutside.c_str()},
+       {"/witness/at/segment", 1, kOutside.c_str()},
+       {"/witness/at", {{"segment", 1}, {"s", "3/4"}}, kOutside.c_str()},  // in an open stretch
+       {"/witness/at", {{"waypoint", 1}}, kOutside.c_str()},
        {"/witness/deviation", Json::object(), "witness.deviation: expected tolerances to be within"},
        {"/witness", singular, "witness: expected the key 'motion'"},
        {"/witness", nullptr, "witness: expected an object with the key 'kind'"},
@@ -655,6 +663,44 @@ TEST(Reader, NamesWhatIsWrongWithARefutedCertificate) {
   json["segments"][0]["margins"] = nullptr;
   json["stretches"][0]["outer"] = {{{"segment", 0}, {"s", "0"}}, {{"segment", 0}, {"s", "1"}}};
   EXPECT_EQ(message(sealed(json)), "none");
+}
+
+TEST(Reader, TakesAWitnessAnywhereInAViolatedStretchAndNowhereElse) {
+  const auto seen = [](const Json& witness) {
+    Json json = refuted();
+    json["witness"] = witness;
+    return message(sealed(json));
+  };
+  const auto between = [](int from, const char* s, int to, const char* t) {
+    return Json{{"at", {{"segment", from}, {"s", s}}}, {"to", {{"segment", to}, {"s", t}}}, {"kind", "singular"},
+                {"at_proof", {{"bits", 64}}},          {"to_proof", {{"bits", 64}}},        {"motion", Json::array()}};
+  };
+  Json inside = witness();
+  inside["value"] = {"-7", "-6"};
+  for (const char* s : {"1/4", "3/8", "1/2"}) {
+    inside["at"]["s"] = s;
+    EXPECT_EQ(seen(inside), "none") << s;
+  }
+  EXPECT_EQ(seen(between(0, "1/4", 0, "1/2")), "none");
+  EXPECT_EQ(seen(between(0, "7/16", 0, "3/8")), "none");
+  EXPECT_NE(seen(between(0, "1/8", 0, "1/2")).find(kOutside), std::string::npos);
+  EXPECT_NE(seen(between(0, "3/8", 0, "5/8")).find(kOutside), std::string::npos);
+  EXPECT_NE(seen(between(0, "5/8", 0, "3/8")).find(kOutside), std::string::npos);
+  EXPECT_NE(seen(between(0, "3/8", 1, "3/8")).find(kOutside), std::string::npos);
+  EXPECT_NE(seen(between(0, "3/8", 1, "3/4")).find(kOutside), std::string::npos);
+}
+
+TEST(Reader, TakesAWitnessWithinOneStretchOnly) {
+  Json json = refuted();
+  Json& stretches = json["stretches"];
+  stretches.insert(stretches.begin(), stretches[0]);
+  stretches[0]["outer"][1]["s"] = stretches[1]["outer"][0]["s"] = "3/8";
+  for (Json& inner : stretches[1]["inner"]) inner["at"]["s"] = "3/8";
+  EXPECT_EQ(message(sealed(json)), "none");  // two violated stretches that meet
+  json["witness"] = {
+      {"at", {{"segment", 0}, {"s", "1/4"}}}, {"to", {{"segment", 0}, {"s", "1/2"}}}, {"kind", "singular"},
+      {"at_proof", {{"bits", 64}}},           {"to_proof", {{"bits", 64}}},           {"motion", Json::array()}};
+  EXPECT_NE(message(sealed(json)).find(kOutside), std::string::npos);
 }
 
 TEST(Reader, NamesWhatIsWrongWithAnUndecidedCertificate) {

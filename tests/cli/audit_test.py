@@ -102,6 +102,37 @@ class Audit(Audits):
         self.assertTrue(2 < begin < end < 3, "no sample is in it")
         self.assertEqual(stretch["outer"][0]["lines"], [5, 6])
 
+    def test_the_gravest_violation_is_the_witness(self):
+        case, path = (os.path.join(AUDITS, "robot1-bridging" + end) for end in (".yaml", ".csv"))
+        summary = self.audit(case, path)
+        witness = summary["witness"]
+        self.assertEqual(witness["kind"], "singular", "tensions are violated at both ends of the stretch, but slightly")
+        first, last = position(witness["at"]), position(witness["to"])
+        begin, end = (position(place) for place in summary["stretches"][0]["outer"])
+        self.assertTrue(begin <= first < last <= end)
+        self.assertLess(last - first, 1e-4)
+        self.assertEqual(self.certificate()["witness"], witness)
+        self.assertEqual(self.certificate()["illustration"]["lines"], {"runs": [[0, 3]], "waypoints": 6})
+        said = run(TAUT, "audit", case, path, "--out", self.out).stdout
+        self.assertRegex(said, r"\nGravest: segment 2 at s = \S+ \(lines 5-6\): the platform passes a singular pose")
+
+    def test_the_gravest_limit_is_the_witness_where_no_pose_is_singular(self):
+        rows = "phi[deg],theta[deg]\n-131.8,91.7\n-151.8,91.7\n-131.8,91.7\n"
+        summary = self.audit(ROBOT1, self.write("path.csv", rows))
+        self.assertEqual(summary["verdict"], "refuted")
+        witness = summary["witness"]
+        inner = [end["witness"] for stretch in summary["stretches"] for end in stretch["inner"] or []]
+
+        def severity(w):
+            width = 0.45  # 0.05 to 0.5 N, 0.1 to 0.55 m
+            low, high = map(float, w["value"])
+            return (low - float(w["limit"]) if w["kind"].endswith("max") else float(w["limit"]) - high) / width
+
+        self.assertGreater(severity(witness), 0.2)
+        self.assertLess(min(map(severity, inner)), 0.01)
+        self.assertGreaterEqual(severity(witness), max(map(severity, inner)))
+        self.assertEqual(run(CHECK, self.path("out", "certificate.json"), ROBOT1).returncode, 0)
+
     def test_path_csv_reads_back_bit_for_bit(self):
         rows = ["t[ms],phi[deg],theta[deg]"] + [f"{10 * k},{-131.7 + k / 7},{91.7 + k / 9}" for k in range(8)]
         first = self.audit(ROBOT1, self.write("path.csv", "\n".join(rows)))

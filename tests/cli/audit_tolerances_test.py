@@ -7,7 +7,7 @@ Usage: audit_tolerances_test.py TAUT TAUT_CHECK SOURCE_DIR
 import os
 import re
 
-from command_line import AUDITS, CHECK, ROBOT1, Audits, main, run, text_of
+from command_line import AUDITS, CHECK, ROBOT1, SOURCE, Audits, main, run, text_of
 
 
 class LargeTolerances(Audits):
@@ -40,6 +40,23 @@ class LargeTolerances(Audits):
             self.assertEqual(self.audit(case, path)["verdict"], verdict, tolerance)
             result = run(CHECK, self.path("out", "certificate.json"), case)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_the_witness_is_the_gravest_deviation_that_was_found(self):
+        text = text_of(os.path.join(SOURCE, "cases", "tutorial", "04-tolerances.yaml")).split("\nplanner:")[0]
+        text = re.sub(r"tolerances: .*", "tolerances: {base_anchors: 0.1, load_point: 0.5, mass: 30}", text)
+        case = self.write("case.yaml", text + "\n")
+        path = self.write("path.csv", "phi[deg],theta[deg]\n30,5\n40,12\n50,18\n60,25\n")
+        summary = self.audit(case, path)
+        self.assertEqual(summary["verdict"], "refuted")
+        below = lambda witness: float(witness["limit"]) - float(witness["value"][1])
+        witness = summary["witness"]
+        self.assertIn("deviation", witness)
+        self.assertEqual(witness["kind"], "tension_min")
+        for stretch in summary["stretches"]:
+            for end in stretch["inner"] or []:
+                self.assertGreaterEqual(below(witness), below(end["witness"]))
+        result = run(CHECK, self.path("out", "certificate.json"), case)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
 
 if __name__ == "__main__":

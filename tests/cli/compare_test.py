@@ -134,7 +134,7 @@ class Compare(InFolder):
                       "path.\n", said.stdout)
         self.assertNotIn("PROVED", said.stdout)
         self.assertNotIn("margin", said.stdout)
-        self.assertIn('<div class="verdict unchecked"><p>UNCHECKED: ', text_of(self.path("report.html")))
+        self.assertIn('<div class="band unchecked">', text_of(self.path("report.html")))
         summary = json.loads(run(TAUT, "audit", ROBOT1, path, "--out", self.out, "--max-seconds", "0", "--json").stdout)
         self.assertEqual((summary["verdict"], summary["margins"], summary["stretches"]), ("unchecked", {}, None))
 

@@ -140,7 +140,7 @@ class Report(unittest.TestCase):
         self.assertEqual((other["title"], other["document"], other["site"]), ("Lift 2", "LP-3", "Hall C"))
         self.assertEqual(other["verdict"], "proved")
         self.assertEqual(other["sha256"]["problem"], told["sha256"]["problem"])
-        self.assertIn("content: \"LP-3\"", self.page(renamed))
+        self.assertIn("content: \"PROVED · LP-3\"", self.page(renamed))
         asked = json.loads(run(TAUT, "report", renamed, "--json", "--document", "LP-17").stdout)
         self.assertEqual(asked["document"], "LP-17")
 
@@ -172,8 +172,8 @@ class Report(unittest.TestCase):
         self.assertEqual((summary["verdict"], summary["margins"], summary["witness"]), ("unchecked", {}, None))
         with open(os.path.join(out, "report.html"), encoding="utf-8") as file:
             page = file.read()
-        self.assertIn('<div class="verdict unchecked"><p>UNCHECKED: ', page)
-        for claim in ("Proved: at every pose", "Reserves, proved", 'id="margins"'):
+        self.assertIn('<div class="band unchecked">', page)
+        for claim in ("PROVED", "Closest to going slack", 'id="margins"'):
             self.assertNotIn(claim, page)
         said = run(TAUT, "report", os.path.join(out, "certificate.json"), "--text", "--max-seconds", "0")
         self.assertEqual(said.returncode, 2)
@@ -248,8 +248,8 @@ class Report(unittest.TestCase):
                     file.write(first)
                 said, _ = process.communicate(timeout=60)
             self.assertEqual(process.returncode, code)
-            self.assertEqual("Proved:" in said, code == 0)
-            self.assertNotIn("0.1 N inside", said, "the forged margin")
+            self.assertEqual("PROVED: " in said, code == 0)
+            self.assertEqual("Closest to going slack: Cable 1: +1.86 %" in said, code == 0, "no forged margin")
 
     def test_a_footer_that_counts_many_boxes_does_not_keep_the_checker_away(self):
         with open(self.forged(), encoding="utf-8") as file:

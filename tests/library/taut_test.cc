@@ -363,10 +363,10 @@ TEST(Theorem, IsMadeByTheCheckerAlone) {
   EXPECT_FALSE(unchecked.theorem());
   taut::ReportOptions options;
   options.format = taut::ReportFormat::kText;
-  EXPECT_THAT(taut::report(unchecked, options), HasSubstr("Proved:")) << "a report has it checked";
+  EXPECT_THAT(taut::report(unchecked, options), HasSubstr("PROVED: ")) << "a report has it checked";
   options.max_check_seconds = 0;
-  EXPECT_THAT(taut::report(loaded, options), testing::AllOf(HasSubstr("UNCHECKED: "), Not(HasSubstr("Proved:"))));
-  EXPECT_THAT(taut::report(planned, options), HasSubstr("Proved:")) << "there is a theorem already";
+  EXPECT_THAT(taut::report(loaded, options), testing::AllOf(HasSubstr("UNCHECKED: "), Not(HasSubstr("PROVED: "))));
+  EXPECT_THAT(taut::report(planned, options), HasSubstr("PROVED: ")) << "there is a theorem already";
 }
 
 TEST(Theorem, IsNotMadeOfAForgedCertificate) {

@@ -55,8 +55,8 @@ before(async () => {
     args: ["--no-sandbox", "--host-resolver-rules=MAP * ~NOTFOUND", ...args],
   });
   [withWebgl, withoutWebgl] = await Promise.all([launch(WEBGL), launch(NO_WEBGL)]);
-  for (const name of ["robot1-slice-qs-qg", "robot2-sphere-sigma-free-q2-q3", "robot2-free-q2-q3",
-    "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
+  for (const name of ["robot1-slice-qs-qg", "robot2-sphere-q2-q3", "robot2-sphere-sigma-free-q2-q3",
+    "robot2-free-q2-q3", "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
     "tutorial/04-tolerances"]) plan(name);
   audit("robot1-geodesic", inAudits("robot1-geodesic.tum"));
   audit("robot1-cable-lengths", inAudits("robot1-cable-lengths.csv"));
@@ -127,6 +127,7 @@ test("console errors and requests are noticed", async () => {
 const PAGES = {
   "robot1-slice-qs-qg": { plane: true, panels: 17 },
   "robot2-sphere-sigma-free-q2-q3": { panels: 17 },
+  "robot2-sphere-q2-q3": { plane: true, panels: 17 },
   "robot2-free-q2-q3": { panels: 17 },
   "robot2-implicit-rail": { panels: 17 },
   "tutorial/03-a-smooth-move": { plane: true, panels: 17 },
@@ -169,6 +170,176 @@ test("no path: words and the plane, nothing to play", async () => {
   assert.equal(await has(page, ".controls"), false);
   assert.ok(await has(page, ".plane-figure svg"));
   await close(page);
+});
+
+/// In the page: the kinds of the plane's cells, from the signs in its data: 0 inside, 1 tension out, 2 length out, 3
+/// both.
+const cellKinds = () => {
+  const { grid } = JSON.parse(document.getElementById("data").textContent).plane;
+  const isOut = (text) => text.replace(/(\d+)([A-Za-z])/g, (_, count, letter) => letter.repeat(Number(count)))
+    .split("").map((letter) => letter >= "a");
+  const [tension, length] = [isOut(grid.tension), isOut(grid.length)];
+  return { ...grid, kinds: tension.map((out, k) => Number(out) + 2 * Number(length[k])) };
+};
+
+for (const name of ["robot2-sphere-q2-q3", "robot1-slice-qs-qg"]) {
+  test(`${name}: the plane's contours agree with the samples, and its legend with the plane`, async () => {
+    const page = await open(name);
+    const { checked, wrong, present, isHatched } = await page.evaluate(({ rows, columns, kinds }) => {
+      const svg = document.querySelector(".plane-figure svg");
+      const frame = svg.querySelector(".plane rect.inside");
+      const [x, y, width, height] = ["x", "y", "width", "height"].map((a) => Number(frame.getAttribute(a)));
+      const regions = ["tension", "length"].map((kind) => svg.querySelector(`.plane path.${kind}`));
+      const result = { checked: [0, 0, 0, 0], wrong: [], present: [0, 1, 2, 3].filter((k) => kinds.includes(k)) };
+      for (let row = 1; row + 1 < rows; row += 3) {
+        for (let column = 1; column + 1 < columns; column += 3) {
+          const kind = kinds[row * columns + column];
+          let isAtContour = false;
+          for (const r of [-1, 0, 1]) {
+            for (const c of [-1, 0, 1]) isAtContour ||= kinds[(row + r) * columns + column + c] !== kind;
+          }
+          if (isAtContour) continue;
+          const at = new DOMPoint(x + (width * (column + 0.5)) / columns, y + (height * (row + 0.5)) / rows);
+          const found = regions.reduce((sum, path, k) => sum + (path.isPointInFill(at) ? 1 << k : 0), 0);
+          ++result.checked[kind];
+          if (found !== kind) result.wrong.push([row, column, kind, found]);
+        }
+      }
+      return { ...result, isHatched: svg.querySelector(".hatched") !== null };
+    }, await page.evaluate(cellKinds));
+    assert.deepEqual(wrong, []);
+    for (const kind of present) assert.ok(checked[kind] > 10 || kind === 2, `${checked[kind]} of ${kind}`);
+    assert.ok(checked.reduce((a, b) => a + b) > 2000);
+    const words = ["in C", "a tension out", "a length out", "both out"];
+    const legend = await page.textContent(".plane-figure .legend");
+    words.forEach((text, kind) => assert.equal(legend.includes(text), present.includes(kind), text));
+    assert.equal(isHatched, present.includes(3));
+    assert.ok(legend.includes("charts of the atlas"));
+    assert.equal(/witness|violated|left open|enlarged/.test(legend), false);
+    await close(page);
+  });
+}
+
+test("the plane: Greek letters; a short path is enlarged; what was asked for, where no path was found", async () => {
+  const sphere = await open("robot2-sphere-q2-q3");
+  assert.match(await sphere.textContent(".plane-figure svg [aria-label='x-axis label']"), /α₁/);
+  assert.equal(await sphere.locator(".plane-figure svg").count() > 0, true);
+  assert.equal(await sphere.locator(".maps > svg").count(), 1);
+  await close(sphere);
+  const short = await open("proved.html");
+  assert.equal(await short.locator(".maps > svg").count(), 2);
+  assert.ok(await shown(short, ".plane-figure rect.enlarged"));
+  assert.match(await short.textContent(".plane-figure .legend"), /enlarged/);
+  assert.equal(await short.locator(".maps > svg:nth-child(2) .start").count(), 1);
+  await close(short);
+  const none = await open("no_path_of_query.html");
+  assert.equal(await has(none, ".plane-figure .path[d]:not(.key *)"), false);
+  assert.equal(await none.locator(".plane-figure .start").count(), 1);
+  assert.doesNotMatch(await none.textContent(".plane-figure .legend"), /path, S to G/);
+  for (const gone of ["#move", "#tensions", "#lengths", "#pose", ".controls", ".bar-player"]) {
+    assert.equal(await has(none, gone), false, gone);
+  }
+  await close(none);
+});
+
+for (const name of ["robot1-slice-qs-qg", "robot1-straight-qs-qg", "refuted.html", "tutorial/04-tolerances"]) {
+  test(`${name}: six plots share a scale, and the nearest to its limit is first`, async () => {
+    const page = await open(name);
+    const { tension, length, is_proved: isProved } = await page.evaluate(() =>
+      JSON.parse(document.getElementById("data").textContent).cables);
+    for (const [id, uses] of [["tensions", tension], ["lengths", length]]) {
+      const panels = page.locator(`#${id} .panel`);
+      const scales = await panels.evaluateAll((all) => all.map((panel) =>
+        [...panel.querySelectorAll('[aria-label="y-axis tick label"] text')].map((text) =>
+          `${text.textContent} at ${text.getAttribute("transform")}`).join()));
+      assert.equal(scales.length, 6);
+      assert.equal(new Set(scales).size, 1, scales.join("\n"));
+      const titles = await panels.locator(".title").allTextContents();
+      assert.deepEqual(titles, uses.order.map((cable) => `Cable ${cable + 1}`));
+      const rank = (cable) => ["calm", "near", "close", "out"].indexOf(uses.nearness[cable]);
+      for (let k = 1; k < 6; ++k) assert.ok(rank(uses.order[k - 1]) >= rank(uses.order[k]));
+      for (const range of await panels.locator(".range").allTextContents()) {
+        assert.match(range, isProved ? /^proved / : /^sampled |^no bound: /);
+      }
+    }
+    await close(page);
+  });
+}
+
+for (const name of ["robot1-slice-qs-qg", "robot1-straight-qs-qg", "tutorial/02-a-slack-start", "proved.html"]) {
+  test(`${name}: no plot draws outside its frame`, async () => {
+    const page = await open(name);
+    const outside = await page.evaluate(() => {
+      const within = (a, b) => a.x >= b.x - 1 && a.y >= b.y - 1 && a.x + a.width <= b.x + b.width + 1 &&
+        a.y + a.height <= b.y + b.height + 1;
+      const found = [];
+      for (const svg of document.querySelectorAll(".drawing > svg, .maps > svg")) {
+        const frame = svg.querySelector('[aria-label="frame"]').getBBox();
+        const clip = (shape) => {
+          const holder = shape.closest("[clip-path]");
+          if (!holder) return undefined;
+          const id = holder.getAttribute("clip-path").match(/#([^")]+)/)[1];
+          return document.getElementById(id)?.firstElementChild?.getBBox();
+        };
+        for (const shape of svg.querySelectorAll("path, rect, circle, line")) {
+          if (shape.closest("defs, clipPath, [aria-label*='axis'], .start, .goal, .here, .cursor, .witness")) continue;
+          const box = clip(shape.classList.contains("hatched") ? shape.parentNode : shape) ?? shape.getBBox();
+          if (!within(box, frame)) found.push(shape.outerHTML.slice(0, 200));
+        }
+      }
+      return found;
+    });
+    assert.deepEqual(outside, []);
+    await close(page);
+  });
+}
+
+for (const [device, viewport] of [["desktop", { width: 1100, height: 900 }], ["phone", { width: 390, height: 844 }]]) {
+  test(`the bar stays at the top of a ${device}: verdict, player, contents`, async () => {
+    const page = await open("robot1-slice-qs-qg", { viewport });
+    await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+    await frames(page);
+    const box = await page.locator(".bar").boundingBox();
+    assert.ok(box.y >= -1 && box.y < 1 && box.height < 64, JSON.stringify(box));
+    assert.match(await page.textContent(".bar .state"), /PROVED/);
+    for (const part of [".state", ".bar-play", "input[type=range]", "summary"]) {
+      const inner = await page.locator(`.bar ${part}`).boundingBox();
+      assert.ok(inner.y >= 0 && inner.y + inner.height <= 64 && inner.x >= 0 && inner.x + inner.width <= viewport.width,
+        `${part}: ${JSON.stringify(inner)}`);
+    }
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= viewport.width, "nothing sticks out");
+    await page.$eval(".bar input[type=range]", (slider) => {
+      slider.value = "500";
+      slider.dispatchEvent(new Event("input"));
+    });
+    assert.ok((await cursors(page))[0] > 100, "it moves the plots' cursor");
+    assert.equal(await page.$eval(".controls input[type=range]", (slider) => slider.value), "500");
+    await page.click(".bar .bar-play");
+    assert.equal(await page.getAttribute(".bar .bar-play", "aria-label"), "Pause");
+    await page.click(".bar .bar-play");
+    await page.click(".bar summary");
+    await page.click(".bar details a[href='#lengths']");
+    assert.equal(await page.$eval(".bar details", (menu) => menu.open), false, "the menu closes");
+    const title = await page.locator("#lengths h2").boundingBox();
+    assert.ok(title.y > 40 && title.y < 400, `the section is below the bar: ${title.y}`);
+    await page.emulateMedia({ media: "print" });
+    assert.equal(await shown(page, ".bar"), false);
+    await close(page);
+  });
+}
+
+test("the bar without a script has verdict and contents; without a move it has no player", async () => {
+  const still = await open("robot1-slice-qs-qg", { javaScriptEnabled: false });
+  assert.ok(await shown(still, ".bar .state"));
+  assert.ok(await shown(still, ".bar .quick a"));
+  assert.equal(await has(still, ".bar input"), false);
+  await close(still);
+  for (const [name, words] of [["no_path.html", /NO PATH FOUND/], ["tutorial/02-a-slack-start", /DO NOT RUN/]]) {
+    const page = await open(name);
+    assert.match(await page.textContent(".bar .state"), words);
+    assert.equal(await has(page, ".bar-player, .controls .play"), false);
+    await close(page);
+  }
 });
 
 test("playing moves the robot and the plots' cursor, and ends", async () => {
@@ -226,7 +397,7 @@ test("scrubbing by mouse, keys and plots; stepping; orbiting", async () => {
   assert.notDeepEqual(await labels(page), robot, "pointing at a plot moves the robot");
   const all = await cursors(page);
   assert.ok(all.length > 10 && Math.min(...all) > 200, "and the cursors of all plots");
-  assert.match(await page.textContent("#tensions .readout"), /N$/);
+  assert.match(await page.textContent("#tensions .readout"), /^here .*N$/);
   await drawing.focus();
   await page.keyboard.press("ArrowLeft");
   assert.ok((await cursors(page))[0] < all[0], "so do keys");
@@ -412,11 +583,10 @@ for (const name of KINDS) {
       await frames(page);
       const width = await page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(width <= viewport.width, `${width} px wide on a screen of ${viewport.width}`);
-      for (const colorScheme of ["light", "dark"]) {
-        await page.emulateMedia({ colorScheme });
-        assert.deepEqual(await axe(page), [], `${colorScheme}, ${viewport.width} px`);
-      }
+      assert.deepEqual(await axe(page), [], `${viewport.width} px`);
     }
+    await page.emulateMedia({ colorScheme: "dark" });
+    assert.deepEqual(await axe(page, { runOnly: ["color-contrast"] }), [], "dark");
     await picture(page, `phone-dark-${name.replaceAll("/", "-")}`);
     await close(page);
   });
@@ -447,22 +617,26 @@ test("wide tables scroll in their own box, which says so and answers to keys; ot
   await close(page);
 });
 
-/// The fonts that the words inside the selected element are drawn in, by name.
+/// The fonts of the words that stand in the selected elements themselves.
 async function fonts(page, selector) {
   page.debugger ??= await page.context().newCDPSession(page);
   const { root } = await page.debugger.send("DOM.getDocument");
   await page.debugger.send("CSS.enable");
-  const { nodeId } = await page.debugger.send("DOM.querySelector", { nodeId: root.nodeId, selector });
-  return (await page.debugger.send("CSS.getPlatformFontsForNode", { nodeId })).fonts;
+  const { nodeIds } = await page.debugger.send("DOM.querySelectorAll", { nodeId: root.nodeId, selector });
+  const found = await Promise.all(
+    nodeIds.map((nodeId) => page.debugger.send("CSS.getPlatformFontsForNode", { nodeId })));
+  return found.flatMap((answer) => answer.fonts);
 }
 
 for (const javaScriptEnabled of [true, false]) {
   test(`the page brings its typeface, with script ${javaScriptEnabled ? "on" : "off"}`, async () => {
-    for (const name of ["robot1-slice-qs-qg", "robot2-implicit-rail", "tutorial/04-tolerances", "refuted.html"]) {
-      const page = await open(name, { javaScriptEnabled });
-      const used = await fonts(page, "main");
-      assert.ok(used.some((font) => font.isCustomFont && /^Inter/.test(font.familyName)), JSON.stringify(used));
-      for (const font of used.filter((font) => !font.isCustomFont)) assert.match(font.familyName, /Mono/);
+    for (const name of ["robot1-slice-qs-qg", "tutorial/04-tolerances", "refuted.html"]) {
+      const page = await open(name, { javaScriptEnabled, browser: withoutWebgl });
+      const used = await fonts(page, "h1 bdi, h2, p, li, dd, th, caption, .formulas *, .still text, .drawing text, " +
+        "tr:nth-child(2) td");
+      assert.ok(used.filter((font) => font.isCustomFont && /^Inter/.test(font.familyName)).length > 50);
+      const others = used.filter((font) => !font.isCustomFont).map((font) => font.familyName);
+      assert.deepEqual(others, [], "the reader's own fonts");
       await close(page);
     }
   });
@@ -506,7 +680,7 @@ test("on paper the colours are those of light paper, whatever the reader's choic
 /// Each page of a PDF, from the top of what is printed between head and foot: how far down there is ink, from 0 to 1.
 function fills(pdf) {
   const A4 = 297; // [mm]
-  const [top, bottom] = [18, 15]; // margins [mm]
+  const [top, bottom] = [16, 14]; // margins [mm]
   const pages = execFileSync("pdftoppm", ["-r", "30", "-gray", pdf], { maxBuffer: 1 << 28 });
   const result = [];
   for (let at = 0; at < pages.length;) {
@@ -549,7 +723,7 @@ for (const [name, expected] of Object.entries(PAPER)) {
       assert.match(lines.at(-1), new RegExp(`Page ${k + 1} of ${pages.length}$`));
       if (k > 0) assert.ok(lines[0].includes(`${expected.verdict} · ${number}`), lines[0]);
     });
-    for (const fill of fills(pdf).slice(1, -1)) assert.ok(fill > 0.6, `filled to ${fill}`);
+    for (const fill of fills(pdf).slice(1, -1)) assert.ok(fill > 0.5, `filled to ${fill}`);
     await close(page);
   });
 }

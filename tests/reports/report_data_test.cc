@@ -5,9 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "reports/page/plane.h"
+#include "reports/summary/cable_use.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
@@ -16,6 +20,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 /// `proved` with `copies` of its first segment before the others; all of its waypoints but the last are the same one.
 json long_path(std::size_t copies) {
@@ -168,20 +173,143 @@ TEST(ReportData, CannotEndItsScriptElement) {
   EXPECT_EQ(json::parse(text), sample::kAttack + "\uFFFD");
 }
 
-TEST(Plane, ColoursThePathsPosesAsTheyAre) {
+TEST(ReportData, OrdersCablesByHowNearTheyComeToTheirLimits) {
+  const ReportContext scene = sample::scene(sample::proved());
+  const json cables = report_data(scene)["cables"];
+  EXPECT_EQ(cables["is_proved"], true);
+  const CableUse use = cable_use(scene);
+  for (const char* what : {"tension", "length"}) {
+    const json& of = cables[what];
+    const auto& uses = of == cables["length"] ? use.length : use.tension;
+    EXPECT_THAT(of["order"].get<std::vector<int>>(), UnorderedElementsAre(0, 1, 2, 3, 4, 5));
+    const std::vector<std::string> classes = {"calm", "near", "close", "out"};
+    for (std::size_t k = 0; k + 1 < kCables; ++k) {
+      const auto a = of["order"][k].get<std::size_t>();
+      const auto b = of["order"][k + 1].get<std::size_t>();
+      const auto rank = [&](std::size_t i) {
+        return std::ranges::find(classes, of["nearness"][i].get<std::string>()) - classes.begin();
+      };
+      EXPECT_GE(rank(a), rank(b)) << what << k;
+      EXPECT_LE(of["ranges"][a][0].get<double>(), uses[a].range.lower);
+      EXPECT_GE(of["ranges"][a][1].get<double>(), uses[a].range.upper);
+    }
+  }
+}
+
+TEST(ReportData, RangesOfCablesAreOfTheWholePath) {
+  const ReportContext scene = sample::scene(sample::refuted());
+  const json cables = report_data(scene)["cables"];
+  EXPECT_EQ(cables["is_proved"], false);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    for (const PathSample& sample : scene.samples) {
+      EXPECT_LE(cables["length"]["ranges"][i][0].get<double>(), sample.statics.length[i] * (1 + 1e-6));
+      EXPECT_GE(cables["length"]["ranges"][i][1].get<double>(), sample.statics.length[i] * (1 - 1e-6));
+    }
+  }
+  EXPECT_EQ(cables["tension"]["nearness"][2], "out") << "the cable of the witness, whatever the samples are";
+  EXPECT_GE(cables["tension"]["ranges"][2][1].get<double>(), 0.8129);
+  EXPECT_EQ(cables["tension"]["order"][0], 2);
+  EXPECT_EQ(report_data(sample::scene(sample::undecided()))["cables"]["is_proved"], false);
+}
+
+TEST(ReportData, ShowsNoPathThatWasNotFound) {
+  const json data = report_data(sample::scene(sample::no_path_of_query()));
+  EXPECT_TRUE(data["samples"]["position"].empty());
+  EXPECT_TRUE(data["cables"].is_null());
+  EXPECT_EQ(data["plane"]["waypoints"].size(), 3u) << "what was asked for";
+  EXPECT_TRUE(data["plane"]["detail"].is_null());
+}
+
+/// The letters that a text of contour_text() stands for.
+std::string unpacked(const std::string& text) {
+  std::string letters;
+  std::size_t count = 0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') {
+      count = 10 * count + static_cast<std::size_t>(c - '0');
+    } else {
+      letters.append(count > 0 ? count : 1, c);
+      count = 0;
+    }
+  }
+  return letters;
+}
+
+TEST(ContourText, TellsSignsOfAllAndSizesNextToAChangeOfSign) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(contour_text({1, 1, 1, 1, 1, 1, 1, 1, 1}, 3), "9Z");
+  EXPECT_EQ(contour_text({0, -1e-9, kNaN, -5}, 2), "4z") << "zero and NaN are not positive";
+  EXPECT_EQ(contour_text({1, 0.1, -0.1, -5, -5}, 5), "2Z3z") << "sizes count next to the change only";
+  // 0.1 / 1 is one decade, which is 6.25 letters.
+  EXPECT_EQ(contour_text({9, 9, 0.1, -1, -9, -9}, 6), "2ZT3z");
+  EXPECT_EQ(contour_text({1e-9, -1}, 2), "Az");
+}
+
+TEST(ContourText, KeepsEverySignAndPlacesContoursWithinATenthOfACell) {
+  constexpr int kColumns = 40;
+  std::vector<double> field;
+  for (int row = 0; row < 30; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      field.push_back(std::sin(0.3 * column + 0.1 * row) - 0.02 * row);
+    }
+  }
+  const std::string letters = unpacked(contour_text(field, kColumns));
+  ASSERT_EQ(letters.size(), field.size());
+  const auto level = [&](std::size_t k) {
+    const bool is_positive = letters[k] < 'a';
+    return (is_positive ? 1 : -1) * std::pow(10, 0.16 * (letters[k] - (is_positive ? 'A' : 'a')));
+  };
+  int crossings = 0;
+  for (std::size_t k = 0; k + 1 < field.size(); ++k) {
+    EXPECT_EQ(level(k) > 0, field[k] > 0) << k;
+    if (k % kColumns == kColumns - 1 || (field[k] > 0) == (field[k + 1] > 0)) continue;
+    ++crossings;
+    EXPECT_NEAR(level(k) / (level(k) - level(k + 1)), field[k] / (field[k] - field[k + 1]), 0.1) << k;
+  }
+  EXPECT_GT(crossings, 50);
+}
+
+TEST(Plane, KeepsTheLimitsAtThePathsPoses) {
   const ReportContext scene = sample::scene(sample::proved());
   const Plane plane = sample_plane(scene).value();
-  ASSERT_EQ(plane.cells.size(), static_cast<std::size_t>(plane.rows) * static_cast<std::size_t>(plane.columns));
+  const PlaneGrid& grid = plane.grid;
+  const std::size_t cells = static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns);
+  ASSERT_EQ(grid.tension.size(), cells);
+  ASSERT_EQ(grid.length.size(), cells);
+  ASSERT_EQ(grid.determinant.size(), cells);
   for (const PathSample& sample : scene.samples) {
     const auto share = [&](std::size_t j) {
-      return (sample.parameters[j] - plane.window[j].lower) / plane.window[j].length();
+      return (sample.parameters[j] - grid.window[j].lower) / grid.window[j].length();
     };
-    const auto column = static_cast<std::size_t>(share(0) * plane.columns);
-    const auto row = static_cast<std::size_t>((1 - share(1)) * plane.rows);
-    EXPECT_EQ(plane.cells.at(row * static_cast<std::size_t>(plane.columns) + column), '0') << sample.position;
+    const auto column = static_cast<std::size_t>(share(0) * grid.columns);
+    const auto row = static_cast<std::size_t>((1 - share(1)) * grid.rows);
+    EXPECT_GT(grid.tension.at(row * static_cast<std::size_t>(grid.columns) + column), 0) << sample.position;
+    EXPECT_GT(grid.length.at(row * static_cast<std::size_t>(grid.columns) + column), 0) << sample.position;
   }
-  EXPECT_FALSE(plane.singular.empty());
+  EXPECT_TRUE(std::ranges::any_of(grid.determinant, [](double x) { return x > 0; }));
+  EXPECT_TRUE(std::ranges::any_of(grid.determinant, [](double x) { return x < 0; }));
   EXPECT_FALSE(plane.charts.empty());
+}
+
+TEST(Plane, EnlargesAPathThatIsSmallInTheWindow) {
+  json certificate = sample::proved();
+  certificate["path"]["waypoints"][1]["x"][0] = "0x1p+0";
+  EXPECT_FALSE(sample_plane(sample::scene(certificate))->detail) << "it crosses half of the window";
+  const ReportContext scene = sample::scene(sample::proved());
+  const Plane plane = sample_plane(scene).value();
+  ASSERT_TRUE(plane.detail);
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Span& part = plane.detail->window[j];
+    const Span& whole = plane.grid.window[j];
+    EXPECT_GE(part.lower, whole.lower);
+    EXPECT_LE(part.upper, whole.upper);
+    EXPECT_NEAR(part.length() / whole.length(), plane.detail->window[0].length() / plane.grid.window[0].length(), 1e-9)
+        << "the same proportions";
+    for (const PathSample& sample : scene.samples) {
+      EXPECT_GT(sample.parameters[j], part.lower);
+      EXPECT_LT(sample.parameters[j], part.upper);
+    }
+  }
 }
 
 }  // namespace

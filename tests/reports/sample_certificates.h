@@ -116,6 +116,13 @@ inline nlohmann::json no_path() {
   return result;
 }
 
+/// No path was found: the certificate has the waypoints that were asked for.
+inline nlohmann::json no_path_of_query() {
+  nlohmann::json result = no_path();
+  result["path"] = certificate()["path"];
+  return result;
+}
+
 /// What a report would show if the checker had confirmed it; what claims nothing stays so.
 inline ReportContext scene(const nlohmann::json& certificate) {
   Certificate stated = read_certificate(certificate);

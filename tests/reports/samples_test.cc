@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "certificate/certificate_reader.h"
 #include "tests/reports/sample_certificates.h"
 
@@ -30,15 +32,44 @@ TEST(Samples, KeepToTheirBudgetOnALongPath) {
 
 TEST(Samples, AddHalfTurns) { EXPECT_EQ(resolved({{1.0, 2.0}, {-2, 0}}), (std::vector<double>{1.0 - 2 * kPi, 2.0})); }
 
-TEST(Samples, TellWhichLimitsAPoseBreaks) {
+TEST(Samples, TellHowFarAPoseIsInsideTheLimits) {
   const Certificate certificate = read_certificate(sample::proved());
   const Sampler sampler(certificate.problem);
   const auto at = [&](double phi, double theta) {
-    return feasibility(sampler.model(), statics(sampler.model(), sampler.pose({phi, theta})));
+    return reserves(sampler.model(), statics(sampler.model(), sampler.pose({phi, theta})));
   };
-  EXPECT_EQ(at(-2.3, 1.6), Feasibility::kInside);
-  EXPECT_EQ(at(0.5, 0.0), Feasibility::kInside);
-  EXPECT_EQ(at(-2.3, 3.0), Feasibility::kTensionOut);
+  for (const Reserves& inside : {at(-2.3, 1.6), at(0.5, 0.0)}) {
+    EXPECT_GT(inside.tension, 0);
+    EXPECT_GT(inside.length, 0);
+    EXPECT_LT(inside.tension, 0.5);
+    EXPECT_LT(inside.length, 0.5);
+  }
+  EXPECT_LT(at(-2.3, 3.0).tension, 0);
+  EXPECT_GT(at(-2.3, 3.0).length, 0);
+}
+
+TEST(Samples, ReserveIsThatOfTheWorstCable) {
+  const Certificate certificate = read_certificate(sample::proved());
+  const Sampler sampler(certificate.problem);
+  Statics<double> s = statics(sampler.model(), sampler.pose({-2.3, 1.6}));
+  s.tension.fill(0.2);
+  s.tension_below.fill(0.01);
+  s.tension_above.fill(0.02);
+  s.length.fill(0.4);
+  s.length[2] = 0.505;
+  Reserves left = reserves(sampler.model(), s);
+  EXPECT_NEAR(left.tension, (0.19 - 0.05) / 0.45, 1e-12);
+  EXPECT_NEAR(left.length, 0.045 / 0.45, 1e-12);
+  s.tension[4] = 0.49;
+  s.length[5] = 0.0;
+  left = reserves(sampler.model(), s);
+  EXPECT_NEAR(left.tension, -0.01 / 0.45, 1e-12);
+  EXPECT_NEAR(left.length, -0.1 / 0.45, 1e-12);
+  s.tension[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(reserves(sampler.model(), s).tension, -std::numeric_limits<double>::infinity());
+  s.regular = false;
+  s.tension.fill(0.2);
+  EXPECT_EQ(reserves(sampler.model(), s).tension, -std::numeric_limits<double>::infinity());
 }
 
 class SampledViolations : public ::testing::Test {

@@ -2,7 +2,7 @@
 // Words of the page's script: what is proved never looks better than it is. Run by node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { atLeast, atMost, fixedAtLeast, fixedAtMost, text } from "../../reports/web/words.js";
+import { atLeast, atMost, fixedAtLeast, fixedAtMost, symbol, text } from "../../reports/web/words.js";
 
 const number = (words) => Number(words.replace("−", "-"));
 
@@ -34,4 +34,11 @@ test("what needs no rounding is not rounded", () => {
   }
   assert.equal(atMost(NaN), "–");
   assert.equal(fixedAtMost(0.25, 2), "0.25");
+});
+
+test("names of Greek letters are shown as letters", () => {
+  assert.equal(symbol("phi"), "φ");
+  assert.equal(symbol("alpha2"), "α₂");
+  assert.equal(symbol("theta_10"), "θ₁₀");
+  for (const name of ["px", "s", "tilt", "phi_dot", "Phi", "constructor", "", "2"]) assert.equal(symbol(name), name);
 });
