@@ -22,7 +22,10 @@
 #include "cli/output.h"
 #include "cli/report_command.h"
 #include "cli/result_folder.h"
+#include "cli/terminal.h"
+#include "cli/verdict_output.h"
 #include "path_io/controller_csv.h"
+#include "reports/page/html_report.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -52,41 +55,46 @@ std::string text(const AuditedStretch& audited, const Case& the_case, const char
   const Stretch& stretch = audited.stretch;
   std::string lines = fmt::format("  from {}\n    to {}\n", text(stretch.begin, audited.begin, place_name),
                                   text(stretch.end, audited.end, place_name));
-  if (!stretch.violations) return lines + fmt::format("    open: {}\n", with_code(stretch.reason));
+  if (!stretch.violations) return lines + fmt::format("    open: {}", with_code(stretch.reason));
   const PathWitness& first = stretch.violations->first.violation;
   const PathWitness& last = stretch.violations->second.violation;
   lines += fmt::format("    violated from {}: {}\n", text(first.at, audited.first, place_name),
                        violation_text(first, robot, units));
-  return lines + fmt::format("              to {}: {}\n", text(end_of(last), audited.last, place_name),
+  return lines + fmt::format("              to {}: {}", text(end_of(last), audited.last, place_name),
                              violation_text(last, robot, units));
 }
 
 /// The violation that the certificate's witness is about.
 std::string gravest_text(const Audit& audit, const Case& the_case, const char* place_name) {
   const PathWitness& witness = audit.witness->violation;
-  return fmt::format("Gravest: {}: {}.\n", text(witness.at, audit.witness_place, place_name),
+  return fmt::format("Gravest: {}: {}.", text(witness.at, audit.witness_place, place_name),
                      violation_text(witness, the_case.problem.robot, DisplayUnits(the_case.units)));
 }
 
-std::string sentence(const Audit& audit, const DisplayUnits& units) {
+/// What follows the verdict.
+std::string sentence(const Audit& audit) {
   switch (audit.verdict) {
     case Verdict::kProved:
       return fmt::format(
-          "proved: the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} "
-          "in {}.\n{}",
-          plural(audit.segments, "segment"), plural(audit.boxes, "box"),
-          margins_text(audit.margins->tension_N, audit.margins->length_m, audit.margins->wrench_scale, units));
+          "the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} in {}.",
+          plural(audit.segments, "segment"), plural(audit.boxes, "box"));
     case Verdict::kRefuted:
-      return fmt::format("refuted: {} of the path {} proved violations{}; {}.",
-                         plural(audit.stretches_violated, "stretch"), audit.stretches_violated == 1 ? "has" : "have",
+      return fmt::format("{} of the path {} proved violations{}; {}.", plural(audit.stretches_violated, "stretch"),
+                         audit.stretches_violated == 1 ? "has" : "have",
                          audit.stretches_open == 0
                              ? ""
                              : fmt::format(", and {} could not be decided", plural(audit.stretches_open, "other")),
                          audit.boxes > 0 ? "all the rest is proved" : "no part of the path is proved");
     case Verdict::kUndecided: break;
   }
-  return fmt::format("undecided: {} of the path could not be decided; nothing is claimed of the path.",
+  return fmt::format("{} of the path could not be decided; nothing is claimed of the path.",
                      plural(audit.stretches_open, "stretch"));
+}
+
+/// The verdict as the report has it. An audited path is never one that a planner did not find.
+std::string verdict_in_full(const Audit& audit) {
+  if (audit.verdict == Verdict::kProved) return "PROVED";
+  return audit.verdict == Verdict::kRefuted ? "REFUTED - DO NOT RUN" : "UNDECIDED - NO DECISION";
 }
 
 /// What may be wrong with the case, if the path is infeasible from its beginning and suggests it; else empty.
@@ -99,33 +107,43 @@ std::string hint(const Audit& audit, const PathSource& source) {
 
 void print_stretches(const Audit& audit, const Case& the_case, const PathSource& source) {
   if (audit.verdict == Verdict::kProved) {
-    fmt::print("{}\n", source.problem().tolerances
-                           ? "This holds for every deviation within the case's tolerances."
-                           : "The case states no tolerances: this is about a machine that is exactly as it says.");
+    print_wrapped(source.problem().tolerances
+                      ? "This holds for every deviation within the case's tolerances."
+                      : "The case states no tolerances: this is about a machine that is exactly as it says.");
   }
-  if (audit.witness_is_gravest) fmt::print("{}", gravest_text(audit, the_case, source.place_name()));
+  if (audit.witness_is_gravest) print_wrapped(gravest_text(audit, the_case, source.place_name()));
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
-  for (std::size_t i = 0; i < shown; ++i) fmt::print("{}", text(audit.stretches[i], the_case, source.place_name()));
+  for (std::size_t i = 0; i < shown; ++i) print_wrapped(text(audit.stretches[i], the_case, source.place_name()));
   const std::size_t all = audit.stretches_violated + audit.stretches_open;
   if (all > shown) fmt::print("  … and {} more, in certificate.json\n", all - shown);
 }
 
-void print(const Audit& audit, const Case& the_case, const PathSource& source, const checker::CheckResult& checked) {
-  fmt::print("{}", source.remarks());
+/// The verdict, the numbers of the report, or the certificate's margins where no report was made, and the rest.
+void print(const Audit& audit, const Case& the_case, const PathSource& source, const checker::CheckResult& checked,
+           const std::optional<ReportContext>& context) {
   const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
   if (is_unchecked) {
-    fmt::print("UNCHECKED: {}. Nothing is claimed of the path.\n", checked.message);
+    print_verdict("UNCHECKED", fmt::format("{}. Nothing is claimed of the path.", checked.message));
   } else {
-    fmt::print("{}\n", sentence(audit, DisplayUnits(the_case.units)));
+    print_verdict(verdict_in_full(audit), sentence(audit));
+  }
+  if (context) {
+    print_key_numbers(Summary(*context, {}).key_numbers);
+  } else if (audit.margins && !is_unchecked) {
+    print_wrapped(margins_text(audit.margins->tension_N, audit.margins->length_m, audit.margins->wrench_scale,
+                               DisplayUnits(the_case.units)));
+  }
+  fmt::print("{}", wrapped(source.remarks(), standard_output().columns));
+  if (!is_unchecked) {
     print_stretches(audit, the_case, source);
     if (const std::string load = load_that_breaks(the_case.problem.load, checked); !load.empty()) {
-      fmt::print("{}\n", load.substr(1));
+      print_wrapped(load.substr(1));
     }
-    if (const std::string may_be = hint(audit, source); !may_be.empty()) fmt::print("{}\n", may_be);
+    if (const std::string may_be = hint(audit, source); !may_be.empty()) print_wrapped(may_be);
   }
-  fmt::print("Audited {} in {:.3g} s, {:.4g} a second.\n", plural(audit.segments, "segment"), audit.seconds,
-             static_cast<double>(audit.segments) / audit.seconds);
+  print_wrapped(fmt::format("Audited {} in {:.3g} s, {:.4g} a second.", plural(audit.segments, "segment"),
+                            audit.seconds, static_cast<double>(audit.segments) / audit.seconds));
 }
 
 nlohmann::json place_json(const PathPoint& point, const FilePlace& place, const char* place_name) {
@@ -256,7 +274,7 @@ int run_audit(const AuditArguments& arguments) {
   const std::optional<SigningKey> key = load_signing_key(arguments.key);
   const std::string date = report_date();
   PathSource source(case_.problem, request.path, request.law);
-  if (!arguments.json) fmt::print("{}", source.description());
+  if (!arguments.json) fmt::print("{}", wrapped(source.description(), standard_output().columns));
   announce(case_, arguments.json);
   std::fflush(stdout);
 
@@ -308,9 +326,11 @@ int run_audit(const AuditArguments& arguments) {
   std::vector<NewFile*> files = {&certificate};
   const std::filesystem::path report_path = out / "report.html";
   std::optional<NewFile> report;
+  std::optional<ReportContext> context;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {
+    context.emplace(checked);
     report.emplace(report_path);
-    report->write(make_report(checked, {"", "", date}, ReportForm::kPage));
+    report->write(html_report(*context, {"", "", date}));
     report->finish();
     files.push_back(&*report);
   }
@@ -334,11 +354,11 @@ int run_audit(const AuditArguments& arguments) {
     add_ending(object, stopwatch, exit_code(checked), written);
     print_json(object);
   } else {
-    print(result, case_, source, checked);
+    print(result, case_, source, checked, context);
     print_headroom(result.headroom, source.problem(), case_.units);
-    fmt::print("{}\n", sentence(checked));
-    fmt::print("Written to {}: path.csv, {}certificate.json{}\n", sanitize(out.string()),
-               controller ? "controller.csv, " : "", report ? ", report.html" : "");
+    print_wrapped(sentence(checked));
+    print_wrapped(fmt::format("Written to {}: path.csv, {}certificate.json{}", sanitize(out.string()),
+                              controller ? "controller.csv, " : "", report ? ", report.html" : ""));
     if (!report) {
       fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
                  sanitize((out / "certificate.json").string()));

@@ -15,6 +15,7 @@
 #include "base/files.h"
 #include "base/sanitize.h"
 #include "checker/arguments.h"
+#include "cli/terminal.h"
 #include "reports/summary/load_statement.h"
 
 namespace taut {
@@ -63,10 +64,10 @@ void complain(std::string_view message) {
 void announce(const Case& the_case, bool json) {
   for (const std::string& warning : the_case.warnings) complain("warning: " + warning);
   if (json) return;
-  const char* before = "Load: ";
+  std::string before = "Load: ";
   for (const std::string& line : brief_lines(load_statement(the_case))) {
-    fmt::print("{}{}\n", before, sanitize(line));
-    before = "      ";
+    print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
+    before = std::string(before.size(), ' ');
   }
 }
 

@@ -22,8 +22,11 @@
 #include "cli/number_option.h"
 #include "cli/output.h"
 #include "cli/result_folder.h"
+#include "cli/terminal.h"
+#include "cli/verdict_output.h"
 #include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
+#include "reports/page/html_report.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -32,25 +35,28 @@
 namespace taut {
 namespace {
 
-std::string plan_sentence(const Case& the_case, const Plan& plan, const checker::CheckResult& checked) {
-  const DisplayUnits units(the_case.units);
+/// A verdict in lower case, as scripts know it, and what is said of it.
+struct Said {
+  std::string verdict;
+  std::string text;
+};
+
+Said said(const Case& the_case, const Plan& plan, const checker::CheckResult& checked) {
   const PathProof& proof = plan.proof;
   if (checked.outcome == checker::Outcome::kUnchecked) {
-    return fmt::format("UNCHECKED: {}. Nothing is claimed of the path.", checked.message);
+    return {"UNCHECKED", fmt::format("{}. Nothing is claimed of the path.", checked.message)};
   }
   if (checked.outcome == checker::Outcome::kUndecided && proof.verdict != Verdict::kUndecided) {
-    return fmt::format("undecided: {}.", with_code(Reason(Undecided::kKernel).text()));
+    return {"undecided", with_code(Reason(Undecided::kKernel).text()) + "."};
   }
   switch (proof.verdict) {
     case Verdict::kProved: {
       const checker::Theorem& theorem = checked.theorem.value();
       const bool is_spline = plan.path.interpolation == Interpolation::kCubicBSpline;
-      const auto margin = [&](const char* key) { return theorem.margins().at(key).get<std::string>(); };
-      return fmt::format(
-          "proved: the path is wrench-feasible and clear of singularities between all its waypoints, {} in {}.\n{}",
-          plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
-          plural(theorem.counts().boxes, "box"),
-          margins_text(margin("tension_N"), margin("length_m"), margin("wrench_scale"), units));
+      return {"proved",
+              fmt::format("the path is wrench-feasible and clear of singularities between all its waypoints, {} in {}.",
+                          plural(theorem.counts().segments, is_spline ? "spline segment" : "segment"),
+                          plural(theorem.counts().boxes, "box"))};
     }
     case Verdict::kRefuted: {
       const PathWitness& w = *proof.witness;
@@ -58,12 +64,13 @@ std::string plan_sentence(const Case& the_case, const Plan& plan, const checker:
                                     ? fmt::format("at waypoint {} of the query", *plan.refuted_waypoint)
                                 : w.at.on_segment ? fmt::format("on segment {} of the path", w.at.index)
                                                   : fmt::format("at waypoint {} of the path", w.at.index);
-      return fmt::format("refuted: {} {}.{}", where, violation_text(w, the_case.problem.robot, units),
-                         load_that_breaks(the_case.problem.load, checked));
+      return {"refuted",
+              fmt::format("{} {}.{}", where, violation_text(w, the_case.problem.robot, DisplayUnits(the_case.units)),
+                          load_that_breaks(the_case.problem.load, checked))};
     }
     case Verdict::kUndecided: break;
   }
-  return fmt::format("undecided: {}.", with_code(proof.reason.text()));
+  return {"undecided", with_code(proof.reason.text()) + "."};
 }
 
 /// What may be wrong with the case, if its first infeasible waypoint suggests it; else empty.
@@ -144,7 +151,9 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"out", outcome.out.string()}};
   result.update(result_json(checked));
   const bool is_proved = outcome.is_proved();
-  result["messages"] = messages_json({is_proved ? "" : plan_sentence(the_case, plan, checked), hint(the_case, plan)});
+  const Said what = said(the_case, plan, checked);
+  result["messages"] =
+      messages_json({is_proved ? "" : fmt::format("{}: {}", what.verdict, what.text), hint(the_case, plan)});
   return result;
 }
 
@@ -153,17 +162,18 @@ void print_search(const Outcome& outcome, const DisplayUnits& units) {
   if (s.charts == 0) return;
   const std::string unit = s.cost_unit.empty() ? "" : " " + s.cost_unit;
   const bool has_path = outcome.is_proved() || s.cost_found > 0;
-  fmt::print("{}, {} expanded; {} looked at, {} refused{}.\n", plural(static_cast<std::size_t>(s.charts), "chart"),
-             s.nodes_expanded, plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected,
-             has_path ? fmt::format("; cost {:.4g}{}, shortened from {:.4g}{}", s.cost, unit, s.cost_found, unit) : "");
   if (outcome.is_proved()) {
-    fmt::print("On its way the platform's origin moves {:.4g} {}, and the platform turns {}.\n",
-               units.length.approx(outcome.lengths.length_m), units.length.name(),
-               units.angle(outcome.lengths.angle_rad));
+    print_wrapped(fmt::format("On its way the platform's origin moves {:.4g} {}, and the platform turns {}.",
+                              units.length.approx(outcome.lengths.length_m), units.length.name(),
+                              units.angle(outcome.lengths.angle_rad)));
   }
-  fmt::print("Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.\n", 1e3 * s.plan_seconds,
-             1e3 * s.smooth_seconds, 1e3 * s.prove_seconds);
-  if (outcome.is_proved()) fmt::print("{}.\n", length_sentence(s));
+  print_wrapped(fmt::format(
+      "{}, {} expanded; {} looked at, {} refused{}.", plural(static_cast<std::size_t>(s.charts), "chart"),
+      s.nodes_expanded, plural(static_cast<std::size_t>(s.edges_checked), "edge"), s.edges_rejected,
+      has_path ? fmt::format("; cost {:.4g}{}, shortened from {:.4g}{}", s.cost, unit, s.cost_found, unit) : ""));
+  print_wrapped(fmt::format("Planned in {:.2f} ms, shortened in {:.2f} ms, proved in {:.2f} ms.", 1e3 * s.plan_seconds,
+                            1e3 * s.smooth_seconds, 1e3 * s.prove_seconds));
+  if (outcome.is_proved()) print_wrapped(length_sentence(s) + ".", 0);
 }
 
 /// What growing the atlas will cost, at most.
@@ -269,8 +279,10 @@ int run_plan(const PlanArguments& arguments) {
   const PlannedCase planned = plan(case_, planner, arguments, key, interruption.token());
   const checker::CheckResult& checked = planned.checked;
   Outcome outcome{planned, {}, out};
+  const ReportContext context(checked);
+  const ReportOptions report_options{"", "", date};
   std::vector<FileContent> files = {{out / "certificate.json", planned.text},
-                                    {out / "report.html", make_report(checked, {"", "", date}, ReportForm::kPage)}};
+                                    {out / "report.html", html_report(context, report_options)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
   if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
@@ -289,15 +301,16 @@ int run_plan(const PlanArguments& arguments) {
     print_json(result);
     return exit_code(checked);
   }
-  fmt::print("{}\n", plan_sentence(case_, planned.plan, checked));
-  if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) fmt::print("{}\n", may_be);
+  const Summary shown(context, report_options);
+  print_verdict(verdict_in_full(shown), said(case_, planned.plan, checked).text);
+  print_key_numbers(shown.key_numbers);
+  if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) print_wrapped(may_be);
   print_search(outcome, DisplayUnits(case_.units));
   print_headroom(planned.headroom, case_.problem, case_.units);
-  fmt::print("{}\nWritten to {}: {}certificate.json, report.html\n", sentence(checked), sanitize(out.string()),
-             outcome.is_proved() ? "path.csv, controller.csv, " : "");
-  if (saves_atlas) {
-    fmt::print("{}\n", atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
-  }
+  print_wrapped(sentence(checked));
+  print_wrapped(fmt::format("Written to {}: {}certificate.json, report.html", sanitize(out.string()),
+                            outcome.is_proved() ? "path.csv, controller.csv, " : ""));
+  if (saves_atlas) print_wrapped(atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
   return exit_code(checked);
 }
 

@@ -16,6 +16,7 @@
 #include "cli/console.h"
 #include "cli/output.h"
 #include "cli/pdf.h"
+#include "cli/verdict_output.h"
 
 namespace taut {
 namespace {
@@ -99,7 +100,11 @@ int run_report(const ReportArguments& arguments) {
   }
   const Rendered& rendered = *made;
   if (arguments.out.empty() && rendered.file_name == nullptr) {
-    fmt::print("{}", rendered.content);
+    if (arguments.text) {
+      print_text_report(rendered.content);
+    } else {
+      fmt::print("{}", rendered.content);
+    }
   } else {
     const std::filesystem::path target =
         arguments.out.empty() ? std::filesystem::path(arguments.certificate_path).parent_path() / rendered.file_name

@@ -23,7 +23,6 @@
 #include "cli/console.h"
 #include "cli/doctor_command.h"
 #include "cli/explain_command.h"
-#include "reports/summary/explanations.h"
 #include "cli/init_command.h"
 #include "cli/output.h"
 #include "cli/pdf.h"
@@ -32,6 +31,7 @@
 #include "cli/report_command.h"
 #include "cli/sensitivity_command.h"
 #include "cli/show_command.h"
+#include "reports/summary/explanations.h"
 
 namespace taut {
 namespace {

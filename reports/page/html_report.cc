@@ -7,6 +7,7 @@
 #include "base/labels.h"
 #include "base/sanitize.h"
 #include "reports/page/appendix.h"
+#include "reports/page/assurance_drawing.h"
 #include "reports/page/first_page.h"
 #include "reports/page/first_page_style.h"
 #include "reports/page/machine_style.h"
@@ -44,6 +45,8 @@ Html contents(const ReportContext& scene) {
   link(is_claimed && count_boxes(scene.certificate) > 0, "margins", "Margins");
   link(true, "appendix", "Appendix");
   link(true, "recheck", "Check again");
+  link(true, "assurance", "Assurance case");
+  link(true, "lift-plan", "Lift plan");
   return sticky_bar(scene, links);
 }
 
@@ -99,18 +102,19 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Html exact = exact_load(scene) + space(problem) + exact_path(scene) + exact_stretches(scene) +
                      (is_claimed ? exact_margins(scene) : Html()) + inputs(scene.certificate) + recheck(scene);
   const Html body = first_page(scene, summary) + results + inputs_in_words + proof +
-                    html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact);
+                    html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact) +
+                    assurance_section(scene, summary) + lift_plan_section(scene, summary);
   const Html title = html("Motion report: {}", summary.verdict);
   // An empty icon keeps browsers from asking a server for one.
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}{}</style>\n</head>\n<body>\n{}<main>\n{}</main>\n{}</"
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}{}{}</style>\n</head>\n<body>\n{}<main>\n{}</main>\n{}</"
       "body>\n</"
       "html>\n",
       content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kMachineStyle, kStickyBarStyle,
-      running_head(summary), contents(scene).str(), body.str(), page_scripts(scene));
+      kAssuranceStyle, running_head(summary), contents(scene).str(), body.str(), page_scripts(scene));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {

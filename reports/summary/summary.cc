@@ -61,7 +61,7 @@ const char* name(Recheck::Result result) {
   return "unchecked";
 }
 
-constexpr const char* kNameNote = "name given in the case, not checked";
+constexpr const char* kTitleNote = "as the case says, not checked";
 
 const char* name(CableUse::Source source) {
   switch (source) {
@@ -78,6 +78,14 @@ std::string document_of(const ReportContext& scene, const ReportOptions& options
   if (!options.document.empty()) return options.document;
   const std::string& stated = scene.illustration.document_fields.document;
   return stated.empty() ? document_number(scene.certificate.footer_sha256) : stated;
+}
+
+nlohmann::json scope_json(const std::vector<ScopeItem>& items) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const ScopeItem& item : items) {
+    result.push_back({{"key", item.key}, {"brief", item.brief}, {"text", item.text}});
+  }
+  return result;
 }
 
 }  // namespace
@@ -97,6 +105,7 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       headline(taut::headline(scene)),
       details(verdict_details(scene)),
       move(move_text(scene)),
+      assumed(taut::assumed(scene.certificate.problem, scene.certificate.path.interpolation)),
       not_covered(taut::not_covered(scene.certificate.problem)),
       statements(taut::statements(scene)),
       load(load_statement(scene.certificate.problem.load)),
@@ -113,8 +122,10 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
   key_numbers = taut::key_numbers(scene, use);
   cables = cable_lines(scene, use);
   if (title.empty()) title = title_from_name(name);
+  assurance_case = taut::assurance_case(scene, title);
   if (scene.illustration.headroom)
     headroom = headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+  lift_plan = taut::lift_plan(scene, *this);  // of all the rest
 }
 
 std::string title_from_name(const std::string& name) {
@@ -140,14 +151,23 @@ std::string document_number(const std::string& footer_sha256) {
   return number;
 }
 
+std::string verdict_in_full(const Summary& s) {
+  if (s.verdict == "refuted") return "REFUTED - " + s.word;
+  return s.word == "NO DECISION" ? "UNDECIDED - " + s.word : s.word;
+}
+
 std::string to_text(const Summary& s) {
   constexpr std::size_t kWidest = 12;  // of the statements' titles
   std::string text;
   const auto line = [&](const std::string& content) { text += sanitize(content) + "\n"; };
-  line(fmt::format("{}{}{}: {} ({})", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
-                   s.date.empty() ? "" : ", " + s.date, s.name, kNameNote));
-  line(fmt::format("{}: {}", s.word, s.headline));
+  line(fmt::format("{}: {}", verdict_in_full(s), s.headline));
   for (const KeyNumber& n : s.key_numbers) line(fmt::format("  {}: {} ({})", n.title, n.value, n.detail));
+  line(fmt::format("{}{}{}: {} ({})", s.document, s.revision.empty() ? "" : ", revision " + s.revision,
+                   s.date.empty() ? "" : ", " + s.date, s.title, kTitleNote));
+  for (const auto& [title, value] : {std::pair("Machine", &s.machine), std::pair("Site", &s.site),
+                                     std::pair("Load name", &s.load_name), std::pair("Prepared by", &s.prepared_by)}) {
+    if (!value->empty()) line(fmt::format("{:<{}} {}", title, kWidest, *value));
+  }
   for (const std::string& sentence : s.details) line(sentence);
   for (const std::string& sentence : s.headroom) line(sentence);
   if (const std::vector<Row> rows = cable_rows(s.cables); !rows.empty()) {
@@ -167,12 +187,12 @@ std::string to_text(const Summary& s) {
 }
 
 std::string to_markdown(const Summary& s) {
-  std::string text = fmt::format("## {} ({})\n\n", markdown(s.name), kNameNote);
+  std::string text = fmt::format("## {} ({})\n\n", markdown(s.title), kTitleNote);
   std::string head = s.document;
   if (!s.revision.empty()) head += ", revision " + s.revision;
   if (!s.date.empty()) head += ", " + s.date;
   if (!head.empty()) text += markdown(head) + "\n\n";
-  text += fmt::format("**{}**: {}\n\n", s.word, markdown(s.headline));
+  text += fmt::format("**{}**: {}\n\n", verdict_in_full(s), markdown(s.headline));
   for (const KeyNumber& n : s.key_numbers) {
     text += fmt::format("- {}: **{}** ({})\n", markdown(n.title), markdown(n.value), markdown(n.detail));
   }
@@ -243,6 +263,10 @@ nlohmann::json to_json(const Summary& s) {
       {"key_numbers", numbers},
       {"headroom", s.headroom},
       {"statements", statements},
+      {"assumed", scope_json(s.assumed)},
+      {"not_covered", scope_json(s.not_covered)},
+      {"assurance_case", to_json(s.assurance_case)},
+      {"lift_plan", to_json(s.lift_plan)},
       {"load", to_json(s.load)},
       {"cables_source", name(s.use.source)},
       {"cables", cables},

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "reports/summary/assurance_case.h"
 #include "reports/summary/key_numbers.h"
+#include "reports/summary/lift_plan.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
@@ -30,7 +32,9 @@ struct Summary {
   std::vector<CableLine> cables;      ///< those nearest to their limits first
   std::vector<std::string> headroom;  ///< what stands in the way, or how far the proof reaches; nothing checks it
   std::string move;                   ///< travel, turn and law, briefly
-  std::vector<ScopeItem> not_covered;
+  std::vector<ScopeItem> assumed, not_covered;
+  std::vector<AssuranceNode> assurance_case;  ///< none unless the move is proved
+  std::vector<LiftPlanItem> lift_plan;
   std::vector<Statement> statements;
   LoadStatement load;
   CableUse use;
@@ -45,7 +49,11 @@ struct Summary {
 /// The title of a case that states none: "Robot1 slice qs qg" of "robot1-slice-qs-qg".
 [[nodiscard]] std::string title_from_name(const std::string& name);
 
-/// Lines of plain text, without control characters, for logs.
+/// The verdict as logs and terminals show it: "PROVED", "REFUTED - DO NOT RUN", "UNDECIDED - NO DECISION",
+/// "NO PATH FOUND" or "UNCHECKED".
+[[nodiscard]] std::string verdict_in_full(const Summary& summary);
+
+/// Lines of plain text, the verdict first, without control characters, for logs.
 [[nodiscard]] std::string to_text(const Summary& summary);
 /// GitHub's Markdown. Text from the certificate is escaped, so that it can't contain markup.
 [[nodiscard]] std::string to_markdown(const Summary& summary);

@@ -58,7 +58,9 @@ class EndToEnd(InFolder):
                 verdict = expected(case)
                 self.assertEqual(planned.returncode, EXIT[verdict], planned.stdout + planned.stderr)
                 # The load as it was understood comes first, on two lines.
-                self.assertRegex(planned.stdout, rf"\ALoad: .*\n      .*\n{verdict}")
+                word = {"proved": "PROVED", "refuted": "REFUTED - DO NOT RUN",
+                        "undecided": "(UNDECIDED - NO DECISION|NO PATH FOUND)"}[verdict]
+                self.assertRegex(planned.stdout, rf"\ALoad: .*\n      .*\n{word}: ")
                 self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
                 paths = ["controller.csv", "path.csv"] if verdict == "proved" else []
                 self.assertEqual(sorted(os.listdir(out)), ["certificate.json", *paths, "report.html"])
@@ -179,7 +181,7 @@ class EndToEnd(InFolder):
                 case = self.budgeted(planner, "robot1-slice-qs-qg.yaml")
                 result = run(TAUT, "plan", case, "--out", self.out)
                 self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-                self.assertRegex(result.stdout, f"undecided: .*the budget of {budget} is spent; best so far: ")
+                self.assertRegex(result.stdout, f"NO PATH FOUND: .*the budget of {budget} is spent; best so far: ")
                 self.assertEqual(self.certificate()["verdict"], "undecided")
 
     def test_only_what_is_proved_is_left_for_a_machine_to_follow(self):
@@ -233,7 +235,7 @@ class EndToEnd(InFolder):
                 case = self.write("straight.yaml", text.replace("astar", strategy))
                 result = run(TAUT, "plan", case, "--out", self.out)
                 self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-                self.assertRegex(result.stdout, r"undecided: no path from waypoint 0 to 1 of the query: the component "
+                self.assertRegex(result.stdout, r"NO PATH FOUND: no path from waypoint 0 to 1 of the query: the component "
                                  r"of the start was covered by \d+ charts of radius 0.15 .* not met; best so far: a "
                                  r"chart whose distance to waypoint 1 is [\d.]+.* evidence, not proof")
 
@@ -248,8 +250,8 @@ class EndToEnd(InFolder):
         result = run(TAUT, "plan", case, "--out", self.out)
         self.assertEqual(result.returncode, 1)
         # Its length breaks a limit, too, by 6.8 % of the width between limits; the tension by 96 %.
-        self.assertIn("refuted: at waypoint 0 of the query the tension of cable 3 falls to at most -0.381 N, not above "
-                      "its lower limit of 0.05 N.\n", result.stdout)
+        self.assertIn("REFUTED - DO NOT RUN: at waypoint 0 of the query the tension of cable 3 falls to at most "
+                      "-0.381 N, not above its lower limit of 0.05 N.\n", result.stdout)
         self.assertEqual(self.certificate()["verdict"], "refuted")
 
     def test_bad_input_exits_with_3_says_where_and_writes_nothing(self):

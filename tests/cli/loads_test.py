@@ -91,7 +91,7 @@ class Loads(unittest.TestCase):
     def test_a_plan_says_the_load_before_the_verdict(self):
         said = self.run_on(ITEMS, "plan", "--out", "out")
         self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
-        self.assertLess(said.stdout.index("Load: In all 19.76 to 20.24 t"), said.stdout.index("proved:"))
+        self.assertLess(said.stdout.index("Load: In all 19.76 to 20.24 t"), said.stdout.index("PROVED:"))
         with open(os.path.join(self.folder.name, "out", "report.html"), encoding="utf-8") as file:
             report = file.read()
         self.assertIn("centre of gravity within 50 mm of (0, 0, -1.2) m", report)

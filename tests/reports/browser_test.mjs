@@ -489,6 +489,35 @@ for (const name of ["robot1-slice-qs-qg", "robot1-straight-qs-qg", "undecided.ht
   });
 }
 
+test("the assurance case: words within their shapes, shapes apart, and a list of all of it", async () => {
+  const page = await open("tutorial/04-tolerances");
+  const drawn = await page.$$eval(".gsn svg", (drawings) => drawings.map((svg) =>
+    [...svg.querySelectorAll("g")].map((g) => {
+      const [shape, text] = [g.querySelector(".shape"), g.querySelector("text:not(.kind)")].map((x) => x.getBBox());
+      return { id: g.querySelector(".id").textContent, shape, text };
+    })));
+  assert.equal(drawn.length, 2);
+  const right = (box) => box.x + box.width;
+  const foot = (box) => box.y + box.height;
+  const inside = (a, b) => a.x >= b.x && a.y >= b.y && right(a) <= right(b) && foot(a) <= foot(b);
+  const apart = (a, b) => right(a) <= b.x || right(b) <= a.x || foot(a) <= b.y || foot(b) <= a.y;
+  for (const nodes of drawn) {
+    nodes.forEach(({ id, shape, text }, k) => {
+      assert.ok(inside(text, shape), `the words of ${id} stay in its shape`);
+      for (const other of nodes.slice(k + 1)) assert.ok(apart(shape, other.shape), `${id} and ${other.id} overlap`);
+    });
+  }
+  const ids = new Set(drawn.flat().map(({ id }) => id));
+  const listed = await page.$$eval(".argument li > b", (marks) => marks.map((mark) => mark.textContent));
+  assert.deepEqual(listed.sort(), [...ids].sort());
+  await picture(page, "assurance-case");
+  await close(page);
+  const undecided = await open("undecided.html");
+  assert.equal(await has(undecided, ".gsn"), false);
+  assert.match(await undecided.textContent("#assurance"), /There is no assurance case/);
+  await close(undecided);
+});
+
 test("a hostile certificate runs nothing", async () => {
   const page = await open("hostile.html");
   assert.equal(await page.evaluate(() => window.attacked), undefined);

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/summary/lift_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reports/summary/summary.h"
+
+namespace taut {
+namespace {
+
+constexpr const char* kLoad = "The load";
+constexpr const char* kEquipment = "Load handling equipment";
+constexpr const char* kRigging = "Rigging";
+constexpr const char* kMovement = "Movement of equipment and load";
+constexpr const char* kPeople = "Personnel and communication";
+constexpr const char* kSite = "Site, ground and weather";
+constexpr const char* kTrouble = "Contingencies and emergencies";
+
+/// Text of the case, in quotes, since nothing checks it.
+std::string stated(const std::string& text, const char* what) {
+  return text.empty() ? "" : fmt::format("{}: “{}”, as the case says.", what, text);
+}
+
+std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : " ") + b; }
+
+/// The greatest of the proved tensions, or nothing where the whole move is not proved.
+std::string greatest_tension(const ReportContext& scene, const Summary& s) {
+  if (s.use.source != CableUse::Source::kProved || scene.verdict != "proved") return "";
+  const DisplayUnit& force = s.units.force;
+  double greatest = 0;
+  for (const Use& use : s.use.tension) greatest = std::max(greatest, use.range.upper);
+  return fmt::format("No cable's tension exceeds {} {}.", force.up(greatest, 3), force.name());
+}
+
+std::string numbers_of(const Summary& s, const char* key) {
+  const auto found = std::ranges::find(s.key_numbers, std::string_view(key), &KeyNumber::key);
+  if (found == s.key_numbers.end() || !found->is_proved) return "";
+  return fmt::format("{}: {} ({}).", found->title, found->value, found->detail);
+}
+
+std::vector<LiftPlanItem> load_items(const Summary& s) {
+  const bool has_mass = s.load.mass_kg.has_value();
+  return {{"load_description", kLoad, "Description, drawing, dimensions", stated(s.load_name, "Load"),
+           "Drawing and dimensions of the load; parts of it that could shift. Lift planner."},
+          {"load_weight", kLoad, "Weight, and where the figure comes from", s.load.total,
+           "How the figures are known: weighed, drawn or estimated. Lift planner."},
+          {"load_centre", kLoad, "Centre of gravity",
+           has_mass ? "With the weight above; its uncertainty is that of the loads under Machine and load." : "",
+           has_mass ? "How it is known. Lift planner." : "Where it is, and how that is known. Lift planner."},
+          {"load_attachment", kLoad, "Attachment points, securing", "",
+           "Points at which the load is held, and their strength. Rigging engineer."}};
+}
+
+std::vector<LiftPlanItem> equipment_items(const ReportContext& scene, const Summary& s) {
+  const auto limits = std::ranges::find(s.statements, std::string_view("limits"), &Statement::key);
+  const std::string no_bounds = scene.verdict == "proved" ? "" : "Bounds of the tensions: this report proves none. ";
+  return {{"equipment", kEquipment, "Equipment and its configuration",
+           joined(stated(s.machine, "Machine"), "Six cables; anchors under Machine and load."),
+           "Make, serial number, inspections and tests. Equipment owner."},
+          {"capacity", kEquipment, "Capacity, and how much of it is used",
+           joined(limits == s.statements.end() ? "" : limits->text, numbers_of(s, "top")),
+           no_bounds + "That the limits are the rated capacities, with every factor of safety. Equipment owner."},
+          {"load_indicator", kEquipment, "Load indicator", greatest_tension(scene, s),
+           "Which tensions are measured, and at which the move is stopped. Lift director."},
+          {"foundation", kEquipment, "Foundation and support", greatest_tension(scene, s),
+           no_bounds + "Strength of anchors, structure and ground under these forces. Structural engineer."},
+          {"rigging", kRigging, "Slings, shackles, attachments", "",
+           "Selection, capacity, inspection, and protection of load and rigging. Rigging engineer."}};
+}
+
+std::vector<LiftPlanItem> movement_items(const ReportContext& scene, const Summary& s) {
+  const bool is_found = !found_no_path(scene.certificate) && !scene.certificate.path.waypoints.empty();
+  return {
+      {"travel_path", kMovement, "Travel path of the load", is_found ? s.move : "",
+       is_found ? "Step-by-step procedure with hold points. Lift director." : "The path. Lift planner."},
+      {"clearances", kMovement, "Clearances, obstructions, power lines", "",
+       "Collisions are not examined here: all clearances along the path. Lift planner."},
+      {"dynamics", kMovement, "Speed and dynamic loads", "Forces of inertia as far as the stated loads contain them.",
+       "Speeds and accelerations at which they suffice. Lift planner."},
+      {"personnel", kPeople, "Persons, roles and qualifications", stated(s.prepared_by, "Prepared by"),
+       "Lift director, operators, riggers, signal persons. Lift director."},
+      {"communication", kPeople, "Communication, signals", "", "Method, and what happens if it fails. Lift director."},
+      {"meeting", kPeople, "Pre-lift meeting, approvals", "The declaration on the first page is to be signed.",
+       "Date and attendance. Lift director."}};
+}
+
+std::vector<LiftPlanItem> site_items(const Summary& s) {
+  const auto tolerances = std::ranges::find(s.statements, std::string_view("tolerances"), &Statement::key);
+  return {{"site", kSite, "Work area, services, utilities", stated(s.site, "Site"),
+           "Work area, lighting, power and other services. Site manager."},
+          {"site_control", kSite, "Access, traffic, exclusion zones", "", "Barriers and supervision. Site manager."},
+          {"ground", kSite, "Ground", "", "Bearing capacity under the machine's supports. Structural engineer."},
+          {"weather", kSite, "Weather limits", "Wind as far as the stated loads contain it.",
+           "Wind speed, temperature and visibility at which the move is stopped. Lift director."},
+          {"deviations", kTrouble, "Deviation from the plan",
+           joined(tolerances == s.statements.end() ? "" : "Tolerances: " + tolerances->text, numbers_of(s, "growth")),
+           "What is done when load, machine or path differ by more. Lift director."},
+          {"malfunction", kTrouble, "Malfunction of equipment", "",
+           "Loss of a cable, drive, sensor or power is not examined here. Lift planner."},
+          {"emergency", kTrouble, "Emergency action plan", "",
+           "The site's plan, and how it covers this move. Site manager."}};
+}
+
+}  // namespace
+
+std::vector<LiftPlanItem> lift_plan(const ReportContext& scene, const Summary& summary) {
+  std::vector<LiftPlanItem> result;
+  for (const std::vector<LiftPlanItem>& part :
+       {load_items(summary), equipment_items(scene, summary), movement_items(scene, summary), site_items(summary)}) {
+    result.insert(result.end(), part.begin(), part.end());
+  }
+  return result;
+}
+
+nlohmann::json to_json(const std::vector<LiftPlanItem>& items) {
+  const auto text_or_null = [](const std::string& text) {
+    return text.empty() ? nlohmann::json() : nlohmann::json(text);
+  };
+  nlohmann::json result = nlohmann::json::array();
+  for (const LiftPlanItem& item : items) {
+    result.push_back({{"key", item.key},
+                      {"group", item.group},
+                      {"topic", item.topic},
+                      {"filled", text_or_null(item.filled)},
+                      {"open", text_or_null(item.open)}});
+  }
+  return result;
+}
+
+}  // namespace taut
