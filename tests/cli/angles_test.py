@@ -137,7 +137,7 @@ class RollPitchAndYaw(Angles):
         rows = [lengths[0] + [start[n] for n in names], middle + [""] * 6]
         log = self.write("winches.csv", "\n".join(",".join(str(x) for x in row) for row in [titles] + rows) + "\n")
         said = self.taut("audit", CASE, log, "--out", self.path("winches"))
-        self.assertIn("proved", said)
+        self.assertIn("PROVED", said)
         self.check(self.path("winches", "certificate.json"), CASE, "--path", log, "--expect", "proved")
 
     def test_a_refuted_path_is_described_in_them(self):
