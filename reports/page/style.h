@@ -165,7 +165,8 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
   .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
   .appendix > section:first-child > h2 { margin-top: 0; }
-  .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; } .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; }
+  .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
   #exact-load td.n, #margins td.n { white-space: nowrap; }
   .appendix .wide { column-span: all; }
 }

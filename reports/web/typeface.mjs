@@ -77,4 +77,5 @@ std::string_view page_typeface() { return ${literal}; }
 // NOLINTEND
 `,
 );
-console.log(`${basename(out)}: ${Math.round(style.length / 1024)} kB of ${FACES.map(({ name }) => name).join(" and ")}`);
+const names = FACES.map(({ name }) => name).join(" and ");
+console.log(`${basename(out)}: ${Math.round(style.length / 1024)} kB of ${names}`);

@@ -55,7 +55,7 @@ class Json(InFolder):
         self.assertEqual(proved["messages"], [])
         self.assertEqual(sorted(proved["margins"]), ["length_m", "tension_N", "wrench_scale"])
         refuted = self.printed(TAUT, "plan", REFUTED, "--out", self.path("b"), code=1)
-        self.assertIn("not below its upper limit", refuted["messages"][0]["text"])
+        self.assertIn("not above its lower limit", refuted["messages"][0]["text"])
         undecided = self.printed(TAUT, "plan", ROBOT1, "--out", self.path("c"), "--budget", "1e-9", code=2)
         self.assertRegex(undecided["messages"][0]["code"], r"^U1[0-9]$")
         self.assertNotIn("[U", undecided["messages"][0]["text"])

@@ -635,8 +635,7 @@ for (const javaScriptEnabled of [true, false]) {
       const used = await fonts(page, "h1 bdi, h2, p, li, dd, th, caption, .formulas *, .still text, .drawing text, " +
         "tr:nth-child(2) td");
       assert.ok(used.filter((font) => font.isCustomFont && /^Inter/.test(font.familyName)).length > 50);
-      const others = used.filter((font) => !font.isCustomFont).map((font) => font.familyName);
-      assert.deepEqual(others, [], "the reader's own fonts");
+      for (const { isCustomFont, familyName } of used) assert.ok(isCustomFont || /Mono/.test(familyName), familyName);
       await close(page);
     }
   });
@@ -707,7 +706,7 @@ const PAPER = {
   "robot1-straight-qs-qg": { verdict: "REFUTED: DO NOT RUN", most: 9 },
   "robot1-planned": { verdict: "PROVED", most: 12 },
   "undecided.html": { verdict: "NO DECISION", most: 8 },
-  "tutorial/02-a-slack-start": { verdict: "NO DECISION", most: 8 },
+  "tutorial/02-a-slack-start": { verdict: "REFUTED: DO NOT RUN", most: 8 },
 };
 
 for (const [name, expected] of Object.entries(PAPER)) {
