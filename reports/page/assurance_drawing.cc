@@ -284,10 +284,12 @@ Html svg(const Drawing& drawing, const char* title) {
   }
   constexpr double kMargin = 2;
   return html(
-      "<figure class=\"gsn\"><div class=\"scroll\"><svg viewBox=\"{} {} {} {:.0f}\" role=\"img\" "
+      "<figure class=\"gsn\"><div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Drawing: {}\"><svg "
+      "viewBox=\"{} {} {} {:.0f}\" role=\"img\" "
       "aria-label=\"{}. The list below has the same "
       "content.\">\n{}{}</svg></div><figcaption>{}</figcaption></figure>\n",
-      -kMargin, -kMargin, kWidth + 2 * kMargin, std::ceil(height) + 2 * kMargin, title, drawing.links, shapes, title);
+      title, -kMargin, -kMargin, kWidth + 2 * kMargin, std::ceil(height) + 2 * kMargin, title, drawing.links, shapes,
+      title);
 }
 
 // ---- The same as nested lists.
