@@ -121,12 +121,10 @@ class PlaneMap {
       outOfLimits(field, grid.columns, grid.rows).map((ring) => polyline(ring.map(toPixels), "Z")).join("");
     const tension = region(grid.tension);
     const length = region(grid.length);
+    const both = region(grid.tension.map((x, k) => Math.max(x, grid.length[k])));
     inFrame.append(svg("rect", { class: "inside", ...frame }), svg("path", { class: "tension", d: tension }),
       svg("path", { class: "length", d: length }));
-    if (tension && length) {
-      inFrame.append(svg("clipPath", { id: `${id}-t` }, svg("path", { d: tension, "clip-rule": "evenodd" })),
-        svg("path", { class: "hatched", "clip-path": `url(#${id}-t)`, d: length }));
-    }
+    if (both) inFrame.append(svg("path", { class: "hatched", d: both }));
     inFrame.append(svg("path", { class: "border", d: tension + length }));
     const charts = data.plane.charts.map((corners) => {
       const points = corners.flatMap((_, k) => (k % 2 ? [] : [[corners[k], corners[k + 1]]]));

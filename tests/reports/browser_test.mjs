@@ -283,7 +283,7 @@ for (const name of ["robot1-slice-qs-qg", "robot1-straight-qs-qg", "tutorial/02-
         };
         for (const shape of svg.querySelectorAll("path, rect, circle, line")) {
           if (shape.closest("defs, clipPath, [aria-label*='axis'], .start, .goal, .here, .cursor, .witness")) continue;
-          const box = clip(shape.classList.contains("hatched") ? shape.parentNode : shape) ?? shape.getBBox();
+          const box = clip(shape) ?? shape.getBBox();
           if (!within(box, frame)) found.push(shape.outerHTML.slice(0, 200));
         }
       }
