@@ -42,7 +42,11 @@ inline constexpr const char* kAssuranceStyle = R"css(
 @media print {
   .gsn { break-inside: avoid; max-width: none; }
   .gsn svg { min-width: 0; }
-  .lift-plan { font-size: 8pt; } .lift-plan td, .lift-plan th { padding: 2.5pt 8pt 2.5pt 0; }
+  /* The drawing has the same content. */
+  ul.argument { display: none; }
+  section:has(> .gsn) { break-before: page; }
+  .lift-plan { font-size: 7.2pt; line-height: 1.25; } .lift-plan td, .lift-plan th { padding: 1.5pt 8pt 1.5pt 0; }
+  .lift-plan th[scope="rowgroup"] { padding-top: 4pt; }
 }
 )css";
 

@@ -18,7 +18,7 @@ constexpr double kRight = 8;
 constexpr double kTop = 8;
 constexpr double kBottom = 26;
 constexpr double kWidth = 560;
-constexpr double kHeight = 190;
+constexpr double kHeight = 160;
 constexpr double kBeyond = 0.3;  ///< of the width between the limits that is shown beyond each of them
 
 struct Frame {

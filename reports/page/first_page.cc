@@ -168,7 +168,7 @@ Html what(const BrokenLimit& broken) {
 
 /// All that are proved, and of the sampled ones as many as fill the table; then how many there are besides.
 Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& all) {
-  constexpr std::size_t kMostRows = 6;
+  constexpr std::size_t kMostRows = 5;
   const auto proved = static_cast<std::size_t>(std::ranges::count_if(all, &BrokenLimit::is_proved));
   const std::size_t shown = std::min(all.size(), std::max(kMostRows, proved));
   Html rows;
@@ -177,18 +177,19 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
     const std::string lines = rows_text(scene, broken.position);
     const Html stretches = broken.stretches > 1 ? html("; in {} stretches", broken.stretches) : Html();
     rows += html("<tr><td>{}</td><td>{}</td><td>{}{}{}</td><td>{}</td></tr>\n", what(broken), amount(scene, broken),
-                 place_text(scene, broken.position), lines.empty() ? Html() : html("; <bdi>{}</bdi>", lines), stretches,
+                 place_text(scene, broken.position), lines.empty() ? Html() : html("; {}", lines), stretches,
                  broken.is_proved() ? html("<b>proved</b>") : html("samples"));
   }
+  const std::string file = audited_file(scene);
   const Html more = shown == all.size() ? Html()
                                         : html("<p class=\"note\">Samples show {} besides.</p>\n",
                                                plural(all.size() - shown, "broken limit"));
   return html(
              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Limits that are broken\"><table "
-             "class=\"broken\"><caption>Limits that this move breaks, the gravest first</caption>\n<thead><tr><th "
+             "class=\"broken\"><caption>Limits that this move breaks, the gravest first{}</caption>\n<thead><tr><th "
              "scope=\"col\">What</th><th scope=\"col\">How far</th><th scope=\"col\">Where it is worst</th><th "
              "scope=\"col\">Known by</th></tr></thead>\n<tbody>{}</tbody></table></div>\n",
-             rows) +
+             file.empty() ? Html() : html("; lines are those of <bdi>{}</bdi>", file), rows) +
          more;
 }
 

@@ -124,12 +124,13 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .tiles { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 6pt; margin: 7pt 0; }
   .tile { padding: 4pt 7pt 5pt; border-radius: 6pt; border-top-width: 2.5pt; }
   .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value { font-size: 12pt; }
-  .details { font-size: 8.4pt; margin: 4pt 0; }
+  .details { font-size: 7.8pt; line-height: 1.3; margin: 3pt 0; } .details p { margin: 2pt 0; }
   .duo { gap: 10pt; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 41fr) minmax(0, 59fr); }
   .facts { font-size: 8.4pt; line-height: 1.34; margin: 6pt 0; }
   .facts > div { grid-template-columns: 58pt 1fr; gap: 8pt; padding: 2.2pt 0; }
-  .broken { font-size: 7.6pt; } .broken td { padding: 2pt 6pt 2pt 0; }
+  .broken { font-size: 7.2pt; } .broken td { padding: 1.4pt 5pt 1.4pt 0; line-height: 1.25; }
+  .cable-plot figcaption { font-size: 7.2pt; margin: 2pt 0; } .cable-plot { max-width: 92mm; }
   .cables caption { white-space: normal; font-size: 8.4pt; }
   .first .cables td, .first .cables th { padding: 2.2pt 5pt 2.2pt 0; font-size: 7.6pt; }
   .use { min-width: 60pt; height: 8pt; print-color-adjust: exact; }

@@ -147,9 +147,12 @@ std::string rows_text(const ReportContext& scene, double position) {
   const auto before = scene.illustration.lines.line_of(static_cast<std::size_t>(std::floor(at)));
   const auto behind = scene.illustration.lines.line_of(static_cast<std::size_t>(std::ceil(at)));
   if (!before || !behind) return "";
-  const std::string file = std::filesystem::path(source->file).filename().string();
-  if (*before == *behind) return fmt::format("line {} of {}", *before, file);
-  return fmt::format("lines {}-{} of {}", *before, *behind, file);
+  return *before == *behind ? fmt::format("line {}", *before) : fmt::format("lines {}-{}", *before, *behind);
+}
+
+std::string audited_file(const ReportContext& scene) {
+  const auto& source = scene.certificate.source;
+  return source ? std::filesystem::path(source->file).filename().string() : "";
 }
 
 }  // namespace taut

@@ -32,8 +32,10 @@ struct BrokenLimit {
 /// or where cable lengths imply the poses, as those shown may not be poses of the motion.
 [[nodiscard]] std::vector<BrokenLimit> broken_limits(const ReportContext& scene);
 
-/// "lines 5-6 of robot1-bridging.csv": where in the audited file a place of the path is. It is what the certificate's
-/// illustration says, which nothing checks; empty where that says nothing.
+/// "lines 5-6": where in the audited file a place of the path is. It is what the certificate's illustration says, which
+/// nothing checks; empty where that says nothing.
 [[nodiscard]] std::string rows_text(const ReportContext& scene, double position);
+/// "robot1-bridging.csv": the name of that file, which nothing checks; empty where the path is of no file.
+[[nodiscard]] std::string audited_file(const ReportContext& scene);
 
 }  // namespace taut

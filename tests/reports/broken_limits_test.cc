@@ -152,10 +152,11 @@ TEST(RowsText, NamesTheLinesOfTheFileWhereTheCertificateTellsThem) {
   EXPECT_EQ(rows_text(sample::scene(certificate), 1.5), "");
   certificate["illustration"]["lines"] = {{"runs", {{0, 2}, {2, 9}}}, {"waypoints", 3}};
   const ReportContext scene = sample::scene(certificate);
-  EXPECT_EQ(rows_text(scene, 0), "line 2 of monday.csv");
-  EXPECT_EQ(rows_text(scene, 0.25), "lines 2-3 of monday.csv");
-  EXPECT_EQ(rows_text(scene, 1.5), "lines 3-9 of monday.csv");
-  EXPECT_EQ(rows_text(scene, 2), "line 9 of monday.csv");
+  EXPECT_EQ(rows_text(scene, 0), "line 2");
+  EXPECT_EQ(rows_text(scene, 0.25), "lines 2-3");
+  EXPECT_EQ(rows_text(scene, 1.5), "lines 3-9");
+  EXPECT_EQ(rows_text(scene, 2), "line 9");
+  EXPECT_EQ(audited_file(scene), "monday.csv");
   certificate["source"] = nullptr;
   EXPECT_EQ(rows_text(sample::scene(certificate), 1.5), "");
 }
