@@ -8,6 +8,7 @@
 #include "reports/page/page_script.h"
 #include "reports/page/plane.h"
 #include "reports/page/report_data.h"
+#include "reports/page/robot_drawing.h"
 #include "reports/page/still_picture.h"
 #include "reports/summary/wording.h"
 
@@ -134,7 +135,8 @@ Html move_section(const ReportContext& scene) {
                "goal (G). Posts and ground stand for whatever carries the anchors A1 to A6. Cables are coloured by "
                "floating-point values at this place: grey is calm, amber from 75 % of a limit, dashed from 95 %, red "
                "out of the limits.</p></div>\n",
-               still_picture(scene)));
+               still_picture(scene)) +
+          dimensioned_views(scene));
 }
 
 Html plot_sections(const ReportContext& scene) {

@@ -116,6 +116,13 @@ inline nlohmann::json no_path() {
   return result;
 }
 
+/// Of a plan that was not found: the path is the query's waypoints alone.
+inline nlohmann::json not_found() {
+  nlohmann::json result = undecided();
+  result["undecided"] = {{"reason", "no path was found"}, {"segment", nullptr}, {"box", nullptr}};
+  return result;
+}
+
 /// What a report would show if the checker had confirmed it; what claims nothing stays so.
 inline ReportContext scene(const nlohmann::json& certificate) {
   Certificate stated = read_certificate(certificate);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   write("singular.html", taut::sample::singular());
   write("undecided.html", taut::sample::undecided());
   write("no_path.html", taut::sample::no_path());
+  write("not_found.html", taut::sample::not_found());
   write("hostile.html", taut::sample::hostile());
   std::ofstream(directory / "unchecked.html") << taut::html_report(taut::sample::unchecked(taut::sample::proved()));
 }
