@@ -9,6 +9,7 @@
 #include "reports/page/machine_picture.h"
 #include "reports/summary/broken_limits.h"
 #include "reports/summary/wording.h"
+#include "reports/summary/worst_place.h"
 
 namespace taut {
 
@@ -278,7 +279,7 @@ Place place_of_picture(const ReportContext& scene, const Summary& s) {
   if (const auto& open = scene.certificate.undecided; open && open->segment) {
     return {*open->segment + (open->box ? open->box->first.approx() : 0.0), "Where it is open"};
   }
-  if (const auto worst = worst_place(s.key_numbers)) return {*worst, "Worst place"};
+  if (const auto worst = worst_place(scene, s.use)) return {*worst, "Worst place"};
   return {0, "The machine"};
 }
 

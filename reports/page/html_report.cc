@@ -31,7 +31,7 @@ Html contents(const ReportContext& scene) {
   };
   const bool has_path = shows_path(scene);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
-  link(has_path, "move", "The move");
+  link(!scene.samples.empty(), "move", has_path ? "The move" : "Start and goal");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
   link(has_path, "pose", "Pose");

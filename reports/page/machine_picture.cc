@@ -288,6 +288,17 @@ std::vector<LabelPlacer::Candidate> around(const Point2& p, const Point2& half, 
   return result;
 }
 
+/// The sign of a centre of gravity: a circle with two quarters filled.
+Html centre_of_gravity(const Point2& at) {
+  const auto quarter = [&](double from_x, double from_y, double to_x, double to_y) {
+    return fmt::format("M{} {}L{} {}A6 6 0 0 1 {} {}Z", coordinate(at.x()), coordinate(at.y()),
+                       coordinate(at.x() + from_x), coordinate(at.y() + from_y), coordinate(at.x() + to_x),
+                       coordinate(at.y() + to_y));
+  };
+  return html("<circle class=\"gravity\" cx=\"{}\" cy=\"{}\" r=\"6\"/><path class=\"quarters\" d=\"{}{}\"/>",
+              coordinate(at.x()), coordinate(at.y()), quarter(0, -6, 6, 0), quarter(0, 6, -6, 0));
+}
+
 void Picture::load() {
   const Vector3d from = load_point_at(scene_, sample_.pose);
   const Point2 at = place(from);
@@ -296,7 +307,13 @@ void Picture::load() {
       nominal_wrench(model.loads, model.wrench, rotation(model.angles, sample_.pose.angles)).head<3>();
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d& b : platform_) middle += b / kCables;
-  if ((at - place(middle)).norm() > 12) front_ += line("stalk", place(middle), at);
+  std::vector<Vector3d> carried = weights_at(scene_, sample_.pose);
+  carried.push_back(from);
+  for (const Vector3d& p : carried) {
+    if ((place(p) - place(middle)).norm() > 12) front_ += line("stalk", place(middle), place(p));
+  }
+  carried.pop_back();
+  for (const Vector3d& p : carried) front_ += centre_of_gravity(place(p));
   const Html dot = html("<circle class=\"load\" cx=\"{}\" cy=\"{}\" r=\"5\"/>", coordinate(at.x()), coordinate(at.y()));
   labels_.keep_clear({at, {5, 5}});
   if (!(force.norm() > 0) || !force.allFinite()) {

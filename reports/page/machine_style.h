@@ -64,12 +64,30 @@ inline constexpr const char* kMachineStyle = R"css(
 .machine svg .load { fill: var(--ink); } .machine .load-shaft { stroke: var(--ink); stroke-width: 4; }
 .machine .load-casing { stroke: var(--paper); stroke-width: 8; opacity: 0.7; }
 .machine .stalk { stroke: var(--warm-edge); stroke-width: 2; stroke-dasharray: 2 4; }
+.machine .gravity { fill: var(--paper); stroke: var(--ink); stroke-width: 1.4; }
+.machine svg .quarters { fill: var(--ink); }
 .machine svg .load-words { font-weight: 650; fill: var(--ink); }
 .machine svg .end { font-weight: 700; }
 .machine .scale { stroke: var(--soft); stroke-width: 1.6; }
 .machine svg .scale-words { text-anchor: start; }
 .machine .axis { stroke: var(--soft); stroke-width: 2; }
 .machine .axis.x { stroke: #c03a2b; } .machine .axis.y { stroke: #2c8a4b; } .machine .axis.z { stroke: #3b78c2; }
+.dimensioned svg { display: block; width: 100%; min-width: 640px; height: auto; }
+.dimensioned figcaption { font-weight: 600; color: var(--ink); }
+.dimensioned svg path { fill: none; }
+.dimensioned svg text { font-size: 12px; text-anchor: middle; fill: var(--soft); }
+.dimensioned .base { stroke: var(--steel); stroke-width: 1.6; }
+.dimensioned svg .platform { stroke: var(--warm-dim); stroke-width: 2; }
+.dimensioned .cable { stroke: var(--calm); stroke-width: 1; }
+.dimensioned .tag { fill: var(--paper); stroke: var(--soft); stroke-width: 0.9; }
+.dimensioned svg .number { font-weight: 650; fill: var(--ink); }
+.dimensioned .extension { stroke: var(--post); stroke-width: 0.8; }
+.dimensioned .dimension { stroke: var(--soft); stroke-width: 0.9; }
+.dimensioned svg .measure { fill: var(--ink); }
+.dimensioned .load { stroke: var(--out); stroke-width: 2.2; }
+.dimensioned .axis, .dimensioned .scale { stroke: var(--soft); stroke-width: 1.4; }
+.dimensioned svg .title { font-size: 13px; font-weight: 650; text-anchor: start; fill: var(--ink); }
+@media print { .dimensioned { break-inside: avoid; } .dimensioned svg { min-width: 0; } }
 )css";
 
 }  // namespace taut

@@ -20,27 +20,6 @@ constexpr double kNearlyAlong = 0.9;
 
 Matrix3<double> level() { return Matrix3<double>::Identity(); }
 
-/// Where weights pull, or else the nominal force, or else −z.
-Vector3d downward(const ReportContext& scene) {
-  const Model<double>& model = scene.sampler.model();
-  const LoadText& load = scene.certificate.problem.load;
-  Vector3d down = Vector3d::Zero();
-  if (std::ranges::any_of(load.items, [](const LoadItem& i) { return std::holds_alternative<Weight>(i.what); })) {
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      down(k) = from_rational<double>(load.gravity_m_s2[static_cast<std::size_t>(k)]);
-    }
-  }
-  if (!(down.norm() > 0)) down = nominal_wrench(model.loads, model.wrench, level()).head<3>();
-  const double size = down.norm();
-  if (!(size > 0) || !std::isfinite(size)) return -Vector3d::UnitZ();
-  down /= size;
-  Eigen::Index most = 0;
-  down.cwiseAbs().maxCoeff(&most);
-  // People's axes are upright: one that is nearly so is meant.
-  if (std::abs(down(most)) > kNearlyAlong) return std::copysign(1.0, down(most)) * Vector3d::Unit(most);
-  return down;
-}
-
 MachineView::Grid grid_below(const MachineView& view) {
   const auto range = [&](const Vector3d& axis) {
     const auto [low, high] = std::ranges::minmax(view.swept, {}, [&](const Vector3d& p) { return axis.dot(p); });
@@ -134,6 +113,29 @@ double best_azimuth(MachineView view, const ReportContext& scene, double size) {
 
 }  // namespace
 
+Vector3d downward(const Model<double>& model, const LoadText& load) {
+  Vector3d down = Vector3d::Zero();
+  if (std::ranges::any_of(load.items, [](const LoadItem& i) { return std::holds_alternative<Weight>(i.what); })) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      down(k) = from_rational<double>(load.gravity_m_s2[static_cast<std::size_t>(k)]);
+    }
+  }
+  if (!(down.norm() > 0)) down = nominal_wrench(model.loads, model.wrench, level()).head<3>();
+  const double size = down.norm();
+  if (!(size > 0) || !std::isfinite(size)) return -Vector3d::UnitZ();
+  down /= size;
+  Eigen::Index most = 0;
+  down.cwiseAbs().maxCoeff(&most);
+  // People's axes are upright: one that is nearly so is meant.
+  if (std::abs(down(most)) > kNearlyAlong) return std::copysign(1.0, down(most)) * Vector3d::Unit(most);
+  return down;
+}
+
+Vector3d across_of(const Vector3d& up) {
+  const Vector3d reference = std::abs(up.x()) < kNearlyAlong ? Vector3d::UnitX() : Vector3d::UnitY();
+  return (reference - reference.dot(up) * up).normalized();
+}
+
 std::vector<Vector3d> platform_at(const ReportContext& scene, const Pose<double>& pose) {
   const Model<double>& model = scene.sampler.model();
   const Matrix3<double> turn = rotation(model.angles, pose.angles);
@@ -146,14 +148,26 @@ Vector3d load_point_at(const ReportContext& scene, const Pose<double>& pose) {
   return pose.p_WP + rotation(scene.sampler.model().angles, pose.angles) * scene.sampler.model().p_PM;
 }
 
+std::vector<Vector3d> weights_at(const ReportContext& scene, const Pose<double>& pose) {
+  std::vector<Vector3d> result;
+  for (const LoadItem& item : scene.certificate.problem.load.items) {
+    const auto* weight = std::get_if<Weight>(&item.what);
+    if (!weight) continue;
+    const Vector3d at(from_rational<double>(weight->at[0]), from_rational<double>(weight->at[1]),
+                      from_rational<double>(weight->at[2]));
+    result.emplace_back(pose.p_WP + rotation(scene.sampler.model().angles, pose.angles) * at);
+  }
+  return result;
+}
+
 std::vector<Vector3d> base_of(const ReportContext& scene) {
   const auto& anchors = scene.sampler.model().p_WA;
   return {anchors.begin(), anchors.end()};
 }
 
-MachineView::MachineView(const ReportContext& scene) : up(-downward(scene)), elevation(0.3) {
-  const Vector3d reference = std::abs(up.x()) < kNearlyAlong ? Vector3d::UnitX() : Vector3d::UnitY();
-  across = (reference - reference.dot(up) * up).normalized();
+MachineView::MachineView(const ReportContext& scene)
+    : up(-downward(scene.sampler.model(), scene.certificate.problem.load)), elevation(0.3) {
+  across = across_of(up);
   inward = up.cross(across);
   swept = base_of(scene);
   const bool is_path = !found_no_path(scene.certificate);
@@ -164,6 +178,7 @@ MachineView::MachineView(const ReportContext& scene) : up(-downward(scene)), ele
     if (!is_path && sample.position != std::floor(sample.position)) continue;  // nothing is between the waypoints
     std::ranges::copy(platform_at(scene, sample.pose), std::back_inserter(swept));
     swept.push_back(load_point_at(scene, sample.pose));
+    std::ranges::copy(weights_at(scene, sample.pose), std::back_inserter(swept));
   }
   const auto is_number = [](const Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kTooLarge; };
   is_drawable = std::ranges::all_of(swept, is_number);

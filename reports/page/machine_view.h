@@ -29,8 +29,9 @@ struct MachineView {
     std::array<int, 2> across{}, inward{};  ///< first and last, in steps from the origin of W
   };
   Grid grid;
-  std::vector<Eigen::Vector3d> swept;  ///< base anchors, and platform anchors and load point along the whole path [m]
-  bool is_drawable = false;            ///< whether all of them are numbers that can be drawn; else the grid is not set
+  std::vector<Eigen::Vector3d>
+      swept;                 ///< base anchors, and platform anchors, load point and weights along the path [m]
+  bool is_drawable = false;  ///< whether all of them are numbers that can be drawn; else the grid is not set
 
   [[nodiscard]] Eigen::Vector3d right() const;    ///< in the picture
   [[nodiscard]] Eigen::Vector3d upward() const;   ///< in the picture
@@ -41,10 +42,17 @@ struct MachineView {
   [[nodiscard]] Eigen::Vector3d foot(const Eigen::Vector3d& p) const { return p + (grid.height - up.dot(p)) * up; }
 };
 
+/// Where weights pull, or else the nominal force, or else −z: an axis of W, if it nearly is one; of length 1.
+[[nodiscard]] Eigen::Vector3d downward(const Model<double>& model, const LoadText& load);
+/// The level direction that is to the right when a machine is seen from the front.
+[[nodiscard]] Eigen::Vector3d across_of(const Eigen::Vector3d& up);
+
 /// The platform's anchors at a pose [m].
 [[nodiscard]] std::vector<Eigen::Vector3d> platform_at(const ReportContext& scene, const Pose<double>& pose);
 /// The load point at a pose [m].
 [[nodiscard]] Eigen::Vector3d load_point_at(const ReportContext& scene, const Pose<double>& pose);
+/// The centres of gravity of the load's weights at a pose, each in the middle of where it may be [m].
+[[nodiscard]] std::vector<Eigen::Vector3d> weights_at(const ReportContext& scene, const Pose<double>& pose);
 [[nodiscard]] std::vector<Eigen::Vector3d> base_of(const ReportContext& scene);
 
 }  // namespace taut

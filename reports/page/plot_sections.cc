@@ -8,6 +8,7 @@
 #include "reports/page/page_script.h"
 #include "reports/page/plane.h"
 #include "reports/page/report_data.h"
+#include "reports/page/robot_drawing.h"
 #include "reports/page/still_picture.h"
 #include "reports/summary/wording.h"
 
@@ -131,15 +132,16 @@ Html biting_tolerances(const ReportContext& scene) {
 bool shows_path(const ReportContext& scene) { return !scene.samples.empty() && !found_no_path(scene.certificate); }
 
 Html move_section(const ReportContext& scene) {
-  if (!shows_path(scene)) return {};
+  if (scene.samples.empty()) return {};
   return section(
-      "move", "The move",
+      "move", shows_path(scene) ? "The move" : "Start and goal",
       place("move") +
           html("<div class=\"still\">{}<p class=\"note\">Dashed outlines are the platform at the start (S) and at the "
                "goal (G). Posts and ground stand for whatever carries the anchors A1 to A6. Cables are coloured by "
                "floating-point values at this place: grey is calm, amber from 75 % of a limit, dashed from 95 %, red "
                "out of the limits.</p></div>\n",
-               still_picture(scene)));
+               still_picture(scene)) +
+          dimensioned_views(scene));
 }
 
 Html plot_sections(const ReportContext& scene) {

@@ -9,15 +9,18 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <span>
 
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
+#include "problem/rational.h"
 #include "problem/scalar.h"
+#include "reports/page/machine_view.h"
 #include "reports/page/plane.h"
 #include "reports/summary/cable_use.h"
 #include "reports/summary/nearness.h"
+#include "reports/summary/load_statement.h"
 #include "reports/summary/wording.h"
+#include "reports/summary/worst_place.h"
 
 namespace taut {
 
@@ -143,7 +146,27 @@ json cables(const ReportContext& scene) {
           {"length", cable_uses(use.length, true, is_proved)}};
 }
 
-/// Columns with one entry for each sample; of a path that was not found there is none.
+/// The nominal force's components at the samples; none of a load whose nominal force is the same at all of them.
+json forces(const ReportContext& scene) {
+  const Model<double>& model = scene.sampler.model();
+  std::array<std::vector<double>, 3> columns;
+  const auto force_at = [&](const Matrix3<double>& turn) -> Vector3<double> {
+    return nominal_wrench(model.loads, model.wrench, turn).head<3>();
+  };
+  const Vector3<double> level = force_at(Matrix3<double>::Identity());
+  bool is_same = true;
+  for (const PathSample& sample : scene.samples) {
+    const Vector3<double> force = force_at(rotation(model.angles, sample.pose.angles));
+    is_same = is_same && (force - level).norm() <= 1e-9 * level.norm();
+    for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(force(static_cast<Eigen::Index>(c)));
+  }
+  json result = json::array();
+  if (is_same) return result;
+  for (const std::vector<double>& column : columns) result.push_back(numbers(column));
+  return result;
+}
+
+/// Columns with one entry for each sample.
 json samples(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   std::vector<double> position, distance, turned, scale, sign;
@@ -157,8 +180,7 @@ json samples(const ReportContext& scene) {
   std::optional<TiltAndTorsion> tilt;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const std::span path(scene.samples.data(), found_no_path(scene.certificate) ? 0 : scene.samples.size());
-  for (const PathSample& sample : path) {
+  for (const PathSample& sample : scene.samples) {
     position.push_back(sample.position);
     distance.push_back(scene.travel.distance_m(sample.position));
     turned.push_back(scene.travel.turned_rad(sample.position));
@@ -207,6 +229,7 @@ json samples(const ReportContext& scene) {
           {"tension", columns(tension)},
           {"tension_below", columns(tension_below)},
           {"tension_above", columns(tension_above)},
+          {"force", forces(scene)},
           {"wrench_scale", numbers(scale)},
           {"sign", numbers(sign)},
           {"parameters", columns(parameters)}};
@@ -330,6 +353,34 @@ json stretches(const Certificate& certificate) {
   return result;
 }
 
+/// From where the pictures look, as machine_view.h has it; null where the machine can't be drawn.
+json view(const ReportContext& scene) {
+  const MachineView view(scene);
+  if (!view.is_drawable) return nullptr;
+  return {{"across", point(view.across)},
+          {"up", point(view.up)},
+          {"azimuth", number(view.azimuth)},
+          {"elevation", number(view.elevation)},
+          {"ground", number(view.grid.height)},
+          {"step", number(view.grid.step)},
+          {"columns", view.grid.across},
+          {"rows", view.grid.inward},
+          {"load", brief_load(scene.certificate.problem.load)}};
+}
+
+/// The centres of gravity of the load's weights, in the axes of the platform.
+json weights(const LoadText& load) {
+  json result = json::array();
+  for (const LoadItem& item : load.items) {
+    const auto* weight = std::get_if<Weight>(&item.what);
+    if (!weight) continue;
+    std::array<double, 3> at{};
+    for (std::size_t c = 0; c < 3; ++c) at[c] = from_rational<double>(weight->at[c]);
+    result.push_back(numbers(at));
+  }
+  return result;
+}
+
 json witness(const Certificate& certificate) {
   if (!certificate.witness) return nullptr;
   const PathWitness& violation = certificate.witness->violation;
@@ -418,6 +469,7 @@ json display_unit(const DisplayUnit& unit) { return {{"name", unit.name()}, {"fa
 
 json report_data(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
+  const std::optional<double> worst = worst_place(scene, cable_use(scene));
   return {{"verdict", scene.verdict},
           {"segments", certificate.path.segments()},
           {"is_spline", certificate.path.interpolation == Interpolation::kCubicBSpline},
@@ -431,6 +483,10 @@ json report_data(const ReportContext& scene) {
           {"margins", margins(certificate.segments)},
           {"stretches", stretches(certificate)},
           {"witness", witness(certificate)},
+          {"weights", weights(certificate.problem.load)},
+          {"is_found", !found_no_path(certificate)},
+          {"worst", worst ? number(*worst) : json()},
+          {"view", view(scene)},
           {"tube_m", tube_radius(certificate.problem)},
           {"tolerances", tolerances(scene)},
           {"plane", plane(scene)}};

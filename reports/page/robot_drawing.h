@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A drawing of a case's robot, which people can look at before anything is planned.
+// Dimensioned drawings of a robot: before anything is planned, and in the report.
 #pragma once
 
 #include <string>
 
+#include "reports/page/markup.h"
 #include "reports/summary/case_summary.h"
+#include "reports/summary/scene.h"
 
 namespace taut {
 
-/// The robot at the first waypoint, from the front, from the side and along the load, as an SVG document with numbered
-/// cables, named anchors, the load's direction, the world's axes and a scale bar. @throws InputError if the case has no
-/// query.
+/// The robot at the first waypoint, from the front, from the side and from above, as an SVG document with numbered
+/// cables, named anchors, overall dimensions in the case's unit, the load's direction, the world's axes and a scale bar.
+/// @throws InputError if the case has no query.
 [[nodiscard]] std::string robot_drawing(const CaseSummary& summary);
+
+/// The same three views at the start of the path, for the report; nothing if there is no path, or where the numbers
+/// can't be drawn.
+[[nodiscard]] Html dimensioned_views(const ReportContext& scene);
 
 }  // namespace taut

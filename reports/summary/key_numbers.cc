@@ -92,8 +92,7 @@ KeyNumber slack_number(const ReportContext& scene, const CableUse& use) {
                       is_kept ? down_text(t.range.lower, t.lower_limit, force) + " " + force.name() + ", " : "slack ",
                       force.exact(scene.certificate.problem.robot.tension_N[i].lower), force.name(),
                       at(scene, use, t.least_at)),
-          slack_nearness(t),
-          t.least_at};
+          slack_nearness(t)};
 }
 
 KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
@@ -109,8 +108,7 @@ KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
                   is_kept ? up_text(t.range.upper, t.upper_limit, force) + " " + force.name() + " of " : "top limit ",
                   force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
                   at(scene, use, t.greatest_at)),
-      top_nearness(t),
-      t.greatest_at};
+      top_nearness(t)};
 }
 
 KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
@@ -129,8 +127,7 @@ KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
           is_upper ? up_text(d.range.upper, d.upper_limit, length) : down_text(d.range.lower, d.lower_limit, length),
           length.name(), is_upper ? "at most" : "at least", length.exact(is_upper ? limits.upper : limits.lower),
           length.name(), at(scene, use, is_upper ? d.greatest_at : d.least_at)),
-      length_nearness(d),
-      is_upper ? d.greatest_at : d.least_at};
+      length_nearness(d)};
 }
 
 /// The same thresholds as of a tension: 4/3 and 20/19 are 75 % and 95 % used.
@@ -151,7 +148,6 @@ KeyNumber growth_number(const ReportContext& scene) {
           "× " + growth_text(scale),
           detail,
           growth_nearness(ScalarTraits<double>::from_decimal(scale)),
-          std::nullopt,
           true};
 }
 
@@ -187,17 +183,6 @@ std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& u
     numbers.push_back(*share);
   }
   return numbers;
-}
-
-std::optional<double> worst_place(const std::vector<KeyNumber>& numbers) {
-  std::optional<double> place;
-  std::optional<Nearness> worst;
-  for (const KeyNumber& number : numbers) {
-    if (!number.position || (worst && number.nearness <= *worst)) continue;
-    worst = number.nearness;
-    place = number.position;
-  }
-  return place;
 }
 
 std::vector<CableLine> cable_lines(const ReportContext& scene, const CableUse& use) {

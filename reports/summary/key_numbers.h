@@ -3,7 +3,6 @@
 // the cables, and by how much the loads could grow. Page, terminal and JSON have the same ones.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,6 @@ struct KeyNumber {
   std::string value;                    ///< "Cable 1: +1.86 %"
   std::string detail;                   ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"
   Nearness nearness;                    ///< how near to the limit
-  std::optional<double> position = {};  ///< on the path, where there is one place
   bool is_proved = false;               ///< else it rests on floating-point samples, or on what nothing has checked
 };
 
@@ -26,9 +24,6 @@ struct KeyNumber {
 /// and marked so in their details. None where nothing is known, or
 /// nothing was checked.
 [[nodiscard]] std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use);
-
-/// The place to look at: of the number nearest to its limit, the first of these. Nothing where no number has a place.
-[[nodiscard]] std::optional<double> worst_place(const std::vector<KeyNumber>& numbers);
 
 /// How one cable uses its limits, as text of three digits, or of as many as tell it from the limit.
 struct CableLine {

@@ -402,7 +402,7 @@ std::string brief_load(const LoadText& load) {
   const PeoplesUnit unit = unit_of_force(force);
   const double kg = force / kStandardGravity;
   const PeoplesUnit of_mass = unit_of_mass(kg);
-  return fmt::format("{:.4g} {} ({:.3g} {})", force / std::pow(10.0, unit.power), unit.name,
+  return fmt::format("{:.3g} {} ({:.3g} {})", force / std::pow(10.0, unit.power), unit.name,
                      kg / std::pow(10.0, of_mass.power), of_mass.name);
 }
 

@@ -9,12 +9,18 @@
 //               limits
 //   samples     columns along the path, floating point: position (in segments: 3.5 is the middle of segment 3),
 //               distance, turned, time (may be empty), p (3), q (4: x y z w), angles (3, or 1), angle_names,
-//               length (6), tension (6: f0), tension_below, tension_above (6 each), wrench_scale, sign (of det J),
-//               parameters (2, if there is a plane)
+//               length (6), tension (6: f0), force (3, of w0; none where it is robot's all along), tension_below,
+//               tension_above (6 each), wrench_scale, sign (of det J), parameters (2, if there is a plane)
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
 //   margins     proved, for groups of consecutive segments: from, to, tension_N, length_m, wrench_scale
 //   stretches   the parts of the path that are not proved: from, to, violated (else open)
 //   witness     position, to, kind, cable; or null
+//   weights     centres of gravity of the load's weights, in the axes of the platform
+//   is_found    whether there is a path; else the samples are of the query's waypoints
+//   worst       position of the place that the pictures show first; or null
+//   view        of all pictures: across and up (axes of the picture when seen from the front, in the world), azimuth
+//               and elevation; ground (its height along up), step, columns and rows of its grid; load (its words);
+//               or null if the machine can't be drawn
 //   tube_m      how far the platform's origin may be from the path; or null
 //   tolerances  name, unit, stated, proved (how far this one alone may grow)
 //   cables      of the whole path, or null: is_proved (else sampled), tension and length: ranges (six pairs), nearness
@@ -33,9 +39,9 @@ export function readData() {
 const finite = (x) => typeof x === "number" && Number.isFinite(x);
 
 /// Whether the data contain all that a picture of the robot needs.
-export function isDrawable({ robot, samples }) {
+export function isDrawable({ robot, samples, view }) {
   const numbers = [robot.base, robot.platform, [robot.load_point], samples.p, samples.q].flat(2);
-  return samples.position.length > 0 && numbers.every((x) => finite(x) && Math.abs(x) < 1e15);
+  return view !== null && samples.position.length > 0 && numbers.every((x) => finite(x) && Math.abs(x) < 1e15);
 }
 
 /// The least and greatest of the finite numbers; nothing if there is none.

@@ -3,7 +3,7 @@
 // the page has for them. Without it the page has its words, its tables and a still picture of the robot.
 import { axes as usefulAxes } from "./axes.js";
 import { barPlayer, closeMenuAfterUse } from "./bar.js";
-import { onThemeChange, tensionColour } from "./colours.js";
+import { onThemeChange } from "./colours.js";
 import { Cursor } from "./cursor.js";
 import { isDrawable, readData } from "./data.js";
 import { planeFigure } from "./plane.js";
@@ -89,8 +89,8 @@ function offerAxes() {
 
 const stage = element("div", {
   class: "stage", tabindex: "0", role: "img",
-  "aria-label": "The robot in three dimensions. Drag or use the arrow keys to look from elsewhere, plus and minus to " +
-    "come nearer, space to play.",
+  "aria-label": "The machine in three dimensions. Drag, or use the arrow keys, to look from elsewhere; Ctrl and the " +
+    "wheel, or plus and minus, to come nearer; space to play.",
 });
 let player;
 let viewer;
@@ -100,26 +100,32 @@ function furnishMove() {
   const holder = place("move");
   if (!holder || data.samples.position.length === 0) return;
   const scene = element("div", { class: "scene" }, stage); // and beside it, what is in it in numbers
-  player = new Player(data, cursor, axes);
-  scene.append(player.readout.element);
-  holder.append(scene, player.controls);
-  if (data.segments > 0) place("bar")?.append(barPlayer(player, cursor, axes));
-  else player.controls.replaceChildren(); // a single pose: there is nothing to play
+  holder.append(scene);
+  if (data.is_found) {
+    player = new Player(data, cursor, axes);
+    scene.append(player.controls, player.readout.element);
+    if (data.segments > 0) place("bar")?.append(barPlayer(player, cursor, axes));
+    else player.controls.replaceChildren(); // a single pose: there is nothing to play
+  }
   root.classList.toggle("has-viewer", isDrawable(data));
 }
 
 function drawRobot() {
-  if (!player) return;
+  if (!stage.isConnected) return;
   const holder = place("move");
   viewer = isDrawable(data) ? makeViewer(stage, data) : undefined;
   root.classList.toggle("has-viewer", Boolean(viewer));
   if (!viewer) {
     stage.remove();
-    holder.append(element("p", { class: "note" },
-      "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."));
+    holder.append(element("p", { class: "note" }, isDrawable(data)
+      ? "This browser shows no three-dimensional pictures (WebGL); the still pictures stand in."
+      : "The machine's numbers are too large, too small or too far from its origin to be drawn."));
     return;
   }
-  player.offerReset(() => viewer.resetView());
+  stage.before(views());
+  if (data.verdict === "refuted" && data.witness && cursor.position === undefined) {
+    cursor.position = data.witness.position;
+  }
   if (cursor.position !== undefined) viewer.show(cursor.position);
   cursor.onMove((position) => viewer.show(position));
   onThemeChange(() => viewer.setTheme());
@@ -127,27 +133,60 @@ function drawRobot() {
     const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1],
       "+": [0, 0, 0.87], "-": [0, 0, 1.15] }[event.key];
     if (turn) viewer.orbit(...turn);
-    else if (event.key === " " && data.segments > 0) player.toggle();
+    else if (event.key === " " && player && data.segments > 0) player.toggle();
     else return;
     event.preventDefault();
   });
-  const bar = element("span", { class: "colour-scale", "aria-hidden": "true" });
-  bar.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map(tensionColour).join(", ")})`;
-  holder.append(
-    element("p", { class: "legend sentence" }, "Colour of a cable, by its tension: lower limit ", bar,
-      " upper limit; thick, ringed and ", element("b", {}, "!"), ": out of its limits."),
-    legend(...PATH_KEYS[data.verdict],
-      ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
-      ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
-      ["load-line", "path of the load point"],
-      ...(data.tube_m !== null && !viewer.tubeIsThin ? [["fill tube", "where the origin may be"]] : []),
-      ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])));
-  if (data.tube_m !== null) {
-    const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
-    holder.append(element("p", { class: "note" }, viewer.tubeIsThin
-      ? `The origin may be up to ${size} from the path: too little to be seen at this scale.`
-      : `The tube around the path, to scale: the origin may be up to ${size} from it.`));
+  explainPicture(holder);
+}
+
+/// Buttons for the directions from which people draw machines, and for the place that matters most.
+function views() {
+  const group = element("div", { class: "views", role: "group", "aria-label": "Views" });
+  const offer = (words, onClick) => {
+    const button = element("button", { type: "button" }, words);
+    button.addEventListener("click", onClick);
+    group.append(button);
+  };
+  offer("Oblique", () => viewer.resetView());
+  offer("Front", () => viewer.look(0, 0));
+  offer("Side", () => viewer.look(Math.PI / 2, 0));
+  offer("Top", () => viewer.look(0, Math.PI / 2));
+  if (data.worst !== null && data.is_found) {
+    offer("Worst place", () => {
+      player.stop();
+      cursor.position = data.worst;
+      viewer.resetView();
+    });
   }
+  return group;
+}
+
+/// What colours and lines mean.
+function explainPicture(holder) {
+  const cables = [["calm-cable", "cable, calm"], ["near-cable", "from 75 % of a limit"],
+    ["close-cable", "from 95 %"], ["out-cable", "out of its limits (!)"]];
+  const path = [...PATH_KEYS[data.verdict],
+    ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
+    ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
+    ["load-line", "path of the load point"],
+    ...(data.tube_m !== null && !viewer.tubeIsThin ? [["fill tube", "where the origin may be"]] : []),
+    ...(data.worst !== null ? [["fill worst-dot", data.witness ? "the witness" : "worst place"]] : []),
+    ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])];
+  if (data.weights.length > 0) cables.push(["fill weight", "centre of gravity of a weight"]);
+  const ends = ["ghost-line", "platform at the start (S) and at the goal (G)"];
+  holder.append(legend(...(data.is_found ? [...cables, ends, ...path] : [ends])));
+  const note = (...words) => holder.append(element("p", { class: "note" }, ...words));
+  if (!data.is_found) note("No path was found: only the start and the goal are shown.");
+  else {
+    note("Colours are of this place, in floating point, by the limit that is nearer: of tension over all loads, or " +
+      "of length. Posts and ground stand for whatever carries the anchors; the grid is level.");
+  }
+  if (data.tube_m === null || !data.is_found) return;
+  const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
+  note(viewer.tubeIsThin
+    ? `The origin may be up to ${size} from the path: too little to be seen at this scale.`
+    : `The tube around the path, to scale: the origin may be up to ${size} from it.`);
 }
 
 // One after the other, so that the page answers between them; and none before the words and tables are on the screen.

@@ -133,7 +133,7 @@ class PlaneMap {
     inFrame.append(svg("path", { class: "chart", d: charts.join("") }),
       svg("path", { class: "singular", d: region(grid.determinant) }));
     if (this.detail) this.drawDetailFrame(inFrame);
-    if (data.samples.position.length > 0) this.drawPath(inFrame, group);
+    if (hasPathIn(data)) this.drawPath(inFrame, group);
     else this.drawEnds(group, data.plane.waypoints[0], data.plane.waypoints.at(-1));
     return group;
   }
@@ -222,14 +222,20 @@ class PlaneMap {
   }
 }
 
+/// Whether the samples are of a path; of a plan that was not found they are of the query's waypoints.
+function hasPathIn(data) {
+  return data.is_found && data.samples.position.length > 0;
+}
+
 /// The legend: what is there, and nothing else.
-function legendKeys({ plane, samples, stretches, witness }, grids) {
+function legendKeys(data, grids) {
+  const { plane, samples, stretches, witness } = data;
   const isThere = (kind) => grids.some((grid) => grid.counts[kind] > 0);
   const keys = KINDS.flatMap(([kind, words], k) => (isThere(k) ? [key(`fill ${kind}`, words)] : []));
   const isSingular = grids.some(({ determinant }) => determinant.some((x) => x > 0) && determinant.some((x) => x <= 0));
   if (isSingular) keys.push(key("singular", "det J = 0"));
-  if (samples.position.length > 1) keys.push(key("path", "path, S to G"));
-  else if (samples.position.length > 0) keys.push(element("span", { class: "key" }, "S: the pose"));
+  if (hasPathIn(data) && samples.position.length > 1) keys.push(key("path", "path, S to G"));
+  else if (hasPathIn(data)) keys.push(element("span", { class: "key" }, "S: the pose"));
   else if (plane.waypoints.length > 0) keys.push(element("span", { class: "key" }, "S, G: what was asked for"));
   const charts = plane.charts.filter((corners) => clipped(
     corners.flatMap((_, k) => (k % 2 ? [] : [[corners[k], corners[k + 1]]])), grids[0].window).length > 0);
@@ -243,7 +249,7 @@ function legendKeys({ plane, samples, stretches, witness }, grids) {
 
 export function planeFigure(data, cursor) {
   const { plane, samples } = data;
-  const hasPath = samples.position.length > 0;
+  const hasPath = hasPathIn(data);
   const grid = readGrid(plane.grid);
   const detail = plane.detail ? readGrid(plane.detail) : undefined;
   const grids = detail ? [grid, detail] : [grid];

@@ -108,7 +108,7 @@ export class Player {
     for (const seconds of [10, 5, 20, 60]) offer(seconds, `whole move in ${seconds} s`);
     this.readout = new Readout(data);
     this.controls = element("div", { class: "player controls", role: "group", "aria-label": "Playing the move" },
-      this.play, this.previous, this.slider, this.next, this.duration);
+      this.play, this.previous, this.track(), this.next, this.duration);
 
     this.play.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => {
@@ -121,18 +121,27 @@ export class Player {
     this.show(cursor.position ?? 0);
   }
 
-  /// A button "Reset view", where there is a picture to be looked at from elsewhere.
-  offerReset(onReset) {
-    const reset = element("button", { type: "button" }, "Reset view");
-    reset.addEventListener("click", onReset);
-    this.controls.append(reset);
+  /// The slider, with a mark at the worst place.
+  track() {
+    const track = element("span", { class: "track" }, this.slider);
+    const { worst, witness } = this.data;
+    if (worst === null) return track;
+    const words = witness ? "the witness" : "worst place";
+    const mark = element("span", { class: "worst-mark", title: words, "aria-hidden": "true" });
+    mark.style.setProperty("--share", this.shareOf(worst).toFixed(4));
+    track.append(mark);
+    return track;
   }
 
   /// 0 at the start of the move, 1 at its end.
   get share() {
+    return this.shareOf(this.cursor.position ?? 0);
+  }
+
+  shareOf(position) {
     const { values } = this.pace;
     const [first, last] = [values[0], values[values.length - 1]];
-    const at = between(values, locate(this.data.samples.position, this.cursor.position ?? 0));
+    const at = between(values, locate(this.data.samples.position, position));
     return last > first ? (at - first) / (last - first) : 0;
   }
 

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The robot in three dimensions: base, cables, platform, load, the path and the tube around it.
+// The machine in three dimensions: base, cables, platform, load, the path and the tube around it, as in the still
+// pictures (reports/page/machine_picture.h), whose first view it shares. The projection is parallel, so that the scale
+// bar holds everywhere.
 import {
   AmbientLight,
+  BackSide,
+  BoxGeometry,
   BufferGeometry,
   CatmullRomCurve3,
   ConeGeometry,
   CylinderGeometry,
   DirectionalLight,
   DoubleSide,
-  Float32BufferAttribute,
   Group,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
-  PerspectiveCamera,
+  OrthographicCamera,
   Quaternion,
   Scene,
   SphereGeometry,
@@ -23,26 +29,34 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
-import { tensionColour, themed } from "./colours.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { themed } from "./colours.js";
 import { between, locate, spaced, status } from "./data.js";
+import { shareGestures } from "./gestures.js";
+import { nearness } from "./nearness.js";
+import { Overlay } from "./overlay.js";
+import { distinct, hatching, hullEdges, hullGeometry, rod, rodGeometry, span } from "./solids.js";
 import { element } from "./words.js";
 
-// Sizes in units of the scene, of which the robot fills a ball of radius 1.
-const CABLE = 0.008;
-const ANCHOR = 0.016;
-const ARROW = 0.32;
+// Sizes in units of the scene, of which everything fills a ball of radius 1.
+const RADIUS = { calm: 0.0045, near: 0.0058, close: 0.0078, out: 0.0095 }; // of cables
+const CASING = 0.0045; // around them
+const DASHES = 11; // of a cable that is close to its limits, or out of them
+const ANCHOR = 0.036;
+const ARROW = 0.3;
 const THINNEST_TUBE = 0.004; // a thinner one would be less than the line of the path
-const VIEW_ANGLE = 30; // [°]
-const FIRST_VIEW = { azimuth: 0.55, elevation: 0.3 }; // [rad]
+const FAR = 8; // of the camera
+const MARGIN = { side: 0.05, above: 0.08, below: 0.1 }; // around what is shown, as shares of the picture
+const ZOOM = [0.6, 30];
+const GHOST_WIDTH = 1.6; // [px]
 
-const UP = new Vector3(0, 1, 0);
 const vector = ([x, y, z]) => new Vector3(x, y, z);
 
-/// A picture of the robot in `holder`; undefined where the browser has no WebGL.
+/// A picture of the machine in `holder`; undefined where the browser has no WebGL.
 export function makeViewer(holder, data) {
   const canvas = document.createElement("canvas");
   // The context is requested here, so that a browser without WebGL causes no error.
@@ -56,43 +70,41 @@ class Viewer {
     this.holder = holder;
     this.renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.labels = element("div", { class: "labels", "aria-hidden": "true" });
-    holder.append(canvas, this.labels);
-
     this.scene = new Scene();
     this.world = new Group(); // in metres, axes of the world
-    this.scene.add(this.world, new AmbientLight(0xffffff, 1.6));
-    const sun = new DirectionalLight(0xffffff, 1.8);
+    this.scene.add(this.world, new AmbientLight(0xffffff, 1.9));
+    const sun = new DirectionalLight(0xffffff, 1.5);
     sun.position.set(0.5, 1, 0.8);
     this.scene.add(sun);
 
     this.place();
+    this.materials = materials();
+    this.lines = [];
     this.build();
-    this.camera = new PerspectiveCamera(VIEW_ANGLE, 1, 0.05, 40);
+    const hint = element("div", { class: "hint", role: "status" });
+    holder.append(canvas, this.overlay.element, hint);
+    this.camera = new OrthographicCamera(-1, 1, 1, -1, 0.01, 2 * FAR);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enablePan = true;
-    this.controls.minDistance = 0.4;
-    this.controls.maxDistance = 12;
+    [this.controls.minZoom, this.controls.maxZoom] = ZOOM;
     this.controls.addEventListener("change", () => this.draw());
+    shareGestures(holder, canvas, this.controls, hint);
     new ResizeObserver(() => this.resize()).observe(holder);
     this.resetView();
     this.setTheme();
     this.show(0);
   }
 
-  /// Turns and scales the world: the load pulls down on the screen, and everything shown fits a ball of radius 1 around
-  /// the origin.
+  /// Turns and scales the world: `across` is to the right on the screen and `up` is up.
   place() {
-    const { robot, samples } = this.data;
-    const force = vector(robot.force);
-    const down = force.length() > 0 ? force.normalize() : new Vector3(0, 0, -1);
-    this.world.quaternion.setFromUnitVectors(down, UP.clone().negate());
+    const { robot, samples, view } = this.data;
+    const [across, up] = [vector(view.across), vector(view.up)];
+    const turn = new Matrix4().makeBasis(across, up, across.clone().cross(up)).transpose();
+    this.world.quaternion.setFromRotationMatrix(turn);
     const points = robot.base.map(vector);
     const count = samples.position.length;
-    for (let k = 0; k < count; k += Math.max(1, Math.floor(count / 60))) {
-      const [p, q] = this.pose(samples.position[k]);
-      for (const b of [...robot.platform, robot.load_point]) points.push(vector(b).applyQuaternion(q).add(p));
-    }
+    for (let k = 0; k < count; k += Math.max(1, Math.floor(count / 60))) points.push(...this.swept(k));
+    points.push(...this.swept(count - 1));
+    points.push(...points.map((p) => this.foot(p)), ...this.gridLines().flat());
     const low = points.reduce((a, b) => a.clone().min(b), points[0]);
     const high = points.reduce((a, b) => a.clone().max(b), points[0]);
     const centre = low.clone().add(high).multiplyScalar(0.5);
@@ -102,6 +114,37 @@ class Viewer {
     this.world.position.copy(centre).multiplyScalar(-this.scale).applyQuaternion(this.world.quaternion);
     this.world.updateMatrixWorld();
     this.points = points.map((p) => this.world.localToWorld(p));
+  }
+
+  swept(k) {
+    const { robot, samples, is_found: isFound } = this.data;
+    const position = samples.position[k];
+    if (!isFound && position !== Math.round(position)) return []; // nothing is between the waypoints
+    return [...robot.platform, robot.load_point, ...this.data.weights].map((b) => this.at(b, position));
+  }
+
+  /// A point of the platform at a place of the path, in the world.
+  at(point, position) {
+    const [p, q] = this.pose(position);
+    return vector(point).applyQuaternion(q).add(p);
+  }
+
+  /// The point of the ground below p.
+  foot(p) {
+    const up = vector(this.data.view.up);
+    return p.clone().addScaledVector(up, this.data.view.ground - p.dot(up));
+  }
+
+  gridLines() {
+    const { view } = this.data;
+    const [across, up] = [vector(view.across), vector(view.up)];
+    const inward = up.clone().cross(across);
+    const at = (a, b) => across.clone().multiplyScalar(a * view.step).addScaledVector(inward, b * view.step)
+      .addScaledVector(up, view.ground);
+    const [[left, right], [front, back]] = [view.columns, view.rows];
+    const range = (from, to) => Array.from({ length: to - from + 1 }, (_, k) => from + k);
+    return [...range(left, right).map((a) => [at(a, front), at(a, back)]),
+      ...range(front, back).map((b) => [at(left, b), at(right, b)])];
   }
 
   /// Position and orientation at a place of the path.
@@ -115,92 +158,147 @@ class Viewer {
   }
 
   build() {
-    const { robot } = this.data;
-    const metres = (size) => size / this.scale;
-    this.materials = {
-      base: new MeshLambertMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false }),
-      frame: new MeshLambertMaterial(),
-      platform: new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.85 }),
-      load: new MeshLambertMaterial(),
-      // Drawn in front of the platform, which would hide it.
-      tube: new MeshBasicMaterial({ transparent: true, opacity: 0.45, depthWrite: false, depthTest: false }),
-      ghost: new MeshBasicMaterial({
-        transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false, depthTest: false,
-      }),
-      out: new MeshBasicMaterial(),
-    };
-    const base = robot.base.map(vector);
-    this.world.add(...this.body(base, this.materials.base, this.materials.frame, metres(0.006)));
-    this.anchors(base, this.world, this.materials.frame, metres(ANCHOR));
-
-    this.platform = new Group();
-    const corners = robot.platform.map(vector);
-    this.platform.add(...this.body(corners, this.materials.platform, this.materials.frame, metres(0.005)));
-    this.anchors(corners, this.platform, this.materials.frame, metres(ANCHOR * 0.8));
-    this.world.add(this.platform);
-
-    const rod = new CylinderGeometry(1, 1, 1, 10).translate(0, 0.5, 0);
-    this.cables = robot.base.map(() => {
-      const mesh = new Mesh(rod, new MeshLambertMaterial());
-      // Rings mark a cable that is out of its limits, so that it can be recognised without colour.
-      mesh.userData.rings = Array.from({ length: 7 }, () => new Mesh(rod, this.materials.out));
-      this.world.add(mesh, ...mesh.userData.rings);
-      return mesh;
-    });
-
-    // The arrow of the load points down in the scene.
-    this.arrow = new Group();
-    const shaft = new Mesh(new CylinderGeometry(0.008, 0.008, ARROW, 12), this.materials.load);
-    shaft.position.y = -ARROW / 2;
-    const tip = new Mesh(new ConeGeometry(0.03, 0.09, 16), this.materials.load);
-    tip.position.y = -ARROW;
-    tip.rotation.x = Math.PI;
-    this.arrow.add(shaft, tip, new Mesh(new SphereGeometry(0.02, 16, 12), this.materials.load));
-    this.scene.add(this.arrow);
-    this.arrow.visible = vector(robot.force).length() > 0;
-
-    this.paths();
+    const { robot, is_found: isFound } = this.data;
+    this.fixed();
+    this.arrow = this.loadArrow();
+    this.platform = this.platformBody();
+    this.cables = robot.base.map(() => this.cable());
+    // Where no path was found, only its ends are known.
+    for (const part of [this.arrow, this.platform, ...this.cables]) part.visible = isFound;
+    this.ends();
+    if (isFound) this.paths();
     this.witnesses();
-    this.tags = robot.base.map((_, i) => {
-      const tag = element("span", {}, String(i + 1));
-      this.labels.append(tag);
-      return tag;
-    });
+    this.overlay = new Overlay(this.data, this.anchorNames(), this.marks);
+    for (const { tag } of this.overlay.cables) tag.style.display = isFound ? "" : "none";
   }
 
-  /// The hull of some points: a solid, a flat plate, or only the rods between them.
-  body(points, material, rodMaterial, thickness) {
-    const distinct = points.filter((a, i) => !points.slice(0, i).some((b) => a.distanceTo(b) < 1e-9 / this.scale));
-    const ring = flatHull(distinct);
-    if (!ring && distinct.length > 3) return [new Mesh(new ConvexGeometry(distinct), material)];
-    const outline = ring ?? distinct;
-    const parts = [];
-    outline.forEach((a, i) => {
-      const b = outline[(i + 1) % outline.length];
-      if (a !== b) parts.push(this.rod(a, b, thickness, rodMaterial));
-    });
-    if (outline.length > 2) {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new Float32BufferAttribute(outline.flatMap((p) => [p.x, p.y, p.z]), 3));
-      geometry.setIndex(outline.slice(2).flatMap((_, i) => [0, i + 1, i + 2]));
-      geometry.computeVertexNormals();
-      parts.push(new Mesh(geometry, material));
+  /// Ground, posts and the base with its anchors.
+  fixed() {
+    const { view } = this.data;
+    const metres = (size) => size / this.scale;
+    const base = distinct(this.data.robot.base.map(vector));
+    const lines = (pairs, material) => this.world.add(new LineSegments(
+      new BufferGeometry().setFromPoints(pairs.flat()), material));
+    lines(this.gridLines(), this.materials.ground);
+    const up = vector(view.up);
+    const height = base.reduce((sum, a) => sum + a.dot(up), 0) / base.length;
+    const { samples } = this.data;
+    if (height > vector(samples.p.map((column) => column[0])).dot(up)) {
+      for (const a of base) {
+        // What carries the machine is not known: it is drawn behind all that is.
+        const post = rod(this.foot(a), a, metres(0.012), this.materials.post);
+        const plate = new Mesh(new CylinderGeometry(metres(0.035), metres(0.035), metres(0.006), 24),
+          this.materials.post);
+        plate.position.copy(this.foot(a));
+        plate.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), up);
+        post.renderOrder = plate.renderOrder = -1;
+        this.world.add(post, plate);
+      }
     }
-    return parts;
-  }
-
-  rod(a, b, thickness, material) {
-    const mesh = new Mesh(new CylinderGeometry(1, 1, 1, 8).translate(0, 0.5, 0), material);
-    span(mesh, a, b, thickness);
-    return mesh;
-  }
-
-  anchors(points, group, material, radius) {
-    for (const p of points) {
-      const ball = new Mesh(new SphereGeometry(radius, 12, 8), material);
-      ball.position.copy(p);
-      group.add(ball);
+    const geometry = hullGeometry(base);
+    const lying = hatching(base, metres(0.045));
+    if (geometry && lying.length > 0) this.world.add(new Mesh(geometry, this.materials.base));
+    lines(lying, this.materials.hatch);
+    for (const [a, b] of hullEdges(base)) this.world.add(rod(a, b, metres(0.011), this.materials.frame));
+    for (const a of base) {
+      const block = new Mesh(new BoxGeometry(metres(ANCHOR), metres(ANCHOR), metres(ANCHOR)), this.materials.anchor);
+      block.position.copy(a);
+      block.quaternion.copy(this.world.quaternion).invert();
+      this.world.add(block);
     }
+  }
+
+  /// "A1 A2" where anchors coincide.
+  anchorNames() {
+    const base = this.data.robot.base.map(vector);
+    const apart = Math.max(...base.map((p) => p.distanceTo(base[0])));
+    return distinct(base).map((a) => ({
+      name: base.flatMap((p, i) => (p.distanceTo(a) <= 1e-6 * apart ? [`A${i + 1}`] : [])).join(" "),
+      at: this.world.localToWorld(a.clone()),
+    }));
+  }
+
+  platformBody() {
+    const corners = this.data.robot.platform.map(vector);
+    const body = new Group();
+    const geometry = hullGeometry(corners);
+    if (geometry) body.add(new Mesh(geometry, this.materials.platform));
+    for (const [a, b] of hullEdges(corners)) body.add(rod(a, b, 0.0035 / this.scale, this.materials.edge));
+    for (const p of distinct(corners)) {
+      const joint = new Mesh(new SphereGeometry(0.011 / this.scale, 12, 8), this.materials.edge);
+      joint.position.copy(p);
+      body.add(joint);
+    }
+    // The way from the platform to what it carries beside it.
+    const middle = corners.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(corners.length);
+    for (const p of [this.data.robot.load_point, ...this.data.weights].map(vector)) {
+      if (middle.distanceTo(p) * this.scale > 0.02) body.add(rod(middle, p, 0.003 / this.scale, this.materials.edge));
+    }
+    for (const p of this.data.weights) {
+      const weight = new Mesh(new SphereGeometry(0.017 / this.scale, 18, 12), this.materials.weight);
+      weight.position.copy(vector(p));
+      body.add(weight);
+    }
+    this.world.add(body);
+    return body;
+  }
+
+  /// A rod with a casing, which keeps it apart from what is behind it, and gaps that are only shown near its limits.
+  cable() {
+    const group = new Group();
+    const rods = rodGeometry(10);
+    group.userData = {
+      core: new Mesh(rods, new MeshBasicMaterial()),
+      casing: new Mesh(rods, this.materials.casing),
+      gaps: Array.from({ length: DASHES }, () => new Mesh(rods, this.materials.gap)),
+    };
+    group.add(group.userData.core, group.userData.casing, ...group.userData.gaps);
+    this.world.add(group);
+    return group;
+  }
+
+  /// Along −y of the scene, until it is turned.
+  loadArrow() {
+    const arrow = new Group();
+    const { load } = this.materials;
+    const shaft = new Mesh(new CylinderGeometry(0.009, 0.009, ARROW - 0.06, 12), load);
+    shaft.position.y = -(ARROW - 0.06) / 2;
+    const tip = new Mesh(new ConeGeometry(0.03, 0.09, 20), load);
+    tip.position.y = -ARROW + 0.045;
+    tip.rotation.x = Math.PI;
+    arrow.add(shaft, tip);
+    arrow.userData.pulls = [shaft, tip];
+    arrow.add(new Mesh(new SphereGeometry(0.02, 16, 12), load));
+    for (const part of arrow.children) part.renderOrder = 3; // in front of the platform, which would hide it
+    this.scene.add(arrow);
+    return arrow;
+  }
+
+  /// The platform at the start and at the goal, as dashed outlines, and the worst place on the path.
+  ends() {
+    const { segments, worst, is_found: isFound } = this.data;
+    const corners = this.data.robot.platform.map(vector);
+    this.marks = [];
+    for (const [name, position] of segments > 0 ? [["S", 0], ["G", segments]] : [["S", 0]]) {
+      const placed = corners.map((b) => this.at(b.toArray(), position));
+      const positions = hullEdges(placed).flat().flatMap((p) => p.toArray());
+      const geometry = new LineSegmentsGeometry().setPositions(positions);
+      const material = new LineMaterial({
+        linewidth: GHOST_WIDTH, dashed: true, dashSize: 0.028 / this.scale, gapSize: 0.02 / this.scale,
+      });
+      const outline = new LineSegments2(geometry, material);
+      outline.computeLineDistances();
+      this.world.add(outline);
+      this.lines.push({ material, name: "--soft" });
+      const up = vector(this.data.view.up);
+      const top = placed.reduce((a, b) => (b.dot(up) > a.dot(up) ? b : a));
+      this.marks.push({ name, at: this.world.localToWorld(top.clone()), kind: "end" });
+    }
+    if (worst === null || !isFound) return;
+    const mark = new Mesh(new SphereGeometry(0.02 / this.scale, 20, 14), this.materials.worst);
+    mark.position.copy(this.pose(worst)[0]);
+    mark.renderOrder = 2;
+    this.world.add(mark);
   }
 
   /// The path of the platform's origin, coloured by what is proved; that of the load point, thin; and the tube.
@@ -209,11 +307,7 @@ class Viewer {
     const ends = stretches.flatMap((s) => [s.from, s.to]);
     const places = [...new Set([...samples.position, ...ends])].sort((a, b) => a - b);
     const origins = places.map((p) => this.pose(p)[0]);
-    const loads = places.map((p) => {
-      const [origin, q] = this.pose(p);
-      return vector(robot.load_point).applyQuaternion(q).add(origin);
-    });
-    this.lines = [];
+    const loads = places.map((p) => this.at(robot.load_point, p));
     const line = (points, name, width, dashed) => {
       const kept = points.filter((p, k) => k === 0 || p.distanceTo(points[k - 1]) > 1e-7 / this.scale);
       if (kept.length < 2) return;
@@ -258,90 +352,126 @@ class Viewer {
   witnesses() {
     const { witness, robot } = this.data;
     for (const position of witness ? [witness.position, witness.to].filter((p) => p !== null) : []) {
-      const [p, q] = this.pose(position);
-      const ghost = new Group();
-      const { ghost: material } = this.materials;
-      ghost.add(...this.body(robot.platform.map(vector), material, material, 0.006 / this.scale));
-      ghost.position.copy(p);
-      ghost.quaternion.copy(q);
-      this.world.add(ghost);
+      const corners = robot.platform.map((b) => this.at(b, position));
+      const geometry = hullGeometry(corners);
+      const { ghost } = this.materials;
+      if (geometry) this.world.add(new Mesh(geometry, ghost));
+      for (const [a, b] of hullEdges(corners)) this.world.add(rod(a, b, 0.004 / this.scale, ghost));
     }
   }
 
   show(position) {
-    const { robot, samples } = this.data;
+    const { robot, samples, is_found: isFound } = this.data;
     const where = locate(samples.position, position);
     const [p, q] = this.pose(position);
     this.platform.position.copy(p);
     this.platform.quaternion.copy(q);
-    this.ends = robot.platform.map((b) => vector(b).applyQuaternion(q).add(p));
-    this.cables.forEach((mesh, i) => {
+    this.corners = robot.platform.map((b) => vector(b).applyQuaternion(q).add(p));
+    this.cables.forEach((group, i) => {
       const f = between(samples.tension[i], where);
-      const below = between(samples.tension_below[i], where);
-      const above = between(samples.tension_above[i], where);
-      const [lower, upper] = robot.tension[i];
-      const a = vector(robot.base[i]);
-      const b = this.ends[i];
-      const length = a.distanceTo(b);
-      const share = (x) => (x - lower) / (upper - lower);
-      const [low, high] = [share(f - below), share(f + above)];
+      const range = [f - between(samples.tension_below[i], where), f + between(samples.tension_above[i], where)];
+      const length = vector(robot.base[i]).distanceTo(this.corners[i]);
       const slack = 1e-6 * (robot.length[i][1] - robot.length[i][0]); // samples are rounded
-      const out = !(low > 0 && high < 1) ||
-        !(length > robot.length[i][0] - slack && length < robot.length[i][1] + slack);
-      mesh.material.color.set(tensionColour(low < 1 - high ? low : high));
-      span(mesh, a, b, (out ? 1.6 * CABLE : CABLE) / this.scale);
-      mesh.userData.rings.forEach((ring, k) => {
-        ring.visible = out;
-        const at = (t) => a.clone().lerp(b, t);
-        span(ring, at((k + 0.62) / 7), at((k + 0.88) / 7), (1.75 * CABLE) / this.scale);
-      });
-      this.tags[i].className = out ? "out" : "";
-      this.tags[i].textContent = out ? `${i + 1} !` : String(i + 1);
+      this.stretch(group, vector(robot.base[i]), this.corners[i],
+        nearness(range, robot.tension[i], length, robot.length[i], slack), this.overlay.cables[i].tag, i + 1);
     });
+    const force = this.forceAt(where);
+    for (const part of this.arrow.userData.pulls) part.visible = force.length() > 0;
+    const down = force.clone().normalize().applyQuaternion(this.world.quaternion);
+    this.arrow.quaternion.setFromUnitVectors(new Vector3(0, -1, 0), down);
     this.scene.updateMatrixWorld();
     this.arrow.position.copy(this.world.localToWorld(vector(robot.load_point).applyQuaternion(q).add(p)));
+    this.tip = isFound && force.length() > 0 ? this.arrow.position.clone().addScaledVector(down, ARROW) : undefined;
     this.draw();
+  }
+
+  /// The nominal force at a place, in the world.
+  forceAt(where) {
+    const { force } = this.data.samples;
+    return vector(force.length > 0 ? force.map((column) => between(column, where)) : this.data.robot.force);
+  }
+
+  stretch(group, a, b, near, tag, number) {
+    const { core, casing, gaps } = group.userData;
+    group.userData.nearness = near;
+    core.material.color.set(themed(`--${near}`));
+    span(core, a, b, RADIUS[near] / this.scale);
+    span(casing, a, b, (RADIUS[near] + CASING) / this.scale);
+    const isDashed = near === "close" || near === "out";
+    gaps.forEach((gap, k) => {
+      gap.visible = isDashed;
+      const at = (t) => a.clone().lerp(b, t);
+      const gapLength = near === "out" ? 0.5 : 0.3;
+      span(gap, at((k + 0.5) / DASHES), at((k + 0.5 + gapLength) / DASHES), (1.08 * RADIUS[near]) / this.scale);
+    });
+    tag.className = `cable ${near}`;
+    tag.textContent = near === "out" ? `${number} !` : String(number);
   }
 
   setTheme() {
     const colours = {
-      base: "--base", frame: "--base", platform: "--band", load: "--ink", tube: "--curve", ghost: "--mark",
-      out: "--ink",
+      ground: "--ground", post: "--post", base: "--steel", hatch: "--steel", frame: "--steel", anchor: "--anchor",
+      platform: "--warm", edge: "--warm-edge", weight: "--warm-dim", load: "--ink", tube: "--curve", ghost: "--mark",
+      casing: "--paper", gap: "--paper", worst: "--close",
     };
     for (const [name, property] of Object.entries(colours)) this.materials[name].color.set(themed(property));
     for (const { material, name } of this.lines) material.color.set(themed(name));
+    for (const { userData: { core, nearness: near } } of this.cables) core.material.color.set(themed(`--${near}`));
     this.draw();
   }
 
   resetView() {
-    const { azimuth, elevation } = FIRST_VIEW;
+    this.look(this.data.view.azimuth, this.data.view.elevation);
+  }
+
+  /// Looks from a direction at everything: angles from the front to the right, and up [rad].
+  look(azimuth, elevation) {
+    const above = Math.min(elevation, Math.PI / 2 - 1e-4); // from straight above, the front is below
     const from = new Vector3(
-      Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation), Math.cos(elevation) * Math.cos(azimuth));
-    const right = UP.clone().cross(from).normalize();
+      Math.cos(above) * Math.sin(azimuth), Math.sin(above), Math.cos(above) * Math.cos(azimuth));
+    const right = new Vector3(Math.cos(azimuth), 0, -Math.sin(azimuth));
     const up = from.clone().cross(right);
-    const vertical = 0.88 * Math.tan(((VIEW_ANGLE / 2) * Math.PI) / 180);
-    const horizontal = vertical * this.camera.aspect;
-    let distance = 0.5;
-    for (const p of this.points) { // all of them are to be seen
-      const needed = Math.max(Math.abs(p.dot(right)) / horizontal, Math.abs(p.dot(up)) / vertical);
-      distance = Math.max(distance, p.dot(from) + needed);
-    }
-    this.camera.position.copy(from).multiplyScalar(distance);
-    this.controls.target.set(0, 0, 0);
+    const extent = (axis) => {
+      const values = this.points.map((p) => p.dot(axis));
+      return [Math.min(...values), Math.max(...values)];
+    };
+    const [[left, rightmost], [low, high]] = [extent(right), extent(up)];
+    const half = Math.max((high - low) / 2 / (1 - MARGIN.above - MARGIN.below),
+      (rightmost - left) / 2 / (1 - 2 * MARGIN.side) / this.aspect());
+    this.half = half;
+    this.frame();
+    const aside = 2 * half * (MARGIN.above - MARGIN.below) / 2; // room for names above and the scale below
+    this.controls.target.set(0, 0, 0).addScaledVector(right, (left + rightmost) / 2)
+      .addScaledVector(up, (low + high) / 2 + aside);
+    this.camera.position.copy(this.controls.target).addScaledVector(from, FAR);
+    this.camera.zoom = 1;
+    this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.overlay.reset();
     this.draw();
+  }
+
+  aspect() {
+    return Math.max(this.holder.clientWidth, 1) / Math.max(this.holder.clientHeight, 1);
+  }
+
+  frame() {
+    const [x, y] = [this.half * this.aspect(), this.half];
+    Object.assign(this.camera, { left: -x, right: x, top: y, bottom: -y });
+    this.camera.updateProjectionMatrix();
   }
 
   /// Moves the camera by keys: angles [rad], and the factor by which it comes nearer.
   orbit(azimuth, elevation, zoom = 1) {
     const offset = this.camera.position.clone().sub(this.controls.target);
-    const distance = Math.min(Math.max(offset.length() * zoom, this.controls.minDistance), this.controls.maxDistance);
-    const height = Math.asin(offset.y / offset.length());
+    const height = Math.asin(Math.min(Math.max(offset.y / offset.length(), -1), 1));
     const around = Math.atan2(offset.x, offset.z) + azimuth;
     const above = Math.min(Math.max(height + elevation, -1.5), 1.5);
     offset.set(Math.cos(above) * Math.sin(around), Math.sin(above), Math.cos(above) * Math.cos(around))
-      .multiplyScalar(distance);
+      .multiplyScalar(FAR);
     this.camera.position.copy(this.controls.target).add(offset);
+    this.camera.zoom = Math.min(Math.max(this.camera.zoom / zoom, ZOOM[0]), ZOOM[1]);
+    this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
   }
@@ -349,12 +479,10 @@ class Viewer {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.holder;
     if (width === 0 || height === 0) return;
-    const before = this.camera.aspect;
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
     this.renderer.setSize(width, height, false);
     for (const { material } of this.lines) material.resolution = new Vector2(width, height);
-    if (before !== this.camera.aspect) this.resetView();
+    if (this.shownAspect !== this.aspect()) this.resetView();
+    this.shownAspect = this.aspect();
     this.draw();
   }
 
@@ -371,50 +499,41 @@ class Viewer {
 
   label() {
     const { clientWidth: width, clientHeight: height } = this.holder;
-    this.tags.forEach((tag, i) => {
-      const at = this.world.localToWorld(vector(this.data.robot.base[i]).lerp(this.ends[i], 0.42)).project(this.camera);
-      const [x, y] = [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height];
-      tag.style.transform = `translate(-50%, -50%) translate(${x}px, ${y}px)`;
+    const project = (p) => {
+      const at = p.clone().project(this.camera);
+      return [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height];
+    };
+    const inScene = (p) => this.world.localToWorld(p.clone());
+    const screen = this.camera.quaternion.clone().invert().multiply(this.world.quaternion);
+    const directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => {
+      const { x, y } = vector(axis).applyQuaternion(screen);
+      return [x, -y];
+    });
+    this.overlay.update({
+      project, directions, width, tip: this.tip,
+      pixels: (height / (2 * this.half)) * this.camera.zoom * this.scale,
+      lines: this.data.robot.base.map((a, i) => [inScene(vector(a)), inScene(this.corners[i])]),
     });
   }
 }
 
-/// Puts a rod of length 1 along y from a to b.
-function span(mesh, a, b, thickness) {
-  const along = b.clone().sub(a);
-  mesh.position.copy(a);
-  mesh.quaternion.setFromUnitVectors(UP, along.clone().normalize());
-  mesh.scale.set(thickness, Math.max(along.length(), 1e-12), thickness);
-}
-
-/// The convex hull of points in a plane, in order; undefined if they are not in a plane, or fewer than three.
-function flatHull(points) {
-  let normal = new Vector3();
-  for (const a of points) {
-    for (const b of points) {
-      const n = a.clone().sub(points[0]).cross(b.clone().sub(points[0]));
-      if (n.length() > normal.length()) normal = n;
-    }
-  }
-  const size = Math.max(...points.map((p) => p.distanceTo(points[0])), 0);
-  if (!(normal.length() > 1e-9 * size * size)) return undefined;
-  normal.normalize();
-  if (points.some((p) => Math.abs(p.clone().sub(points[0]).dot(normal)) > 1e-3 * size)) return undefined;
-  const u = points.reduce((best, p) => (p.distanceTo(points[0]) > best.distanceTo(points[0]) ? p : best), points[0])
-    .clone().sub(points[0]).normalize();
-  const v = normal.clone().cross(u);
-  const flat = points.map((p) => ({ p, x: p.dot(u), y: p.dot(v) })).sort((a, b) => a.x - b.x || a.y - b.y);
-  const half = (list) => {
-    const chain = [];
-    for (const point of list) {
-      const turns = () => {
-        const [a, b] = chain.slice(-2);
-        return (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x) > 0;
-      };
-      while (chain.length > 1 && !turns()) chain.pop();
-      chain.push(point);
-    }
-    return chain.slice(0, -1);
+function materials() {
+  const inFront = { transparent: true, depthWrite: false, depthTest: false };
+  return {
+    ground: new LineBasicMaterial(),
+    post: new MeshBasicMaterial({ depthWrite: false }),
+    base: new MeshBasicMaterial({ transparent: true, opacity: 0.1, side: DoubleSide, depthWrite: false }),
+    hatch: new LineBasicMaterial({ transparent: true, opacity: 0.5 }),
+    frame: new MeshLambertMaterial(),
+    anchor: new MeshLambertMaterial(),
+    platform: new MeshLambertMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1 }),
+    edge: new MeshBasicMaterial(),
+    weight: new MeshLambertMaterial(),
+    load: new MeshBasicMaterial({ depthTest: false, transparent: true }),
+    tube: new MeshBasicMaterial({ ...inFront, opacity: 0.4 }),
+    ghost: new MeshBasicMaterial({ ...inFront, opacity: 0.3, side: DoubleSide }),
+    casing: new MeshBasicMaterial({ side: BackSide }),
+    gap: new MeshBasicMaterial(),
+    worst: new MeshBasicMaterial({ ...inFront }),
   };
-  return [...half(flat), ...half([...flat].reverse())].map(({ p }) => p);
 }

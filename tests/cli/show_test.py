@@ -75,8 +75,12 @@ class Show(unittest.TestCase):
                         continue
                     root = xml.parse(drawing).getroot()
                     words = [element.text for element in root.iter() if element.tag.endswith("text")]
-                    for number in "123456":
-                        self.assertEqual(words.count(number), 3, "in each view")
+                    tags = [element.text for element in root.iter() if element.get("class") == "number"]
+                    self.assertEqual(sorted(tags), sorted("123456" * 3), "in each view")
+                    measures = [element.text for element in root.iter() if element.get("class") == "measure"]
+                    self.assertGreaterEqual(len(measures), 5, "widths of base and platform, and how far it hangs")
+                    for measure in measures:
+                        self.assertGreater(float(measure), 0)
                     self.assertTrue(any(word.endswith("mm") or word.endswith(" m") for word in words), "a scale bar")
                     named = " ".join(words)
                     for name in [f"{side}{i}" for side in "AB" for i in range(1, 7)]:

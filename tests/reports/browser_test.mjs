@@ -109,7 +109,7 @@ const has = async (page, selector) => (await page.locator(selector).count()) > 0
 const shown = (page, selector) => page.locator(selector).first().isVisible();
 
 /// Where the labels of the six cables stand: they move with the robot.
-const labels = (page) => page.$$eval(".labels span", (spans) => spans.map((span) => span.style.transform));
+const labels = (page) => page.$$eval(".labels .cable", (spans) => spans.map((span) => span.style.transform));
 const cursors = (page) => page.$$eval(".cursor", (lines) => lines.map((line) => Number(line.getAttribute("x1"))));
 const frames = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
@@ -236,7 +236,7 @@ test("the plane: Greek letters; a short path is enlarged; what was asked for, wh
   assert.equal(await has(none, ".plane-figure .path[d]:not(.key *)"), false);
   assert.equal(await none.locator(".plane-figure .start").count(), 1);
   assert.doesNotMatch(await none.textContent(".plane-figure .legend"), /path, S to G/);
-  for (const gone of ["#move", "#tensions", "#lengths", "#pose", ".controls", ".bar-player"]) {
+  for (const gone of ["#tensions", "#lengths", "#pose", ".controls", ".bar-player"]) {
     assert.equal(await has(none, gone), false, gone);
   }
   await close(none);
@@ -350,7 +350,7 @@ test("playing moves the robot and the plots' cursor, and ends", async () => {
   await page.selectOption(".controls select", "60");
   await page.click(".controls .play");
   // These wait until it is so: a slow machine may take a while for a frame.
-  await page.waitForFunction((was) => document.querySelector(".labels span").style.transform !== was, start[0]);
+  await page.waitForFunction((was) => document.querySelector(".labels .cable").style.transform !== was, start[0]);
   const cursorIsBeyond = (x) => page.waitForFunction(
     (least) => Number(document.querySelector(".cursor").getAttribute("x1")) > least, x);
   await cursorIsBeyond(54); // the axis
@@ -418,6 +418,112 @@ test("scrubbing by mouse, keys and plots; stepping; orbiting", async () => {
   await page.focus(".stage");
   await page.keyboard.press(" ");
   assert.match(await page.textContent(".controls .play"), /Pause/);
+  await close(page);
+});
+
+/// The length that the scale bar states, over its length in pixels: the less, the nearer.
+const metresPerPixel = (page) => page.$eval(".scale-bar", (bar) => parseFloat(bar.textContent) / bar.offsetWidth);
+
+test("the page scrolls over the machine; Ctrl and the wheel zoom", async () => {
+  const page = await open("robot1-slice-qs-qg");
+  await page.locator(".stage").scrollIntoViewIfNeeded();
+  await frames(page);
+  const stage = await page.locator(".stage").boundingBox();
+  await page.mouse.move(stage.x + stage.width / 2, stage.y + stage.height / 2);
+  const [before, scale] = [await page.evaluate(() => scrollY), await metresPerPixel(page)];
+  await page.mouse.wheel(0, 120);
+  await page.waitForFunction((was) => scrollY > was + 60, before);
+  await frames(page);
+  assert.equal(await metresPerPixel(page), scale, "nothing zooms");
+  assert.match(await page.textContent(".hint.shown"), /Ctrl/);
+  const scrolled = await page.evaluate(() => scrollY);
+  await page.keyboard.down("Control");
+  for (let k = 0; k < 4; ++k) await page.mouse.wheel(0, -120);
+  await page.keyboard.up("Control");
+  await page.waitForFunction((was) => {
+    const bar = document.querySelector(".scale-bar");
+    return parseFloat(bar.textContent) / bar.offsetWidth < 0.9 * was;
+  }, scale);
+  assert.equal(await page.evaluate(() => scrollY), scrolled, "the page stays");
+  await close(page);
+});
+
+test("one finger scrolls the page over the machine", async () => {
+  const page = await open("robot1-slice-qs-qg", { viewport: { width: 390, height: 844 }, hasTouch: true });
+  const touched = await page.$eval(".stage canvas", (canvas) => getComputedStyle(canvas).touchAction);
+  assert.equal(touched, "pan-y");
+  await page.locator(".stage").scrollIntoViewIfNeeded();
+  const [stage, slider] = [await page.locator(".stage").boundingBox(),
+    await page.locator(".controls input[type=range]").boundingBox()];
+  assert.ok(slider.y + slider.height - stage.y < 844, "the slider is in view with the picture");
+  const view = await labels(page);
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", {
+    type, touchPoints: points.map(([x, y], id) => ({ x: stage.x + x, y: stage.y + y, id })),
+  });
+  await touch("touchStart", [150, 150]);
+  for (const x of [160, 180, 200]) await touch("touchMove", [x, 150]);
+  await touch("touchEnd");
+  await frames(page);
+  assert.deepEqual(await labels(page), view, "one finger turns nothing");
+  assert.match(await page.textContent(".hint"), /two fingers/);
+  await touch("touchStart", [120, 150]);
+  await touch("touchStart", [120, 150], [220, 150]);
+  for (const x of [10, 25, 40]) await touch("touchMove", [120 + x, 150], [220 + x, 150]);
+  await touch("touchEnd");
+  await frames(page);
+  assert.notDeepEqual(await labels(page), view, "two fingers do");
+  await close(page);
+});
+
+test("buttons look from the front, the side and above, and go to the worst place", async () => {
+  const page = await open("robot1-slice-qs-qg");
+  const views = { Oblique: await labels(page) };
+  assert.equal(await page.locator(".triad .axis").count(), 3);
+  const names = await page.$$eval(".labels .name", (tags) => tags.map((tag) => tag.textContent));
+  assert.deepEqual(names, ["A1 A2", "A3 A4", "A5 A6"]);
+  for (const name of ["Front", "Side", "Top"]) {
+    await page.click(`.views button:text-is("${name}")`);
+    await frames(page);
+    const seen = await labels(page);
+    for (const [other, was] of Object.entries(views)) assert.notDeepEqual(seen, was, `${name} is not ${other}`);
+    views[name] = seen;
+    await picture(page, `view-${name}`, { fullPage: false });
+  }
+  // From above, the load pulls along the view: z has no length in the picture.
+  const z = await page.$eval(".triad .z", (path) => path.getAttribute("d").match(/L([-\d.]+) ([-\d.]+)/).slice(1));
+  assert.ok(Math.hypot(...z.map(Number)) < 0.1);
+  await page.click('.views button:text-is("Oblique")');
+  await frames(page);
+  assert.deepEqual(await labels(page), views.Oblique);
+  await page.click('.views button:text-is("Worst place")');
+  await frames(page);
+  assert.notDeepEqual(await labels(page), views.Oblique);
+  const [share, value] = await page.$eval(".track", (track) => [
+    Number(track.querySelector(".worst-mark").style.getPropertyValue("--share")), Number(track.firstChild.value)]);
+  assert.ok(share > 0 && Math.abs(share * 1000 - value) <= 1, "it is marked on the slider");
+  await close(page);
+});
+
+test("a refuted move opens at its witness, where the cable is out of its limits", async () => {
+  const page = await open("robot1-straight-qs-qg");
+  await frames(page);
+  assert.match(await page.textContent(".where"), /violation/);
+  assert.ok(await has(page, ".labels .cable.out"));
+  assert.match(await page.textContent(".labels .cable.out"), /!/);
+  await close(page);
+});
+
+test("of a plan that was not found, start and goal are shown and nothing plays", async () => {
+  const page = await open("no_path_of_query.html");
+  assert.ok(await shown(page, ".stage canvas"));
+  for (const part of [".play", "input[type=range]", ".readout-table"]) {
+    assert.equal(await has(page, `#move ${part}`), false, part);
+  }
+  assert.equal(await page.locator(".labels .cable:visible").count(), 0);
+  assert.deepEqual(await page.$$eval(".labels .end", (tags) => tags.map((tag) => tag.textContent)), ["S", "G"]);
+  assert.doesNotMatch(await page.locator('#move > [data-plot="move"]').innerText(), /proved|path of/);
+  assert.equal(await has(page, '.views button:text-is("Worst place")'), false);
   await close(page);
 });
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <regex>
 
+#include "reports/page/robot_drawing.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
@@ -145,6 +146,18 @@ TEST(MachineView, HasWeightsPullDownAndRightHandedAxes) {
   EXPECT_GT(view.towards().dot(view.up), 0) << "from above";
   for (const Eigen::Vector3d& p : view.swept) EXPECT_GT(view.up.dot(p), view.grid.height);
   EXPECT_EQ(view.grid.step, 0.1);
+}
+
+TEST(DimensionedViews, HaveTheSizeOfTheBaseAndHowFarThePlatformHangs) {
+  const ReportContext scene = sample::scene(sample::proved());
+  const std::string svg = dimensioned_views(scene).str();
+  EXPECT_EQ(count(svg, ">381.1<"), 2) << "mm, from the front and from above";
+  EXPECT_EQ(count(svg, ">330<"), 2) << "from the side and from above";
+  double lowest = 0;  // z points down, and the base is at 0
+  for (const Eigen::Vector3d& b : platform_at(scene, scene.samples.front().pose)) lowest = std::max(lowest, b.z());
+  EXPECT_EQ(count(svg, fmt::format(">{:.4g}<", 1000 * lowest)), 2) << "from the front and from the side";
+  EXPECT_NE(svg.find("dimensions in mm"), std::string::npos);
+  EXPECT_EQ(dimensioned_views(sample::scene(sample::no_path())).str(), "");
 }
 
 TEST(HullFaces, AreThoseOfATetrahedronACubeAndAPlate) {

@@ -214,7 +214,7 @@ TEST(ReportData, RangesOfCablesAreOfTheWholePath) {
 
 TEST(ReportData, ShowsNoPathThatWasNotFound) {
   const json data = report_data(sample::scene(sample::no_path_of_query()));
-  EXPECT_TRUE(data["samples"]["position"].empty());
+  EXPECT_FALSE(data["is_found"]) << "its samples are of the straight way through the query's waypoints";
   EXPECT_TRUE(data["cables"].is_null());
   EXPECT_EQ(data["plane"]["waypoints"].size(), 3u) << "what was asked for";
   EXPECT_TRUE(data["plane"]["detail"].is_null());
@@ -310,6 +310,31 @@ TEST(Plane, EnlargesAPathThatIsSmallInTheWindow) {
       EXPECT_LT(sample.parameters[j], part.upper);
     }
   }
+}
+
+TEST(ReportData, TellsFromWhereTheMachineIsSeenAndWhichPlaceIsWorst) {
+  const json proved = report_data(sample::scene(sample::proved()));
+  EXPECT_EQ(proved["view"]["up"], json({0, 0, -1})) << "the load pulls along z";
+  EXPECT_EQ(proved["view"]["load"], "1 N (102 g)");
+  EXPECT_GT(proved["view"]["step"], 0);
+  EXPECT_LT(proved["view"]["ground"], -0.4) << "below the platform, which is 0.35 m below the base";
+  EXPECT_TRUE(proved["is_found"]);
+  EXPECT_TRUE(proved["worst"].is_number());
+  EXPECT_EQ(proved["samples"]["force"], json::array()) << "as the robot's all along";
+  EXPECT_EQ(report_data(sample::scene(sample::refuted()))["worst"], 1.375) << "the witness";
+  const json lost = report_data(sample::scene(sample::no_path_of_query()));
+  EXPECT_FALSE(lost["is_found"]);
+  EXPECT_TRUE(lost["worst"].is_null());
+}
+
+TEST(ReportData, HasTheForceOfALoadThatTurnsWithThePlatform) {
+  json certificate = sample::proved();
+  certificate["problem"]["load"] = json::parse(R"({"point_m": ["0.03","0.014","-0.021"],
+      "gravity_m_s2": ["0", "0", "0"], "items": [{"name": "thrust", "force": {"axes": "P", "at_m": ["0", "0", "0"],
+        "segment": {"direction": ["0", "0", "1"], "range": ["1", "2"]}}}]})");
+  const json force = report_data(sample::scene(certificate))["samples"]["force"];
+  ASSERT_EQ(force.size(), 3);
+  EXPECT_NE(force[2].front(), force[2].back());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 foreach(header markup display_units samples scene travel report_data cable_use nearness key_numbers broken_limits
-    load_statement style summary angles machine_picture html_report theorem file_lines scope assurance_case
+    load_statement style summary angles machine_picture worst_place html_report theorem file_lines scope assurance_case
     lift_plan)
   taut_add_test(reports ${header} LABELS unit LIBS taut::reports fmt::fmt OpenSSL::Crypto)
 endforeach()
@@ -13,5 +13,5 @@ add_test(NAME reports.browser
     $<TARGET_FILE:reports_write_samples> "${PROJECT_SOURCE_DIR}/cases")
 set_tests_properties(reports.browser PROPERTIES LABELS slow TIMEOUT 600)
 add_test(NAME reports.words COMMAND "${TAUT_NODE}" --test "${CMAKE_CURRENT_SOURCE_DIR}/reports/words_test.mjs"
-  "${CMAKE_CURRENT_SOURCE_DIR}/reports/data_test.mjs")
+  "${CMAKE_CURRENT_SOURCE_DIR}/reports/data_test.mjs" "${CMAKE_CURRENT_SOURCE_DIR}/reports/nearness_test.mjs")
 set_tests_properties(reports.words PROPERTIES LABELS unit)
