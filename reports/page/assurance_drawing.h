@@ -37,12 +37,14 @@ inline constexpr const char* kAssuranceStyle = R"css(
 .argument > li { margin-left: -18px; }
 .argument b { font-weight: 680; }
 .lift-plan th[scope="rowgroup"] { color: var(--ink); padding-top: 14px; }
-.lift-plan td { min-width: 130px; }
-.lift-plan td.blank { border-bottom-color: var(--soft); }
+.lift-plan { width: 100%; }
+.lift-plan td { min-width: 130px; } .lift-plan td:first-child { width: 22%; } .lift-plan td:last-child { width: 38%; }
 @media print {
   .gsn { break-inside: avoid; max-width: none; }
   .gsn svg { min-width: 0; }
-  .lift-plan { font-size: 8pt; } .lift-plan td, .lift-plan th { padding: 2.5pt 8pt 2.5pt 0; }
+  #assurance details { display: none; }  /* the drawings have it in fewer words */
+  .lift-plan { font-size: 7.4pt; line-height: 1.3; } .lift-plan td, .lift-plan th { padding: 1.6pt 8pt 1.6pt 0; }
+  .lift-plan th[scope="rowgroup"] { padding-top: 5pt; }
 }
 )css";
 
