@@ -37,16 +37,15 @@ inline constexpr const char* kAssuranceStyle = R"css(
 .argument > li { margin-left: -18px; }
 .argument b { font-weight: 680; }
 .lift-plan th[scope="rowgroup"] { color: var(--ink); padding-top: 14px; }
-.lift-plan td { min-width: 130px; }
-.lift-plan td.blank { border-bottom-color: var(--soft); }
+.lift-plan { width: 100%; }
+.lift-plan td { min-width: 130px; } .lift-plan td:first-child { width: 22%; } .lift-plan td:last-child { width: 38%; }
 @media print {
   .gsn { break-inside: avoid; max-width: none; }
   .gsn svg { min-width: 0; }
-  /* The drawing has the same content. */
-  ul.argument { display: none; }
   section:has(> .gsn) { break-before: page; }
-  .lift-plan { font-size: 7.2pt; line-height: 1.25; } .lift-plan td, .lift-plan th { padding: 1.5pt 8pt 1.5pt 0; }
-  .lift-plan th[scope="rowgroup"] { padding-top: 4pt; }
+  #assurance details { display: none; }  /* the drawings have it in fewer words */
+  .lift-plan { font-size: 7.4pt; line-height: 1.3; } .lift-plan td, .lift-plan th { padding: 1.6pt 8pt 1.6pt 0; }
+  .lift-plan th[scope="rowgroup"] { padding-top: 5pt; }
 }
 )css";
 

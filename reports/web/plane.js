@@ -248,7 +248,7 @@ function legendKeys(data, grids) {
 }
 
 export function planeFigure(data, cursor) {
-  const { plane, samples } = data;
+  const { plane } = data;
   const hasPath = hasPathIn(data);
   const grid = readGrid(plane.grid);
   const detail = plane.detail ? readGrid(plane.detail) : undefined;
