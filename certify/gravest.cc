@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <vector>
 
 namespace taut {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Statics<double> statics_at(const PoseSampler& sampler, const Segment& segment, const Dyadic& s) {
   return sampler.statics(sampler.rigid_pose(segment, s.approx()));
@@ -26,7 +29,7 @@ void worsen(const Model<double>& model, const Statics<double>& statics, const Dy
     const bool is_length = margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
     if (!is_length && !statics.regular) continue;
     const double severity = -slack(model, limited_quantity(statics, margin), margin) / width(model, margin);
-    if (worst && !(severity > worst->severity)) continue;
+    if (!(severity > (worst ? worst->severity : -kInfinity))) continue;  // nor where the pose is undefined
     worst = SuspectedViolation{false, margin, s, s, s, severity};
   }
 }

@@ -84,6 +84,14 @@ TEST_F(Gravest, LooksAtBothEndsHoweverNarrowTheStretch) {
   EXPECT_LE(found.worst->at, end);
 }
 
+TEST(GravestOfAnUndefinedPose, IsNoNumber) {
+  const PoseSampler sampler(robot1_slice());
+  Waypoint nowhere{{std::nan(""), 1.6}, {0, 0}};
+  const auto found = sample_violations(sampler, Segment::straight(nowhere, nowhere), {0, 0}, {1, 0}, 8);
+  EXPECT_FALSE(found.singular);
+  EXPECT_FALSE(found.worst);
+}
+
 PathWitness broken(MarginKind kind, const char* low, const char* high) {
   PathWitness witness;
   witness.margin = {kind, 2};

@@ -251,6 +251,13 @@ TEST(Mutation, AWitnessMayOnlyBeStatedMoreLoosely) {
   EXPECT_EQ(claims(accepted_mutants(accepted("refuted_spline_singular"), "/witness")), std::set<std::string>{});
 }
 
+TEST(Mutation, AWitnessInsideAStretchMayOnlyBeStatedMoreLoosely) {
+  if (share() > 1) GTEST_SKIP() << "tries all of them";
+  EXPECT_EQ(claims(accepted_mutants(accepted("stretches_of_a_graver_witness"), "/witness")),
+            (std::set<std::string>{"/witness/value/1: becomes 1e400", "/witness/value/1: gets a leading 2"}));
+  EXPECT_EQ(claims(accepted_mutants(accepted("stretches_of_a_singular_witness"), "/witness")), std::set<std::string>{});
+}
+
 TEST(Mutation, ACutFileIsMalformed) {
   const std::string text = read_text(TAUT_CERTIFICATES "/accepted/robot1_near_start.json");
   const std::size_t end = text.find_last_of('}');
