@@ -106,7 +106,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .scope > div, .facts > div { grid-template-columns: minmax(0, 1fr); gap: 0; }
   .tiles { grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 8px; }
   .tile { padding: 7px 10px 8px; }
-  .tile .value { font-size: 18px; }
+  .tile .value { font-size: 16px; }
   .uncovered ul { columns: 1; }
   .signatures { grid-template-columns: minmax(0, 1fr); }
 }
