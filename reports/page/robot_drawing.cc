@@ -106,7 +106,7 @@ Html frame(const char* kind, const std::vector<Point2>& points) {
 class Projection {
  public:
   Projection(const DrawnRobot& robot, const View& view, const Point2& corner, double side, double scale,
-             const Eigen::AlignedBox2d& bounds);
+             const Eigen::AlignedBox2d& bounds, double page_height);
   [[nodiscard]] Html draw();
 
  private:
@@ -123,7 +123,7 @@ class Projection {
   const DrawnRobot& robot_;
   const View& view_;
   Point2 corner_;
-  double side_;
+  double page_height_;
   double scale_;  ///< [px/m]
   Point2 middle_;
   Point2 centre_;
@@ -134,11 +134,11 @@ class Projection {
 };
 
 Projection::Projection(const DrawnRobot& robot, const View& view, const Point2& corner, double side, double scale,
-                       const Eigen::AlignedBox2d& bounds)
+                       const Eigen::AlignedBox2d& bounds, double page_height)
     : robot_(robot),
       view_(view),
       corner_(corner),
-      side_(side),
+      page_height_(page_height),
       scale_(scale),
       middle_(bounds.center()),
       centre_(corner + Point2(side / 2, side / 2)),
@@ -186,7 +186,7 @@ void Projection::dimensions() {
   horizontal(left.x(), right.x(), box_.min().y() - 34, left.y(), right.y());
   vertical(top.y(), bottom.y(), box_.min().x() - 30, top.x(), bottom.x());
   const Point2 b_left = least(b_, 0), b_right = greatest(b_, 0), b_top = least(b_, 1), b_bottom = greatest(b_, 1);
-  horizontal(b_left.x(), b_right.x(), box_.max().y() + 40, b_left.y(), b_right.y());
+  horizontal(b_left.x(), b_right.x(), box_.max().y() + 52, b_left.y(), b_right.y());
   vertical(b_top.y(), b_bottom.y(), box_.max().x() + 28, b_top.x(), b_bottom.x());
   const bool is_level = view_.down.dot(robot_.down) > 0.5;  // else seen from above
   if (is_level) vertical(top.y(), b_bottom.y(), box_.max().x() + 54, top.x(), b_bottom.x());
@@ -206,7 +206,7 @@ void Projection::label(const char* kind, const std::string& text, const Point2& 
 }
 
 Html Projection::draw() {
-  drawn_ += words("title", {corner_.x() - kPad + 8, corner_.y() - kPad - 6}, view_.title);
+  drawn_ += words("title", {corner_.x() - kPad + 8, kHead - 6}, view_.title);
   drawn_ += frame("base", a_) + frame("platform", b_);
   for (std::size_t i = 0; i < kCables; ++i) {
     drawn_ += line("cable", a_[i], b_[i]);
@@ -228,11 +228,11 @@ Html Projection::draw() {
   const Point2 from = place(robot_.load);
   drawn_ += html("<circle class=\"load\" cx=\"{}\" cy=\"{}\" r=\"3\"/>", coordinate(from.x()), coordinate(from.y()));
   if (robot_.force.norm() > 0) {
-    const Point2 pull = view_(robot_.force.normalized()) * 36;
+    const Point2 pull = view_(robot_.force.normalized()) * 30;
     if (pull.norm() > 1) drawn_ += arrow("load", from, from + pull);
   }
   // The world's axes, those that are seen.
-  const Point2 origin(corner_.x() - kPad / 2, corner_.y() + side_ + kPad + kFoot - 34);
+  const Point2 origin(corner_.x() - kPad / 2, page_height_ - 42);
   for (int c = 0; c < 3; ++c) {
     const Point2 axis = view_(Vector3d::Unit(c)) * 24;
     if (axis.norm() < 3) continue;
@@ -268,7 +268,7 @@ std::optional<Views> three_views(const DrawnRobot& robot, double side) {
   Views result{{}, 3 * (side + 2 * kPad), kHead + 2 * kPad + tallest + kFoot};
   for (std::size_t v = 0; v < all.size(); ++v) {
     const Point2 corner(kPad + static_cast<double>(v) * (side + 2 * kPad), kHead + kPad + shift);
-    result.drawn += Projection(robot, all[v], corner, side, scale, bounds[v]).draw();
+    result.drawn += Projection(robot, all[v], corner, side, scale, bounds[v], result.height).draw();
   }
   const double metres = round_length(widest / 4);
   const double y = result.height - 26;
