@@ -493,7 +493,10 @@ test("the assurance case: words within their shapes, shapes apart, and a list of
   const page = await open("tutorial/04-tolerances");
   const drawn = await page.$$eval(".gsn svg", (drawings) => drawings.map((svg) =>
     [...svg.querySelectorAll("g")].map((g) => {
-      const [shape, text] = [g.querySelector(".shape"), g.querySelector("text:not(.kind)")].map((x) => x.getBBox());
+      const [shape, text] = [".shape", "text:not(.kind)"].map((selector) => {
+        const { x, y, width, height } = g.querySelector(selector).getBBox();
+        return { x, y, width, height };
+      });
       return { id: g.querySelector(".id").textContent, shape, text };
     })));
   assert.equal(drawn.length, 2);
