@@ -161,6 +161,23 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   th { white-space: normal; }
   #path > details, #margins > details { columns: 2; column-gap: 8mm; }
   #path > details:not(:has(tr:nth-child(25))), #margins > details:not(:has(tr:nth-child(25))) { break-inside: avoid; }
+  p:has(+ .scroll), p:has(+ details) { break-after: avoid; }
+  /* What is broken: the plot stands below the picture, so that all fits the first page. */
+  .duo:has(.broken) {
+    grid-template-columns: minmax(0, 34fr) minmax(0, 66fr); grid-template-rows: auto auto 1fr; row-gap: 0;
+  }
+  .duo:has(.broken) > div { display: contents; }
+  .duo:has(.broken) > .machine { grid-area: 1 / 1; }
+  .duo:has(.broken) > .machine > svg { max-height: 52mm; }
+  .duo:has(.broken) .cable-plot { grid-area: 2 / 1 / span 2; }
+  .duo:has(.broken) .scroll { grid-area: 1 / 2; }
+  .duo:has(.broken) .note { grid-area: 2 / 2; }
+  .duo:has(.broken) .details { grid-area: 3 / 2; }
+  .first .broken { font-size: 6.9pt; line-height: 1.22; }
+  .first .broken td { overflow-wrap: break-word; padding: 1.2pt 6pt 1.2pt 0; }
+  .first:has(.broken) .uncovered li { margin: 0; }
+  .first:has(.broken) .signatures > div { min-height: 34pt; }
+  .uncovered { break-inside: avoid; }
   /* The exact numbers, in two columns. */
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
   .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
