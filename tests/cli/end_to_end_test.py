@@ -248,8 +248,8 @@ class EndToEnd(InFolder):
         result = run(TAUT, "plan", case, "--out", self.out)
         self.assertEqual(result.returncode, 1)
         # Its length breaks a limit, too, by 6.8 % of the width between limits; the tension by 96 %.
-        self.assertIn("refuted: at waypoint 0 of the query the tension of cable 3 falls to at most -0.3816 N, not above "
-                      "its lower limit of 0.05 N.\n", result.stdout)
+        self.assertIn("refuted: at waypoint 0 of the query the tension of cable 3 falls to at most -0.3816 N, not "
+                      "above its lower limit of 0.05 N.\n", result.stdout)
         self.assertEqual(self.certificate()["verdict"], "refuted")
 
     def test_bad_input_exits_with_3_says_where_and_writes_nothing(self):
