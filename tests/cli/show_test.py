@@ -81,7 +81,7 @@ class Show(unittest.TestCase):
                     self.assertGreaterEqual(len(measures), 5, "widths of base and platform, and how far it hangs")
                     for measure in measures:
                         self.assertGreater(float(measure), 0)
-                    self.assertTrue(any(word.endswith("mm") or word.endswith(" m") for word in words), "a scale bar")
+                    self.assertTrue(any(word.endswith(("mm", " cm", " m", " ft")) for word in words), "a scale bar")
                     named = " ".join(words)
                     for name in [f"{side}{i}" for side in "AB" for i in range(1, 7)]:
                         self.assertGreaterEqual(named.split().count(name), 3)
