@@ -79,7 +79,9 @@ inline constexpr const char* kFirstPageStyle = R"css(
 .cable-plot text { font-size: 12px; fill: var(--soft); }
 .cable-plot .end { text-anchor: end; }
 .cable-plot .forbidden { fill: var(--forbidden); }
-.cable-plot .band { fill: var(--curve); fill-opacity: 0.4; stroke: var(--curve); stroke-width: 1.4; stroke-linejoin: round; }
+.cable-plot .band {
+  fill: var(--curve); fill-opacity: 0.4; stroke: var(--curve); stroke-width: 1.4; stroke-linejoin: round;
+}
 .cable-plot .limit { stroke: var(--limit); stroke-width: 1.3; fill: none; }
 .cable-plot .mark { stroke: var(--ink); stroke-width: 1.4; stroke-dasharray: 5 4; fill: none; }
 .cable-plot .frame { fill: none; stroke: var(--soft); stroke-width: 0.8; }
@@ -120,7 +122,8 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .unverified { font-size: 6.8pt; margin: -3pt 0 2pt !important; }
   .band { padding: 8pt 12pt; gap: 4pt 14pt; border-radius: 6pt; print-color-adjust: exact; }
   .band .word { font-size: 17pt; } .band .icon { width: 17pt; height: 17pt; vertical-align: -3pt; }
-  .band .headline { font-size: 9.6pt; } .checks { font-size: 7.8pt; padding-left: 10pt; } .checks li { margin: 1.5pt 0; }
+  .band .headline { font-size: 9.6pt; }
+  .checks { font-size: 7.8pt; padding-left: 10pt; } .checks li { margin: 1.5pt 0; }
   .tiles { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 6pt; margin: 7pt 0; }
   .tile { padding: 4pt 7pt 5pt; border-radius: 6pt; border-top-width: 2.5pt; }
   .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value { font-size: 12pt; }

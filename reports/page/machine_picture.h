@@ -23,8 +23,8 @@ struct PictureSize {
 };
 
 /// The machine at a position of the path, its cables coloured by how near they are to their limits; the start and the
-/// goal as dashed outlines; fitted to all that the path sweeps. Nothing if there is no path, and words where numbers are
-/// too large to be drawn. @param position counts segments; clamped to the path
+/// goal as dashed outlines; fitted to all that the path sweeps. Nothing if there is no path, and words where numbers
+/// are too large to be drawn. @param position counts segments; clamped to the path
 [[nodiscard]] Html machine_picture(const ReportContext& scene, double position,
                                    const std::array<Nearness, kCables>& nearness, const std::string& caption);
 /// The same, where many pictures of a machine share a view. @pre `view` is of `scene`

@@ -11,7 +11,8 @@
 
 namespace taut {
 
-/// A parallel projection, in which equal lengths in a plane across the view are equal in the picture. Weights pull down.
+/// A parallel projection, in which equal lengths in a plane across the view are equal in the picture. Weights pull
+/// down.
 struct MachineView {
   /// Of the axes of W, `up` is taken if the weights, or else the nominal force, nearly pull against it.
   explicit MachineView(const ReportContext& scene);

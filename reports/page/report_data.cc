@@ -17,8 +17,8 @@
 #include "reports/page/machine_view.h"
 #include "reports/page/plane.h"
 #include "reports/summary/cable_use.h"
-#include "reports/summary/nearness.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/nearness.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
 

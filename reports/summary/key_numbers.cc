@@ -85,8 +85,7 @@ KeyNumber slack_number(const ReportContext& scene, const CableUse& use) {
   const std::size_t i = greatest([&](std::size_t k) { return slack_use(use.tension[k]); });
   const Use& t = use.tension[i];
   const bool is_kept = t.range.lower > t.lower_limit;
-  return {"slack",
-          "Closest to going slack",
+  return {"slack", "Closest to going slack",
           fmt::format("Cable {}: {}", i + 1, is_kept ? above_slack(t, force) : amount(t.range.lower, force)),
           fmt::format("{}limit {} {} · {}",
                       is_kept ? down_text(t.range.lower, t.lower_limit, force) + " " + force.name() + ", " : "slack ",
@@ -101,9 +100,7 @@ KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
   const Use& t = use.tension[i];
   const bool is_kept = t.range.upper < t.upper_limit;
   return {
-      "top",
-      "Highest tension",
-      fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(t) : amount(t.range.upper, force)),
+      "top", "Highest tension", fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(t) : amount(t.range.upper, force)),
       fmt::format("{}{} {} · {}",
                   is_kept ? up_text(t.range.upper, t.upper_limit, force) + " " + force.name() + " of " : "top limit ",
                   force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
@@ -119,8 +116,7 @@ KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
   const bool is_upper = d.upper_limit - d.range.upper < d.range.lower - d.lower_limit;
   const double left = length_left(d);
   return {
-      "length",
-      "Least length left",
+      "length", "Least length left",
       fmt::format("Cable {}: {}{} {}", i + 1, left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
       fmt::format(
           "{} {} of {} {} {} · {}",

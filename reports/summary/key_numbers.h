@@ -12,12 +12,12 @@
 namespace taut {
 
 struct KeyNumber {
-  const char* key;                      ///< for machines: "slack", "top", "length" or "growth"
-  std::string title;                    ///< "Closest to going slack"
-  std::string value;                    ///< "Cable 1: +1.86 %"
-  std::string detail;                   ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"
-  Nearness nearness;                    ///< how near to the limit
-  bool is_proved = false;               ///< else it rests on floating-point samples, or on what nothing has checked
+  const char* key;         ///< for machines: "slack", "top", "length" or "growth"
+  std::string title;       ///< "Closest to going slack"
+  std::string value;       ///< "Cable 1: +1.86 %"
+  std::string detail;      ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"
+  Nearness nearness;       ///< how near to the limit
+  bool is_proved = false;  ///< else it rests on floating-point samples, or on what nothing has checked
 };
 
 /// Proved where the whole move is proved: then rounded so that every one of them is true of the move. Else of samples,

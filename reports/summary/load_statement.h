@@ -51,8 +51,8 @@ struct LoadStatement {
 /// An item's name between quotes, which none of its own characters can end: what stands outside of them is ours.
 [[nodiscard]] std::string quoted_name(const std::string& name);
 
-/// The load beside its arrow in a picture: the mass of all weights, "19.76 to 20.24 t", or the size of the nominal force
-/// and the mass that weighs as much under standard gravity, "1 N (102 g)"; "no force" if there is none.
+/// The load beside its arrow in a picture: the mass of all weights, "19.76 to 20.24 t", or the size of the nominal
+/// force and the mass that weighs as much under standard gravity, "1 N (102 g)"; "no force" if there is none.
 [[nodiscard]] std::string brief_load(const LoadText& load);
 
 /// Total, spread and items: a sentence each. Items that an ellipsoid was made around come first.

@@ -24,8 +24,8 @@ namespace taut {
 /// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding.
 [[nodiscard]] std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units);
 
-/// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the reason,
-/// where, and what would settle it; none for a proved one.
+/// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the
+/// reason, where, and what would settle it; none for a proved one.
 [[nodiscard]] std::vector<std::string> verdict_details(const ReportContext& scene);
 
 /// "20 segments, straight in the parameters of the case. The platform's origin travels 8 m and …": the move, briefly.

@@ -235,7 +235,8 @@ class EndToEnd(InFolder):
                 case = self.write("straight.yaml", text.replace("astar", strategy))
                 result = run(TAUT, "plan", case, "--out", self.out)
                 self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-                self.assertRegex(result.stdout, r"NO PATH FOUND: no path from waypoint 0 to 1 of the query: the component "
+                self.assertRegex(result.stdout, r"NO PATH FOUND: no path from waypoint 0 to 1 of the query: the "
+                                 r"component "
                                  r"of the start was covered by \d+ charts of radius 0.15 .* not met; best so far: a "
                                  r"chart whose distance to waypoint 1 is [\d.]+.* evidence, not proof")
 

@@ -51,7 +51,8 @@ class Messages(InFolder):
     def test_a_start_that_is_singular_but_for_rounding_is_called_singular(self):
         turned = ("theta: 0, sigma: 0}", "theta: 0, sigma: 90}")
         said = self.plan(turned, code=1)
-        self.assertRegex(said, r"(?m)^REFUTED - DO NOT RUN: at waypoint 0 of the query the platform is at a singular pose, or so "
+        self.assertRegex(said, r"(?m)^REFUTED - DO NOT RUN: at waypoint 0 of the query the platform is at a singular "
+                         r"pose, or so "
                                r"near one")
         self.assertNotRegex(said, r"\d{9}")
         report = self.report()
@@ -139,7 +140,8 @@ class Messages(InFolder):
     def test_the_rest_is_proved_only_where_there_is_a_rest(self):
         names = "px,py,pz,phi,theta,sigma"
         part = self.audit(self.table(names, (0, 0, 2, 0, 0, 0), (0, 0, 8.5, 0, 0, 0)), 1, self.wide())
-        self.assertIn("REFUTED - DO NOT RUN: 1 stretch of the path has proved violations; all the rest is proved.", part)
+        self.assertIn("REFUTED - DO NOT RUN: 1 stretch of the path has proved violations; all the rest is proved.",
+                      part)
         whole = self.audit(self.table(names, (0, 0, 9, 0, 0, 0), (.1, 0, 9, 0, 0, 0)), 1, self.wide())
         self.assertIn("REFUTED - DO NOT RUN: 1 stretch of the path has proved violations; no part of the path is "
                       "proved.", whole)
@@ -203,7 +205,8 @@ class Messages(InFolder):
         report = self.report()
         self.assertRegex(report, r"Closest to going slack: Cable \d: \+\d+ % \([\d.]+ kN, limit 0\.05 kN")
         for expected in ("Every tension above 0.05 kN and below 4 kN",
-                         "every cable length above 1 m and below 9 m", "Tension from [kN]", "Least length left: Cable "):
+                         "every cable length above 1 m and below 9 m", "Tension from [kN]",
+                         "Least length left: Cable "):
             self.assertIn(expected, report)
         shown = run(TAUT, "show", self.path("altered.yaml")).stdout
         for expected in ("tension [kN]", "0.05 to 4", "length [m]", "tension f0 ± v [kN]", "force x ± 0.08 kN"):
