@@ -8,8 +8,8 @@
 
 namespace taut {
 
-Headroom plan_headroom(const Case& the_case, const Plan& plan, double seconds, const HeadroomProgress& progress,
-                       const std::stop_token& stop) {
+Headroom plan_headroom(const Case& the_case, const Plan& plan, const DecimalText& wrench_scale, double seconds,
+                       const HeadroomProgress& progress, const std::stop_token& stop) {
   const TimeBudget budget(seconds, stop);
   Path path = plan.path;
   auto subject = Headroom::Subject::kPath;
@@ -21,8 +21,7 @@ Headroom plan_headroom(const Case& the_case, const Plan& plan, double seconds, c
   } else if (plan.proof.verdict == Verdict::kUndecided && plan.proof.open_segment < 0) {
     subject = Headroom::Subject::kStraightWay;
   }
-  Headroom result = find_headroom(the_case.problem, path, plan.proof.verdict, plan.proof.margins.wrench_scale, progress,
-                                  budget.token());
+  Headroom result = find_headroom(the_case.problem, path, plan.proof.verdict, wrench_scale, progress, budget.token());
   result.subject = subject;
   result.waypoint = waypoint.value_or(0);
   return result;

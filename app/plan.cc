@@ -71,15 +71,17 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   result.plan = planner.plan(progress, stop);
   if (options.grow) result.growth = grow(the_case, planner, options, progress, stop);
   const Plan& plan = result.plan;
-  nlohmann::json illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
+  Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
+  nlohmann::json& illustration = certificate.illustration;
+  illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   illustration["units"] = to_json(the_case.units);
   illustration["document_fields"] = to_json(the_case.document_fields);
   if (options.headroom_seconds > 0 && !stop.stop_requested()) {
-    result.headroom = plan_headroom(the_case, plan, options.headroom_seconds, options.headroom_progress, stop);
+    const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
+    result.headroom =
+        plan_headroom(the_case, plan, wrench_scale, options.headroom_seconds, options.headroom_progress, stop);
     illustration["headroom"] = to_json(*result.headroom);
   }
-  Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
-  certificate.illustration = std::move(illustration);
   result.text = certificate_text(certificate, options.key);
   result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop);
   require_confirmed(result.checked);

@@ -322,7 +322,7 @@ Html verdict_section(const Summary& s) {
   Html rows;
   for (const Statement& statement : s.statements) {
     const std::string_view key = statement.key;
-    if (key != "motion" && key != "load" && key != "proof" && key != "recheck") continue;
+    if (key != "motion" && key != "proof" && key != "recheck") continue;
     rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", statement.title, statement.text);
   }
   return section("verdict", "The verdict in full", html("<dl class=\"facts\">\n{}</dl>\n", rows));

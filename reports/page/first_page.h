@@ -11,7 +11,7 @@ namespace taut {
 /// to sign. A move that is not proved has what stands against it in place of the six cables.
 [[nodiscard]] Html first_page(const ReportContext& scene, const Summary& summary);
 
-/// What the first page says briefly, in full: motion, load, proof and re-check.
+/// What the first page says briefly, in full: motion, proof and re-check.
 [[nodiscard]] Html verdict_section(const Summary& summary);
 
 /// The six cables of a move that is not proved, behind the first page.

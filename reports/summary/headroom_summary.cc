@@ -273,10 +273,13 @@ std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& unit
                        amount(-budget.nominal));
   }
   const double left = budget.left();
+  // What is left of a proved margin is stated as proved, elsewhere.
+  const std::string missing = is_proved  ? ""
+                              : left > 0 ? fmt::format(" {} are left.", amount(left))
+                                         : fmt::format(" {} are missing.", amount(-left));
   return fmt::format(
-      "{}: {}. The nominal machine has {} there; of that take: {}. {} (to first order, in floating point).", begin,
-      margin, amount(budget.nominal), losses_text(budget, unit),
-      left > 0 ? amount(left) + " are left" : amount(-left) + " are missing");
+      "{}: {}. The nominal machine has {} there; of that take, to first order and in floating point: {}.{}", begin,
+      margin, amount(budget.nominal), losses_text(budget, unit), missing);
 }
 
 std::string nominal_sentence(const Headroom& headroom, const RobotText& robot, const DisplayUnits& units) {
