@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "certify/severity.h"
 #include "reports/summary/headroom_summary.h"
 
 namespace taut {
@@ -69,8 +70,6 @@ bool has_axis(Parameter::Kind kind) {
   return kind == Parameter::Kind::kBaseAnchor || kind == Parameter::Kind::kPlatformAnchor ||
          kind == Parameter::Kind::kLoadPoint || kind == Parameter::Kind::kWrench;
 }
-
-bool is_length(MarginId id) { return id.kind == MarginKind::kLengthMin || id.kind == MarginKind::kLengthMax; }
 
 json derivative_json(const Problem& problem, const Derivative& d, bool length) {
   const Parameter& p = d.parameter;

@@ -11,6 +11,7 @@
 #include "app/plan.h"
 #include "app/sensitivity.h"
 #include "app/sensitivity_json.h"
+#include "certify/severity.h"
 #include "cli/console.h"
 #include "cli/headroom_output.h"
 #include "cli/number_option.h"
@@ -49,8 +50,6 @@ std::string words(const Parameter& p) {
     default: return fmt::format("tolerance {}", taut::name(p.uncertainty.kind));
   }
 }
-
-bool is_length(MarginId id) { return id.kind == MarginKind::kLengthMin || id.kind == MarginKind::kLengthMax; }
 
 /// "mm", "%", "0.01 N": the step that a gain is for.
 std::string step_text(const Parameter& p, double step, const DisplayUnits& units) {

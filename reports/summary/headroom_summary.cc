@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "certify/severity.h"
 #include "problem/decimal.h"
 #include "problem/rational.h"
 #include "reports/summary/load_statement.h"
@@ -140,13 +141,6 @@ PathWitness violation_from_json(const JsonCursor& object) {
 
 // ---- Words ----------------------------------------------------------------------------------------------------------
 
-bool is_length(MarginId margin) {
-  return margin.kind == MarginKind::kLengthMin || margin.kind == MarginKind::kLengthMax;
-}
-bool is_lower(MarginId margin) {
-  return margin.kind == MarginKind::kTensionMin || margin.kind == MarginKind::kLengthMin;
-}
-
 std::string quantity(double x, const DisplayUnit& unit) {
   return fmt::format("{:.4g} {}", unit.approx(x), unit.name());
 }
@@ -267,7 +261,7 @@ std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& unit
   const auto amount = [&](double x) { return quantity(x, unit); };
   const std::string margin =
       fmt::format("the {} of cable {} {}, limit {} {}", length ? "length" : "tension", budget.id.cable + 1, where,
-                  is_lower(budget.id) ? "above" : "below", amount(budget.limit));
+                  is_upper(budget.id) ? "below" : "above", amount(budget.limit));
   if (!(budget.nominal > 0)) {
     return fmt::format("{}: {}. The nominal machine is beyond it by {} (in floating point).", begin, margin,
                        amount(-budget.nominal));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "certificate/worst_loads.h"
+#include "certify/severity.h"
 #include "certify/undecided.h"
 #include "problem/decimal.h"
 #include "reports/summary/explanations.h"
@@ -32,12 +33,8 @@ std::string listed(const std::vector<std::string>& items) {
   return result;
 }
 
-bool is_length(const PathWitness& witness) {
-  return witness.margin.kind == MarginKind::kLengthMin || witness.margin.kind == MarginKind::kLengthMax;
-}
-bool is_upper(const PathWitness& witness) {
-  return witness.margin.kind == MarginKind::kTensionMax || witness.margin.kind == MarginKind::kLengthMax;
-}
+bool is_length(const PathWitness& witness) { return is_length(witness.margin); }
+bool is_upper(const PathWitness& witness) { return is_upper(witness.margin); }
 
 /// A tension or a length as it is printed, exactly, with its unit.
 std::string quantity(const DecimalText& value, bool length, const DisplayUnits& units) {
@@ -142,53 +139,60 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
                   worst->is_length ? "" : " under a load that is covered", worst->is_upper ? "upper" : "lower", limit)};
 }
 
+/// "after 41° of turning (segment 3), p = (0, 0, 350) mm, …"
+std::string place_and_pose(const ReportContext& scene, const PathPoint& point) {
+  const double at = position(point);
+  return fmt::format("{}, {}", place_text(scene, at),
+                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose));
+}
+
+std::string singular_details(const ReportContext& scene, const PathWitness& witness) {
+  const std::string from = place_and_pose(scene, witness.at);
+  const std::string to = place_and_pose(scene, witness.to);
+  if (from == to) {
+    return fmt::format(
+        "Where: {}, rounded. It lies between two poses next to each other, at which the determinant of the force "
+        "Jacobian has opposite signs.",
+        from);
+  }
+  return fmt::format(
+      "It lies between these two poses, at which the determinant of the force Jacobian has opposite signs: {}; and {}.",
+      from, to);
+}
+
+/// By how much a limit is broken, where, and on which machine.
+std::string limit_details(const ReportContext& scene, const PathWitness& witness) {
+  const double beyond = violation(witness);
+  const double limit = number(witness.limit);
+  const DisplayUnit& unit = scene.illustration.units.of(is_length(witness));
+  std::string by = "It is exactly at the limit, which is itself excluded.";
+  if (is_all_but_singular(witness, scene.certificate.problem.robot)) {
+    by = "Next to a singular pose tensions grow without bound.";
+  } else if (beyond > 0) {
+    by = fmt::format("It is beyond the limit by at least {} {}{}", unit.down(beyond, 3), unit.name(),
+                     limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
+  }
+  std::string machine;
+  if (witness.deviation) {
+    machine = fmt::format(
+        " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate says{}.",
+        witness.deviation->cable_lengths_m
+            ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
+            : "");
+  }
+  const double at = position(witness.at);
+  return fmt::format("{} Where: {}. The pose there, rounded: {}.{}", by, place_text(scene, at),
+                     pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose), machine);
+}
+
 std::vector<std::string> refuted_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const PathWitness& witness = certificate.witness->violation;
-  const auto pose_at = [&](double position) {
-    return pose_text(scene, scene.sampler.at(certificate.path, position).pose);
-  };
-  std::vector<std::string> result;
-  if (witness.singular) {
-    const std::string from =
-        fmt::format("{}, {}", place_text(scene, position(witness.at)), pose_at(position(witness.at)));
-    const std::string to =
-        fmt::format("{}, {}", place_text(scene, position(witness.to)), pose_at(position(witness.to)));
-    result.push_back(from == to
-                         ? fmt::format("Where: {}, rounded. It lies between two poses next to each other, at which "
-                                       "the determinant of the force Jacobian has opposite signs.",
-                                       from)
-                         : fmt::format("It lies between these two poses, at which the determinant of the force "
-                                       "Jacobian has opposite signs: {}; and {}.",
-                                       from, to));
-  } else {
-    const double beyond = violation(witness);
-    const double limit = number(witness.limit);
-    const bool length = is_length(witness);
-    const DisplayUnit& unit = scene.illustration.units.of(length);
-    std::string by = "It is exactly at the limit, which is itself excluded.";
-    if (is_all_but_singular(witness, certificate.problem.robot)) {
-      by = "Next to a singular pose tensions grow without bound.";
-    } else if (beyond > 0) {
-      by = fmt::format("It is beyond the limit by at least {} {}{}", unit.down(beyond, 3), unit.name(),
-                       limit > 0 ? fmt::format(", {} % of it.", rounded_down(100 * beyond / limit, 2)) : ".");
-    }
-    std::string machine;
-    if (witness.deviation) {
-      machine = fmt::format(
-          " The machine there is not quite the stated one: it deviates within the tolerances, as the certificate "
-          "says{}.",
-          witness.deviation->cable_lengths_m
-              ? ", and it is at the pose to which that and the lengths of its cables lead from this one"
-              : "");
-    }
-    result.push_back(fmt::format("{} Where: {}. The pose there, rounded: {}.{}", by,
-                                 place_text(scene, position(witness.at)), pose_at(position(witness.at)), machine));
-    if (certificate.witness->loads) {
-      result.push_back(
-          fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
-                      witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
-    }
+  std::vector<std::string> result = {witness.singular ? singular_details(scene, witness)
+                                                      : limit_details(scene, witness)};
+  if (!witness.singular && certificate.witness->loads) {
+    result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
+                                 witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
   }
   if (certificate.path.segments() == 0) {
     result.emplace_back("Every path of the query passes this pose, so that none is feasible.");
