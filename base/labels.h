@@ -19,8 +19,8 @@ inline constexpr const char* kDocumentExpected = "at most 40 letters, digits, bl
 /// shown as it is: without the characters that sanitize() escapes.
 [[nodiscard]] bool is_label(std::string_view text);
 
-/// Whether `text` has at most kMostDocumentCharacters characters, which are ASCII letters, digits, blanks and
-/// . , : ; / _ + - # ( ); so it can stand in a style sheet. Empty text is one.
+/// Whether `text` has at most kMostDocumentCharacters characters, all of them ASCII letters, digits, blanks or one of
+/// punctuation of `kDocumentExpected`; so it can stand in a style sheet. Empty text is one.
 [[nodiscard]] bool is_document_label(std::string_view text);
 
 }  // namespace taut

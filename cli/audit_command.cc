@@ -346,7 +346,8 @@ int run_audit(const AuditArguments& arguments) {
     object["load"] = to_json(load_statement(case_));
     object["warnings"] = case_.warnings;
     object["out"] = out.string();
-    object["headroom"] = headroom_json(result.headroom);
+    object["headroom"] =
+        checked.outcome == checker::Outcome::kUnchecked ? nlohmann::json() : headroom_json(result.headroom);
     std::vector<std::filesystem::path> written = {out / "certificate.json"};
     if (report) written.push_back(report_path);
     if (controller) written.push_back(out / "controller.csv");
@@ -355,7 +356,9 @@ int run_audit(const AuditArguments& arguments) {
     print_json(object);
   } else {
     print(result, case_, source, checked, context);
-    print_headroom(result.headroom, source.problem(), case_.units);
+    if (checked.outcome != checker::Outcome::kUnchecked) {
+      print_headroom(result.headroom, source.problem(), case_.units);
+    }
     print_wrapped(sentence(checked));
     print_wrapped(fmt::format("Written to {}: path.csv, {}certificate.json{}", sanitize(out.string()),
                               controller ? "controller.csv, " : "", report ? ", report.html" : ""));

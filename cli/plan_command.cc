@@ -306,7 +306,9 @@ int run_plan(const PlanArguments& arguments) {
   print_key_numbers(shown.key_numbers);
   if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) print_wrapped(may_be);
   print_search(outcome, DisplayUnits(case_.units));
-  print_headroom(planned.headroom, case_.problem, case_.units);
+  if (checked.outcome != checker::Outcome::kUnchecked) {
+    print_headroom(planned.headroom, case_.problem, case_.units);
+  }
   print_wrapped(sentence(checked));
   print_wrapped(fmt::format("Written to {}: {}certificate.json, report.html", sanitize(out.string()),
                             outcome.is_proved() ? "path.csv, controller.csv, " : ""));

@@ -182,14 +182,16 @@ Html inputs(const Certificate& certificate) {
 }
 
 Html recheck(const ReportContext& scene) {
-  return section(
-      "recheck", "How to check this again",
-      html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
-           "certificate, the case file and the path file. It should exit with {}.</p>\n<pre>taut-check "
-           "certificate.json CASE.yaml --path path.csv</pre>\n"
-           "<p>This computes problem_sha256, path_sha256 and footer.sha256 without taut:</p>\n"
-           "<pre>{}</pre>\n",
-           scene.verdict == "undecided" ? "2, undecided" : "0, accepted, if the claim is true", kDigestCommand));
+  const bool is_claim = scene.verdict == "proved" || scene.verdict == "refuted";
+  // Accepted is also a refutation: what is expected is said.
+  const std::string command = is_claim ? " --path PATH --expect " + scene.verdict : "";
+  return section("recheck", "How to check this again",
+                 html("<p>Another program, with other arithmetic, proves the certificate again from nothing but the "
+                      "certificate, the case file and the path file. It should exit with {}.</p>\n<pre>taut-check "
+                      "certificate.json CASE.yaml{}</pre>\n"
+                      "<p>This computes problem_sha256, path_sha256 and footer.sha256 without taut:</p>\n"
+                      "<pre>{}</pre>\n",
+                      is_claim ? "0, accepted, if the claim is true" : "2, undecided", command, kDigestCommand));
 }
 
 }  // namespace taut

@@ -132,17 +132,31 @@ Html cables(const ReportContext& scene, const Summary& s) {
       use_caption(s.use.source), scene.illustration.units.force.name(), bar_head(scene), rows);
 }
 
+/// "every tension stays at least 0.0138 kN and every length at least 9.76 m inside its limits".
+std::string confirmed_text(const ReportContext& scene) {
+  const DisplayUnits& units = scene.illustration.units;
+  const Margins& margins = *scene.certificate.margins;
+  return fmt::format(
+      "every tension stays at least {} {} and every length at least {} {} inside its limits, and the set of loads "
+      "could "
+      "grow by the factor above",
+      units.force.exact(truncated(margins.tension_N)), units.force.name(),
+      units.length.exact(truncated(margins.length_m)), units.length.name());
+}
+
 /// What the colours mean, and what the numbers rest on.
-Html cables_note(const Summary& s) {
+Html cables_note(const ReportContext& scene, const Summary& s) {
   if (s.cables.empty()) return {};
-  const bool is_proved = s.use.source != CableUse::Source::kSamples;
+  std::string basis = "At sampled poses, in floating point: between samples they may be exceeded.";
+  if (s.use.source != CableUse::Source::kSamples) {
+    basis = "This program proved these bounds; they are rounded outward.";
+    if (scene.certificate.margins) basis += fmt::format(" taut-check confirmed: {}.", confirmed_text(scene));
+  }
   return html(
       "<p class=\"note\">Worst first. Amber from 75 % of a limit of tension (less than +33.3 % above slack), or with "
       "less "
       "than 5 % of the range of lengths left; vermilion from 95 %, or with less than 2 %. {}</p>\n",
-      is_proved
-          ? "Proved bounds, rounded outward; taut-check proves the margins that bound them, this program the rest."
-          : "At sampled poses, in floating point: between samples they may be exceeded.");
+      basis);
 }
 
 // ---- What is broken.
@@ -217,37 +231,46 @@ Html broken(const ReportContext& scene) {
 Html not_covered(const Summary& s) {
   Html items;
   for (const ScopeItem& item : s.not_covered) items += html("<li>{}</li>", item.brief);
+  std::string assumed;
+  for (const ScopeItem& item : s.assumed) assumed += (assumed.empty() ? "" : "; ") + item.brief;
+  const bool is_proved = s.verdict == "proved";
+  const Html assumes = is_proved ? html("<p><b>It assumes</b> {}.</p>", assumed) : Html();
   return html(
       "<div class=\"uncovered\"><p><b>{}</b> <a class=\"more\" href=\"#assumptions\">in "
-      "full</a></p><ul>{}</ul></div>\n",
-      s.verdict == "proved" ? "This proof does not cover — confirm elsewhere:"
-                            : "Besides, this report says nothing about:",
-      items);
+      "full</a></p><ul>{}</ul>{}</div>\n",
+      is_proved ? "This proof does not cover — confirm elsewhere:" : "This report says nothing about:", items, assumes);
+}
+
+/// "the certificate file (SHA-256 39aa…)": in full, as sha256sum prints it.
+Html certificate_name(const Summary& s) {
+  const bool has_file = !s.recheck.sha256.empty();
+  return html("{} with SHA-256 <span class=\"digest\">{}</span>", has_file ? "certificate file" : "certificate content",
+              has_file ? s.recheck.sha256 : s.footer_sha256);
 }
 
 Html declaration(const Summary& s) {
-  const std::string digest = s.footer_sha256.substr(0, 8);
   Html text;
   const char* last = "Acknowledged by";
   if (s.verdict == "proved") {
     last = "Lift supervisor";
     text = html(
-        "<b>By signing</b> I confirm that machine, load and limits above and under <a href=\"#robot\">Robot and "
-        "load</a> "
-        "are those of the machine that is used, that what this proof does not cover is covered by document <span "
-        "class=\"blank\"></span>, and that taut-check accepted this certificate (SHA-256 <span "
-        "class=\"digest\">{}…</span>).",
-        digest);
+        "<b>By signing</b> I confirm that machine, load, limits and tolerances above and under <a "
+        "href=\"#robot\">Machine "
+        "and load</a> are those of the machine that is used, that it moves slowly and its controller follows this "
+        "path, "
+        "that what the proof does not cover is covered by document <span class=\"blank\"></span>, and that taut-check "
+        "accepted the {}.",
+        certificate_name(s));
   } else if (s.verdict == "refuted") {
     text = html(
         "<b>By signing</b> I acknowledge that this move breaks the limits stated above and must not be run as it is "
-        "(certificate with SHA-256 <span class=\"digest\">{}…</span>).",
-        digest);
+        "({}).",
+        certificate_name(s));
   } else {
     text = html(
         "<b>By signing</b> I acknowledge that nothing is proved about this move, and that this report does not release "
-        "it (certificate with SHA-256 <span class=\"digest\">{}…</span>).",
-        digest);
+        "it ({}).",
+        certificate_name(s));
   }
   Html boxes;
   for (const auto& [role, by] :
@@ -312,7 +335,8 @@ Html first_page(const ReportContext& scene, const Summary& s) {
       "checks.</p>\n",
       s.title);
   const bool is_proved = s.verdict == "proved";
-  const Html beside = is_proved ? cables(scene, s) + cables_note(s) + not_covered(s) : broken(scene) + details(s);
+  const Html beside =
+      is_proved ? cables(scene, s) + cables_note(scene, s) + not_covered(s) : broken(scene) + details(s);
   return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\">{}<div>{}</div></div>\n{}{}</header>\n",
               s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), picture(scene, s), beside,
               is_proved ? Html() : not_covered(s), declaration(s));
@@ -330,7 +354,7 @@ Html verdict_section(const Summary& s) {
 
 Html cables_section(const ReportContext& scene, const Summary& s) {
   if (s.verdict == "proved" || s.cables.empty()) return {};
-  return section("cables", "The cables", cables(scene, s) + cables_note(s));
+  return section("cables", "The cables", cables(scene, s) + cables_note(scene, s));
 }
 
 }  // namespace taut

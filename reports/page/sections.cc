@@ -305,8 +305,9 @@ Html path_section(const ReportContext& scene) {
   const bool constrained = !scene.certificate.problem.space.constraints.empty();
   return section(
       "path", "Path",
-      html("<p>{}, numbered from 0; {}. Interpolation: <code>{}</code>.{} {}Poses are rounded; the appendix has the "
-           "exact numbers.</p>\n",
+      html("<p>{}, numbered from 0; {}. Interpolation: <code>{}</code>.{} {}Poses are rounded, "
+           "and angles are given up to whole turns: between waypoints they run on without a jump, as the exact numbers "
+           "in the appendix do.</p>\n",
            plural(count, "waypoint"), segments, interpolation_name(scene.certificate.path.interpolation),
            constrained ? on_constraints(scene) : Html(),
            step == 1 ? Html() : html("Every {}th of them is shown. ", step)) +

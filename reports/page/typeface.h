@@ -7,7 +7,7 @@
 
 namespace taut {
 
-/// The style sheet's @font-face rules, with the fonts in them. They begin with the fonts' licence.
+/// The style sheet's `@font-face` rules, with the fonts in them. They begin with the fonts' licence.
 [[nodiscard]] std::string_view page_typeface();
 
 }  // namespace taut

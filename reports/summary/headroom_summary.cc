@@ -272,8 +272,8 @@ std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& unit
                               : left > 0 ? fmt::format(" {} are left.", amount(left))
                                          : fmt::format(" {} are missing.", amount(-left));
   return fmt::format(
-      "{}: {}. The nominal machine has {} there; of that take, to first order and in floating point: {}.{}", begin,
-      margin, amount(budget.nominal), losses_text(budget, unit), missing);
+      "{}: {}. The nominal machine has a margin of {} there; of that take, to first order and in floating point: {}.{}",
+      begin, margin, amount(budget.nominal), losses_text(budget, unit), missing);
 }
 
 std::string nominal_sentence(const Headroom& headroom, const RobotText& robot, const DisplayUnits& units) {

@@ -137,7 +137,7 @@ Nearness growth_nearness(double factor) {
 KeyNumber growth_number(const ReportContext& scene) {
   const std::string& scale = scene.certificate.margins->wrench_scale;
   const std::optional<TolerancesText>& tolerances = scene.certificate.problem.tolerances;
-  std::string detail = "every deviation from the nominal load, all at once";
+  std::string detail = "the whole set of loads, about the nominal one";
   if (tolerances) detail += ", with all tolerances as stated";
   return {"growth",
           "Load uncertainty could grow",
@@ -147,18 +147,22 @@ KeyNumber growth_number(const ReportContext& scene) {
           true};
 }
 
-/// What share of the uncertainties is provable, as the program says that sought it.
+/// What share of the uncertainties is provable, as the program says that sought it; nothing where that is of another
+/// path than this.
 std::optional<KeyNumber> share_number(const ReportContext& scene) {
   const std::optional<Headroom>& headroom = scene.illustration.headroom;
   if (!headroom || headroom->shares.empty() || headroom->shares.front().of.kind != UncertaintyKind::kAll) return {};
+  if (headroom->subject == Headroom::Subject::kStraightWay) return {};
   const ProvableShare& all = headroom->shares.front();
-  const double share = ScalarTraits<double>::from_decimal(all.share);
   const bool is_none = Decimal::parse(all.share).sign() == 0;
+  std::string detail = is_none ? "not even the nominal machine under its nominal load"
+                               : "of all that is stated, together; no permission to run with so much";
+  if (headroom->subject == Headroom::Subject::kWaypoint) {
+    detail = fmt::format("at waypoint {} alone, {}", headroom->waypoint, detail);
+  }
   return KeyNumber{"growth", "Provable share of tolerances and loads",
                    is_none ? "none" : truncated((Decimal::parse(all.share) * Decimal::parse("100")).text(), 3) + " %",
-                   is_none ? "not even the nominal machine under its nominal load; not re-checked"
-                           : "of all that is stated, together; not re-checked",
-                   growth_nearness(share)};
+                   detail + "; not re-checked", growth_nearness(ScalarTraits<double>::from_decimal(all.share))};
 }
 
 }  // namespace

@@ -322,7 +322,7 @@ std::string total_text(const LoadText& load, const MassRange& mass, const LoadSt
                                    ? fmt::format("; that is about the weight of {:.3g} {} under standard gravity",
                                                  force / kStandardGravity / std::pow(10.0, unit.power), unit.name)
                                    : "";
-    return fmt::format("Nominally {}, in the axes of the base{}.", nominal, weight);
+    return fmt::format("Nominally {} of the platform, in the axes of the base{}.", nominal, weight);
   }
   std::string centre;
   if (s.centre_of_gravity_m) {
@@ -353,8 +353,8 @@ std::string spread_text(const LoadStatement& s) {
     return text;
   };
   return fmt::format(
-      "Extremes of each component while the platform's axes are parallel to the base's: {}; {}. They need not "
-      "occur together.",
+      "Extremes of each component while the platform's axes are parallel to the base's: {}; {}. Not "
+      "every combination of them is covered.",
       group(0), group(3));
 }
 

@@ -14,8 +14,9 @@ struct Recheck {
     kConfirmed,  ///< there is a theorem: the claim, "proved" or "refuted", was proved again
   };
   Result result = Result::kUnchecked;
-  std::string checker;  ///< "taut-check 0.1.0"
-  std::string message;  ///< the checker's line
+  std::string checker;   ///< "taut-check 0.1.0"
+  std::string message;   ///< the checker's line
+  std::string sha256{};  ///< of the certificate's bytes, as sha256sum prints it; empty where they are not known
 };
 
 struct ReportOptions {

@@ -84,7 +84,8 @@ Certificate certificate_of(const checker::CheckResult& checked) {
 }
 
 Recheck recheck_of(const checker::CheckResult& checked) {
-  Recheck result{Recheck::Result::kUnchecked, fmt::format("taut-check {}", TAUT_VERSION), checked.message};
+  Recheck result{Recheck::Result::kUnchecked, fmt::format("taut-check {}", TAUT_VERSION), checked.message,
+                 checked.sha256};
   switch (checked.outcome) {
     case checker::Outcome::kAccepted: result.result = Recheck::Result::kConfirmed; break;
     case checker::Outcome::kUndecided: result.result = Recheck::Result::kNoClaim; break;

@@ -250,8 +250,8 @@ std::string motion_text(const ReportContext& scene) {
   if (path.waypoints.empty() || found_no_path(scene.certificate) || path.segments() == 0) return move_text(scene);
   const auto segments = static_cast<double>(path.segments());
   const auto pose = [&](double position) { return pose_text(scene, scene.sampler.at(path, position).pose); };
-  return fmt::format("{} From {} to {}. Positions and angles here are rounded.", move_text(scene), pose(0),
-                     pose(segments));
+  return fmt::format("{} From {} to {}. Positions and angles here are rounded, and angles are up to whole turns.",
+                     move_text(scene), pose(0), pose(segments));
 }
 
 /// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
@@ -363,7 +363,7 @@ std::string headline(const ReportContext& scene) {
   if (scene.verdict == "proved") {
     return fmt::format(
         "Everywhere on this move, for every load in the stated set{}, no cable goes slack, none exceeds its tension or "
-        "length limit, and the platform stays controllable.",
+        "length limit, and no singular pose is met.",
         certificate.problem.tolerances ? " and every machine within the stated tolerances" : "");
   }
   if (found_no_path(certificate)) {

@@ -61,7 +61,8 @@ TEST(Scope, IsTheListOfTheTheory) {
       EXPECT_THAT(theory, HasSubstr(item.text)) << item.key;
     }
     for (const ScopeItem& item : not_covered(stated)) {
-      if (std::string(item.key) != "errors") EXPECT_THAT(theory, HasSubstr(item.text)) << item.key;
+      if (std::string(item.key) == "errors") continue;  // is written there for the model, not for a machine
+      EXPECT_THAT(theory, HasSubstr(item.text)) << item.key;
     }
   }
 }
