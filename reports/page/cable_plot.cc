@@ -90,15 +90,17 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
   const std::string what = fmt::format("{} of cable {} along the move [{}]", plot.is_length ? "Length" : "Tension",
                                        plot.cable + 1, unit.name());
   return html(
-      "<figure class=\"cable-plot\"><figcaption>{}, sampled; shaded: beyond a limit{}</figcaption><svg viewBox=\"0 0 "
-      "{} "
-      "{}\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"band\" d=\"{}\"/>{}{}{}<rect class=\"frame\" x=\"{}\" "
-      "y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">start</text><text x=\"{}\" y=\"{}\" "
-      "class=\"end\">end</text></svg></figure>\n",
-      what, plot.marked ? "; dashed: where it is broken" : "", kWidth, kHeight, what, forbidden(kTop, frame.y(upper)),
-      forbidden(frame.y(lower), bottom), area(values, frame), limit(frame, lower, unit.exact(limits.lower)),
-      limit(frame, upper, unit.exact(limits.upper)), mark, kLeft, kTop, right - kLeft, bottom - kTop, kLeft,
-      kHeight - 8, right, kHeight - 8);
+      "<figure class=\"cable-plot\"><figcaption>{}, sampled{}; shaded: beyond a limit{}</figcaption><svg "
+      "viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"band\" d=\"{}\"/>{}{}{}"
+      "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">start</text>"
+      "<text x=\"{}\" y=\"{}\" class=\"end\">end</text></svg></figure>\n",
+      what, scene.certificate.problem.tolerances ? ", of the machine exactly as stated" : "",
+      !plot.marked         ? ""
+      : plot.is_of_deviant ? "; dashed: where a machine within the tolerances breaks it"
+                           : "; dashed: where it is broken",
+      kWidth, kHeight, what, forbidden(kTop, frame.y(upper)), forbidden(frame.y(lower), bottom), area(values, frame),
+      limit(frame, lower, unit.exact(limits.lower)), limit(frame, upper, unit.exact(limits.upper)), mark, kLeft, kTop,
+      right - kLeft, bottom - kTop, kLeft, kHeight - 8, right, kHeight - 8);
 }
 
 }  // namespace taut

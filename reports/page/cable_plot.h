@@ -12,6 +12,7 @@ struct CablePlot {
   std::size_t cable = 0;  ///< 0…5
   bool is_length = false;
   std::optional<double> marked;  ///< a position on the path, which is marked
+  bool is_of_deviant = false;    ///< the mark is where a machine within the tolerances breaks a limit
 };
 
 /// Nothing where the path has no samples. Values far beyond the limits are cut off at the frame.

@@ -29,7 +29,7 @@ Html masthead(const Summary& s) {
 }
 
 /// What the verdict is about, before the verdict.
-Html scope(const Summary& s) {
+Html scope(const ReportContext& scene, const Summary& s) {
   Html rows;
   const auto row = [&](const char* title, const Html& text) {
     rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", title, text);
@@ -37,15 +37,22 @@ Html scope(const Summary& s) {
   for (const auto& [what, text] : {std::pair("Machine", s.machine), std::pair("Site", s.site)}) {
     if (!text.empty()) row(what, html("<bdi>{}</bdi>", text));
   }
-  row("Move", html("{}", s.move));
+  row("Move", html("{}", with_minus_signs(s.move)));
+  if (const std::string file = audited_file(scene); !file.empty()) {
+    row("Path file", html("<bdi>{}</bdi>, SHA-256 <span class=\"digest\">{}</span>, as the certificate says; "
+                          "<code>taut-check --path</code> compares the file itself.",
+                          file, scene.certificate.source->sha256));
+  }
   Html load = s.load_name.empty() ? Html() : html("<bdi>{}</bdi>. ", s.load_name);
-  load += html("{}", s.load.total);
-  if (s.load.items.empty()) load += html(" {}", s.load.spread);
-  for (const auto& [name, words] : s.load.items) load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), words);
+  load += html("{}", with_minus_signs(s.load.total));
+  if (s.load.items.empty()) load += html(" {}", with_minus_signs(s.load.spread));
+  for (const auto& [name, words] : s.load.items) {
+    load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
+  }
   row("Load", load);
   for (const Statement& statement : s.statements) {
     const std::string_view key = statement.key;
-    if (key == "limits" || key == "tolerances") row(statement.title, html("{}", statement.text));
+    if (key == "limits" || key == "tolerances") row(statement.title, html("{}", with_minus_signs(statement.text)));
   }
   return html("<dl class=\"scope\">\n{}</dl>\n", rows);
 }
@@ -73,7 +80,7 @@ Html checks(const ReportContext& scene) {
 
 Html band(const ReportContext& scene, const Summary& s) {
   return html("<div class=\"band {}\"><p class=\"word\">{}{}</p><p class=\"headline\">{}</p>{}</div>\n", s.verdict,
-              icon(s.verdict), s.word, s.headline, checks(scene));
+              icon(s.verdict), s.word, with_minus_signs(s.headline), checks(scene));
 }
 
 Html tiles(const Summary& s) {
@@ -81,7 +88,7 @@ Html tiles(const Summary& s) {
   Html result;
   for (const KeyNumber& n : s.key_numbers) {
     result += html("<div class=\"tile {}\"><dt>{}</dt><dd class=\"value\">{}</dd><dd class=\"detail\">{}</dd></div>\n",
-                   name(n.nearness), n.title, n.value, n.detail);
+                   name(n.nearness), n.title, with_minus_signs(n.value), with_minus_signs(n.detail));
   }
   return html("<dl class=\"tiles\">\n{}</dl>\n", result);
 }
@@ -120,8 +127,9 @@ Html cables(const ReportContext& scene, const Summary& s) {
     rows += html(
         "<tr><th scope=\"row\" class=\"n\">{}</th><td class=\"n\">{} – {}</td><td>{}</td><td class=\"n {}\">{}</td>"
         "<td class=\"n {}\">{}</td><td class=\"n {}\">{}</td></tr>\n",
-        c.cable + 1, c.from, c.to, bar(s.use.tension[c.cable], worse(c.slack, c.top)), name(c.slack), c.above_slack,
-        name(c.top), c.of_top, name(c.length), c.length_left);
+        c.cable + 1, with_minus_signs(c.from), with_minus_signs(c.to),
+        bar(s.use.tension[c.cable], worse(c.slack, c.top)), name(c.slack), c.above_slack, name(c.top), c.of_top,
+        name(c.length), c.length_left);
   }
   return html(
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table of the cables\"><table "
@@ -138,8 +146,7 @@ std::string confirmed_text(const ReportContext& scene) {
   const Margins& margins = *scene.certificate.margins;
   return fmt::format(
       "every tension stays at least {} {} and every length at least {} {} inside its limits, and the set of loads "
-      "could "
-      "grow by the factor above",
+      "could grow by the factor above",
       units.force.exact(truncated(margins.tension_N)), units.force.name(),
       units.length.exact(truncated(margins.length_m)), units.length.name());
 }
@@ -154,8 +161,7 @@ Html cables_note(const ReportContext& scene, const Summary& s) {
   }
   return html(
       "<p class=\"note\">Worst first. Amber from 75 % of a limit of tension (less than +33.3 % above slack), or with "
-      "less "
-      "than 5 % of the range of lengths left; vermilion from 95 %, or with less than 2 %. {}</p>\n",
+      "less than 5 % of the range of lengths left; vermilion from 95 %, or with less than 2 %. {}</p>\n",
       basis);
 }
 
@@ -169,7 +175,8 @@ Html amount(const ReportContext& scene, const BrokenLimit& broken) {
   const double limit = ScalarTraits<double>::from_decimal(broken.limit);
   const std::string value = is_upper ? down_text(broken.value, limit, unit) : up_text(broken.value, limit, unit);
   const char* const sense = !broken.is_proved() ? "about " : is_upper ? "at least " : "at most ";
-  return html("{}{} {}; limit {} {}", sense, value, unit.name(), unit.exact(broken.limit), unit.name());
+  return html("{}{} {}; limit {} {}", sense, with_minus_signs(value), unit.name(),
+              with_minus_signs(unit.exact(broken.limit)), unit.name());
 }
 
 Html what(const BrokenLimit& broken) {
@@ -211,7 +218,7 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
 /// The cable whose limit is broken most, or next to a singular pose the one whose tension swings most.
 CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
   const BrokenLimit& gravest = all.front();
-  CablePlot plot{0, false, gravest.position};
+  CablePlot plot{0, false, gravest.position, gravest.proof && gravest.proof->deviation};
   const auto named = std::ranges::find_if(all, [](const BrokenLimit& broken) { return !broken.is_singular; });
   if (named != all.end()) {
     plot.cable = static_cast<std::size_t>(named->margin.cable);
@@ -254,12 +261,10 @@ Html declaration(const Summary& s) {
   if (s.verdict == "proved") {
     last = "Lift supervisor";
     text = html(
-        "<b>By signing</b> I confirm that machine, load, limits and tolerances above and under <a "
-        "href=\"#robot\">Machine "
-        "and load</a> are those of the machine that is used, that it moves slowly and its controller follows this "
-        "path, "
-        "that what the proof does not cover is covered by document <span class=\"blank\"></span>, and that taut-check "
-        "accepted the {}.",
+        "<b>By signing</b> I confirm that machine, load, limits and tolerances above and under "
+        "<a href=\"#robot\">Machine and load</a> are those of the machine that is used, that it moves slowly and its "
+        "controller follows this path, that what the proof does not cover is covered by document "
+        "<span class=\"blank\"></span>, and that taut-check accepted the {}.",
         certificate_name(s));
   } else if (s.verdict == "refuted") {
     text = html(
@@ -282,7 +287,7 @@ Html declaration(const Summary& s) {
 
 Html details(const Summary& s) {
   Html result;
-  for (const std::string& sentence : s.details) result += html("<p>{}</p>\n", sentence);
+  for (const std::string& sentence : s.details) result += html("<p>{}</p>\n", with_minus_signs(sentence));
   return result.empty() ? result : html("<div class=\"details\">{}</div>\n", result);
 }
 
@@ -311,6 +316,11 @@ std::array<Nearness, kCables> nearness_there(const ReportContext& scene, const S
   constexpr double kThere = 1e-6;  // of a segment
   const PathSample sample = scene.sampler.at(scene.certificate.path, position);
   std::array<Nearness, kCables> nearness = nearness_at(scene.sampler.model(), sample.statics);
+  for (const BrokenLimit& broken : broken_limits(scene)) {  // perhaps of another machine within the tolerances
+    if (broken.is_proved() && !broken.is_singular && std::abs(broken.position - position) < kThere) {
+      nearness[static_cast<std::size_t>(broken.margin.cable)] = Nearness::kOut;
+    }
+  }
   for (const CableLine& line : s.cables) {
     const Use& use = s.use.tension[line.cable];
     Nearness& cable = nearness[line.cable];
@@ -335,11 +345,10 @@ Html first_page(const ReportContext& scene, const Summary& s) {
       "checks.</p>\n",
       s.title);
   const bool is_proved = s.verdict == "proved";
-  const Html beside =
-      is_proved ? cables(scene, s) + cables_note(scene, s) + not_covered(s) : broken(scene) + details(s);
+  const Html beside = is_proved ? cables(scene, s) + cables_note(scene, s) : broken(scene) + details(s);
   return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\">{}<div>{}</div></div>\n{}{}</header>\n",
-              s.verdict, masthead(s), title, scope(s), band(scene, s), tiles(s), picture(scene, s), beside,
-              is_proved ? Html() : not_covered(s), declaration(s));
+              s.verdict, masthead(s), title, scope(scene, s), band(scene, s), tiles(s), picture(scene, s), beside,
+              not_covered(s), declaration(s));
 }
 
 Html verdict_section(const Summary& s) {
@@ -347,7 +356,7 @@ Html verdict_section(const Summary& s) {
   for (const Statement& statement : s.statements) {
     const std::string_view key = statement.key;
     if (key != "motion" && key != "proof" && key != "recheck") continue;
-    rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", statement.title, statement.text);
+    rows += html("<div><dt>{}</dt><dd>{}</dd></div>\n", statement.title, with_minus_signs(statement.text));
   }
   return section("verdict", "The verdict in full", html("<dl class=\"facts\">\n{}</dl>\n", rows));
 }

@@ -120,7 +120,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .scope { font-size: 7.9pt; line-height: 1.3; margin: 3pt 0 6pt; }
   .scope > div { grid-template-columns: 50pt 1fr; gap: 6pt; padding: 0.8pt 0; }
   .unverified { font-size: 6.8pt; margin: -3pt 0 2pt !important; }
-  .band { padding: 8pt 12pt; gap: 4pt 14pt; border-radius: 6pt; print-color-adjust: exact; }
+  .band { padding: 6pt 12pt; gap: 4pt 14pt; border-radius: 6pt; print-color-adjust: exact; }
   .band .word { font-size: 17pt; } .band .icon { width: 17pt; height: 17pt; vertical-align: -3pt; }
   .band .headline { font-size: 9.6pt; }
   .checks { font-size: 7.8pt; padding-left: 10pt; } .checks li { margin: 1.5pt 0; }
@@ -138,9 +138,9 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .first .cables td, .first .cables th { padding: 2.2pt 5pt 2.2pt 0; font-size: 7.6pt; }
   .use { min-width: 60pt; height: 8pt; print-color-adjust: exact; }
   .first .note { font-size: 7pt; line-height: 1.28; max-width: none; }
-  .uncovered { padding: 5pt 9pt 6pt; margin: 5pt 0; font-size: 8pt; border-radius: 6pt; print-color-adjust: exact; }
-  .declaration { font-size: 8.2pt; line-height: 1.4; }
-  .signatures { gap: 7pt; margin-top: 4pt; } .signatures > div { min-height: 44pt; font-size: 7.6pt; }
+  .uncovered { padding: 4pt 9pt 4pt; margin: 4pt 0; font-size: 7.8pt; border-radius: 6pt; print-color-adjust: exact; }
+  .declaration { font-size: 8pt; line-height: 1.3; }
+  .signatures { gap: 7pt; margin-top: 3pt; } .signatures > div { min-height: 36pt; font-size: 7.6pt; }
   .signatures small { font-size: 6.4pt; }
 }
 )css";

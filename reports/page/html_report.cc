@@ -31,10 +31,10 @@ Html contents(const ReportContext& scene) {
   };
   const bool has_path = shows_path(scene);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
-  link(!scene.samples.empty(), "move", has_path ? "The move" : "Start and goal");
+  link(!scene.samples.empty(), "move", move_title(scene));
+  link(has_path, "pose", "Pose");
   link(has_path, "tensions", "Tensions");
   link(has_path, "lengths", "Lengths");
-  link(has_path, "pose", "Pose");
   link(is_plane(scene.certificate.problem.space), "plane", "Plane");
   link(!scene.certificate.stretches.empty(), "stretches", "Stretches");
   link(true, "robot", "Machine and load");
@@ -79,9 +79,9 @@ std::string css_string(const std::string& text) {
 std::string running_head(const Summary& summary) {
   const std::string revision = summary.revision.empty() ? "" : " · revision " + summary.revision;
   return fmt::format(
-      "@media print {{ @page {{ @top-left {{ content: {}; }} @top-right {{ content: {}; }} @bottom-left {{ content: "
-      "{}; "
-      "}} @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }} }}\n",
+      "@media print {{ @page {{ @top-left {{ content: {}; }} @top-right {{ content: {}; }} "
+      "@bottom-left {{ content: {}; }} "
+      "@bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }} }}\n",
       css_string(excerpt(summary.title)),
       css_string(fmt::format("{} · {}{}", summary.word, summary.document, revision)), css_string(summary.date));
 }

@@ -129,12 +129,19 @@ Html biting_tolerances(const ReportContext& scene) {
 
 }  // namespace
 
-bool shows_path(const ReportContext& scene) { return !scene.samples.empty() && !found_no_path(scene.certificate); }
+bool shows_path(const ReportContext& scene) {
+  return !scene.samples.empty() && scene.certificate.path.segments() > 0 && !found_no_path(scene.certificate);
+}
+
+const char* move_title(const ReportContext& scene) {
+  if (shows_path(scene)) return "The move";
+  return found_no_path(scene.certificate) ? "Start and goal" : "The pose";
+}
 
 Html move_section(const ReportContext& scene) {
   if (scene.samples.empty()) return {};
   return section(
-      "move", shows_path(scene) ? "The move" : "Start and goal",
+      "move", move_title(scene),
       place("move") +
           html("<div class=\"still\">{}<p class=\"note\">Dashed outlines are the platform at the start (S) and at the "
                "goal (G). Posts and ground stand for whatever carries the anchors A1 to A6. Cables are coloured by "
@@ -146,7 +153,7 @@ Html move_section(const ReportContext& scene) {
 
 Html plot_sections(const ReportContext& scene) {
   if (!shows_path(scene)) return plane(scene);
-  return tensions(scene) + lengths(scene) + margins_along(scene) + poses(scene) + plane(scene) +
+  return poses(scene) + tensions(scene) + lengths(scene) + margins_along(scene) + plane(scene) +
          biting_tolerances(scene);
 }
 

@@ -12,12 +12,15 @@
 
 namespace taut {
 
-/// Whether there is a path to play and to plot: not where a planner found none, or the certificate has none.
+/// Whether there is a path to play and to plot: not where a planner found none, or the certificate has none or only one
+/// pose.
 [[nodiscard]] bool shows_path(const ReportContext& scene);
+/// What move_section() shows: "The move", "Start and goal" where a planner found no path, or "The pose".
+[[nodiscard]] const char* move_title(const ReportContext& scene);
 
 /// The moving robot; nothing if there is no path to show.
 [[nodiscard]] Html move_section(const ReportContext& scene);
-/// Tensions, lengths, margins and pose along the path, the plane of two parameters, and tolerances, as far as they
+/// Pose, tensions, lengths and margins along the path, the plane of two parameters, and tolerances, as far as they
 /// exist.
 [[nodiscard]] Html plot_sections(const ReportContext& scene);
 

@@ -227,7 +227,8 @@ Html assumptions(const Certificate& certificate) {
   return section(
       "assumptions", "What is assumed, and what is not covered",
       html("<p>The claim is about a mathematical model. Whoever signs this report vouches that the machine "
-           "agrees with it.</p>\n<h3>Assumed</h3>\n{}<h3>Not covered</h3>\n{}",
+           "agrees with it.</p>\n<div class=\"scopes\"><div><h3>Assumed</h3>\n{}</div>\n<div><h3>Not covered</h3>\n"
+           "{}</div></div>\n",
            list(assumed(certificate.problem, certificate.path.interpolation)), list(not_covered(certificate.problem))));
 }
 
@@ -307,7 +308,7 @@ Html path_section(const ReportContext& scene) {
       "path", "Path",
       html("<p>{}, numbered from 0; {}. Interpolation: <code>{}</code>.{} {}Poses are rounded, "
            "and angles are given up to whole turns: between waypoints they run on without a jump, as the exact numbers "
-           "in the appendix do.</p>\n",
+           "do.</p>\n",
            plural(count, "waypoint"), segments, interpolation_name(scene.certificate.path.interpolation),
            constrained ? on_constraints(scene) : Html(),
            step == 1 ? Html() : html("Every {}th of them is shown. ", step)) +

@@ -159,8 +159,8 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   a { color: inherit; text-decoration: none; }
   td:first-child { overflow-wrap: normal; }
   th { white-space: normal; }
-  #path > details, #margins > details { columns: 2; column-gap: 8mm; }
-  #path > details:not(:has(tr:nth-child(25))), #margins > details:not(:has(tr:nth-child(25))) { break-inside: avoid; }
+  #path > details { columns: 2; column-gap: 8mm; }
+  #path > details:not(:has(tr:nth-child(25))) { break-inside: avoid; }
   p:has(+ .scroll), p:has(+ details) { break-after: avoid; }
   /* What is broken: the plot stands below the picture, so that all fits the first page. */
   .duo:has(.broken) {
@@ -178,13 +178,17 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .first:has(.broken) .uncovered li { margin: 0; }
   .first:has(.broken) .signatures > div { min-height: 34pt; }
   .uncovered { break-inside: avoid; }
-  /* The exact numbers, in two columns. */
+  .scopes { display: grid; grid-template-columns: 1fr 1fr; gap: 8mm; }
+  .scopes h3 { margin-top: 3pt; }
+  /* The exact numbers, in two columns. Long lists of them are in the certificate, which page 1 names; the margins of
+     the segments are plotted. */
+  #margins, #exact-path, #exact-margins :is(details, .scroll) { display: none; }
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
   .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
   .appendix > section:first-child > h2 { margin-top: 0; }
   .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; }
   .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
-  #exact-load td.n, #margins td.n { white-space: nowrap; }
+  #exact-load td.n { white-space: nowrap; }
   .appendix .wide { column-span: all; }
 }
 /* Appendix A, B, …: those that there are. */

@@ -71,6 +71,17 @@ std::string down_text(double si, double limit_si, const DisplayUnit& unit) {
   return told_apart(si, limit_si, unit.approx(limit_si), [&](double x, int digits) { return unit.down(x, digits); });
 }
 
+std::string with_minus_signs(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string result;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const bool begins = k == 0 || text[k - 1] == ' ' || text[k - 1] == '(' || text[k - 1] == '[';
+    const bool is_sign = text[k] == '-' && begins && k + 1 < text.size() && is_digit(text[k + 1]);
+    result += is_sign ? "−" : std::string(1, text[k]);
+  }
+  return result;
+}
+
 std::string truncated(const DecimalText& decimal, int digits) {
   const std::string text = plain(decimal);
   const std::size_t exponent = std::min(text.find('e'), text.size());

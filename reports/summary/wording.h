@@ -27,6 +27,9 @@ namespace taut {
 [[nodiscard]] std::string up_text(double si, double limit_si, const DisplayUnit& unit);
 /// The same rounded down, for what stays above a lower limit or is proved at least that.
 [[nodiscard]] std::string down_text(double si, double limit_si, const DisplayUnit& unit);
+/// The text with a minus sign for each hyphen that begins a number: "(-1, 2)" becomes "(−1, 2)". Not for numbers that
+/// are to be copied, nor for commands.
+[[nodiscard]] std::string with_minus_signs(std::string_view text);
 /// The first `digits` significant digits of a decimal, the rest cut off: rounded towards 0, exactly.
 [[nodiscard]] std::string truncated(const DecimalText& decimal, int digits = 3);
 /// "1.12", "1.0009": a factor of at least 1, cut off after three digits, or after the first that tells it from 1.

@@ -26,7 +26,7 @@ export function barPlayer(player, cursor, axes) {
   cursor.onMove(show);
   show(cursor.position ?? 0);
   return element("div", { class: "bar-player", role: "group", "aria-label": "Playing the move, from the bar" },
-    play, slider, place);
+    play, player.track(slider), place);
 }
 
 /// The menu closes when a section was chosen, by Escape, and by a click elsewhere; without a script it stays open.

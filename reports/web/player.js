@@ -108,7 +108,7 @@ export class Player {
     for (const seconds of [10, 5, 20, 60]) offer(seconds, `whole move in ${seconds} s`);
     this.readout = new Readout(data);
     this.controls = element("div", { class: "player controls", role: "group", "aria-label": "Playing the move" },
-      this.play, this.previous, this.track(), this.next, this.duration);
+      this.play, this.previous, this.track(this.slider), this.next, this.duration);
 
     this.play.addEventListener("click", () => this.toggle());
     this.slider.addEventListener("input", () => {
@@ -121,9 +121,9 @@ export class Player {
     this.show(cursor.position ?? 0);
   }
 
-  /// The slider, with a mark at the worst place.
-  track() {
-    const track = element("span", { class: "track" }, this.slider);
+  /// A slider, with a mark at the worst place.
+  track(slider) {
+    const track = element("span", { class: "track" }, slider);
     const { worst, witness } = this.data;
     if (worst === null) return track;
     const words = witness ? "the witness" : "worst place";

@@ -135,7 +135,7 @@ const PAGES = {
   "robot1-geodesic": { panels: 17 },
   "robot1-cable-lengths": { panels: 17 },
   "robot1-straight-qs-qg": { plane: true, panels: 17, stretches: true },
-  "tutorial/02-a-slack-start": { plane: true, panels: 14 },
+  "tutorial/02-a-slack-start": { plane: true, panels: 0 },
   "refuted.html": { plane: true, panels: 14 },
   "singular.html": { plane: true, panels: 14 },
   "undecided.html": { plane: true, panels: 14, stretches: true },
@@ -499,9 +499,12 @@ test("buttons look from the front, the side and above, and go to the worst place
   await page.click('.views button:text-is("Worst place")');
   await frames(page);
   assert.notDeepEqual(await labels(page), views.Oblique);
-  const [share, value] = await page.$eval(".track", (track) => [
-    Number(track.querySelector(".worst-mark").style.getPropertyValue("--share")), Number(track.firstChild.value)]);
-  assert.ok(share > 0 && Math.abs(share * 1000 - value) <= 1, "it is marked on the slider");
+  const marks = await page.$$eval(".track", (tracks) => tracks.map((track) => [
+    Number(track.querySelector(".worst-mark").style.getPropertyValue("--share")), Number(track.firstChild.value)]));
+  assert.equal(marks.length, 2, "of the player and of the bar");
+  for (const [share, value] of marks) {
+    assert.ok(share > 0 && Math.abs(share * 1000 - value) <= 1, "it is marked on the slider");
+  }
   await close(page);
 });
 
@@ -589,7 +592,7 @@ for (const name of ["robot1-slice-qs-qg", "robot1-straight-qs-qg", "undecided.ht
     await page.emulateMedia({ media: "print" });
     assert.ok(await shown(page, ".still svg"));
     assert.equal(await shown(page, ".stage"), false);
-    for (const section of await page.$$("section")) assert.ok(await section.isVisible());
+    for (const section of await page.$$("section:not(#margins, #exact-path)")) assert.ok(await section.isVisible());
     assert.ok(await shown(page, ".drawing svg"));
     await close(page);
   });
@@ -810,12 +813,12 @@ const wordsOf = (pdf) => execFileSync("pdftotext", ["-layout", pdf, "-"], { enco
   .split("\f").slice(0, -1).map((page) => page.split("\n").map((line) => line.trim()).filter(Boolean));
 
 const PAPER = {
-  "robot1-slice-qs-qg": { verdict: "PROVED", most: 10 },
-  "tutorial/04-tolerances": { verdict: "PROVED", most: 11 },
-  "robot1-straight-qs-qg": { verdict: "DO NOT RUN", most: 11 },
-  "robot1-planned": { verdict: "PROVED", most: 14 },
+  "robot1-slice-qs-qg": { verdict: "PROVED", most: 9 },
+  "tutorial/04-tolerances": { verdict: "PROVED", most: 10 },
+  "robot1-straight-qs-qg": { verdict: "DO NOT RUN", most: 9 },
+  "robot1-planned": { verdict: "PROVED", most: 9 },
   "undecided.html": { verdict: "NO DECISION", most: 9 },
-  "tutorial/02-a-slack-start": { verdict: "DO NOT RUN", most: 9 },
+  "tutorial/02-a-slack-start": { verdict: "DO NOT RUN", most: 7 },
 };
 
 for (const [name, expected] of Object.entries(PAPER)) {

@@ -168,7 +168,7 @@ TEST(HtmlReport, SaysFirstWhatIsReadFirst) {
   certificate["illustration"]["units"] = {{"length", "mm"}};
   const std::string page = report(certificate);
   std::size_t last = 0;
-  for (const char* id : {"move", "tensions", "lengths", "pose", "plane", "robot", "assumptions", "path", "theorem",
+  for (const char* id : {"move", "pose", "tensions", "lengths", "plane", "robot", "assumptions", "path", "theorem",
                          "margins", "exact-load", "space", "exact-path", "exact-margins", "inputs", "recheck"}) {
     const std::size_t at = page.find(fmt::format("<section id=\"{}\">", id));
     ASSERT_NE(at, std::string::npos) << id;
@@ -319,7 +319,7 @@ TEST(HtmlReport, SaysBetweenWhichPosesASingularOneLies) {
   const std::string& page = page_of("singular");
   EXPECT_THAT(page, HasSubstr("Refuted: on this move the platform passes a singular pose"));
   EXPECT_THAT(page,
-              HasSubstr("opposite signs: at the start of the move (segment 0), p = (0, 0, 350) mm, φ = -131.78°"));
+              HasSubstr("opposite signs: at the start of the move (segment 0), p = (0, 0, 350) mm, φ = −131.78°"));
 }
 
 TEST(HtmlReport, RefutesByALengthInMillimetres) {

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/summary/wording.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
@@ -17,6 +18,14 @@ using ::testing::StartsWith;
 
 Summary summary_of(const nlohmann::json& certificate, const ReportOptions& options = {}) {
   return {sample::scene(certificate), options};
+}
+
+TEST(Wording, WritesMinusSignsBeforeNumbersOnly) {
+  EXPECT_EQ(with_minus_signs("-1 of (-2, -0.5) [-3]"), "−1 of (−2, −0.5) [−3]");
+  for (const char* kept :
+       {"2026-11-23", "lines 5-6", "1e-09", "robot1-2.csv", "taut-check --path", "- item", "-", ""}) {
+    EXPECT_EQ(with_minus_signs(kept), kept);
+  }
 }
 
 TEST(Summary, SaysTheSameAsTextMarkdownAndJson) {
