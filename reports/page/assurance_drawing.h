@@ -42,7 +42,6 @@ inline constexpr const char* kAssuranceStyle = R"css(
 @media print {
   .gsn { break-inside: avoid; max-width: none; }
   .gsn svg { min-width: 0; }
-  section:has(> .gsn) { break-before: page; }
   #assurance details { display: none; }  /* the drawings have it in fewer words */
   .lift-plan { font-size: 7.4pt; line-height: 1.3; } .lift-plan td, .lift-plan th { padding: 1.6pt 8pt 1.6pt 0; }
   .lift-plan th[scope="rowgroup"] { padding-top: 5pt; }

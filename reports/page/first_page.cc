@@ -39,8 +39,8 @@ Html scope(const ReportContext& scene, const Summary& s) {
   }
   row("Move", html("{}", with_minus_signs(s.move)));
   if (const std::string file = audited_file(scene); !file.empty()) {
-    row("Path file", html("<bdi>{}</bdi>, SHA-256 <span class=\"digest\">{}</span>, as the certificate says; "
-                          "<code>taut-check --path</code> compares the file itself.",
+    row("Path file", html("<bdi>{}</bdi>, SHA-256 <span class=\"digest\">{}</span>; <code>taut-check --path</code> "
+                          "compares it",
                           file, scene.certificate.source->sha256));
   }
   Html load = s.load_name.empty() ? Html() : html("<bdi>{}</bdi>. ", s.load_name);

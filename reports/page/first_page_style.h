@@ -119,6 +119,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .first figcaption { font-size: 8.4pt; }
   .scope { font-size: 7.9pt; line-height: 1.3; margin: 3pt 0 6pt; }
   .scope > div { grid-template-columns: 50pt 1fr; gap: 6pt; padding: 0.8pt 0; }
+  .scope .digest { font-size: 6.4pt; }
   .unverified { font-size: 6.8pt; margin: -3pt 0 2pt !important; }
   .band { padding: 6pt 12pt; gap: 4pt 14pt; border-radius: 6pt; print-color-adjust: exact; }
   .band .word { font-size: 17pt; } .band .icon { width: 17pt; height: 17pt; vertical-align: -3pt; }
@@ -140,7 +141,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .first .note { font-size: 7pt; line-height: 1.28; max-width: none; }
   .uncovered { padding: 4pt 9pt 4pt; margin: 4pt 0; font-size: 7.8pt; border-radius: 6pt; print-color-adjust: exact; }
   .declaration { font-size: 8pt; line-height: 1.3; }
-  .signatures { gap: 7pt; margin-top: 3pt; } .signatures > div { min-height: 36pt; font-size: 7.6pt; }
+  .signatures { gap: 7pt; margin-top: 3pt; } .signatures > div { min-height: 34pt; font-size: 7.6pt; }
   .signatures small { font-size: 6.4pt; }
 }
 )css";

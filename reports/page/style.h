@@ -130,7 +130,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   @page :first { margin-top: 12mm; @top-left { content: none; } @top-right { content: none; } }
   :root { color-scheme: light; --paper: #ffffff; --ink: #000000; --soft: #454c53; --line: #c9ced3; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.4; }
+  body { max-width: none; padding: 0; font-size: 8.8pt; line-height: 1.37; }
   nav, .more { display: none; }
   h1 { font-size: 17pt; margin: 4pt 0 6pt; }
   h2 { font-size: 12.5pt; margin: 12pt 0 4pt; padding-top: 6pt; } h3 { font-size: 10pt; margin: 10pt 0 3pt; }
@@ -146,7 +146,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .panels { grid-template-columns: repeat(3, 1fr); gap: 3mm 5mm; margin: 4pt 0; }
   .panels.two { grid-template-columns: repeat(2, 1fr); }
   table { font-size: 7.5pt; max-width: 100%; } caption { font-size: 8pt; padding: 3pt 0 2pt; }
-  th, td { padding: 2pt 7pt 2pt 0; } td.n { white-space: normal; }
+  th, td { padding: 1.3pt 7pt 1.3pt 0; } td.n { white-space: normal; }
   .cables td.n { white-space: nowrap; }
   blockquote { margin: 5pt 0; padding: 6pt 10pt; max-width: none; }
   .formulas { font-size: 9.5pt; line-height: 1.5; } .formulas p { margin: 3pt 0; padding-left: 8pt; }
@@ -179,15 +179,15 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .first:has(.broken) .signatures > div { min-height: 34pt; }
   .uncovered { break-inside: avoid; }
   .scopes { display: grid; grid-template-columns: 1fr 1fr; gap: 8mm; }
-  .scopes h3 { margin-top: 3pt; }
+  .scopes h3 { margin-top: 3pt; } .scopes li { margin: 1pt 0; }
   /* The exact numbers, in two columns. Long lists of them are in the certificate, which page 1 names; the margins of
      the segments are plotted. */
   #margins, #exact-path, #exact-margins :is(details, .scroll) { display: none; }
   .appendix { columns: 2; column-gap: 8mm; font-size: 8pt; margin-top: 14pt; }
-  .appendix h2 { font-size: 10.5pt; margin-top: 8pt; padding-top: 5pt; }
+  .appendix h2 { font-size: 10pt; margin-top: 5pt; padding-top: 4pt; }
   .appendix > section:first-child > h2 { margin-top: 0; }
-  .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6.3pt; }
-  .appendix th, .appendix td { padding: 1.2pt 4pt 1.2pt 0; }
+  .appendix table { font-size: 6.8pt; } .appendix pre { font-size: 6pt; padding: 3pt 5pt; }
+  .appendix th, .appendix td { padding: 0.8pt 4pt 0.8pt 0; }
   #exact-load td.n { white-space: nowrap; }
   .appendix .wide { column-span: all; }
 }
