@@ -65,6 +65,52 @@ void require_replaceable(const char* option, const std::string& file, bool (*is_
                                option, excerpt(file), option));
 }
 
+/// That the files which are to be written may be.
+void require_outputs(const RegressArguments& arguments) {
+  if (!arguments.junit.empty()) require_replaceable("--junit", arguments.junit, is_junit);
+  if (arguments.update) require_replaceable("--baseline", arguments.baseline, is_baseline);
+  if (!arguments.junit.empty() && !arguments.baseline.empty()) require_another(arguments.junit, arguments.baseline);
+}
+
+/// What a run says at its end.
+struct RegressResult {
+  std::vector<RegressedCase> cases;
+  std::vector<std::string> gone;  ///< cases of the baseline that are no more
+  bool has_baseline = false;
+  std::vector<FileContent> written;
+
+  [[nodiscard]] auto as_declared() const {
+    return std::ranges::count_if(cases, [](const RegressedCase& c) { return c.is_as_declared(); });
+  }
+  [[nodiscard]] int code() const { return exit_code(cases, gone); }
+};
+
+void print_as_json(const RegressResult& result, const Stopwatch& stopwatch) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const RegressedCase& regressed : result.cases) list.push_back(to_json(regressed));
+  nlohmann::json document = {
+      {"command", "regress"}, {"cases", list}, {"gone", result.gone}, {"as_declared", result.as_declared()}};
+  std::vector<std::filesystem::path> paths;
+  for (const FileContent& file : result.written) paths.push_back(file.path);
+  add_ending(document, stopwatch, result.code(), paths);
+  print_json(document);
+}
+
+void print(const RegressResult& result, const Stopwatch& stopwatch) {
+  print_table(result.cases);
+  const auto on_budget = std::ranges::count_if(result.cases, &RegressedCase::has_budget);
+  if (result.has_baseline && on_budget > 0) {
+    fmt::print("{} on a budget: only the verdict is compared with the baseline.\n",
+               on_budget == 1 ? "1 of them plans" : fmt::format("{} of them plan", on_budget));
+  }
+  for (const std::string& name : result.gone) {
+    fmt::print("{}: is in the baseline, and is no more\n", sanitize(name));
+  }
+  fmt::print("{} of {} cases as declared, in {:.1f} s.\n", result.as_declared(), result.cases.size(),
+             stopwatch.seconds());
+  for (const FileContent& file : result.written) fmt::print("Written: {}\n", sanitize(file.path.string()));
+}
+
 }  // namespace
 
 void add_regress_options(CLI::App& command, RegressArguments& arguments) {
@@ -87,66 +133,50 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments) {
   command.add_flag("--json", arguments.json, "print the results as JSON");
 }
 
-int run_regress(RegressArguments arguments) {
+int run_regress(const RegressArguments& arguments) {
   const Stopwatch stopwatch;
   const std::vector<std::filesystem::path> files = find_cases(arguments.folder);
+  require_outputs(arguments);
   std::optional<Baseline> baseline;
   if (!arguments.baseline.empty() && !arguments.update) {
     baseline = read_baseline(arguments.baseline);
     baseline->tolerance = arguments.tolerance;
   }
-  if (!arguments.junit.empty()) require_replaceable("--junit", arguments.junit, is_junit);
-  if (arguments.update) require_replaceable("--baseline", arguments.baseline, is_baseline);
-  if (!arguments.junit.empty() && !arguments.baseline.empty()) require_another(arguments.junit, arguments.baseline);
-  arguments.options.out = arguments.out;
-  if (arguments.budget > 0) arguments.options.budget = arguments.budget;
+  RegressOptions options = arguments.options;
+  options.out = arguments.out;
+  if (arguments.budget > 0) options.budget = arguments.budget;
 
   const Interruption interruption;
-  std::vector<RegressedCase> cases;
+  RegressResult result;
+  result.has_baseline = baseline.has_value();
   {
     ProgressLine line(!arguments.json);
-    cases = regress(
-        arguments.folder, files, arguments.options,
+    result.cases = regress(
+        arguments.folder, files, options,
         [&](std::size_t count) { line.show([&] { return fmt::format("{} of {} cases", count, files.size()); }); },
         interruption.token());
   }
-  if (cases.size() < files.size()) {
+  if (result.cases.size() < files.size()) {
     return report_interruption(
-        "regress", fmt::format("interrupted after {} of {} cases: nothing was written", cases.size(), files.size()),
+        "regress",
+        fmt::format("interrupted after {} of {} cases: nothing was written", result.cases.size(), files.size()),
         arguments.json);
   }
-  std::vector<std::string> gone;
-  if (baseline) gone = compare(*baseline, cases);
+  if (baseline) result.gone = compare(*baseline, result.cases);
 
-  std::vector<FileContent> written;
   if (!arguments.junit.empty()) {
-    written.push_back({arguments.junit, junit_text("taut regress " + arguments.folder, cases, gone)});
+    result.written.push_back(
+        {arguments.junit, junit_text("taut regress " + arguments.folder, result.cases, result.gone)});
   }
-  if (arguments.update) written.push_back({arguments.baseline, baseline_text(cases)});
-  write_whole(written);
+  if (arguments.update) result.written.push_back({arguments.baseline, baseline_text(result.cases)});
+  write_whole(result.written);
 
-  const auto as_declared = std::ranges::count_if(cases, [](const RegressedCase& c) { return c.is_as_declared(); });
-  const int code = exit_code(cases, gone);
   if (arguments.json) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const RegressedCase& regressed : cases) list.push_back(to_json(regressed));
-    nlohmann::json document = {{"command", "regress"}, {"cases", list}, {"gone", gone}, {"as_declared", as_declared}};
-    std::vector<std::filesystem::path> paths;
-    for (const FileContent& file : written) paths.push_back(file.path);
-    add_ending(document, stopwatch, code, paths);
-    print_json(document);
-    return code;
+    print_as_json(result, stopwatch);
+  } else {
+    print(result, stopwatch);
   }
-  print_table(cases);
-  const auto on_budget = std::ranges::count_if(cases, &RegressedCase::has_budget);
-  if (baseline && on_budget > 0) {
-    fmt::print("{} on a budget: only the verdict is compared with the baseline.\n",
-               on_budget == 1 ? "1 of them plans" : fmt::format("{} of them plan", on_budget));
-  }
-  for (const std::string& name : gone) fmt::print("{}: is in the baseline, and is no more\n", sanitize(name));
-  fmt::print("{} of {} cases as declared, in {:.1f} s.\n", as_declared, cases.size(), stopwatch.seconds());
-  for (const FileContent& file : written) fmt::print("Written: {}\n", sanitize(file.path.string()));
-  return code;
+  return result.code();
 }
 
 }  // namespace taut

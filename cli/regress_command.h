@@ -26,6 +26,6 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments);
 /// @returns 0 where every case is as declared, 1 where one differs, 3 where one is bad input, 4 where one had no
 /// result.
 /// @throws InputError
-[[nodiscard]] int run_regress(RegressArguments arguments);
+[[nodiscard]] int run_regress(const RegressArguments& arguments);
 
 }  // namespace taut

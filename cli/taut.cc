@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -92,10 +94,63 @@ std::string usage_message(const CLI::App& app, const CLI::Error& error, const st
   return error.what();
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("Plans motions of cable-driven hexapods and proves what it plans.", "taut");
-  app.set_version_flag("--version", std::string("taut ") + TAUT_VERSION);
-  app.require_subcommand(1);
+/// A command, and what runs it when the command line has been read.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<int()> run;
+};
+
+template <class Arguments>
+Command add_command(CLI::App& app, const char* name, const char* help, void (*add_options)(CLI::App&, Arguments&),
+                    const std::function<int(const Arguments&)>& run) {
+  CLI::App* const command = app.add_subcommand(name, help);
+  const auto arguments = std::make_shared<Arguments>();
+  add_options(*command, *arguments);
+  return {command, [arguments, run] { return run(*arguments); }};
+}
+
+/// Errors without a code of their own get this one.
+template <class Arguments>
+std::function<int(const Arguments&)> with_code(ErrorCode code, int (*run)(const Arguments&)) {
+  return [=](const Arguments& arguments) { return with_error_code(code, [&] { return run(arguments); }); };
+}
+
+/// The same, after the machine's rounding was tested.
+template <class Arguments>
+std::function<int(const Arguments&)> proving(ErrorCode code, int (*run)(const Arguments&)) {
+  return [=](const Arguments& arguments) {
+    rounding_self_test();
+    return with_error_code(code, [&] { return run(arguments); });
+  };
+}
+
+std::vector<Command> add_commands(CLI::App& app) {
+  std::vector<Command> commands = {
+      add_command<PlanArguments>(app, "plan", "plan, prove, write path.csv, certificate.json, report.html",
+                                 add_plan_options, proving(ErrorCode::kCase, run_plan)),
+      add_command<AuditArguments>(app, "audit", "prove or refute a path that something else made", add_audit_options,
+                                  proving(ErrorCode::kPath, run_audit)),
+      add_command<RegressArguments>(app, "regress", "run every case of a folder against what it declares",
+                                    add_regress_options, with_code(ErrorCode::kRegress, run_regress)),
+      add_command<InitArguments>(app, "init", "write a commented case to begin from, or a CASPR robot's",
+                                 add_init_options, run_init),
+  };
+  commands.push_back({app.add_subcommand("doctor", "look whether this machine can be trusted with proofs"),
+                      [] { return run_doctor(); }});
+  commands.push_back(add_command<ReportArguments>(app, "report",
+                                                  "write the report from the certificate alone: page, PDF or summary",
+                                                  add_report_options, proving(ErrorCode::kCertificate, run_report)));
+  commands.push_back(add_command<ExplainArguments>(app, "explain", "say what the code behind a message means: U3, E5",
+                                                   add_explain_options, run_explain));
+  commands.push_back(add_command<SensitivityArguments>(
+      app, "sensitivity", "say what to change so that a path is proved, and what its margin depends on",
+      add_sensitivity_options, proving(ErrorCode::kCase, run_sensitivity)));
+  commands.push_back(add_command<ShowArguments>(app, "show", "print what a case was understood to say; draw the robot",
+                                                add_show_options, with_code(ErrorCode::kCase, run_show)));
+  return commands;
+}
+
+void add_usage_messages(CLI::App& app, int argc, char** argv) {
   app.failure_message([argc, argv](const CLI::App* failed, const CLI::Error& error) {
     const std::string message = usage_message(*failed, error, argc > 1 ? argv[1] : "");
     if (argc > 1 && wants_json(argc, argv)) {
@@ -108,71 +163,25 @@ int run(int argc, char** argv) {
     return fmt::format("{} [{}]\nRun with --help for more information: {}{} --help\n", sanitize(message),
                        text(ErrorCode::kUse), failed->get_name(), command);
   });
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Plans motions of cable-driven hexapods and proves what it plans.", "taut");
+  app.set_version_flag("--version", std::string("taut ") + TAUT_VERSION);
+  app.require_subcommand(1);
+  add_usage_messages(app, argc, argv);
   app.footer(
       "Exit codes of plan and audit, whose verdict is the independent checker's: 0 proved, 1 refuted, 2 undecided or "
       "unchecked, 3 bad input, 4 internal failure or untrustworthy machine. Of the others: 0 done, 1 rejected (report) "
       "or not as expected (regress), 2 interrupted or unchecked, 3 and 4 likewise.");
-
-  PlanArguments plan_arguments;
-  CLI::App* plan_command = app.add_subcommand("plan", "plan, prove, write path.csv, certificate.json, report.html");
-  add_plan_options(*plan_command, plan_arguments);
-
-  AuditArguments audit_arguments;
-  CLI::App* audit_command = app.add_subcommand("audit", "prove or refute a path that something else made");
-  add_audit_options(*audit_command, audit_arguments);
-
-  RegressArguments regress_arguments;
-  CLI::App* regress_command = app.add_subcommand("regress", "run every case of a folder against what it declares");
-  add_regress_options(*regress_command, regress_arguments);
-
-  InitArguments init_arguments;
-  CLI::App* init_command = app.add_subcommand("init", "write a commented case to begin from, or a CASPR robot's");
-  add_init_options(*init_command, init_arguments);
-  CLI::App* doctor_command = app.add_subcommand("doctor", "look whether this machine can be trusted with proofs");
-
-  ReportArguments report_arguments;
-  CLI::App* report_command =
-      app.add_subcommand("report", "write the report from the certificate alone: page, PDF or summary");
-  add_report_options(*report_command, report_arguments);
-
-  ExplainArguments explain_arguments;
-  CLI::App* explain_command = app.add_subcommand("explain", "say what the code behind a message means: U3, E5");
-  add_explain_options(*explain_command, explain_arguments);
-
-  SensitivityArguments sensitivity_arguments;
-  CLI::App* sensitivity_command =
-      app.add_subcommand("sensitivity", "say what to change so that a path is proved, and what its margin depends on");
-  add_sensitivity_options(*sensitivity_command, sensitivity_arguments);
-
-  ShowArguments show_arguments;
-  CLI::App* show_command = app.add_subcommand("show", "print what a case was understood to say; draw the robot");
-  add_show_options(*show_command, show_arguments);
-
+  const std::vector<Command> commands = add_commands(app);
   checker::refuse_empty_arguments(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadInputExit;
   }
-  if (*plan_command) {
-    rounding_self_test();
-    return with_error_code(ErrorCode::kCase, [&] { return run_plan(plan_arguments); });
-  }
-  if (*audit_command) {
-    rounding_self_test();
-    return with_error_code(ErrorCode::kPath, [&] { return run_audit(audit_arguments); });
-  }
-  if (*sensitivity_command) {
-    rounding_self_test();
-    return with_error_code(ErrorCode::kCase, [&] { return run_sensitivity(sensitivity_arguments); });
-  }
-  if (*show_command) return with_error_code(ErrorCode::kCase, [&] { return run_show(show_arguments); });
-  if (*explain_command) return run_explain(explain_arguments);
-  if (*init_command) return run_init(init_arguments);
-  if (*doctor_command) return run_doctor();
-  if (*regress_command) return with_error_code(ErrorCode::kRegress, [&] { return run_regress(regress_arguments); });
-  rounding_self_test();
-  return with_error_code(ErrorCode::kCertificate, [&] { return run_report(report_arguments); });
+  return std::ranges::find_if(commands, [](const Command& command) { return command.app->parsed(); })->run();
 }
 
 }  // namespace
