@@ -93,6 +93,47 @@ bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTa
   return true;
 }
 
+/// J from x's own cable vectors and lengths.
+template <class S>
+Matrix6<S> force_jacobian(const Model<S>& model, const Matrix3<S>& r_WP, const NavigationPoint<S>& x) {
+  using Layout = NavigationLayout;
+  const auto cable_vector = [&](int i, int axis) { return x(Layout::kCableVectors + 3 * i + axis); };
+  Matrix6<S> j;
+  for (int i = 0; i < kCables; ++i) {
+    Vector3<S> arm;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3<S>& m = model.p_MB[static_cast<std::size_t>(i)];
+      arm(axis) = r_WP(axis, 0) * m(0) + r_WP(axis, 1) * m(1) + r_WP(axis, 2) * m(2);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const int k = (axis + 1) % 3;
+      const int l = (axis + 2) % 3;
+      j(axis, i) = cable_vector(i, axis) / x(Layout::kLengths + i);
+      j(3 + axis, i) = (arm(k) * cable_vector(i, l) - arm(l) * cable_vector(i, k)) / x(Layout::kLengths + i);
+    }
+  }
+  return j;
+}
+
+/// JᵀEJ.
+template <class S>
+Matrix6<S> ellipsoid_of_tensions(const Model<S>& model, const Matrix6<S>& j) {
+  Matrix6<S> b;
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
+      S sum = S(0.0);
+      for (int k = 0; k < 6; ++k) {
+        for (int l = 0; l < 6; ++l) {
+          if (model.ellipsoid_is_diagonal && k != l) continue;
+          sum = sum + j(k, r) * model.ellipsoid(k, l) * j(l, c);
+        }
+      }
+      b(r, c) = sum;
+    }
+  }
+  return b;
+}
+
 template <class S>
 Eigen::Matrix<S, kNavigationEquations, 1> navigation_residual(const Model<S>& model, const NavigationPoint<S>& x) {
   using Layout = NavigationLayout;
@@ -114,40 +155,14 @@ Eigen::Matrix<S, kNavigationEquations, 1> navigation_residual(const Model<S>& mo
     f(row++) = sqr(cable_length(i)) - sqr(cable_vector(i, 0)) - sqr(cable_vector(i, 1)) - sqr(cable_vector(i, 2));
   }
 
-  // J from x's own cable vectors and lengths.
-  Matrix6<S> j;
-  for (int i = 0; i < kCables; ++i) {
-    Vector3<S> arm;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vector3<S>& m = model.p_MB[static_cast<std::size_t>(i)];
-      arm(axis) = r_WP(axis, 0) * m(0) + r_WP(axis, 1) * m(1) + r_WP(axis, 2) * m(2);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      const int k = (axis + 1) % 3;
-      const int l = (axis + 2) % 3;
-      j(axis, i) = cable_vector(i, axis) / cable_length(i);
-      j(3 + axis, i) = (arm(k) * cable_vector(i, l) - arm(l) * cable_vector(i, k)) / cable_length(i);
-    }
-  }
+  const Matrix6<S> j = force_jacobian(model, r_WP, x);
   for (int axis = 0; axis < 6; ++axis) {  // (4)
     S sum = -model.wrench(axis);
     for (int i = 0; i < kCables; ++i) sum = sum + j(axis, i) * x(Layout::kTensions + i);
     f(row++) = sum;
   }
 
-  Matrix6<S> b;  // J^T E J
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c) {
-      S sum = S(0.0);
-      for (int k = 0; k < 6; ++k) {
-        for (int l = 0; l < 6; ++l) {
-          if (model.ellipsoid_is_diagonal && k != l) continue;
-          sum = sum + j(k, r) * model.ellipsoid(k, l) * j(l, c);
-        }
-      }
-      b(r, c) = sum;
-    }
-  }
+  const Matrix6<S> b = ellipsoid_of_tensions(model, j);
   for (int i = 0; i < kCables; ++i) {
     const auto v = [&](int k) { return x(Layout::kVariations + 6 * i + k); };
     S quadratic = S(0.0);

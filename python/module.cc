@@ -267,14 +267,9 @@ void translate(std::exception_ptr failure) {  // NOLINT(performance-unnecessary-
   }
 }
 
-}  // namespace
+using namespace py::literals;
 
-PYBIND11_MODULE(_taut, module) {
-  using namespace py::literals;
-  module.doc() = "What the package taut is made of.";
-  module.attr("version") = taut::version();
-  py::register_exception_translator(translate);
-
+void add_case(py::module_& module) {
   py::class_<taut::Case>(module, "Case")
       .def_static("load", &taut::Case::load, py::call_guard<py::gil_scoped_release>())
       .def_static("parse", &taut::Case::parse, py::call_guard<py::gil_scoped_release>())
@@ -290,7 +285,9 @@ PYBIND11_MODULE(_taut, module) {
       .def("drawing_svg", &taut::Case::drawing_svg)
       .def_property_readonly("tension_limits_N", [](const taut::Case& c) { return limits_array(c.tension_limits_N()); })
       .def_property_readonly("length_limits_m", [](const taut::Case& c) { return limits_array(c.length_limits_m()); });
+}
 
+void add_certificate(py::module_& module) {
   py::class_<taut::Certificate>(module, "Certificate")
       .def_static("load", &taut::Certificate::load, py::call_guard<py::gil_scoped_release>())
       .def_static("parse", &taut::Certificate::parse, py::call_guard<py::gil_scoped_release>())
@@ -311,7 +308,9 @@ PYBIND11_MODULE(_taut, module) {
       .def("samples", [](const taut::Certificate& c, std::size_t about) {
         return samples_dict(run([&](const std::stop_token&) { return c.samples(about); }));
       });
+}
 
+void add_plan_and_prove(py::module_& module) {
   module.def(
       "plan",
       [](const taut::Case& the_case, double budget_seconds, const std::string& atlas, const std::string& save_atlas,
@@ -337,22 +336,25 @@ PYBIND11_MODULE(_taut, module) {
       },
       "case"_a, "interpolation"_a, "waypoints"_a, "half_turns"_a, "times"_a, "max_bits"_a, "signing_key"_a,
       "max_check_seconds"_a);
+}
 
-  const auto audit_options = [](const std::optional<std::string>& interpolation, long max_bits,
-                                const std::string& signing_key, double max_check_seconds, double headroom_seconds) {
-    taut::AuditOptions options;
-    if (interpolation) options.interpolation = interpolation_of(*interpolation);
-    options.max_bits = max_bits;
-    options.signing_key_pem = signing_key;
-    options.max_check_seconds = max_check_seconds;
-    options.headroom_seconds = headroom_seconds;
-    return options;
-  };
+taut::AuditOptions audit_options(const std::optional<std::string>& interpolation, long max_bits,
+                                 const std::string& signing_key, double max_check_seconds, double headroom_seconds) {
+  taut::AuditOptions options;
+  if (interpolation) options.interpolation = interpolation_of(*interpolation);
+  options.max_bits = max_bits;
+  options.signing_key_pem = signing_key;
+  options.max_check_seconds = max_check_seconds;
+  options.headroom_seconds = headroom_seconds;
+  return options;
+}
+
+void add_audits(py::module_& module) {
   module.def(
       "audit_file",
-      [=](const taut::Case& the_case, const std::optional<std::string>& file,
-          const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
-          double max_check_seconds, double headroom_seconds, const py::object& progress) {
+      [](const taut::Case& the_case, const std::optional<std::string>& file,
+         const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
+         double max_check_seconds, double headroom_seconds, const py::object& progress) {
         taut::AuditOptions options =
             audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds);
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
@@ -365,9 +367,9 @@ PYBIND11_MODULE(_taut, module) {
       "progress"_a);
   module.def(
       "audit_table",
-      [=](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
-          const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
-          double max_check_seconds, double headroom_seconds, const py::object& progress) {
+      [](const taut::Case& the_case, std::vector<std::string> columns, const Array& values, const std::string& name,
+         const std::optional<std::string>& interpolation, long max_bits, const std::string& signing_key,
+         double max_check_seconds, double headroom_seconds, const py::object& progress) {
         const taut::Table table = {std::move(columns), {values.data(), values.data() + values.size()}};
         taut::AuditOptions options =
             audit_options(interpolation, max_bits, signing_key, max_check_seconds, headroom_seconds);
@@ -379,7 +381,9 @@ PYBIND11_MODULE(_taut, module) {
       },
       "case"_a, "columns"_a, "values"_a, "name"_a, "interpolation"_a, "max_bits"_a, "signing_key"_a,
       "max_check_seconds"_a, "headroom_seconds"_a, "progress"_a);
+}
 
+void add_sensitivity(py::module_& module) {
   module.def(
       "sensitivity",
       [](const taut::Case& the_case, const std::optional<std::string>& file,
@@ -394,7 +398,9 @@ PYBIND11_MODULE(_taut, module) {
         });
       },
       "case"_a, "file"_a, "interpolation"_a, "budget_seconds"_a, "progress"_a);
+}
 
+void add_check(py::module_& module) {
   module.def(
       "check",
       [](const py::bytes& certificate, const std::optional<taut::Case>& the_case,
@@ -407,24 +413,23 @@ PYBIND11_MODULE(_taut, module) {
                               result.is_trusted, result.segments, result.boxes, result.not_compared);
       },
       "certificate"_a, "case"_a, "trusted_keys"_a, "max_seconds"_a);
+}
 
+taut::ReportFormat format_of(const std::string& name) {
+  if (name == "html") return taut::ReportFormat::kHtml;
+  if (name == "text") return taut::ReportFormat::kText;
+  if (name == "markdown") return taut::ReportFormat::kMarkdown;
+  if (name == "json") return taut::ReportFormat::kJson;
+  throw taut::InputError("format: got '" + name + "', expected html, text, markdown or json", "", 0, "format", "E1");
+}
+
+void add_report(py::module_& module) {
   module.def(
       "report",
       [](const taut::Certificate& certificate, const std::string& format, const std::string& document,
          const std::string& revision, const std::string& date, double max_check_seconds) {
         taut::ReportOptions options;
-        if (format == "html") {
-          options.format = taut::ReportFormat::kHtml;
-        } else if (format == "text") {
-          options.format = taut::ReportFormat::kText;
-        } else if (format == "markdown") {
-          options.format = taut::ReportFormat::kMarkdown;
-        } else if (format == "json") {
-          options.format = taut::ReportFormat::kJson;
-        } else {
-          throw taut::InputError("format: got '" + format + "', expected html, text, markdown or json", "", 0, "format",
-                                 "E1");
-        }
+        options.format = format_of(format);
         options.document = document;
         options.revision = revision;
         options.date = date;
@@ -435,4 +440,19 @@ PYBIND11_MODULE(_taut, module) {
         });
       },
       "certificate"_a, "format"_a, "document"_a, "revision"_a, "date"_a, "max_check_seconds"_a);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_taut, module) {
+  module.doc() = "What the package taut is made of.";
+  module.attr("version") = taut::version();
+  py::register_exception_translator(translate);
+  add_case(module);
+  add_certificate(module);
+  add_plan_and_prove(module);
+  add_audits(module);
+  add_sensitivity(module);
+  add_check(module);
+  add_report(module);
 }
