@@ -92,6 +92,15 @@ std::string printable(const std::string& text) {
   return result;
 }
 
+/// "300 s", "less than 1 ms": no exponents, which only programmers read.
+std::string duration(double seconds) {
+  constexpr double kLeast = 1e-3;
+  constexpr double kMost = 1e9;
+  if (seconds < kLeast) return "less than 1 ms";
+  if (seconds > kMost) return "more than 30 years";
+  return seconds < 1 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.10g} s", seconds);
+}
+
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
   const std::string audit = certificate.problem.query.empty() ? "an audit, " : "";
   const std::string boxes = plural(result.counts.boxes, "box");
@@ -107,8 +116,14 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
   if (stretches == 0) return fmt::format("{}; {} bits", refuted, bits);
   std::size_t open = 0;
   for (std::size_t i = 0; i < stretches; ++i) open += certificate.stretch(i).inner.empty() ? 1 : 0;
-  return fmt::format("{}, {} ({} open), and nothing outside of them: {}; {} bits", refuted,
-                     plural(stretches, "stretch"), open, boxes, bits);
+  const std::string listed = fmt::format("{}, {} ({} open)", refuted, plural(stretches, "stretch"), open);
+  if (!is_implied(certificate.problem, certificate.path)) {
+    return fmt::format("{}, and nothing outside of them: {}; {} bits", listed, boxes, bits);
+  }
+  return fmt::format(
+      "{}, and no violation outside of them at the poses in the stated tubes, which the motion is shown to pass up to "
+      "the witness: {}; {} bits",
+      listed, boxes, bits);
 }
 
 /// Signer, case, path file and verdict are those that were asked for.
@@ -190,7 +205,7 @@ CheckResult check(const std::string& bytes, const CheckOptions& options) {
     if (options.stop.stop_requested()) throw;
     result.outcome = Outcome::kUnchecked;
     const double seconds = options.max_seconds.value_or(0);
-    result.message = seconds > 0 ? fmt::format("the budget of {:g} s ran out before all was proved", seconds)
+    result.message = seconds > 0 ? fmt::format("the budget of {} ran out before all was proved", duration(seconds))
                                  : "nothing was proved, as no time was allowed for it";
   }
   return result;

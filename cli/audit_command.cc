@@ -64,27 +64,36 @@ std::string text(const AuditedStretch& audited, const Case& the_case, const char
                              violation_text(last, robot, units));
 }
 
-/// The violation that the certificate's witness is about.
-std::string gravest_text(const Audit& audit, const Case& the_case, const char* place_name) {
+/// The violation that the certificate's witness is about: the gravest, or where poses are implied the one to which the
+/// move is followed.
+std::string witness_text(const Audit& audit, const Case& the_case, const char* place_name) {
   const PathWitness& witness = audit.witness->violation;
-  return fmt::format("Gravest: {}: {}.", text(witness.at, audit.witness_place, place_name),
+  return fmt::format("{}: {}: {}.", audit.witness_is_gravest ? "Gravest" : "Proved of the move",
+                     text(witness.at, audit.witness_place, place_name),
                      violation_text(witness, the_case.problem.robot, DisplayUnits(the_case.units)));
 }
 
+/// Whether constraints or lengths of cables imply the poses.
+bool is_implied(const PathSource& source) {
+  return source.law() == Interpolation::kCableLengths || !source.problem().space.constraints.empty();
+}
+
 /// What follows the verdict.
-std::string sentence(const Audit& audit) {
+std::string sentence(const Audit& audit, const PathSource& source) {
   switch (audit.verdict) {
     case Verdict::kProved:
       return fmt::format(
           "the path is wrench-feasible and clear of singularities, at its waypoints and everywhere between, {} in {}.",
           plural(audit.segments, "segment"), plural(audit.boxes, "box"));
     case Verdict::kRefuted:
-      return fmt::format("{} of the path {} proved violations{}; {}.", plural(audit.stretches_violated, "stretch"),
+      return fmt::format("{} of the path {} proved violations{}{}", plural(audit.stretches_violated, "stretch"),
                          audit.stretches_violated == 1 ? "has" : "have",
                          audit.stretches_open == 0
                              ? ""
                              : fmt::format(", and {} could not be decided", plural(audit.stretches_open, "other")),
-                         audit.boxes > 0 ? "all the rest is proved" : "no part of the path is proved");
+                         is_implied(source) ? ". " + implied_scope(audit.boxes > 0)
+                         : audit.boxes > 0  ? "; all the rest is proved."
+                                            : "; no part of the path is proved.");
     case Verdict::kUndecided: break;
   }
   return fmt::format("{} of the path could not be decided; nothing is claimed of the path.",
@@ -111,7 +120,9 @@ void print_stretches(const Audit& audit, const Case& the_case, const PathSource&
                       ? "This holds for every deviation within the case's tolerances."
                       : "The case states no tolerances: this is about a machine that is exactly as it says.");
   }
-  if (audit.witness_is_gravest) print_wrapped(gravest_text(audit, the_case, source.place_name()));
+  if (audit.witness && (audit.witness_is_gravest || is_implied(source))) {
+    print_wrapped(witness_text(audit, the_case, source.place_name()));
+  }
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
   for (std::size_t i = 0; i < shown; ++i) print_wrapped(text(audit.stretches[i], the_case, source.place_name()));
@@ -126,7 +137,7 @@ void print(const Audit& audit, const Case& the_case, const PathSource& source, c
   if (is_unchecked) {
     print_verdict("UNCHECKED", fmt::format("{}. Nothing is claimed of the path.", checked.message));
   } else {
-    print_verdict(verdict_in_full(audit), sentence(audit));
+    print_verdict(verdict_in_full(audit), sentence(audit, source));
   }
   if (context) {
     print_key_numbers(Summary(*context, {}).key_numbers);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "certify/undecided.h"
 #include "problem/rational.h"
 #include "reports/page/table_sizes.h"
 #include "reports/summary/wording.h"
@@ -152,15 +153,16 @@ Html exact_stretches(const ReportContext& scene) {
   std::vector<std::vector<Html>> rows;
   for (std::size_t k = 0; k < std::min(stretches.size(), kMostRows); ++k) {
     const Stretch& stretch = stretches[k];
+    const auto reason = undecided_reason(stretch.reason);
     const auto witness = [&](const auto& of) {
-      return stretch.violations ? text(of(*stretch.violations).violation.at) : html("–");
+      return stretch.violations ? text(of(*stretch.violations).violation.at) : html("{}", reason ? code(*reason) : "–");
     };
     rows.push_back({html("{}", k + 1), text(stretch.begin),
                     witness([](const auto& pair) -> const auto& { return pair.first; }),
                     witness([](const auto& pair) -> const auto& { return pair.second; }), text(stretch.end)});
   }
   const Html all = table(
-      html("Stretches that are not proved, exact: segment, s"),
+      html("Stretches that are not proved, exact: segment, s; of open ones the code of the reason"),
       {{html("Stretch"), true}, {html("From")}, {html("First witness")}, {html("Last witness")}, {html("To")}}, rows);
   return section("exact-stretches", "Ends of the stretches, exact",
                  folded(rows.size() > kLongTable, html("{}", plural(stretches.size(), "stretch")), all));

@@ -137,7 +137,7 @@ Html cables(const ReportContext& scene, const Summary& s) {
       "class=\"n\">Tension [{}]</th><th scope=\"col\">{}</th><th scope=\"col\" class=\"n\">above slack</th><th "
       "scope=\"col\" class=\"n\">of top limit</th><th scope=\"col\" class=\"n\">length left</th></tr></thead>\n"
       "<tbody>{}</tbody></table></div>\n",
-      use_caption(s.use.source), scene.illustration.units.force.name(), bar_head(scene), rows);
+      use_caption(scene, s.use.source), scene.illustration.units.force.name(), bar_head(scene), rows);
 }
 
 /// "every tension stays at least 0.0138 kN and every length at least 9.76 m inside its limits".
@@ -167,25 +167,10 @@ Html cables_note(const ReportContext& scene, const Summary& s) {
 
 // ---- What is broken.
 
-/// "0.0499 N or less, limit 0.05 N" of a proved violation, or the sampled value.
-Html amount(const ReportContext& scene, const BrokenLimit& broken) {
-  if (broken.is_singular) return html("the cables cannot balance every load");
-  const bool is_upper = taut::is_upper(broken.margin);
-  const DisplayUnit& unit = scene.illustration.units.of(is_length(broken.margin));
-  const double limit = ScalarTraits<double>::from_decimal(broken.limit);
-  const std::string value = is_upper ? down_text(broken.value, limit, unit) : up_text(broken.value, limit, unit);
-  const char* const sense = !broken.is_proved() ? "about " : is_upper ? "at least " : "at most ";
-  return html("{}{} {}; limit {} {}", sense, with_minus_signs(value), unit.name(),
-              with_minus_signs(unit.exact(broken.limit)), unit.name());
-}
-
 Html what(const BrokenLimit& broken) {
-  if (broken.is_singular) return html("<b>Singular pose</b>");
-  const int cable = broken.margin.cable + 1;
-  if (is_length(broken.margin)) {
-    return html("<b>Cable {}</b> too {}", cable, is_upper(broken.margin) ? "long" : "short");
-  }
-  return html("<b>Cable {}</b> {}", cable, is_upper(broken.margin) ? "above its top tension" : "below its slack limit");
+  const std::string text = what_text(broken);
+  if (!broken.is_singular) return html("<b>Cable {}</b> {}", broken.margin.cable + 1, text);
+  return html("<b>Singular pose</b>{}{}", text.empty() ? "" : " ", text);
 }
 
 /// All that are proved, and of the sampled ones as many as fill the table; then how many there are besides.
@@ -196,22 +181,27 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
   Html rows;
   for (std::size_t k = 0; k < shown; ++k) {
     const BrokenLimit& broken = all[k];
-    const std::string lines = rows_text(scene, broken.position);
-    const Html stretches = broken.stretches > 1 ? html("; in {} stretches", broken.stretches) : Html();
-    rows += html("<tr><td>{}</td><td>{}</td><td>{}{}{}</td><td>{}</td></tr>\n", what(broken), amount(scene, broken),
-                 place_text(scene, broken.position), lines.empty() ? Html() : html("; {}", lines), stretches,
-                 broken.is_proved() ? html("<b>proved</b>") : html("samples"));
+    const bool is_plain = broken.is_proved() && broken.is_reached;
+    rows += html("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", what(broken),
+                 with_minus_signs(amount_text(scene, broken)), where_text(scene, broken),
+                 is_plain ? html("<b>{}</b>", known_by(broken)) : html("{}", known_by(broken)));
   }
   const std::string file = audited_file(scene);
+  const char* const others = std::ranges::all_of(all, &BrokenLimit::is_reached)
+                                 ? ""
+                                 : "; then those that are broken at poses which it may not reach";
   const Html more = shown == all.size() ? Html()
                                         : html("<p class=\"note\">Samples show {} besides.</p>\n",
                                                plural(all.size() - shown, "broken limit"));
   return html(
              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Limits that are broken\"><table "
-             "class=\"broken\"><caption>Limits that this move breaks, the gravest first{}</caption>\n<thead><tr><th "
+             "class=\"broken\"><caption>Limits that this move breaks, the gravest first{}{}</caption>\n<thead><tr><th "
              "scope=\"col\">What</th><th scope=\"col\">How far</th><th scope=\"col\">Where it is worst</th><th "
              "scope=\"col\">Known by</th></tr></thead>\n<tbody>{}</tbody></table></div>\n",
-             file.empty() ? Html() : html("; lines are those of <bdi>{}</bdi>", file), rows) +
+             others,
+             file.empty() ? Html()
+                          : html("; lines are those of <bdi>{}</bdi>, as the certificate says, not checked", file),
+             rows) +
          more;
 }
 

@@ -28,11 +28,12 @@ Html unscripted() {
 }
 
 /// What the marks on the plots along the path mean, where there are some.
-Html marks_text(const Certificate& certificate) {
+Html marks_text(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
   Html result;
-  if (certificate.witness)
-    result += html(" Dashed red: {}.",
-                   certificate.witness->violation.singular ? "the two witness poses" : "the witness pose");
+  if (scene.gravest)
+    result +=
+        html(" Dashed red: {}.", scene.gravest->violation.singular ? "the two witness poses" : "the witness pose");
   if (!certificate.stretches.empty()) {
     result += html(" Shaded over the whole height: the stretches where the path is not proved.");
   } else if (certificate.undecided && certificate.undecided->segment) {
@@ -51,7 +52,8 @@ Html bands_text(const ReportContext& scene) {
   return html(
       "Light bands are enclosures, computed by this program anew with interval arithmetic, box by box as the "
       "certificate has them: "
-      "at no pose{} does a value leave its band.{} The darker band and the line are floating-point samples.",
+      "at no pose{}{} does a value leave its band.{} The darker band and the line are floating-point samples.",
+      is_implied(scene.certificate) && !scene.ranges_are_whole ? " in the stated tubes" : "",
       scene.certificate.problem.tolerances ? " and no deviation within the tolerances" : "",
       scene.ranges_are_whole ? ""
       : scene.ranges.missing > 0
@@ -67,15 +69,15 @@ Html tensions(const ReportContext& scene) {
   return section("tensions", "Tensions along the path",
                  html("<p>For each cable all tensions that the loads in K can ask of it. {} {} Shaded red: beyond the "
                       "limits.{}</p>\n",
-                      kArrangement, bands_text(scene), marks_text(scene.certificate)) +
+                      kArrangement, bands_text(scene), marks_text(scene)) +
                      unscripted() + place("tensions"));
 }
 
 Html lengths(const ReportContext& scene) {
-  return section("lengths", "Cable lengths along the path",
-                 html("<p>{} {} Shaded red: beyond the limits.{}</p>\n", kArrangement, bands_text(scene),
-                      marks_text(scene.certificate)) +
-                     unscripted() + place("lengths"));
+  return section(
+      "lengths", "Cable lengths along the path",
+      html("<p>{} {} Shaded red: beyond the limits.{}</p>\n", kArrangement, bands_text(scene), marks_text(scene)) +
+          unscripted() + place("lengths"));
 }
 
 Html margins_along(const ReportContext& scene) {
@@ -86,7 +88,7 @@ Html margins_along(const ReportContext& scene) {
                       "dashed: samples. A bound is as sharp as the proof needed it; the true margin is in between. The "
                       "set of loads may "
                       "grow by wrench_scale before a tension reaches a limit.{}</p>\n",
-                      marks_text(scene.certificate)) +
+                      marks_text(scene)) +
                      unscripted() + place("margins"));
 }
 
@@ -121,9 +123,9 @@ Html biting_tolerances(const ReportContext& scene) {
   if (scene.verdict != "proved" || !headroom || !scene.certificate.problem.tolerances) return {};
   return section(
       "tolerances-used", "Which tolerance bites",
-      html("<p>Each bar: how much of what this tolerance alone could be, all others as stated, is stated. The one "
-           "nearest to 100 % is the first to look after. How far each could grow is what the program that wrote the "
-           "certificate says; it is not checked.</p>\n") +
+      html("<p>Each bar: how much is stated of what this uncertainty alone could be, all others as stated. The one "
+           "nearest to 100 % is the first to look after. Beside it: how far it could go alone, of what is stated, as "
+           "the program that wrote the certificate says; it is not checked.</p>\n") +
           unscripted() + place("tolerances"));
 }
 

@@ -17,6 +17,7 @@
 #include "reports/page/machine_view.h"
 #include "reports/page/plane.h"
 #include "reports/summary/cable_use.h"
+#include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/nearness.h"
 #include "reports/summary/wording.h"
@@ -86,7 +87,9 @@ struct Closeness {
 };
 
 Closeness closeness(const Use& use, bool is_length) {
-  const auto& [range, lower, upper, least_at, greatest_at] = use;
+  const Range& range = use.range;
+  const double lower = use.lower_limit;
+  const double upper = use.upper_limit;
   const double width = upper - lower;
   if (is_length) {
     return {nearness_of_length(range, lower, upper), 1 - std::min(range.lower - lower, upper - range.upper) / width};
@@ -126,8 +129,8 @@ void widen_to_the_whole_path(const ReportContext& scene, CableUse& use) {
       widen(use.length[i].range, s.length[i], s.length[i]);
     }
   }
-  if (!scene.certificate.witness || scene.certificate.witness->violation.singular) return;
-  const PathWitness& witness = scene.certificate.witness->violation;
+  if (!scene.gravest || scene.gravest->violation.singular) return;
+  const PathWitness& witness = scene.gravest->violation;
   const MarginKind kind = witness.margin.kind;
   const bool is_length = kind == MarginKind::kLengthMin || kind == MarginKind::kLengthMax;
   widen((is_length ? use.length : use.tension)[static_cast<std::size_t>(witness.margin.cable)].range,
@@ -381,14 +384,23 @@ json weights(const LoadText& load) {
   return result;
 }
 
-json witness(const Certificate& certificate) {
-  if (!certificate.witness) return nullptr;
-  const PathWitness& violation = certificate.witness->violation;
+json witness(const ReportContext& scene) {
+  if (!scene.gravest) return nullptr;
+  const PathWitness& violation = scene.gravest->violation;
   const bool singular = violation.singular;
   return {{"position", number(position(violation.at))},
           {"to", singular ? number(position(violation.to)) : json()},
           {"kind", singular ? "singular" : name(violation.margin.kind)},
           {"cable", singular ? 0 : violation.margin.cable + 1}};
+}
+
+/// Where poses are implied and the path is refuted, the end of the certificate's own witness: up to there the move is
+/// proved to pass the poses that boxes and witnesses are about.
+json reached(const ReportContext& scene) {
+  if (!is_implied(scene.certificate) || !scene.certificate.witness) return nullptr;
+  const PathWitness& own = scene.certificate.witness->violation;
+  const double end = position(own.at);
+  return number(own.singular ? std::max(end, position(own.to)) : end);
 }
 
 /// Radius of the tube around the path in which the platform's origin may be [m]; null if no such tolerance is stated.
@@ -398,18 +410,13 @@ json tube_radius(const Problem& problem) {
   return radius > 0 ? number(radius) : json();
 }
 
-/// Stated beside proved, of each tolerance whose provable size the certificate tells.
+/// How far each uncertainty could go alone, in the words of the sentence that says so.
 json tolerances(const ReportContext& scene) {
   json result = json::array();
-  if (!scene.certificate.problem.tolerances || !scene.illustration.headroom) return result;
-  for (const ProvableShare& share : scene.illustration.headroom->shares) {
-    const UncertaintyKind kind = share.of.kind;
-    const bool is_of_sets = kind == UncertaintyKind::kAll || kind == UncertaintyKind::kWrenchSet;
-    if (is_of_sets || kind == UncertaintyKind::kLoadItem || !(share.proved > 0)) continue;
-    result.push_back({{"name", name(kind)},
-                      {"unit", unit(kind)},
-                      {"stated", number(size_of(scene.certificate.problem, kind))},
-                      {"proved", number(share.proved)}});
+  const Problem& problem = scene.certificate.problem;
+  if (!problem.tolerances || !scene.illustration.headroom) return result;
+  for (const EachAlone& alone : each_alone(*scene.illustration.headroom, problem, scene.illustration.units)) {
+    result.push_back({{"what", alone.what}, {"words", alone.words()}, {"used", number(alone.used)}});
   }
   return result;
 }
@@ -482,7 +489,8 @@ json report_data(const ReportContext& scene) {
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
           {"margins", margins(certificate.segments)},
           {"stretches", stretches(certificate)},
-          {"witness", witness(certificate)},
+          {"witness", witness(scene)},
+          {"reached", reached(scene)},
           {"weights", weights(certificate.problem.load)},
           {"is_found", !found_no_path(certificate)},
           {"worst", worst ? number(*worst) : json()},

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/undecided.h"
 #include "reports/page/table_sizes.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/headroom_summary.h"
@@ -250,12 +249,13 @@ Html tolerances(const ReportContext& scene) {
   const TolerancesText& t = *scene.certificate.problem.tolerances;
   const std::optional<Headroom>& headroom = scene.illustration.headroom;
   const DisplayUnit& length = scene.illustration.units.length;
+  const std::vector<EachAlone> alone =
+      headroom ? each_alone(*headroom, scene.certificate.problem, scene.illustration.units) : std::vector<EachAlone>();
   std::vector<std::vector<Html>> rows;
   const auto row = [&](const std::string& key, const Html& what, const Html& stated) {
     Html limit = html("–");
-    for (const ProvableShare& found : headroom ? headroom->shares : std::vector<ProvableShare>()) {
-      if (key == name(found.of.kind) && found.share != "0")
-        limit = html("{} {}", rounded_down(found.proved, 3), unit(found.of.kind));
+    for (const EachAlone& found : alone) {
+      if (key == name(found.of.kind)) limit = html("{}", found.size.empty() ? found.share : found.size);
     }
     rows.push_back({what, stated, limit});
   };
@@ -315,6 +315,20 @@ Html path_section(const ReportContext& scene) {
           folded(count > kLongTable, html("{}", plural(count, "waypoint")), pose_table(scene, step)));
 }
 
+namespace {
+
+/// What is proved of the stretches, and outside of them.
+std::string stretches_note(const Certificate& certificate) {
+  if (certificate.verdict != Verdict::kRefuted) return "These stretches were left open; nothing is claimed of them.";
+  const bool has_boxes = count_boxes(certificate) > 0;
+  const std::string each =
+      " Each violation is proved at one pose, with an enclosure of the quantity; nothing is claimed between the two.";
+  if (is_implied(certificate)) return implied_scope(has_boxes) + each;
+  return (has_boxes ? "Outside of these stretches the path is proved." : "No part of the path is proved.") + each;
+}
+
+}  // namespace
+
 Html stretches(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   if (certificate.stretches.empty()) return {};
@@ -327,10 +341,10 @@ Html stretches(const ReportContext& scene) {
   std::vector<std::vector<Html>> rows;
   for (std::size_t k = 0; k < shown; ++k) {
     const Stretch& stretch = certificate.stretches[k];
-    rows.push_back({html("{}", k + 1), place(stretch.begin), place(stretch.end),
-                    stretch.violations ? violation(stretch.violations->first.violation)
-                                       : html("open: {}", with_code(stretch.reason)),
-                    stretch.violations ? violation(stretch.violations->second.violation) : Html()});
+    rows.push_back(
+        {html("{}", k + 1), place(stretch.begin), place(stretch.end),
+         stretch.violations ? violation(stretch.violations->first.violation) : html("open: {}", stretch.reason),
+         stretch.violations ? violation(stretch.violations->second.violation) : Html()});
   }
   const Html all = table(
       html("Stretches that are not proved"),
@@ -342,11 +356,7 @@ Html stretches(const ReportContext& scene) {
           : Html();
   return section(
       "stretches", "Where the path is not proved",
-      html("<p>{} Segment k leads from waypoint k to the next.</p>\n",
-           certificate.verdict == Verdict::kRefuted
-               ? "Outside of these stretches the path is proved. Each violation is "
-                 "proved at one pose, with an enclosure of the quantity."
-               : "These stretches were left open; nothing is claimed of them.") +
+      html("<p>{} Segment k leads from waypoint k to the next.</p>\n", stretches_note(certificate)) +
           folded(rows.size() > kLongTable, html("{}", plural(certificate.stretches.size(), "stretch")), all) + rest);
 }
 

@@ -11,7 +11,7 @@ Html still_picture(const ReportContext& scene) {
   const Path& path = scene.certificate.path;
   if (path.waypoints.empty()) return {};
   std::vector<std::pair<std::string, double>> places = {{"Waypoint 0 (start)", 0.0}};
-  if (const auto& witness = scene.certificate.witness) {
+  if (const auto& witness = scene.gravest) {
     places.emplace_back("At the witness", position(witness->violation.at));
   } else if (path.segments() > 1 && !found_no_path(scene.certificate)) {
     const std::size_t middle = path.segments() / 2;

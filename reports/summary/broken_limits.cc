@@ -11,14 +11,32 @@
 
 #include "certify/severity.h"
 #include "reports/summary/hints.h"
+#include "reports/summary/sentences.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
 
 double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
 
+/// Whether both are about the same limit, and proved of poses of the same standing.
 bool is_same(const BrokenLimit& a, const BrokenLimit& b) {
+  if (a.is_reached != b.is_reached) return false;
   return a.is_singular ? b.is_singular : !b.is_singular && a.margin == b.margin;
+}
+
+bool is_same(const PathPoint& a, const PathPoint& b) {
+  return a.on_segment == b.on_segment && a.index == b.index && a.s == b.s;
+}
+
+/// Whether the move is proved to pass the poses of a witness of a stretch: where poses are implied, those of the
+/// certificate's own.
+bool is_reached(const Certificate& certificate, const PathWitness& witness) {
+  if (!is_implied(certificate)) return true;
+  if (!certificate.witness) return false;
+  const PathWitness& own = certificate.witness->violation;
+  return is_same(witness.at, own.at) && witness.singular == own.singular &&
+         (!witness.singular || is_same(witness.to, own.to));
 }
 
 BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness) {
@@ -26,6 +44,7 @@ BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness)
   broken.proof = witness;
   broken.is_singular = witness.singular;
   broken.severity = severity(witness, scene.certificate.problem.robot);
+  broken.is_reached = is_reached(scene.certificate, witness);
   broken.position = broken.to = position(witness.at);
   if (witness.singular) {
     broken.to = position(witness.to);
@@ -98,8 +117,9 @@ std::vector<BrokenLimit> sampled_limits(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   const RobotText& robot = scene.certificate.problem.robot;
   for (const PathSample& sample : scene.samples) {
+    const bool has_tensions = !is_nearly_singular(model, sample.statics);
     for (const MarginId margin : all_margins()) {
-      if (!is_length(margin) && !sample.statics.regular) continue;
+      if (!is_length(margin) && !has_tensions) continue;
       BrokenLimit broken;
       broken.margin = margin;
       broken.value = limited_quantity(sample.statics, margin);
@@ -124,9 +144,9 @@ void sort_by_severity(std::vector<BrokenLimit>& limits) {
 std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
   std::vector<BrokenLimit> result = proved_limits(scene);
   sort_by_severity(result);
+  std::ranges::stable_partition(result, &BrokenLimit::is_reached);
   const Certificate& certificate = scene.certificate;
-  const bool is_shown = certificate.path.segments() > 0 && !found_no_path(certificate) &&
-                        certificate.path.interpolation != Interpolation::kCableLengths;
+  const bool is_shown = !found_no_path(certificate) && certificate.path.interpolation != Interpolation::kCableLengths;
   if (!is_shown || certificate.verdict == Verdict::kProved) return result;
   std::vector<BrokenLimit> sampled = sampled_limits(scene);
   sort_by_severity(sampled);
@@ -137,6 +157,45 @@ std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
     result.push_back(std::move(broken));
   }
   return result;
+}
+
+std::string what_text(const BrokenLimit& broken) {
+  const bool deviates = broken.proof && broken.proof->deviation;
+  const char* const machine = deviates ? "on a machine within the tolerances" : "";
+  if (broken.is_singular) return machine;
+  const bool upper = is_upper(broken.margin);
+  const char* const what = is_length(broken.margin) ? (upper ? "too long" : "too short")
+                           : upper                  ? "above its top tension"
+                                                    : "below its slack limit";
+  return fmt::format("{}{}{}", what, deviates ? ", " : "", machine);
+}
+
+std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
+  if (broken.is_singular) return "the cables cannot balance every load";
+  const bool length = is_length(broken.margin);
+  const DisplayUnit& unit = scene.illustration.units.of(length);
+  const std::string limit = fmt::format("limit {} {}", unit.exact(broken.limit), unit.name());
+  if (!broken.proof) {
+    return fmt::format("about {} {}; {}", sampled_text(broken.value, number(broken.limit), unit), unit.name(), limit);
+  }
+  if (is_all_but_singular(*broken.proof, scene.certificate.problem.robot)) {
+    return fmt::format("{} a million times the greatest limit, next to a singular pose; {}",
+                       is_upper(broken.margin) ? "more than" : "below minus", limit);
+  }
+  return fmt::format("at {} {}; {}", is_upper(broken.margin) ? "least" : "most",
+                     value_text(*broken.proof, scene.illustration.units), limit);
+}
+
+std::string where_text(const ReportContext& scene, const BrokenLimit& broken) {
+  std::string text = place_in_full(scene, broken.position, broken.to);
+  if (const std::string rows = rows_text(scene, broken.position); !rows.empty()) text += "; " + rows;
+  if (broken.stretches > 1) text += fmt::format("; in {} stretches", broken.stretches);
+  return text;
+}
+
+std::string known_by(const BrokenLimit& broken) {
+  if (!broken.is_proved()) return "samples";
+  return broken.is_reached ? "proved" : "proved of the pose in its tube, not that the move leads there";
 }
 
 std::string rows_text(const ReportContext& scene, double position) {

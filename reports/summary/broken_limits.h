@@ -23,14 +23,28 @@ struct BrokenLimit {
   double position = 0;        ///< k + s is the point s of segment k
   double to = 0;              ///< the other end, if singular; else the same
   std::size_t stretches = 0;  ///< how many of the certificate's stretches have a proved violation of it
+  /// Whether the move is proved to pass the pose. Where poses are implied, witnesses of stretches are about the only
+  /// pose in a tube that the certificate states, and it is not proved that the move leads there.
+  bool is_reached = true;
 
   [[nodiscard]] bool is_proved() const { return proof.has_value(); }
 };
 
-/// First the limits that witnesses of the certificate prove broken, the gravest first; then those that only samples
-/// show broken, likewise. A singular pose is graver than any limit. Samples are not looked at where no path was found
-/// or where cable lengths imply the poses, as those shown may not be poses of the motion.
+/// First the limits that witnesses of the certificate prove broken, the gravest first; then those proved of poses that
+/// the move may not reach; then those that only samples show broken. A singular pose is graver than any limit. Samples
+/// are not looked at where no path was found or where cable lengths imply the poses, as those shown may not be poses of
+/// the motion.
 [[nodiscard]] std::vector<BrokenLimit> broken_limits(const ReportContext& scene);
+
+/// "below its slack limit, on a machine within the tolerances": what is broken, after the cable's name; of a singular
+/// pose only the machine, if it is not the stated one.
+[[nodiscard]] std::string what_text(const BrokenLimit& broken);
+/// "at most 0.0499 N; limit 0.05 N", or of samples "about −18.7 N; limit 0.05 N".
+[[nodiscard]] std::string amount_text(const ReportContext& scene, const BrokenLimit& broken);
+/// "segment 2 at s = 0.525, after 41° of turning; lines 7-8; in 2 stretches": to be understood without anything else.
+[[nodiscard]] std::string where_text(const ReportContext& scene, const BrokenLimit& broken);
+/// "proved", "proved of a pose in its tube, not that the move leads there", or "samples".
+[[nodiscard]] std::string known_by(const BrokenLimit& broken);
 
 /// "lines 5-6": where in the audited file a place of the path is. It is what the certificate's illustration says, which
 /// nothing checks; empty where that says nothing.

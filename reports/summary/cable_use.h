@@ -17,6 +17,10 @@ struct Use {
   double upper_limit = 0;  ///< likewise
   double least_at = 0;     ///< position of `range.lower`, counted in segments (PathSample::position)
   double greatest_at = 0;  ///< position of `range.upper`
+  /// The sampled values there, in floating point. Many pieces of a path may share one bound, as their ranges are cut at
+  /// a margin or loose: then the place is the piece whose sample comes nearest to it.
+  double least_seen = 0;
+  double greatest_seen = 0;
 
   /// Utilisation: the greatest value as a fraction of the upper limit [1], and in percent. Rounded up, so that it is
   /// never below the utilisation with the exact limit.

@@ -47,6 +47,10 @@ std::string DisplayUnit::up(double si, int digits) const {
   return is_absurd(si) ? rounded_up(approx(si), digits) : exact(rounded_up(si, digits));
 }
 
+std::string DisplayUnit::nearest(double si, int digits) const {
+  return is_absurd(si) ? rounded_to_nearest(approx(si), digits) : exact(rounded_to_nearest(si, digits));
+}
+
 double DisplayUnit::approx(double si) const { return si * ScalarTraits<double>::from_decimal(per_si_.text()); }
 
 std::string DisplayUnit::fixed(double si, int decimals) const {

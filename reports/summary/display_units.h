@@ -22,6 +22,8 @@ class DisplayUnit {
   /// `digits` significant digits of an SI value in this unit, rounded towards −∞ or +∞.
   [[nodiscard]] std::string down(double si, int digits = 4) const;
   [[nodiscard]] std::string up(double si, int digits = 4) const;
+  /// The same rounded to nearest: for samples, which are no bounds.
+  [[nodiscard]] std::string nearest(double si, int digits = 4) const;
   /// An SI value in this unit, rounded to nearest: for text that claims nothing.
   [[nodiscard]] double approx(double si) const;
   /// The same with as many decimals as `decimals` decimals in SI are: 6 decimals of metres are 3 of millimetres.

@@ -309,21 +309,37 @@ std::string common_sentence(const Headroom& headroom, const RobotText& robot, co
 
 std::string each_sentence(const Headroom& headroom, const Problem& problem, const DisplayUnits& units) {
   std::string list;
-  for (const ProvableShare& share : headroom.shares) {
-    if (share.of == UncertaintyKind::kAll || (share.stated == 0 && share.share == "0")) continue;
-    const std::string size = share.share == "0" ? "" : size_text(share, problem, units);
-    const std::string part = share.stated == 0 ? "" : share.share == "0" ? "none" : percent_text(share.share);
-    list += fmt::format("{}{} {}{}{}", list.empty() ? "" : "; ", words(share.of), part,
-                        size.empty()   ? ""
-                        : part.empty() ? "up to " + size
-                                       : " (" + size + ")",
-                        share.is_complete ? "" : " (time ended the search)");
+  for (const EachAlone& alone : each_alone(headroom, problem, units)) {
+    list += fmt::format("{}{} {}", list.empty() ? "" : "; ", alone.what, alone.words());
   }
   if (list.empty()) return "";
   return fmt::format("Each alone, with all others as stated: {}.", list);
 }
 
 }  // namespace
+
+std::vector<EachAlone> each_alone(const Headroom& headroom, const Problem& problem, const DisplayUnits& units) {
+  std::vector<EachAlone> result;
+  for (const ProvableShare& found : headroom.shares) {
+    if (found.of == UncertaintyKind::kAll || (found.stated == 0 && found.share == "0")) continue;
+    EachAlone alone{found.of, words(found.of), "", "", 0, found.is_complete};
+    constexpr double kPercent = 100;
+    constexpr double kNone = 1000;  // more than any axis shows
+    if (found.stated != 0) {
+      const double share = ScalarTraits<double>::from_decimal(found.share);
+      alone.share = found.share == "0" ? "none" : percent_text(found.share);
+      alone.used = share > 0 ? std::min(kPercent / share, kNone) : kNone;
+    }
+    if (found.share != "0") alone.size = size_text(found, problem, units);
+    result.push_back(std::move(alone));
+  }
+  return result;
+}
+
+std::string EachAlone::words() const {
+  const std::string of_size = size.empty() ? "" : share.empty() ? "up to " + size : " (" + size + ")";
+  return share + of_size + (is_complete ? "" : " (time ended the search)");
+}
 
 std::string percent_text(const DecimalText& share) {
   return (Decimal::parse(share) * Decimal::parse("100")).text() + " %";

@@ -22,6 +22,22 @@ namespace taut {
 [[nodiscard]] std::vector<std::string> headroom_sentences(const Headroom& headroom, const Problem& problem,
                                                           const DisplayUnits& units);
 
+/// How far one uncertainty may go alone, with all others as stated, as the program says that sought it.
+struct EachAlone {
+  Uncertainty of;
+  std::string what;         ///< "base anchors"
+  std::string share;        ///< "183 %", or "none"; empty where nothing is stated
+  std::string size;         ///< "0.183 mm"; empty of sets and where no share is provable
+  double used = 0;          ///< what is stated, in percent of what could be; 0 where nothing is stated
+  bool is_complete = true;  ///< else time ended the search
+
+  /// "183 % (0.183 mm)", "up to 0.2 mm", "none".
+  [[nodiscard]] std::string words() const;
+};
+/// One for each that was sought and says anything, in the order of the headroom.
+[[nodiscard]] std::vector<EachAlone> each_alone(const Headroom& headroom, const Problem& problem,
+                                                const DisplayUnits& units);
+
 /// "62 %", exactly.
 [[nodiscard]] std::string percent_text(const DecimalText& share);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <initializer_list>
 
@@ -14,116 +15,251 @@ namespace taut {
 
 namespace {
 
-constexpr auto kDigits = {3, 4, 6, 9, 12, 15};
-constexpr double kPercent = 100;
+using Rational = boost::multiprecision::cpp_rational;
 
-/// A percentage or factor, rounded away from what it is a bound of, in the fewest digits that tell it from `limit`.
-std::string apart(double value, double limit, bool is_upper) {
-  std::string text;
-  for (const int digits : kDigits) {
-    text = is_upper ? rounded_up(value, digits) : rounded_down(value, digits);
-    const double shown = number_in(text);
-    if ((shown < limit) == (value < limit) && (shown > limit) == (value > limit)) break;
+constexpr int kDigits = 3;
+
+/// A bound as the exact number that it is. Infinite ones, of which there are none on a path that can be shown, become
+/// large.
+Rational exact(double x) {
+  constexpr double kLarge = 1e300;
+  return {std::isfinite(x) ? x : std::copysign(kLarge, x)};
+}
+Rational exact(const DecimalText& text) { return Decimal::parse(text).rational(); }
+
+enum class Rounding { kDown, kUp, kToNearest };
+
+/// The digits of x >= 0, on the side of x that `rounding` asks for.
+std::string digits_of(const Rational& x, int digits, Rounding rounding) {
+  constexpr double kRounding = 1e-15;  // more than conversion and multiplication err by
+  constexpr double kLargest = 1e290;
+  const auto nearest = x.convert_to<double>();
+  std::string text = rounded_to_nearest(nearest, digits);
+  if (rounding == Rounding::kToNearest || !(nearest < kLargest)) return text;
+  const Rational shown = exact(text);
+  if (rounding == Rounding::kDown ? shown <= x : shown >= x) return text;
+  return rounding == Rounding::kDown ? rounded_down(nearest * (1 - kRounding), digits)
+                                     : rounded_up(nearest * (1 + kRounding), digits);
+}
+
+/// "+1.86", "−18.8", "0": the sign is that of x itself, whatever the digits are rounded to.
+std::string signed_digits(const Rational& x, const char* plus, bool is_sampled) {
+  if (x == 0) return "0";
+  if (x > 0) return plus + digits_of(x, kDigits, is_sampled ? Rounding::kToNearest : Rounding::kDown);
+  return "−" + digits_of(-x, kDigits, is_sampled ? Rounding::kToNearest : Rounding::kUp);
+}
+
+/// The limits of one quantity of the cables, exactly.
+struct Exact {
+  Rational least, greatest;    ///< of the move: bounds, or of samples
+  Rational lower, upper;       ///< limits
+  Rational seen_low, seen_up;  ///< where they are: what tells cables apart whose bounds are the same
+
+  Exact(const Use& use, const Limits& limits)
+      : least(exact(use.range.lower)),
+        greatest(exact(use.range.upper)),
+        lower(exact(limits.lower)),
+        upper(exact(limits.upper)),
+        seen_low(exact(use.least_seen)),
+        seen_up(exact(use.greatest_seen)) {}
+
+  [[nodiscard]] bool is_above() const { return least > lower; }
+  [[nodiscard]] bool is_below() const { return greatest < upper; }
+  /// What is left to the nearer limit.
+  [[nodiscard]] Rational left() const { return std::min<Rational>(least - lower, upper - greatest); }
+  [[nodiscard]] Rational left_as_seen() const { return std::min<Rational>(seen_low - lower, upper - seen_up); }
+};
+
+/// What is said of the six cables: from here are all numbers of tiles and tables.
+class Cables {
+ public:
+  Cables(const ReportContext& scene, const CableUse& use)
+      : scene_(scene), use_(use), is_sampled_(use.source == CableUse::Source::kSamples) {
+    const RobotText& robot = scene.certificate.problem.robot;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      tension_.emplace_back(use.tension[i], robot.tension_N[i]);
+      length_.emplace_back(use.length[i], robot.length_m[i]);
+    }
+    slack_in_percent_ = std::ranges::all_of(tension_, [](const Exact& t) { return t.lower > 0; });
+    top_in_percent_ = std::ranges::all_of(tension_, [](const Exact& t) { return t.upper > 0; });
   }
-  return text;
-}
 
-/// A number that is below x, though it was computed with a few roundings.
-double below(double x) { return x - 1e-14 * std::abs(x); }
+  [[nodiscard]] CableLine line(std::size_t i) const {
+    const Use& t = use_.tension[i];
+    return {i,
+            low(t, t.lower_limit, force()),
+            high(t, t.upper_limit, force()),
+            above_slack(i),
+            of_top(i),
+            left(i),
+            slack(i),
+            top(i),
+            length(i)};
+  }
 
-std::string above_slack(const Use& use, const DisplayUnit& unit) {
-  const double above = use.range.lower - use.lower_limit;
-  // The limit was rounded to nearest, by less than 2^-53 of it.
-  const double sure = above - 1e-15 * (std::abs(use.range.lower) + std::abs(use.lower_limit));
-  const char* const sign = above > 0 ? "+" : "−";
-  if (!(use.lower_limit > 0)) return fmt::format("{}{} {}", sign, unit.down(std::abs(sure), 3), unit.name());
-  const double percent = kPercent * std::abs(sure) / use.lower_limit;
-  return fmt::format("{}{} %", sign, above > 0 ? rounded_down(below(percent), 3) : rounded_up(percent, 3));
-}
+  [[nodiscard]] KeyNumber slack_number() const {
+    const bool is_kept = std::ranges::all_of(tension_, &Exact::is_above);
+    const std::size_t i = least(
+        [&](const Exact& t, const Rational& value) -> Rational {
+          if (is_kept) return slack_in_percent_ ? Rational(value / t.lower) : Rational(value - t.lower);
+          return value;  // of those that are not above their limits, whose tensions are printed
+        },
+        tension_, &Exact::least, &Exact::seen_low, [&](const Exact& t) { return is_kept || !t.is_above(); });
+    const Use& t = use_.tension[i];
+    const std::string value = low(t, t.lower_limit, force());
+    const std::string limit = force().exact(limits(i).lower);
+    const char* const title =
+        is_kept || has_one(&Limits::lower) ? "Closest to going slack" : "Lowest tension below its limit";
+    return {"slack", title, fmt::format("Cable {}: {}", i + 1, is_kept ? above_slack(i) : with_unit(value, force())),
+            fmt::format("{} {} {} · {}", is_kept ? with_unit(value, force()) + ", limit" : "slack limit", limit,
+                        force().name(), at(t.least_at)),
+            worst(&Cables::slack)};
+  }
 
-std::string of_top(const Use& use) { return apart(use.used_percent(), kPercent, true) + " %"; }
+  [[nodiscard]] KeyNumber top_number() const {
+    const bool is_kept = std::ranges::all_of(tension_, &Exact::is_below);
+    const std::size_t i = least(
+        [&](const Exact& t, const Rational& value) -> Rational {
+          if (is_kept) return top_in_percent_ ? Rational(-value / t.upper) : Rational(t.upper - value);
+          return -value;
+        },
+        tension_, &Exact::greatest, &Exact::seen_up, [&](const Exact& t) { return is_kept || !t.is_below(); });
+    const Use& t = use_.tension[i];
+    const std::string value = high(t, t.upper_limit, force());
+    const std::string limit = force().exact(limits(i).upper);
+    const char* const title = has_one(&Limits::upper) ? "Highest tension"
+                              : is_kept               ? "Tension nearest its top limit"
+                                                      : "Highest tension beyond its limit";
+    return {"top", title, fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(i) : with_unit(value, force())),
+            fmt::format("{} {} {} · {}", is_kept ? with_unit(value, force()) + " of" : "top limit", limit,
+                        force().name(), at(t.greatest_at)),
+            worst(&Cables::top)};
+  }
 
-double length_left(const Use& use) {
-  const double left = std::min(use.range.lower - use.lower_limit, use.upper_limit - use.range.upper);
-  return left - 1e-15 * (std::abs(use.range.upper) + std::abs(use.upper_limit));
-}
+  [[nodiscard]] KeyNumber length_number() const {
+    std::size_t i = 0;
+    for (std::size_t k = 1; k < kCables; ++k) {
+      const auto left = [&](std::size_t c) { return std::pair(length_[c].left(), length_[c].left_as_seen()); };
+      if (left(k) < left(i)) i = k;
+    }
+    const Use& d = use_.length[i];
+    const Exact& e = length_[i];
+    const bool is_upper = e.upper - e.greatest < e.least - e.lower;
+    const DisplayUnit& unit = units().length;
+    const Limits& limits = scene_.certificate.problem.robot.length_m[i];
+    return {"length", "Least length left", fmt::format("Cable {}: {}", i + 1, left(i)),
+            fmt::format("{} of {} {} {} · {}",
+                        with_unit(is_upper ? high(d, d.upper_limit, unit) : low(d, d.lower_limit, unit), unit),
+                        is_upper ? "at most" : "at least", unit.exact(is_upper ? limits.upper : limits.lower),
+                        unit.name(), at(is_upper ? d.greatest_at : d.least_at)),
+            worst(&Cables::length)};
+  }
 
-Nearness slack_nearness(const Use& use) { return nearness_to_slack(use.range, use.lower_limit, use.upper_limit); }
-Nearness top_nearness(const Use& use) { return nearness_to_top(use.range, use.upper_limit); }
-Nearness length_nearness(const Use& use) { return nearness_of_length(use.range, use.lower_limit, use.upper_limit); }
+ private:
+  [[nodiscard]] const DisplayUnits& units() const { return scene_.illustration.units; }
+  [[nodiscard]] const DisplayUnit& force() const { return units().force; }
+  [[nodiscard]] const Limits& limits(std::size_t i) const { return scene_.certificate.problem.robot.tension_N[i]; }
+  /// Whether all six cables have the same limit.
+  [[nodiscard]] bool has_one(DecimalText Limits::*limit) const {
+    const auto& all = scene_.certificate.problem.robot.tension_N;
+    return std::ranges::all_of(all, [&](const Limits& l) { return exact(l.*limit) == exact(all[0].*limit); });
+  }
+
+  /// The ends of a range, without their unit.
+  [[nodiscard]] std::string low(const Use& use, double limit, const DisplayUnit& unit) const {
+    return is_sampled_ ? sampled_text(use.range.lower, limit, unit) : down_text(use.range.lower, limit, unit);
+  }
+  [[nodiscard]] std::string high(const Use& use, double limit, const DisplayUnit& unit) const {
+    return is_sampled_ ? sampled_text(use.range.upper, limit, unit) : up_text(use.range.upper, limit, unit);
+  }
+  static std::string with_unit(const std::string& number, const DisplayUnit& unit) {
+    return fmt::format("{} {}", number, unit.name());
+  }
+
+  [[nodiscard]] std::string amount(const Rational& si, const char* plus, const DisplayUnit& unit) const {
+    const std::string text = signed_digits(si, plus, is_sampled_);
+    const std::size_t sign = text.find_first_of("0123456789");
+    return fmt::format("{}{} {}", text.substr(0, sign), unit.exact(text.substr(sign)), unit.name());
+  }
+
+  [[nodiscard]] std::string above_slack(std::size_t i) const {
+    const Exact& t = tension_[i];
+    const Rational above = t.least - t.lower;
+    if (!slack_in_percent_) return amount(above, "+", force());
+    return signed_digits(100 * above / t.lower, "+", is_sampled_) + " %";
+  }
+
+  [[nodiscard]] std::string of_top(std::size_t i) const {
+    const Exact& t = tension_[i];
+    if (!top_in_percent_) return amount(t.upper - t.greatest, "", force()) + " left";
+    const Rational percent = 100 * t.greatest / t.upper;
+    if (percent < 0) return "0 %";  // of a cable that only pushes
+    std::string text;
+    for (const int digits : {3, 4, 6, 9, 12, 15, 17}) {
+      text = digits_of(percent, digits, is_sampled_ ? Rounding::kToNearest : Rounding::kUp);
+      const Rational shown = exact(text);
+      if ((shown < 100) == (percent < 100) && (shown > 100) == (percent > 100)) break;
+    }
+    return text + " %";
+  }
+
+  [[nodiscard]] std::string left(std::size_t i) const { return amount(length_[i].left(), "", units().length); }
+
+  /// How near, with the limits as they are: these are rounded where colours are chosen.
+  static Nearness truly(bool is_kept, Nearness nearness) {
+    if (!is_kept) return Nearness::kOut;
+    return nearness == Nearness::kOut ? Nearness::kClose : nearness;
+  }
+  [[nodiscard]] Nearness slack(std::size_t i) const {
+    const Use& t = use_.tension[i];
+    return truly(tension_[i].is_above(), nearness_to_slack(t.range, t.lower_limit, t.upper_limit));
+  }
+  [[nodiscard]] Nearness top(std::size_t i) const {
+    const Use& t = use_.tension[i];
+    return truly(tension_[i].is_below(), nearness_to_top(t.range, t.upper_limit));
+  }
+  [[nodiscard]] Nearness length(std::size_t i) const {
+    const Use& d = use_.length[i];
+    return truly(length_[i].left() > 0, nearness_of_length(d.range, d.lower_limit, d.upper_limit));
+  }
+  /// Of the six cables: the one that is named has the least of what is printed, and another may be nearer by share.
+  [[nodiscard]] Nearness worst(Nearness (Cables::*of)(std::size_t) const) const {
+    Nearness result = Nearness::kCalm;
+    for (std::size_t i = 0; i < kCables; ++i) result = worse(result, (this->*of)(i));
+    return result;
+  }
+
+  /// The index of the cable with the least `rank` of its bound, and of those whose bounds are the same, of what is seen
+  /// at their places; among those that `is_meant`.
+  template <class Rank, class IsMeant>
+  static std::size_t least(const Rank& rank, const std::vector<Exact>& all, Rational Exact::*bound,
+                           Rational Exact::*seen, const IsMeant& is_meant) {
+    std::optional<std::size_t> best;
+    const auto both = [&](const Exact& e) { return std::pair(rank(e, e.*bound), rank(e, e.*seen)); };
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (is_meant(all[i]) && (!best || both(all[i]) < both(all[*best]))) best = i;
+    }
+    return best.value_or(0);
+  }
+
+  /// Where, and on what it rests.
+  [[nodiscard]] std::string at(double position) const {
+    const std::string place = place_text(scene_, position);
+    return use_.source == CableUse::Source::kProved ? place : place + "; sampled, not proved";
+  }
+
+  const ReportContext& scene_;
+  const CableUse& use_;
+  bool is_sampled_;
+  bool slack_in_percent_ = true;  ///< what is above the slack limits; else an amount, for all cables
+  bool top_in_percent_ = true;
+  std::vector<Exact> tension_, length_;
+};
 
 /// By which cables are put in order: how much of a limit is used, the more the worse. Beyond a limit it exceeds 1.
 double slack_use(const Use& use) {
   if (use.lower_limit > 0 && use.range.lower > 0) return use.lower_limit / use.range.lower;
   return 1 - (use.range.lower - use.lower_limit) / (use.upper_limit - use.lower_limit);
-}
-double length_use(const Use& use) { return 1 - length_left(use) / (use.upper_limit - use.lower_limit); }
-
-/// The index with the greatest of six.
-template <class F>
-std::size_t greatest(const F& of) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < kCables; ++i) {
-    if (of(i) > of(best)) best = i;
-  }
-  return best;
-}
-
-/// Where, and on what it rests.
-std::string at(const ReportContext& scene, const CableUse& use, double position) {
-  const std::string place = place_text(scene, position);
-  return use.source == CableUse::Source::kProved ? place : place + "; sampled, not proved";
-}
-
-/// "−18.8 N": a value beyond a limit, rounded towards it.
-std::string amount(double value, const DisplayUnit& unit) {
-  return fmt::format("{}{} {}", value < 0 ? "−" : "", unit.down(std::abs(value), 3), unit.name());
-}
-
-KeyNumber slack_number(const ReportContext& scene, const CableUse& use) {
-  const DisplayUnit& force = scene.illustration.units.force;
-  const std::size_t i = greatest([&](std::size_t k) { return slack_use(use.tension[k]); });
-  const Use& t = use.tension[i];
-  const bool is_kept = t.range.lower > t.lower_limit;
-  return {"slack", "Closest to going slack",
-          fmt::format("Cable {}: {}", i + 1, is_kept ? above_slack(t, force) : amount(t.range.lower, force)),
-          fmt::format("{}limit {} {} · {}",
-                      is_kept ? down_text(t.range.lower, t.lower_limit, force) + " " + force.name() + ", " : "slack ",
-                      force.exact(scene.certificate.problem.robot.tension_N[i].lower), force.name(),
-                      at(scene, use, t.least_at)),
-          slack_nearness(t)};
-}
-
-KeyNumber top_number(const ReportContext& scene, const CableUse& use) {
-  const DisplayUnit& force = scene.illustration.units.force;
-  const std::size_t i = greatest([&](std::size_t k) { return use.tension[k].used(); });
-  const Use& t = use.tension[i];
-  const bool is_kept = t.range.upper < t.upper_limit;
-  return {
-      "top", "Highest tension", fmt::format("Cable {}: {}", i + 1, is_kept ? of_top(t) : amount(t.range.upper, force)),
-      fmt::format("{}{} {} · {}",
-                  is_kept ? up_text(t.range.upper, t.upper_limit, force) + " " + force.name() + " of " : "top limit ",
-                  force.exact(scene.certificate.problem.robot.tension_N[i].upper), force.name(),
-                  at(scene, use, t.greatest_at)),
-      top_nearness(t)};
-}
-
-KeyNumber length_number(const ReportContext& scene, const CableUse& use) {
-  const DisplayUnit& length = scene.illustration.units.length;
-  const std::size_t i = greatest([&](std::size_t k) { return length_use(use.length[k]); });
-  const Use& d = use.length[i];
-  const Limits& limits = scene.certificate.problem.robot.length_m[i];
-  const bool is_upper = d.upper_limit - d.range.upper < d.range.lower - d.lower_limit;
-  const double left = length_left(d);
-  return {
-      "length", "Least length left",
-      fmt::format("Cable {}: {}{} {}", i + 1, left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
-      fmt::format(
-          "{} {} of {} {} {} · {}",
-          is_upper ? up_text(d.range.upper, d.upper_limit, length) : down_text(d.range.lower, d.lower_limit, length),
-          length.name(), is_upper ? "at most" : "at least", length.exact(is_upper ? limits.upper : limits.lower),
-          length.name(), at(scene, use, is_upper ? d.greatest_at : d.least_at)),
-      length_nearness(d)};
 }
 
 /// The same thresholds as of a tension: 4/3 and 20/19 are 75 % and 95 % used.
@@ -172,10 +308,9 @@ std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& u
   if (scene.verdict == "unchecked") return numbers;
   const bool is_proved = use.source == CableUse::Source::kProved && scene.verdict == "proved";
   if (is_proved || use.source == CableUse::Source::kSamples) {
-    for (const auto& make : {slack_number, top_number, length_number}) {
-      numbers.push_back(make(scene, use));
-      numbers.back().is_proved = is_proved;
-    }
+    const Cables cables(scene, use);
+    numbers = {cables.slack_number(), cables.top_number(), cables.length_number()};
+    for (KeyNumber& number : numbers) number.is_proved = is_proved;
   }
   if (is_proved) {
     numbers.push_back(growth_number(scene));
@@ -188,17 +323,8 @@ std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& u
 std::vector<CableLine> cable_lines(const ReportContext& scene, const CableUse& use) {
   std::vector<CableLine> lines;
   if (use.source == CableUse::Source::kNone) return lines;
-  const DisplayUnit& force = scene.illustration.units.force;
-  const DisplayUnit& length = scene.illustration.units.length;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const Use& t = use.tension[i];
-    const Use& d = use.length[i];
-    const double left = length_left(d);
-    lines.push_back({i, down_text(t.range.lower, t.lower_limit, force), up_text(t.range.upper, t.upper_limit, force),
-                     above_slack(t, force), of_top(t),
-                     fmt::format("{}{} {}", left > 0 ? "" : "−", length.down(std::abs(left), 3), length.name()),
-                     slack_nearness(t), top_nearness(t), length_nearness(d)});
-  }
+  const Cables cables(scene, use);
+  for (std::size_t i = 0; i < kCables; ++i) lines.push_back(cables.line(i));
   const auto badness = [&](const CableLine& line) {
     const Use& t = use.tension[line.cable];
     return std::pair(worse(worse(line.slack, line.top), line.length), std::max(slack_use(t), t.used()));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/summary/summary.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
@@ -30,12 +31,12 @@ std::string joined(const std::string& a, const std::string& b) { return a + (a.e
 std::string greatest_tension(const ReportContext& scene, const Summary& s) {
   if (s.use.source != CableUse::Source::kProved || scene.verdict != "proved") return "";
   const DisplayUnit& force = s.units.force;
-  double greatest = 0;
-  for (const Use& use : s.use.tension) greatest = std::max(greatest, use.range.upper);
+  const auto upper = [](const Use& use) { return use.range.upper; };
+  const Use& greatest = *std::ranges::max_element(s.use.tension, {}, upper);
   return fmt::format(
       "In the model, under the stated loads, no cable's tension exceeds {} {}; this program proved it, taut-check did "
       "not confirm this number.",
-      force.up(greatest, 3), force.name());
+      up_text(greatest.range.upper, greatest.upper_limit, force), force.name());
 }
 
 std::string numbers_of(const Summary& s, const char* key) {

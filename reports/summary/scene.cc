@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "certificate/certificate_reader.h"
+#include "certify/severity.h"
 #include "problem/decimal.h"
 
 namespace taut {
@@ -118,6 +119,21 @@ Illustration illustration_of(const Certificate& certificate, Recheck::Result res
   return illustration;
 }
 
+std::optional<Witness> gravest_of(const Certificate& certificate) {
+  if (is_implied(certificate) || !certificate.witness) return certificate.witness;
+  const Witness* gravest = &*certificate.witness;
+  const auto consider = [&](const Witness& witness) {
+    const RobotText& robot = certificate.problem.robot;
+    if (severity(witness.violation, robot) > severity(gravest->violation, robot)) gravest = &witness;
+  };
+  for (const Stretch& stretch : certificate.stretches) {
+    if (!stretch.violations) continue;
+    consider(stretch.violations->first);
+    consider(stretch.violations->second);
+  }
+  return *gravest;
+}
+
 }  // namespace
 
 ReportContext::ReportContext(const checker::CheckResult& checked)
@@ -136,10 +152,16 @@ ReportContext::ReportContext(Certificate stated, Recheck checked)
       ranges(tightened(ranges_of(certificate, boxes), certificate)) {
   ranges_are_whole = !certificate.segments.empty() && certificate.segments.size() == certificate.path.segments() &&
                      ranges.missing == 0 && std::ranges::all_of(boxes, is_covered);
+  gravest = gravest_of(certificate);
 }
 
 bool found_no_path(const Certificate& certificate) {
   return certificate.undecided && !certificate.undecided->segment && certificate.stretches.empty();
+}
+
+bool is_implied(const Certificate& certificate) {
+  return certificate.path.interpolation == Interpolation::kCableLengths ||
+         !certificate.problem.space.constraints.empty();
 }
 
 double position(const PathPoint& point) { return point.index + (point.on_segment ? point.s.approx() : 0.0); }

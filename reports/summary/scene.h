@@ -2,6 +2,7 @@
 // Everything that a report is made from: the certificate, and floating-point samples of its path.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,16 @@ struct ReportContext {
   PathRanges ranges;
   /// Whether they are those of the whole path: the boxes leave no gaps, and all of them were enclosed.
   bool ranges_are_whole = false;
+  /// Of a refuted move: the gravest violation that the checker confirmed of it, whichever the certificate names first.
+  /// Where poses are implied it is the certificate's own witness, as the move is proved to lead to that one only.
+  std::optional<Witness> gravest;
 };
 
 /// Whether a planner found no path: then the certificate's path is the query's waypoints alone.
 [[nodiscard]] bool found_no_path(const Certificate& certificate);
+/// Whether poses are implied, by constraints or lengths of cables. What is proved behind the certificate's witness is
+/// then about the only pose in each tube that the certificate states, and not that the move leads there (theory.md, 8).
+[[nodiscard]] bool is_implied(const Certificate& certificate);
 /// A point of the path as a number that counts segments: k + s is the point s of segment k.
 [[nodiscard]] double position(const PathPoint& point);
 

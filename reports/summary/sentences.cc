@@ -36,26 +36,14 @@ std::string listed(const std::vector<std::string>& items) {
 bool is_length(const PathWitness& witness) { return is_length(witness.margin); }
 bool is_upper(const PathWitness& witness) { return is_upper(witness.margin); }
 
+/// What a witness proves: the end of its value that is next to the limit.
+const DecimalText& proved_value(const PathWitness& witness) {
+  return is_upper(witness) ? witness.value_lower : witness.value_upper;
+}
+
 /// A tension or a length as it is printed, exactly, with its unit.
 std::string quantity(const DecimalText& value, bool length, const DisplayUnits& units) {
   return fmt::format("{} {}", units.of(length).exact(value), units.of(length).name());
-}
-
-/// A number of a witness, rounded to as few digits as show it beyond the limit, in the direction that keeps the
-/// sentence true.
-std::string shortened(const PathWitness& witness, const DecimalText& value, bool up, const DisplayUnits& units) {
-  const double x = number(value);
-  for (const int digits : {3, 4, 6, 9, 12, 15}) {
-    const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
-    const Decimal rounded = Decimal::parse(text);
-    // `x` was rounded to nearest: a last check.
-    const bool is_true = up ? rounded >= Decimal::parse(value) : rounded <= Decimal::parse(value);
-    const Decimal limit = Decimal::parse(witness.limit);
-    if (is_true && (up ? rounded < limit : rounded > limit)) {
-      return quantity(text, is_length(witness), units);
-    }
-  }
-  return quantity(value, is_length(witness), units);
 }
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -68,32 +56,24 @@ double below(const Rational& x) {
 
 /// By how much a witness breaks its limit, at least.
 double violation(const PathWitness& witness) {
-  const auto value = Decimal::parse(is_upper(witness) ? witness.value_lower : witness.value_upper).rational();
+  const auto value = Decimal::parse(proved_value(witness)).rational();
   const auto limit = Decimal::parse(witness.limit).rational();
   return below(is_upper(witness) ? Rational(value - limit) : Rational(limit - value));
 }
 
-/// Whether a tension is so far beyond the limits that the pose is singular but for rounding.
-bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
-  if (witness.singular || is_length(witness)) return false;
-  const DecimalText& value = is_upper(witness) ? witness.value_lower : witness.value_upper;
-  double greatest = 0;
-  for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, number(limits.upper));
-  return std::abs(number(value)) > kSingularTension * greatest;
-}
-
 // ---- Details of a verdict.
 
-/// "3 stretches of the path are violated, …"
+/// "3 stretches of the path have proved violations; …"
 std::string stretches_text(const Certificate& certificate) {
   const auto violated = static_cast<std::size_t>(std::ranges::count_if(
       certificate.stretches, [](const Stretch& stretch) { return stretch.violations.has_value(); }));
   const std::size_t open = certificate.stretches.size() - violated;
+  const bool has_boxes = count_boxes(certificate) > 0;
   std::string text = fmt::format("In all, {} of the path {} proved violations", plural(violated, "stretch"),
                                  violated == 1 ? "has" : "have");
   if (open > 0) text += fmt::format(", and {} could not be decided", plural(open, "stretch"));
-  return text +
-         (count_boxes(certificate) > 0 ? "; outside of these the path is proved." : "; no part of it is proved.");
+  if (is_implied(certificate)) return text + ". " + implied_scope(has_boxes);
+  return text + (has_boxes ? "; outside of these the path is proved." : "; no part of it is proved.");
 }
 
 /// The worst violation among the samples: the proved one is where the violation begins, and slight there. Nothing for
@@ -102,7 +82,7 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   if (certificate.path.segments() == 0 || found_no_path(certificate) ||
       certificate.path.interpolation == Interpolation::kCableLengths ||
-      (certificate.witness && certificate.witness->violation.singular)) {
+      (scene.gravest && scene.gravest->violation.singular)) {
     return {};
   }
   const std::vector<double> changes = sign_changes(scene.samples);
@@ -124,13 +104,10 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
   const Limits& limits =
       (worst->is_length ? certificate.problem.robot.length_m : certificate.problem.robot.tension_N)[i];
   const DisplayUnits& units = scene.illustration.units;
-  const std::string limit = quantity(worst->is_upper ? limits.upper : limits.lower, worst->is_length, units);
-  const auto rounded = [&](int digits) {
-    const DisplayUnit& unit = units.of(worst->is_length);
-    return fmt::format("{:.{}g} {}", unit.approx(worst->value), digits, unit.name());
-  };
-  std::string value = rounded(4);
-  for (int digits = 6; value == limit && digits <= 15; digits += 3) value = rounded(digits);
+  const DecimalText& broken = worst->is_upper ? limits.upper : limits.lower;
+  const std::string limit = quantity(broken, worst->is_length, units);
+  const DisplayUnit& unit = units.of(worst->is_length);
+  const std::string value = fmt::format("{} {}", sampled_text(worst->value, number(broken), unit), unit.name());
   return {
       fmt::format("Of samples of the stated machine, in floating point, the worst is {}: there the {} of cable {} {} "
                   "{}{}. Its {} limit is {}.",
@@ -165,7 +142,7 @@ std::string limit_details(const ReportContext& scene, const PathWitness& witness
   const double beyond = violation(witness);
   const double limit = number(witness.limit);
   const DisplayUnit& unit = scene.illustration.units.of(is_length(witness));
-  std::string by = "It is exactly at the limit, which is itself excluded.";
+  std::string by = "It is at the limit or beyond it, and the limit itself is excluded.";
   if (is_all_but_singular(witness, scene.certificate.problem.robot)) {
     by = "Next to a singular pose tensions grow without bound.";
   } else if (beyond > 0) {
@@ -185,17 +162,26 @@ std::string limit_details(const ReportContext& scene, const PathWitness& witness
                      pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose), machine);
 }
 
+/// What a violation at the only pose of a certificate means. The checker compares that pose with the waypoints of the
+/// certificate's query; an audit has none. On constraints, other paths may pass next to a waypoint at other poses.
+std::string only_pose_text(const Certificate& certificate) {
+  if (certificate.problem.query.empty()) return "The certificate is about this pose alone.";
+  if (is_implied(certificate)) return "The pose is the one next to a waypoint of the query, on the constraints.";
+  return fmt::format("Every path of the query passes this pose, so that none is feasible{}.",
+                     certificate.problem.tolerances ? " for all machines within the tolerances" : "");
+}
+
 std::vector<std::string> refuted_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
-  const PathWitness& witness = certificate.witness->violation;
+  const PathWitness& witness = scene.gravest->violation;
   std::vector<std::string> result = {witness.singular ? singular_details(scene, witness)
                                                       : limit_details(scene, witness)};
-  if (!witness.singular && certificate.witness->loads) {
+  if (!witness.singular && scene.gravest->loads) {
     result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
-                                 witness_load_text(certificate.problem.load, to_json(*certificate.witness->loads))));
+                                 witness_load_text(certificate.problem.load, to_json(*scene.gravest->loads))));
   }
   if (certificate.path.segments() == 0) {
-    result.emplace_back("Every path of the query passes this pose, so that none is feasible.");
+    result.push_back(only_pose_text(certificate));
   } else if (!certificate.stretches.empty()) {
     result.push_back(stretches_text(certificate));
   } else {
@@ -213,7 +199,7 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
 std::vector<std::string> undecided_details(const ReportContext& scene) {
   const OpenPart& open = *scene.certificate.undecided;
   std::vector<std::string> result = {"This does not mean that the move is unsafe, nor is it evidence that it is safe.",
-                                     fmt::format("What is open: {}.", with_code(open.reason))};
+                                     fmt::format("What is open: {}.", open.reason)};
   if (open.segment) {
     const double from = *open.segment + (open.box ? open.box->first.approx() : 0.0);
     const std::string box =
@@ -254,17 +240,27 @@ std::string motion_text(const ReportContext& scene) {
                      move_text(scene), pose(0), pose(segments));
 }
 
-/// "above 0.05 N and below 0.5 N", for all six cables or as the table of the robot has them.
-std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
-  const auto text = [&](const std::array<Limits, kCables>& limits, bool length) -> std::string {
-    if (!std::ranges::all_of(limits, [&](const Limits& l) { return l == limits[0]; })) {
-      return "between the limits of each cable, in the table below";
+/// "above 0.05 N and below 0.5 N", for all six cables; or of each: "above … (cables 1, 2 and 5), above … (cable 3)".
+std::string range_text(const std::array<Limits, kCables>& limits, bool length, const DisplayUnits& units) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto first = std::ranges::find(limits, limits[i]);
+    if (first - limits.begin() != static_cast<std::ptrdiff_t>(i)) continue;  // it was said of an earlier cable
+    std::vector<std::string> cables;
+    for (std::size_t k = i; k < kCables; ++k) {
+      if (limits[k] == limits[i]) cables.push_back(std::to_string(k + 1));
     }
-    return fmt::format("above {} and below {}", quantity(limits[0].lower, length, units),
-                       quantity(limits[0].upper, length, units));
-  };
-  return fmt::format("Every tension {}; every cable length {}.", text(robot.tension_N, false),
-                     text(robot.length_m, true));
+    const std::string range = fmt::format("above {} and below {}", quantity(limits[i].lower, length, units),
+                                          quantity(limits[i].upper, length, units));
+    if (cables.size() == kCables) return range;
+    parts.push_back(fmt::format("{} ({} {})", range, cables.size() == 1 ? "cable" : "cables", listed(cables)));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
+  return fmt::format("Every tension {}; every cable length {}.", range_text(robot.tension_N, false, units),
+                     range_text(robot.length_m, true, units));
 }
 
 std::string largest(const std::array<DecimalText, kCables>& metres, const DisplayUnits& units) {
@@ -372,7 +368,7 @@ std::string headline(const ReportContext& scene) {
   if (scene.verdict == "undecided") {
     return "Undecided: this move was neither proved nor refuted, so nothing is claimed about it.";
   }
-  const PathWitness& witness = certificate.witness->violation;
+  const PathWitness& witness = scene.gravest->violation;
   const bool by_load = !witness.singular && !is_length(witness);
   return fmt::format("Refuted: on this move {}{}.",
                      violation_text(witness, certificate.problem.robot, scene.illustration.units),
@@ -393,11 +389,40 @@ std::string violation_text(const PathWitness& witness, const RobotText& robot, c
         deviating, witness.margin.cable + 1, upper ? "more than" : "below minus", "a million");
     static_assert(kSingularTension == 1e6);
   }
-  const DecimalText& value = upper ? witness.value_lower : witness.value_upper;
   return fmt::format("{} of cable {}{} {} {}, {} its {} limit of {}", length ? "the length" : "the tension",
                      witness.margin.cable + 1, deviating, upper ? "reaches at least" : "falls to at most",
-                     shortened(witness, value, !upper, units), upper ? "not below" : "not above",
-                     upper ? "upper" : "lower", quantity(witness.limit, length, units));
+                     value_text(witness, units), upper ? "not below" : "not above", upper ? "upper" : "lower",
+                     quantity(witness.limit, length, units));
+}
+
+std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
+  const bool up = !is_upper(witness);
+  const DecimalText& value = proved_value(witness);
+  const double x = number(value);
+  const Decimal limit = Decimal::parse(witness.limit);
+  for (const int digits : {3, 4, 6, 9, 12, 15}) {
+    const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
+    const Decimal rounded = Decimal::parse(text);
+    // `x` was rounded to nearest: a last check.
+    const bool is_true = up ? rounded >= Decimal::parse(value) : rounded <= Decimal::parse(value);
+    if (is_true && (up ? rounded < limit : rounded > limit)) return quantity(text, is_length(witness), units);
+  }
+  return quantity(value, is_length(witness), units);
+}
+
+bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
+  if (witness.singular || is_length(witness)) return false;
+  double greatest = 0;
+  for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, number(limits.upper));
+  return std::abs(number(proved_value(witness))) > kSingularTension * greatest;
+}
+
+std::string implied_scope(bool has_boxes) {
+  return fmt::format(
+      "As poses are implied here, this is about the only pose in each tube that the certificate states{}. It is proved "
+      "that the move passes these poses up to the certificate's own witness, the violation that is named first; behind "
+      "it, that is open.",
+      has_boxes ? "; outside of these stretches, limits are proved to be kept at those poses" : "");
 }
 
 std::vector<std::string> verdict_details(const ReportContext& scene) {
@@ -416,11 +441,17 @@ namespace {
 std::string proof_text(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   if (scene.verdict == "unchecked") return "None that was checked.";
-  if (scene.verdict == "undecided") return "None: nothing is claimed.";
+  if (scene.verdict == "undecided") {
+    const auto reason = certificate.undecided ? undecided_reason(certificate.undecided->reason) : std::nullopt;
+    return "None: nothing is claimed." +
+           (reason ? fmt::format(" The reason has the code {}, which taut explain {} and docs/errors.md explain.",
+                                 code(*reason), code(*reason))
+                   : "");
+  }
   const std::size_t boxes = count_boxes(certificate);
   std::string witness;
-  if (certificate.witness) {
-    const PathWitness& violation = certificate.witness->violation;
+  if (scene.gravest) {
+    const PathWitness& violation = scene.gravest->violation;
     witness = "at the witness, " + point_text(certificate, violation.at);
     if (violation.singular) witness += " to " + point_text(certificate, violation.to);
   }
@@ -444,11 +475,13 @@ std::vector<Statement> statements(const ReportContext& scene) {
           {"recheck", "Re-check", recheck_text(scene.recheck)}};
 }
 
-std::string use_caption(CableUse::Source source) {
+std::string use_caption(const ReportContext& scene, CableUse::Source source) {
   switch (source) {
     case CableUse::Source::kNone: break;
     case CableUse::Source::kSamples: return "Cables over the move, in floating-point samples: not proved";
-    case CableUse::Source::kProvedParts: return "Cables over those parts of the move that are proved";
+    case CableUse::Source::kProvedParts:
+      if (is_implied(scene.certificate)) return "Cables at those poses of the stated tubes at which limits are proved";
+      return "Cables over those parts of the move that are proved";
     case CableUse::Source::kProved:
       return "Cables over the whole move, proved: no load of the set asks for more, or less";
   }

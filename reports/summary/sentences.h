@@ -24,6 +24,17 @@ namespace taut {
 /// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding.
 [[nodiscard]] std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units);
 
+/// "0.0499 N": the value of a witness that is next to its limit, in as few digits as show it beyond the limit, rounded
+/// towards the limit. @pre not singular
+[[nodiscard]] std::string value_text(const PathWitness& witness, const DisplayUnits& units);
+
+/// Whether a tension is so far beyond the limits that the pose is singular but for rounding.
+[[nodiscard]] bool is_all_but_singular(const PathWitness& witness, const RobotText& robot);
+
+/// What the stretches of a refuted audit say where poses are implied (theory.md, 8): which poses they are about, and
+/// how far the move is proved to pass these. @param has_boxes  whether anything is proved outside of them
+[[nodiscard]] std::string implied_scope(bool has_boxes);
+
 /// The details of the verdict: for a refuted path by how much, where and at which pose; for an undecided one the
 /// reason, where, and what would settle it; none for a proved one.
 [[nodiscard]] std::vector<std::string> verdict_details(const ReportContext& scene);
@@ -47,7 +58,7 @@ struct Statement {
 [[nodiscard]] std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m,
                                        const DecimalText& wrench_scale, const DisplayUnits& units);
 
-/// "Utilisation of the cables, proved …": what the table of cables shows.
-[[nodiscard]] std::string use_caption(CableUse::Source source);
+/// "Cables over the whole move, proved …": what the table of cables shows.
+[[nodiscard]] std::string use_caption(const ReportContext& scene, CableUse::Source source);
 
 }  // namespace taut

@@ -121,6 +121,7 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
   }
   key_numbers = taut::key_numbers(scene, use);
   cables = cable_lines(scene, use);
+  use_caption = taut::use_caption(scene, use.source);
   if (title.empty()) title = title_from_name(name);
   assurance_case = taut::assurance_case(scene, title);
   if (scene.illustration.headroom)
@@ -171,7 +172,7 @@ std::string to_text(const Summary& s) {
   for (const std::string& sentence : s.details) line(sentence);
   for (const std::string& sentence : s.headroom) line(sentence);
   if (const std::vector<Row> rows = cable_rows(s.cables); !rows.empty()) {
-    line(use_caption(s.use.source) + ":");
+    line(s.use_caption + ":");
     const auto row = [&](const Row& c) {
       line(fmt::format("  {:>5} {:>18} {:>10} {:>12} {:>12} {:>12}", c[0], c[1], c[2], c[3], c[4], c[5]));
     };
@@ -201,7 +202,7 @@ std::string to_markdown(const Summary& s) {
   for (const std::string& sentence : s.headroom) text += fmt::format("- {}\n", markdown(sentence));
   if (!s.headroom.empty()) text += "\n";
   if (const std::vector<Row> rows = cable_rows(s.cables); !rows.empty()) {
-    text += markdown(use_caption(s.use.source)) + ":\n\n|";
+    text += markdown(s.use_caption) + ":\n\n|";
     for (const std::string& cell : cable_heads(s.units)) text += fmt::format(" {} |", markdown(cell));
     text += "\n|" + std::string("---:|---:|---:|---:|---:|---:|") + "\n";
     for (const Row& cells : rows) {

@@ -38,7 +38,8 @@ struct Summary {
   std::vector<Statement> statements;
   LoadStatement load;
   CableUse use;
-  DisplayUnits units;  ///< of text for people; JSON is in SI
+  std::string use_caption;  ///< what the table of cables shows
+  DisplayUnits units;       ///< of text for people; JSON is in SI
   Recheck recheck;
   std::string problem_sha256, path_sha256, footer_sha256;
 };

@@ -40,6 +40,7 @@ std::string millimetres(const DecimalText& metres) { return (Decimal::parse(metr
 
 std::string rounded_down(double x, int digits) { return rounded(x, digits, MPFR_RNDD); }
 std::string rounded_up(double x, int digits) { return rounded(x, digits, MPFR_RNDU); }
+std::string rounded_to_nearest(double x, int digits) { return rounded(x, digits, MPFR_RNDN); }
 
 double number_in(const std::string& text) {
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -51,9 +52,11 @@ namespace {
 
 /// @param text  of the value with so many digits, in the unit
 template <class Text>
-std::string told_apart(double value, double limit, double shown_limit, const Text& text) {
+std::string told_apart(double value, double limit, const DisplayUnit& unit, const Text& text) {
+  constexpr int kTyped = 15;  // decimals of so many digits are told from each other by binary64
+  const double shown_limit = number_in(unit.nearest(limit, kTyped));
   std::string result;
-  for (const int digits : {3, 4, 6, 9, 12, 15}) {
+  for (const int digits : {3, 4, 6, 9, 12, 15, 17}) {
     result = text(value, digits);
     const double shown = number_in(result);
     if ((shown < shown_limit) == (value < limit) && (shown > shown_limit) == (value > limit)) break;
@@ -64,11 +67,16 @@ std::string told_apart(double value, double limit, double shown_limit, const Tex
 }  // namespace
 
 std::string up_text(double si, double limit_si, const DisplayUnit& unit) {
-  return told_apart(si, limit_si, unit.approx(limit_si), [&](double x, int digits) { return unit.up(x, digits); });
+  return told_apart(si, limit_si, unit, [&](double x, int digits) { return unit.up(x, digits); });
 }
 
 std::string down_text(double si, double limit_si, const DisplayUnit& unit) {
-  return told_apart(si, limit_si, unit.approx(limit_si), [&](double x, int digits) { return unit.down(x, digits); });
+  return told_apart(si, limit_si, unit, [&](double x, int digits) { return unit.down(x, digits); });
+}
+
+std::string sampled_text(double si, double limit_si, const DisplayUnit& unit) {
+  std::string text = told_apart(si, limit_si, unit, [&](double x, int digits) { return unit.nearest(x, digits); });
+  return text.starts_with('-') ? text.replace(0, 1, "−") : text;
 }
 
 std::string with_minus_signs(std::string_view text) {
@@ -219,22 +227,54 @@ std::string distance_text(double metres) {
   return metres < kShort ? fmt::format("{:.3g} mm", std::round(metres * 1e6) / 1000) : fmt::format("{:.4g} m", metres);
 }
 
-std::string place_text(const ReportContext& scene, double position) {
+namespace {
+
+constexpr const char* kOnlyPose = "at the only pose of the path";
+
+/// "4.2 m into the move", "after 41° of turning"; empty of a platform that stays where it is.
+std::string travel_text(const ReportContext& scene, double position) {
   constexpr double kStill = 1e-9;  // [m], [rad]: less is rounding
   const auto segments = static_cast<double>(scene.certificate.path.segments());
-  if (segments == 0) return "at the only pose of the path";
-  const double way = scene.travel.distance_m(segments);
-  const double turn = scene.travel.turned_rad(segments);
-  const auto segment = static_cast<std::size_t>(std::clamp(position, 0.0, segments - 1));
-  std::string in = fmt::format("segment {}", segment);
-  if (const auto time = scene.travel.time_s(position)) in += fmt::format(", t = {:.6g} s", *time);
-  if (position <= 0) return fmt::format("at the start of the move ({})", in);
-  if (position >= segments) return fmt::format("at the end of the move ({})", in);
-  if (way > kStill) return fmt::format("{} into the move ({})", distance_text(scene.travel.distance_m(position)), in);
-  if (turn > kStill) {
-    return fmt::format("after {:.3g}° of turning ({})", scene.travel.turned_rad(position) * kDegrees, in);
+  if (position <= 0) return "at the start of the move";
+  if (position >= segments) return "at the end of the move";
+  if (scene.travel.distance_m(segments) > kStill) {
+    return fmt::format("{} into the move", distance_text(scene.travel.distance_m(position)));
   }
-  return fmt::format("in {}", in);
+  if (!(scene.travel.turned_rad(segments) > kStill)) return "";
+  return fmt::format("after {:.3g}° of turning", scene.travel.turned_rad(position) * kDegrees);
+}
+
+/// ", t = 3 s", if the path has times.
+std::string time_text(const ReportContext& scene, double position) {
+  const auto time = scene.travel.time_s(position);
+  return time ? fmt::format(", t = {:.6g} s", *time) : "";
+}
+
+/// The segment that a position is on, the one before it at the end of the path.
+double segment_of(const ReportContext& scene, double position) {
+  const auto segments = static_cast<double>(scene.certificate.path.segments());
+  return std::floor(std::clamp(position, 0.0, segments - 1));
+}
+
+}  // namespace
+
+std::string place_text(const ReportContext& scene, double position) {
+  if (scene.certificate.path.segments() == 0) return kOnlyPose;
+  const std::string in = fmt::format("segment {}{}", segment_of(scene, position), time_text(scene, position));
+  const std::string travel = travel_text(scene, position);
+  return travel.empty() ? "in " + in : fmt::format("{} ({})", travel, in);
+}
+
+std::string place_in_full(const ReportContext& scene, double from, double to) {
+  if (scene.certificate.path.segments() == 0) return kOnlyPose;
+  const auto point = [&](double position) {
+    const double segment = segment_of(scene, position);
+    return fmt::format("segment {} at s = {:.6g}", segment, position - segment);
+  };
+  std::string text = point(from);
+  if (point(to) != text) text = fmt::format("between {} and {}", text, point(to));
+  const std::string travel = travel_text(scene, from);
+  return fmt::format("{}{}{}{}", text, travel.empty() ? "" : ", ", travel, time_text(scene, from));
 }
 
 }  // namespace taut

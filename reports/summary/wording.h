@@ -20,6 +20,8 @@ namespace taut {
 /// `digits` significant digits, rounded towards −∞ or +∞, without an exponent if it is readable without.
 [[nodiscard]] std::string rounded_down(double x, int digits = 4);
 [[nodiscard]] std::string rounded_up(double x, int digits = 4);
+/// The same rounded to nearest: for samples, which are no bounds.
+[[nodiscard]] std::string rounded_to_nearest(double x, int digits = 4);
 /// The number that a text of these begins with; not a number if it is none.
 [[nodiscard]] double number_in(const std::string& text);
 /// An SI value in a unit, without its name, in the fewest digits (at least three) that keep it on its side of a limit:
@@ -27,6 +29,8 @@ namespace taut {
 [[nodiscard]] std::string up_text(double si, double limit_si, const DisplayUnit& unit);
 /// The same rounded down, for what stays above a lower limit or is proved at least that.
 [[nodiscard]] std::string down_text(double si, double limit_si, const DisplayUnit& unit);
+/// The same rounded to nearest, for samples: wherever one is shown, so that no two places differ.
+[[nodiscard]] std::string sampled_text(double si, double limit_si, const DisplayUnit& unit);
 /// The text with a minus sign for each hyphen that begins a number: "(-1, 2)" becomes "(−1, 2)". Not for numbers that
 /// are to be copied, nor for commands.
 [[nodiscard]] std::string with_minus_signs(std::string_view text);
@@ -66,5 +70,8 @@ namespace taut {
 /// the path has times.
 /// `position` counts segments: k + s is the point s of segment k.
 [[nodiscard]] std::string place_text(const ReportContext& scene, double position);
+/// "segment 17 at s = 0.525, 4.2 m into the move, t = 3 s"; of two places that differ in six digits, "between segment 2
+/// at s = 0.5 and segment 2 at s = 0.625, …", with the travel to the first.
+[[nodiscard]] std::string place_in_full(const ReportContext& scene, double from, double to);
 
 }  // namespace taut

@@ -8,7 +8,7 @@
 namespace taut {
 
 std::optional<double> worst_place(const ReportContext& scene, const CableUse& use) {
-  if (const auto& witness = scene.certificate.witness) return position(witness->violation.at);
+  if (const auto& witness = scene.gravest) return position(witness->violation.at);
   if (use.source == CableUse::Source::kNone) return std::nullopt;
   std::optional<std::tuple<Nearness, int, double>> worst;  // the kind of limit, and what is left, negated, of its width
   double place = 0;

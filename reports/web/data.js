@@ -22,7 +22,8 @@
 //               and elevation; ground (its height along up), step, columns and rows of its grid; load (its words);
 //               or null if the machine can't be drawn
 //   tube_m      how far the platform's origin may be from the path; or null
-//   tolerances  name, unit, stated, proved (how far this one alone may grow)
+//   reached     where poses are implied: up to which position the move is proved to pass what is proved; else null
+//   tolerances  what, words, used: the stated one in percent of what it alone could be
 //   cables      of the whole path, or null: is_proved (else sampled), tension and length: ranges (six pairs), nearness
 //               (six words, as nearness.h has them), order (the cables' indices, the nearest to its limits first)
 //   plane       of two parameters, or null: axes (name, unit, factor to it), grid and detail (or null) with window,
@@ -85,13 +86,14 @@ export function between(list, [k, t]) {
   return t === 0 ? a : a + t * ((list[k + 1] ?? NaN) - a);
 }
 
-/// The state at a position: "proved", "open", "violated", or "unknown" if nothing is claimed.
+/// The state at a position: "proved", "open", "violated", or "unknown" if nothing is claimed of the move there.
 export function status(data, position) {
   if (data.verdict === "unchecked") return "unknown";
   for (const { from, to, violated } of data.stretches) {
     if (position >= from && position <= to) return violated ? "violated" : "open";
   }
   if (data.verdict === "proved") return "proved";
+  if (data.reached !== null && position > data.reached) return "unknown";
   const bands = data.bands;
   if (!bands || bands.from.length === 0) return "unknown";
   const [k] = locate(bands.from, position);

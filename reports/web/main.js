@@ -26,8 +26,11 @@ root.classList.add("scripted");
 watchScrolling();
 closeMenuAfterUse(document.querySelector(".bar details"));
 
+/// A stretch is violated at its first and its last named pose; nothing is claimed of those between.
+const VIOLATED = data.reached === null ? "proved violations, open between them"
+  : "violations, proved of poses in the stated tubes, open between them";
 const marked = [
-  ...(data.stretches.some((s) => s.violated) ? [["fill violated-stretch", "violations are proved"]] : []),
+  ...(data.stretches.some((s) => s.violated) ? [["fill violated-stretch", VIOLATED]] : []),
   ...(data.stretches.some((s) => !s.violated) ? [["fill open-stretch", "left open"]] : []),
   ...(data.witness ? [["mark", data.witness.to === null ? "the witness" : "the two poses of the witness"]] : []),
 ];
@@ -44,7 +47,8 @@ const PATH_KEYS = {
   proved: [["proved-line", "path of the platform’s origin, proved"]],
   refuted: [
     ["proved-line", "path of the platform’s origin, where it is proved"],
-    ["unknown-line", "where nothing is said of it"],
+    ["unknown-line", data.reached === null ? "where nothing is said of it"
+      : "where it is not proved that the move goes there"],
   ],
   undecided: [["unknown-line", "path of the platform’s origin"]],
   unchecked: [["unknown-line", "path of the platform’s origin"]],
@@ -167,7 +171,7 @@ function explainPicture(holder) {
   const cables = [["calm-cable", "cable, calm"], ["near-cable", "from 75 % of a limit"],
     ["close-cable", "from 95 %"], ["out-cable", "out of its limits (!)"]];
   const path = [...PATH_KEYS[data.verdict],
-    ...(data.stretches.some((s) => s.violated) ? [["violated", "violated"]] : []),
+    ...(data.stretches.some((s) => s.violated) ? [["violated", VIOLATED]] : []),
     ...(data.stretches.some((s) => !s.violated) ? [["opening", "left open"]] : []),
     ["load-line", "path of the load point"],
     ...(data.tube_m !== null && !viewer.tubeIsThin ? [["fill tube", "where the origin may be"]] : []),

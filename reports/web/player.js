@@ -6,9 +6,11 @@ import { decimalsFor, degrees, element, fixed, text } from "./words.js";
 const STATUS = {
   proved: "proved here",
   open: "left open here",
-  violated: "a violation is proved in this stretch",
+  violated: "violations are proved at both ends of this stretch, between them it is open",
   unknown: "",
 };
+
+const IMPLIED_VIOLATION = "violations are proved of poses in the tubes of this stretch";
 
 /// The clock of playing: seconds if the path has times, else how far the robot moves and turns, so that it neither
 /// races nor stands still.
@@ -65,7 +67,8 @@ class Readout {
     const where = locate(samples.position, position);
     const segment = Math.min(Math.floor(position), Math.max(segments - 1, 0));
     const says = axes.filter((axis) => axis.name !== "segment").map((axis) => axis.says(position));
-    const state = STATUS[status(this.data, position)];
+    const kind = status(this.data, position);
+    const state = kind === "violated" && this.data.reached !== null ? IMPLIED_VIOLATION : STATUS[kind];
     const at = `Segment ${segment}, s = ${fixed(position - segment, 3)}`;
     this.where.textContent = [at, ...says, state].filter(Boolean).join(" · ");
     const places = decimalsFor(1e-2 * lengthUnit.factor);

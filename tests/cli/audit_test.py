@@ -194,6 +194,28 @@ class Audit(Audits):
         self.assertEqual(again["verdict"], "proved")
         self.assertEqual(self.certificate("again")["path"], certificate["path"])
 
+    def test_where_poses_are_implied_it_is_said_which_of_them_is_meant(self):
+        case = text_of(os.path.join(AUDITS, "robot1-cable-lengths.yaml")).replace("tension: [0.05, 0.5]",
+                                                                                  "tension: [0.05, 0.39]")
+        path = os.path.join(AUDITS, "robot1-cable-lengths.csv")
+        done = run(TAUT, "audit", self.write("case.yaml", case), path, "--out", self.path("out"), "--headroom", "0")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        said = " ".join(done.stdout.split())
+        scope = ("this is about the only pose in each tube that the certificate states; outside of these stretches, "
+                 "limits are proved to be kept at those poses. It is proved that the move passes these poses up to the "
+                 "certificate's own witness")
+        self.assertIn("2 stretches of the path have proved violations. As poses are implied here, " + scope, said)
+        self.assertIn("Proved of the move: segment 1 at s = ", said)
+        self.assertNotIn("all the rest is proved", said)
+        checked = run(CHECK, self.path("out", "certificate.json"), self.path("case.yaml"))
+        self.assertIn("no violation outside of them at the poses in the stated tubes, which the motion is shown to "
+                      "pass up to the witness", checked.stdout)
+        self.assertNotIn("nothing outside of them", checked.stdout)
+        page = text_of(self.path("out", "report.html"))
+        self.assertIn(scope.replace("'", "&#39;"), page)
+        self.assertNotIn("the path is proved", page)
+        self.assertIn("proved of the pose in its tube, not that the move leads there", page)
+
     def test_one_pose_is_a_platform_that_stays(self):
         summary = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n"))
         self.assertEqual((summary["verdict"], summary["segments"]), ("proved", 1))

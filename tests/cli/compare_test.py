@@ -123,6 +123,8 @@ class Compare(InFolder):
         run(TAUT, "audit", case, "--out", self.path("long"), "--max-seconds", "0")
         said = self.check("--max-seconds", "0.05", code=2, case=case, certificate="long/certificate.json")
         self.assertTrue(said.startswith("unchecked: the budget of 0.05 s ran out"), said)
+        said = self.check("--max-seconds", "1e-9", code=2, case=case, certificate="long/certificate.json")
+        self.assertTrue(said.startswith("unchecked: the budget of less than 1 ms ran out"), said)
         for wrong in ("-1", "nan", "inf", "soon", ""):
             self.check("--max-seconds", wrong, code=3)
 

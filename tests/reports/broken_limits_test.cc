@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reports/summary/broken_limits.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reports/summary/key_numbers.h"
+#include "reports/summary/sentences.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
 namespace {
 
 using nlohmann::json;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 json violation(const char* kind, int cable, const char* limit, const char* low, const char* high, int segment,
                const char* s) {
@@ -145,6 +153,78 @@ TEST(BrokenLimits, AreNoneWhereThePathIsProvedOrNoneWasFound) {
 TEST(BrokenLimits, AreSampledAtMostWhereNothingWasChecked) {
   const ReportContext scene = sample::unchecked(refuted_audit());
   for (const BrokenLimit& broken : broken_limits(scene)) EXPECT_FALSE(broken.is_proved());
+}
+
+TEST(BrokenLimits, HeadTheReportWithTheGravestThatWasConfirmed) {
+  // The certificate names the slight one; one of a stretch is graver.
+  const ReportContext scene = sample::scene(refuted_audit());
+  ASSERT_TRUE(scene.gravest);
+  EXPECT_EQ(scene.gravest->violation.value_upper, "0.03");
+  EXPECT_THAT(headline(scene), HasSubstr("the tension of cable 6 falls to at most 0.03 N"));
+  EXPECT_EQ(broken_limits(scene).front().position, position(scene.gravest->violation.at));
+}
+
+/// An audit whose poses are implied.
+ReportContext implied(const json& certificate) {
+  ReportContext scene = sample::scene(certificate);
+  scene.certificate.path.interpolation = Interpolation::kCableLengths;
+  return scene;
+}
+
+TEST(BrokenLimits, OfPosesThatTheMoveMayNotReachComeLastAndSaySo) {
+  const std::vector<BrokenLimit> all = broken_limits(implied(refuted_audit()));
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_TRUE(all[0].is_reached);
+  EXPECT_EQ(all[0].value, 0.0499) << "the certificate's own witness, though there is a graver one";
+  EXPECT_EQ(known_by(all[0]), "proved");
+  for (const std::size_t k : {1u, 2u}) {
+    EXPECT_FALSE(all[k].is_reached);
+    EXPECT_EQ(known_by(all[k]), "proved of the pose in its tube, not that the move leads there");
+  }
+  EXPECT_EQ(all[1].value, 0.03);
+  const std::vector<std::string> details = verdict_details(implied(refuted_audit()));
+  EXPECT_THAT(details, Contains(HasSubstr("the only pose in each tube")));
+  EXPECT_THAT(details, Not(Contains(HasSubstr("the path is proved"))));
+}
+
+TEST(BrokenLimits, AreSaidOfTheMachineThatBreaksThem) {
+  BrokenLimit broken = broken_limits(sample::scene(refuted_audit())).front();
+  EXPECT_EQ(what_text(broken), "below its slack limit");
+  broken.proof->deviation = std::make_shared<Deviation>();
+  EXPECT_EQ(what_text(broken), "below its slack limit, on a machine within the tolerances");
+}
+
+TEST(BrokenLimits, SayAmountsAsTheSentencesDo) {
+  const ReportContext scene = with_tension(refuted_audit(), 100, 3, -18.749);
+  const std::vector<BrokenLimit> all = broken_limits(scene);
+  EXPECT_EQ(amount_text(scene, all[0]), "at most 0.03 N; limit 0.05 N");
+  EXPECT_EQ(amount_text(scene, all[2]), "about −18.7 N; limit 0.05 N");
+  EXPECT_EQ(key_numbers(scene, sampled_use(scene))[0].value, "Cable 4: −18.7 N");
+  EXPECT_THAT(verdict_details(scene), Contains(HasSubstr("falls to −18.7 N")));
+}
+
+TEST(BrokenLimits, AreAtPlacesThatNeedNothingElse) {
+  json certificate = refuted_audit();
+  certificate["illustration"]["lines"] = {{"runs", {{0, 2}, {2, 9}}}, {"waypoints", 3}};
+  const ReportContext scene = sample::scene(certificate);
+  EXPECT_THAT(where_text(scene, broken_limits(scene).front()),
+              MatchesRegex("segment 1 at s = 0.375, after [0-9.]+° of turning; lines 3-9; in 2 stretches"));
+}
+
+TEST(BrokenLimits, ThatAreJustReachedAreAtTheLimitOrBeyondIt) {
+  json certificate = sample::refuted();
+  certificate["witness"]["value"] = {"0.5", "0.9"};
+  EXPECT_THAT(verdict_details(sample::scene(certificate)), Contains(StartsWith("It is at the limit or beyond it")));
+}
+
+TEST(BrokenLimits, OfTheOnlyPoseAreOfTheQueryWhereThereIsOne) {
+  json certificate = sample::refuted();
+  certificate["path"]["waypoints"].erase(2);
+  certificate["path"]["waypoints"].erase(1);
+  certificate["witness"]["at"] = {{"waypoint", 0}};
+  EXPECT_THAT(verdict_details(sample::scene(certificate)), Contains(HasSubstr("Every path of the query passes")));
+  certificate["problem"]["query"]["waypoints"] = json::array();
+  EXPECT_THAT(verdict_details(sample::scene(certificate)), Not(Contains(HasSubstr("query"))));
 }
 
 TEST(RowsText, NamesTheLinesOfTheFileWhereTheCertificateTellsThem) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -55,6 +56,30 @@ TEST(CableUse, OfSamplesIsOfTheWholePath) {
     EXPECT_GE(sampled.length[2].range.upper, sample.statics.length[2]);
   }
   EXPECT_EQ(sampled_use(sample::scene(sample::no_path())).source, CableUse::Source::kNone);
+}
+
+TEST(CableUse, PlacesABoundThatManyBoxesShareWhereASampleComesNearestToIt) {
+  ReportContext scene = sample::scene(sample::proved());
+  std::vector<double> places;
+  for (std::size_t k = 0; k < scene.ranges.segments.size(); ++k) {
+    for (BoxRanges& box : scene.ranges.segments[k]) {
+      for (Range& range : box.tension) range = {0.06, 0.49};
+      places.push_back(static_cast<double>(k) + box.box.mid().approx());
+    }
+  }
+  const CableUse use = cable_use(scene);
+  std::size_t later = 0;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto tension = [&](double place) {
+      return scene.sampler.at(scene.certificate.path, place).statics.tension[i];
+    };
+    const auto [least, greatest] = std::ranges::minmax_element(places, {}, tension);
+    EXPECT_EQ(use.tension[i].range.lower, 0.06);
+    EXPECT_NEAR(tension(use.tension[i].least_at), tension(*least), 1e-9);
+    EXPECT_NEAR(tension(use.tension[i].greatest_at), tension(*greatest), 1e-9);
+    later += (least != places.begin() ? 1 : 0) + (greatest != places.begin() ? 1 : 0);
+  }
+  EXPECT_GT(later, 0u) << "the first box is not always the one";
 }
 
 TEST(Use, IsNeverSaidToBeLessThanItIs) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reports/summary/key_numbers.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/reports/sample_certificates.h"
@@ -11,10 +14,12 @@
 namespace taut {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::vector<KeyNumber> numbers_of(const nlohmann::json& certificate) {
@@ -80,6 +85,73 @@ TEST(KeyNumbers, SayAnAmountWhereTheSlackLimitIsZero) {
   nlohmann::json certificate = sample::proved();
   for (nlohmann::json& limits : certificate["problem"]["robot"]["tension_N"]) limits[0] = "0";
   EXPECT_EQ(numbers_of(certificate)[0].value, "Cable 3: +0.101 N");
+}
+
+TEST(KeyNumbers, NameTheCableWithTheLeastForceWhereAmountsArePrinted) {
+  nlohmann::json certificate = sample::proved();
+  for (nlohmann::json& limits : certificate["problem"]["robot"]["tension_N"]) limits[0] = "0";
+  certificate["problem"]["robot"]["tension_N"][3][1] = "50";  // by its share of so wide a range, cable 4 is nearest
+  EXPECT_EQ(numbers_of(certificate)[0].value, "Cable 3: +0.101 N");
+  EXPECT_EQ(numbers_of(certificate)[1].title, "Tension nearest its top limit") << "the highest is another cable's";
+  EXPECT_EQ(numbers_of(sample::proved())[1].title, "Highest tension");
+}
+
+TEST(KeyNumbers, NameTheCableWithTheLeastLengthLeft) {
+  nlohmann::json certificate = sample::proved();
+  // About 12 mm below the least length of cable 1, and far above it: less by share than the 10.6 mm of cable 5.
+  certificate["problem"]["robot"]["length_m"][0] = {"0.2964", "2"};
+  EXPECT_EQ(numbers_of(certificate)[2].value, "Cable 5: 10.6 mm");
+}
+
+TEST(KeyNumbers, SayOneKindOfAmountWhereOneLimitIsZero) {
+  nlohmann::json certificate = sample::proved();
+  certificate["problem"]["robot"]["tension_N"][5][0] = "0";
+  const ReportContext scene = sample::scene(certificate);
+  for (const CableLine& line : cable_lines(scene, cable_use(scene))) EXPECT_THAT(line.above_slack, EndsWith(" N"));
+}
+
+/// The sampled use with cable 1's least tension replaced.
+CableLine line_of_first_cable(double least) {
+  const ReportContext scene = sample::scene(sample::refuted());
+  CableUse use = sampled_use(scene);
+  use.tension[0].range.lower = least;
+  const std::vector<CableLine> lines = cable_lines(scene, use);
+  return *std::ranges::find(lines, 0u, &CableLine::cable);
+}
+
+TEST(CableLines, HaveTheSignOfTheExactLimit) {
+  // The binary64 that is nearest to 0.05 is above it, and the one before that is below it.
+  const CableLine kept = line_of_first_cable(0.05);
+  EXPECT_THAT(kept.above_slack, StartsWith("+"));
+  EXPECT_EQ(kept.slack, Nearness::kClose);
+  const CableLine broken = line_of_first_cable(std::nextafter(0.05, 0));
+  EXPECT_THAT(broken.above_slack, StartsWith("−"));
+  EXPECT_EQ(broken.slack, Nearness::kOut);
+  for (const CableLine& line : {kept, broken}) EXPECT_THAT(line.above_slack, Not(AnyOf("+0 %", "−0 %")));
+}
+
+TEST(CableLines, SayNothingOfASignAtTheLimitItself) {
+  nlohmann::json certificate = sample::refuted();
+  certificate["problem"]["robot"]["tension_N"][0][0] = "0.0625";
+  const ReportContext scene = sample::scene(certificate);
+  CableUse use = sampled_use(scene);
+  use.tension[0].range.lower = 0.0625;
+  const std::vector<CableLine> lines = cable_lines(scene, use);
+  const CableLine& line = *std::ranges::find(lines, 0u, &CableLine::cable);
+  EXPECT_EQ(line.above_slack, "0 %");
+  EXPECT_EQ(line.slack, Nearness::kOut);
+}
+
+TEST(KeyNumbers, AndTheTableRoundSamplesAlike) {
+  for (const double least : {-18.749, -18.751}) {
+    const ReportContext scene = sample::scene(sample::refuted());
+    CableUse use = sampled_use(scene);
+    for (std::size_t i = 0; i < kCables; ++i) use.tension[i].range.lower = i == 0 ? least : 0.1;
+    const KeyNumber slack = key_numbers(scene, use)[0];
+    const std::vector<CableLine> lines = cable_lines(scene, use);
+    EXPECT_EQ(slack.value, fmt::format("Cable 1: {} N", std::ranges::find(lines, 0u, &CableLine::cable)->from));
+    EXPECT_EQ(slack.value, least > -18.75 ? "Cable 1: −18.7 N" : "Cable 1: −18.8 N");
+  }
 }
 
 TEST(CableLines, PutTheWorstFirst) {

@@ -109,6 +109,7 @@ TEST(ReportData, TellsWhatIsNotProved) {
   const json refuted = report_data(sample::scene(sample::refuted()));
   EXPECT_EQ(refuted["witness"]["position"], 1.375);
   EXPECT_EQ(refuted["witness"]["cable"], 3);
+  EXPECT_TRUE(refuted["reached"].is_null());
   const json undecided = report_data(sample::scene(sample::undecided()));
   EXPECT_EQ(undecided["stretches"], json::parse(R"([{"from": 1.25, "to": 1.375, "violated": false}])"));
   EXPECT_TRUE(undecided["bands"].is_null());
@@ -127,9 +128,10 @@ TEST(ReportData, SetsWhatIsStatedBesideWhatIsProvedOfATolerance) {
       {"of": "load", "share": "16.8", "stated": "7", "proved": "0.0841", "unit": "N, N m", "complete": true}]})");
   const json data = report_data(sample::scene(certificate));
   EXPECT_EQ(data["tube_m"], 0.001);
-  EXPECT_EQ(data["tolerances"], json::parse(R"([
-      {"name": "base_anchors", "unit": "m", "stated": 0.0001, "proved": 0.000183},
-      {"name": "load", "unit": "N, N m", "stated": 0.005, "proved": 0.0841}])"));
+  EXPECT_EQ(data["tolerances"], json::parse(R"json([
+      {"what": "base anchors", "words": "183 % (0.183 mm)", "used": 54.64481
+},
+      {"what": "load", "words": "1680 % (0.0841 N or N·m)", "used": 5.952381}])json"));
 }
 
 TEST(ReportData, RefusesAHeadroomThatIsNone) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "reports/summary/wording.h"
@@ -102,6 +103,24 @@ TEST(Summary, RoundsProvedRangesOutward) {
   EXPECT_GE(tension["least"], 0.1016);
   EXPECT_LE(tension["greatest"], 0.1201);
   EXPECT_EQ(tension["upper_limit"], 0.5);
+}
+
+TEST(Summary, NamesCodesOfReasonsOnlyWhereTheProofIs) {
+  nlohmann::json certificate = sample::undecided();
+  certificate["undecided"]["reason"] = "the force Jacobian is singular or nearly so";
+  const Summary summary = summary_of(certificate);
+  for (const std::string& sentence : summary.details) EXPECT_THAT(sentence, Not(HasSubstr("[U")));
+  const auto proof = std::ranges::find(summary.statements, std::string_view("proof"), &Statement::key);
+  EXPECT_THAT(proof->text, HasSubstr("taut explain U5"));
+}
+
+TEST(Summary, SaysTheLimitsOfEachCableWithoutATable) {
+  nlohmann::json certificate = sample::proved();
+  certificate["problem"]["robot"]["tension_N"][3][1] = "50";
+  const std::string text = to_text(summary_of(certificate));
+  EXPECT_THAT(text, HasSubstr("Every tension above 0.05 N and below 0.5 N (cables 1, 2, 3, 5 and 6), above 0.05 N and "
+                              "below 50 N (cable 4); every cable length above 100 mm and below 550 mm."));
+  EXPECT_THAT(text, Not(HasSubstr("table")));
 }
 
 TEST(Summary, RepeatsNothingOfAnUncheckedCertificate) {
