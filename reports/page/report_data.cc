@@ -142,6 +142,9 @@ void widen_to_the_whole_path(const ReportContext& scene, CableUse& use) {
 json cables(const ReportContext& scene) {
   CableUse use = cable_use(scene);
   if (use.source == CableUse::Source::kNone) return nullptr;
+  if (use.source == CableUse::Source::kProvedParts) {  // as the first page has it
+    if (const CableUse sampled = sampled_use(scene); sampled.source != CableUse::Source::kNone) use = sampled;
+  }
   const bool is_proved = use.source == CableUse::Source::kProved;
   if (!is_proved) widen_to_the_whole_path(scene, use);
   return {{"is_proved", is_proved},

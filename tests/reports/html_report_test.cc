@@ -306,6 +306,12 @@ TEST(HtmlReport, ListsTheStretchesOfAnAudit) {
                               {{"outer", {{{"segment", 1}, {"s", "0"}}, {{"segment", 1}, {"s", "1/2"}}}},
                                {"inner", nullptr},
                                {"reason", "nobody knows"}}};
+  const std::string without_boxes = report(certificate);
+  EXPECT_THAT(without_boxes, HasSubstr("No part of the path is proved"));
+  EXPECT_THAT(without_boxes, Not(HasSubstr("Outside of these stretches")));
+  certificate["segments"] = sample::proved()["segments"];
+  certificate["segments"][0]["boxes"] = nlohmann::json::parse(R"([{"bits": 64, "s": ["0", "1/4"]}])");
+  certificate["segments"][1]["boxes"] = nlohmann::json::parse(R"([{"bits": 64, "s": ["1/2", "1"]}])");
   const std::string page = report(certificate);
   EXPECT_THAT(page, HasSubstr("<td>0, 1/4</td><td>1, 3/8</td><td>1, 3/8</td><td>0, 1</td>")) << "exact, segment and s";
   EXPECT_THAT(page,

@@ -124,8 +124,8 @@ TEST(ReportData, SetsWhatIsStatedBesideWhatIsProvedOfATolerance) {
   certificate["illustration"]["headroom"] = json::parse(R"({"subject": "path", "waypoint": null, "tightest": null,
       "nominal": null, "shares": [
       {"of": "all", "share": "1.2", "stated": "1", "proved": "1.2", "unit": "1", "complete": true},
-      {"of": "base_anchors", "share": "1.83", "stated": "7", "proved": "0.000183", "unit": "m", "complete": true},
-      {"of": "load", "share": "16.8", "stated": "7", "proved": "0.0841", "unit": "N, N m", "complete": true}]})");
+      {"of": "base_anchors", "share": "1.83", "stated": "7", "proved": "0.0001834", "unit": "m", "complete": true},
+      {"of": "load", "share": "16.8", "stated": "7", "proved": "0.08412", "unit": "N, N m", "complete": true}]})");
   const json data = report_data(sample::scene(certificate));
   EXPECT_EQ(data["tube_m"], 0.001);
   EXPECT_EQ(data["tolerances"], json::parse(R"json([
