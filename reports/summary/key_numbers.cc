@@ -7,6 +7,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 
 #include "problem/decimal.h"
 #include "reports/summary/wording.h"

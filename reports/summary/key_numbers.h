@@ -16,20 +16,21 @@ struct KeyNumber {
   std::string title;       ///< "Closest to going slack"
   std::string value;       ///< "Cable 1: +1.86 %"
   std::string detail;      ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"
-  Nearness nearness;       ///< how near to the limit
+  Nearness nearness;       ///< how near any of the six cables is
   bool is_proved = false;  ///< else it rests on floating-point samples, or on what nothing has checked
 };
 
 /// Proved where the whole move is proved: then rounded so that every one of them is true of the move. Else of samples,
-/// and marked so in their details. None where nothing is known, or
-/// nothing was checked.
+/// rounded to nearest, and marked so in their details. The cable that is named has the least, or highest, of what is
+/// printed. None where nothing is known, or nothing was checked.
 [[nodiscard]] std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use);
 
-/// How one cable uses its limits, as text of three digits, or of as many as tell it from the limit.
+/// How one cable uses its limits, as text of three digits, or of as many as tell it from the limit. Signs are those of
+/// the exact limits.
 struct CableLine {
   std::size_t cable = 0;    ///< 0…5
   std::string from, to;     ///< tension, rounded outward, without its unit
-  std::string above_slack;  ///< "+1.86 %" of the lower limit, or "+0.8 N" where that is not positive
+  std::string above_slack;  ///< "+1.86 %" of the lower limit, or "+0.8 N" where any cable's is not positive
   std::string of_top;       ///< "83.1 %" of the upper limit
   std::string length_left;  ///< "7.13 mm" to the nearer limit of length
   Nearness slack, top, length;

@@ -215,6 +215,11 @@ class Audit(Audits):
         self.assertIn(scope.replace("'", "&#39;"), page)
         self.assertNotIn("the path is proved", page)
         self.assertIn("proved of the pose in its tube, not that the move leads there", page)
+        certificate = self.certificate()
+        own, other = certificate["witness"], certificate["stretches"][1]["inner"][1]
+        self.assertGreater(float(other["value"][0]), float(own["value"][0]), "graver, but the move may not get there")
+        text = run(TAUT, "report", self.path("out", "certificate.json"), "--text").stdout
+        self.assertRegex(text, rf"Where: [^.]*\.?[^.]* into the move \(segment {own['at']['segment']},")
 
     def test_one_pose_is_a_platform_that_stays(self):
         summary = self.audit(ROBOT1, self.write("path.csv", "phi[deg],theta[deg]\n-88.9,80.2\n"))
