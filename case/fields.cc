@@ -143,12 +143,26 @@ std::pair<std::string, Unit> read_with_unit(const Field& field, const Unit& bare
 
 }  // namespace
 
+namespace {
+
+/// Refuses what no machine has, and what can't be squared or said in another unit in binary64.
+void check_magnitude(const Field& field, const Rational& in_si, Dimension dimension) {
+  static const Rational kMost = Rational(pow(boost::multiprecision::cpp_int(10), 100));
+  const Rational size = abs(in_si);
+  if (size == 0 || (size * kMost >= 1 && size <= kMost)) return;
+  field.fail(fmt::format("zero or a magnitude between 1e-100 and 1e100 {}", si_unit(dimension).name));
+}
+
+}  // namespace
+
 DecimalText read_quantity(const Field& field, const Unit& bare) {
   const std::string expected = fmt::format("a {}: a decimal number, bare ({}) or with one of the units {}",
                                            dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
   const auto [value, unit] = read_with_unit(field, bare, expected);
   if (value.find(' ') != std::string::npos) field.fail(expected);  // an unknown unit, or more than one number
-  return in_field(field, [&, v = value, u = unit] { return decimal_to_si(v, u); });
+  const DecimalText in_si = in_field(field, [&, v = value, u = unit] { return decimal_to_si(v, u); });
+  if (bare.dimension != Dimension::kAngle) check_magnitude(field, Decimal::parse(in_si).rational(), bare.dimension);
+  return in_si;
 }
 
 namespace {
@@ -172,7 +186,9 @@ Rational read_rational(const Field& field, const Unit& bare) {
                   bare.dimension == Dimension::kArea || bare.dimension == Dimension::kAcceleration ? "an" : "a",
                   dimension_name(bare.dimension), bare.name, unit_names(bare.dimension));
   const auto [value, unit] = read_with_unit(field, bare, expected);
-  return exact_value(field, value, expected) * unit.factor.rational() / unit.divisor;
+  const Rational in_si = exact_value(field, value, expected) * unit.factor.rational() / unit.divisor;
+  check_magnitude(field, in_si, bare.dimension);
+  return in_si;
 }
 
 std::optional<Rational> read_percentage(const Field& field) {

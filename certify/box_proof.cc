@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "certify/inverse_bound.h"
 #include "certify/motion/length_controlled_motion.h"
+#include "certify/row_forms.h"
 #include "kinematics/statics.h"
 
 namespace taut {
@@ -30,16 +31,19 @@ Interval outward(const MpInterval& x) {
 }  // namespace
 
 ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
-  return {make_model<MpInterval>(problem), make_motion_model<MpInterval>(problem),
-          make_tolerance_model<MpInterval>(problem)};
+  return {make_model<MpInterval>(problem),
+          make_motion_model<MpInterval>(problem),
+          make_tolerance_model<MpInterval>(problem),
+          {}};
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
-  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt};
+  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt, {}};
   Model<Interval>& model = result.model;
   const bool is_diagonal = has_diagonal_ellipsoid(problem.load);
   const bool is_bounded = run_upward([&] {
     model = make_model_without_ellipsoid<Interval>(problem);
+    result.item_rows = ItemRows(model.loads);
     if (is_diagonal) set_ellipsoid(problem.load, model);
     result.tolerance = make_tolerance_model<Interval>(problem);
   });
@@ -114,22 +118,29 @@ typename InverseBound<I>::template Columns<6> identity_columns(const InverseBoun
   return x;
 }
 
-/// C (w0 + w), and C L or, where there is no ellipsoid, C.
+/// C w.
+template <class I>
+typename InverseBound<I>::template Columns<1> loaded_column(const InverseBound<I>& inverse, const Vector6<I>& w) {
+  typename InverseBound<I>::template Columns<1> x;
+  for (std::size_t k = 0; k < 6; ++k) {
+    I kappa(0.0);
+    for (int l = 0; l < 6; ++l) kappa = kappa + inverse.c()(static_cast<int>(k), l) * w(l);
+    x[k][0] = kappa;
+  }
+  return x;
+}
+
+/// C w, and C L.
 template <class I>
 typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& model, const InverseBound<I>& inverse,
                                                              const Vector6<I>& w) {
   typename InverseBound<I>::template Columns<7> x;
+  const typename InverseBound<I>::template Columns<1> first = loaded_column(inverse, w);
   const auto& c = inverse.c();
   for (std::size_t k = 0; k < 6; ++k) {
     const int row = static_cast<int>(k);
-    I kappa(0.0);
-    for (int l = 0; l < 6; ++l) kappa = kappa + c(row, l) * w(l);
-    x[k][0] = kappa;
+    x[k][0] = first[k][0];
     for (int j = 0; j < 6; ++j) {
-      if (!model.has_ellipsoid) {
-        x[k][static_cast<std::size_t>(j) + 1] = I(c(row, j));
-        continue;
-      }
       I entry = c(row, j) * model.ellipsoid_root(j, j);
       if (!model.ellipsoid_is_diagonal) {
         for (int l = 0; l < j; ++l) entry = entry + c(row, l) * model.ellipsoid_root(l, j);
@@ -143,25 +154,6 @@ typename InverseBound<I>::template Columns<7> loaded_columns(const Model<I>& mod
 /// D^-1 B over a box.
 template <class I, std::size_t N>
 using Forms = std::array<std::array<SlopeForm<I>, N>, kCables>;
-
-/// Adds what items do (kinematics/loads.h). The last columns of `forms` are D^-1; `remaining` is the nominal wrench
-/// less that of `densities`.
-template <class I, std::size_t N>
-void add_items(const Model<I>& model, const LoadsAtPose<SlopeForm<I>>& loads, const Vector6<SlopeForm<I>>& remaining,
-               const Forms<I, N>& forms, const I& offset, Densities<I>& densities) {
-  for (std::size_t i = 0; i < kCables; ++i) {
-    Vector6<SlopeForm<I>> y;
-    for (int j = 0; j < 6; ++j) y(j) = forms[i][N - 6 + static_cast<std::size_t>(j)];
-    SlopeForm<I>& nominal = densities.nominal[i];
-    for (int j = 0; j < 6; ++j) nominal = nominal + y(j) * remaining(j);
-    nominal.tighten(offset);
-    const DensityRange<SlopeForm<I>> range = density_range(model.loads, loads, y);
-    densities.below[i] = densities.below[i] + range.below;
-    densities.above[i] = densities.above[i] + range.above;
-    densities.below[i].tighten(offset);
-    densities.above[i].tighten(offset);
-  }
-}
 
 /// Sets root and radius; the last columns of `forms` are D^-1 L. Returns false where a radius may be 0.
 template <class I>
@@ -180,37 +172,94 @@ bool set_radius(const Forms<I, 7>& forms, const I& offset, Densities<I>& densiti
   return true;
 }
 
-/// The items' nominal wrench depends on the pose: what it is near the midpoint, a constant, is multiplied by D^-1 as w0
-/// is, so that what cancels between its components does so before it is enclosed.
+/// A constant near the items' nominal wrench at the midpoint, which depends on the pose, is multiplied by D^-1 as w0 is,
+/// so that what cancels between its components does so before it is enclosed. What remains is added with the items.
 template <class I>
-Densities<I> enclose_densities(const Model<I>& model, const Matrix3<SlopeForm<I>>& r_WP, const InverseBound<I>& inverse,
-                               const I& offset) {
-  Densities<I> result;
-  LoadsAtPose<SlopeForm<I>> loads;
-  Vector6<SlopeForm<I>> remaining;
-  Vector6<I> w = model.wrench;
-  if (!model.loads.empty()) {
-    loads = loads_at(model.loads, r_WP);
+struct ItemsOverBox {
+  ItemsOverBox(const ProofModel<I>& problem, const Matrix3<SlopeForm<I>>& r_WP, Vector6<I>& w)
+      : model(problem.model), at(loads_at(model.loads, r_WP)) {
     for (int j = 0; j < 6; ++j) {
-      const I near(ProofScalarTraits<I>::point(loads.nominal(j).at_mid));
+      const I near(ProofScalarTraits<I>::point(at.nominal(j).at_mid));
       w(j) = w(j) + near;
-      remaining(j) = loads.nominal(j) - near;
+      remaining(j) = at.nominal(j) - near;
     }
   }
-  const Forms<I, 7> forms = inverse.times(loaded_columns(model, inverse, w));
-  for (std::size_t i = 0; i < kCables; ++i) result.nominal[i] = forms[i][0];
+
+  void add(const InverseBound<I>& inverse, double, const I& offset, Densities<I>& densities) const {
+    const Forms<I, 6> forms = inverse.times(identity_columns(inverse));
+    for (std::size_t i = 0; i < kCables; ++i) {
+      Vector6<SlopeForm<I>> y;
+      for (int j = 0; j < 6; ++j) y(j) = forms[i][static_cast<std::size_t>(j)];
+      SlopeForm<I>& nominal = densities.nominal[i];
+      for (int j = 0; j < 6; ++j) nominal = nominal + y(j) * remaining(j);
+      nominal.tighten(offset);
+      const DensityRange<SlopeForm<I>> range = density_range(model.loads, at, y);
+      densities.below[i] = densities.below[i] + range.below;
+      densities.above[i] = densities.above[i] + range.above;
+      densities.below[i].tighten(offset);
+      densities.above[i].tighten(offset);
+    }
+  }
+
+  const Model<I>& model;
+  LoadsAtPose<SlopeForm<I>> at;
+  Vector6<SlopeForm<I>> remaining;
+};
+
+/// In binary64, all rows at once.
+template <>
+struct ItemsOverBox<Interval> {
+  ItemsOverBox(const ProofModel<Interval>& problem, const Matrix3<SlopeForm<Interval>>& r_WP, Vector6<Interval>& w)
+      : items(problem.item_rows), rotation(ItemRows::rotation(r_WP)), remaining(items.nominal(rotation)) {
+    for (int j = 0; j < 3; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      w(j) = w(j) + Interval(remaining.force.mid[k]);
+      w(3 + j) = w(3 + j) + Interval(remaining.moment.mid[k]);
+    }
+    for (VectorForm<double>* v : {&remaining.force, &remaining.moment}) {
+      v->mid.fill(0);
+      v->mid_size = 0;
+    }
+  }
+
+  void add(const InverseBound<Interval>& inverse, double radius, const Interval& offset,
+           Densities<Interval>& densities) const {
+    const RowForms rows = row_forms(inverse, radius);
+    const ItemRows::Forms nominal = times(rows, remaining);
+    const ItemRows::Reach reach = items.reach(rotation, rows);
+    for (std::size_t i = 0; i < kCables; ++i) {
+      densities.nominal[i] = densities.nominal[i] + nominal[i];
+      densities.nominal[i].tighten(offset);
+      densities.below[i] = densities.below[i] + reach.below[i];
+      densities.above[i] = densities.above[i] + reach.above[i];
+    }
+  }
+
+  const ItemRows& items;
+  RotationForm rotation;
+  NominalForm remaining;
+};
+
+template <class I>
+Densities<I> enclose_densities(const ProofModel<I>& problem, const Matrix3<SlopeForm<I>>& r_WP,
+                               const InverseBound<I>& inverse, double radius, const I& offset) {
+  const Model<I>& model = problem.model;
+  Densities<I> result;
+  std::optional<ItemsOverBox<I>> items;
+  Vector6<I> w = model.wrench;
+  if (!model.loads.empty()) items.emplace(problem, r_WP, w);
   if (model.has_ellipsoid) {
+    const Forms<I, 7> forms = inverse.times(loaded_columns(model, inverse, w));
+    for (std::size_t i = 0; i < kCables; ++i) result.nominal[i] = forms[i][0];
     if (!set_radius(forms, offset, result)) return result;  // the box is too wide
   } else {
+    const Forms<I, 1> forms = inverse.times(loaded_column(inverse, w));
+    for (std::size_t i = 0; i < kCables; ++i) result.nominal[i] = forms[i][0];
     for (auto& row : result.root) row.fill(I(0.0));
     result.radius.fill(SlopeForm<I>(0.0));
   }
   result.below = result.above = result.radius;
-  if (!model.loads.empty() && model.has_ellipsoid) {
-    add_items(model, loads, remaining, inverse.times(identity_columns(inverse)), offset, result);
-  } else if (!model.loads.empty()) {
-    add_items(model, loads, remaining, forms, offset, result);
-  }
+  if (items) items->add(inverse, radius, offset, result);
   result.are_enclosed = true;
   return result;
 }
@@ -226,6 +275,24 @@ UpperOf<I> change_of(MarginId id, const DeviationBounds<I>& disturbance) {
     case MarginKind::kLengthMax: return disturbance.length[i];
   }
   throw std::logic_error("a margin of no kind");
+}
+
+template <class I>
+void disturb(BoxEnclosure<I>& box) {
+  for (auto& margin : box.margins) {
+    margin.disturbed = margin.value.range + ProofScalarTraits<I>::symmetric(change_of(margin.id, *box.disturbance));
+  }
+}
+
+/// Whether bounds item by item might do: some margin is not positive, but by less than a part of its change.
+template <class I>
+bool may_be_sharpened(const ProofModel<I>& problem, const BoxEnclosure<I>& box) {
+  if (!std::is_same_v<I, Interval> || problem.model.loads.empty() || !problem.item_rows.has_extremes()) return false;
+  constexpr double kPart = 0.25;  // sharper bounds are hardly ever smaller by more
+  return !box.margins.are_positive() && std::ranges::all_of(box.margins, [&](const auto& margin) {
+    const double change = ProofScalarTraits<I>::to_double(change_of(margin.id, *box.disturbance));
+    return lower_bound(margin.disturbed) > -kPart * change;
+  });
 }
 
 }  // namespace
@@ -262,7 +329,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
 
   InverseBound<I> inverse;
   if (!inverse.set(geometry.force_density, radius)) return result;
-  const Densities<I> densities = enclose_densities(model, motion.r_WP, inverse, offset);
+  const Densities<I> densities = enclose_densities(problem, motion.r_WP, inverse, radius, offset);
   if (!densities.are_enclosed) return result;
   for (std::size_t i = 0; i < kCables; ++i) {
     result.density[i] = densities.nominal[i];
@@ -273,13 +340,26 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   add_tension_margins(model, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
 
-  const bool held = is_length_controlled(problem, segment);
-  result.disturbance = disturbance<I>({model, motion, geometry, result.length, result.density, densities.radius,
-                                       densities.root, inverse.c(), inverse.q(), held},
-                                      *problem.tolerance, continuation_steps);
+  UndisturbedBox<I> undisturbed{model,
+                                problem.item_rows,
+                                motion,
+                                geometry,
+                                result.length,
+                                result.density,
+                                densities.radius,
+                                densities.root,
+                                inverse.c(),
+                                inverse.q(),
+                                is_length_controlled(problem, segment)};
+  result.disturbance = disturbance<I>(undisturbed, *problem.tolerance, continuation_steps);
   if (!result.disturbance) return result;
-  for (auto& margin : result.margins) {
-    margin.disturbed = margin.disturbed + ProofScalarTraits<I>::symmetric(change_of(margin.id, *result.disturbance));
+  disturb(result);
+  if (may_be_sharpened(problem, result)) {
+    undisturbed.is_item_by_item = true;
+    const auto sharper = disturbance<I>(undisturbed, *problem.tolerance, continuation_steps);
+    if (!sharper) return result;
+    result.disturbance = sharper;
+    disturb(result);
   }
   return result;
 }
@@ -318,6 +398,15 @@ MarginId weakest(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure)
     }
   }
   return weakest;
+}
+
+/// How far K moves a tension of any deviating machine below (side 0) or above (side 1) its nominal one, from that of the
+/// undisturbed one. Of an ellipsoid alone both are v_ii, half the difference of the two bounds.
+template <class I>
+I disturbed_reach(const I& undisturbed, std::size_t cable, std::size_t side, const DeviationBounds<I>& disturbance) {
+  if (disturbance.reach) return ProofScalarTraits<I>::symmetric((*disturbance.reach)[cable][side]);
+  const auto& [low, high] = disturbance.tension[cable];
+  return undisturbed + ProofScalarTraits<I>::symmetric(UpperOf<I>(0.5) * (low + high));
 }
 
 /// More than this is not claimed of the factor by which K may grow.
@@ -374,9 +463,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
         const auto n = static_cast<std::size_t>(id.cable);
         const bool is_low = id.kind == MarginKind::kTensionMin;
         I reach = enclosure.length[n].range * (is_low ? enclosure.below[n] : enclosure.above[n]).range;
-        if (enclosure.disturbance) {
-          reach = reach + ProofScalarTraits<I>::symmetric(enclosure.disturbance->tension_reach(n, is_low ? 0 : 1));
-        }
+        if (enclosure.disturbance) reach = disturbed_reach(reach, n, is_low ? 0 : 1, *enclosure.disturbance);
         const double most = upper_bound(reach);
         if (!(most > bound / (2 * kMostGrowth))) continue;  // K is nearly a single wrench
         const I scale = I(1.0) + I(bound) / I(most);

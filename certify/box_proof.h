@@ -17,6 +17,7 @@
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
 #include "certify/arithmetic/slope_form.h"
+#include "certify/loads/item_rows.h"
 #include "certify/motion/length_controlled_motion.h"
 #include "certify/motion/motion.h"
 #include "certify/tolerance/tolerance.h"
@@ -32,6 +33,7 @@ struct ProofModel {
   Model<I> model;
   MotionModel<I> motion;
   std::optional<ToleranceModel<I>> tolerance;
+  ItemRows item_rows;  ///< of model.loads; only for Interval
 };
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.

@@ -34,6 +34,10 @@ class InverseBound {
 
   [[nodiscard]] const Matrix6<Point>& c() const { return c_; }
   [[nodiscard]] const Square<Upper>& q() const { return q_; }
+  /// A1, Q0 and W of (c).
+  [[nodiscard]] const Square<I>& a1() const { return a1_; }
+  [[nodiscard]] const Square<Upper>& q0() const { return q0_; }
+  [[nodiscard]] const Square<Upper>& w() const { return w_; }
 
  private:
   /// row += factor * other, for an exact factor.

@@ -28,6 +28,7 @@
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "checker/kernel/statement.h"
+#include "checker/stated_load.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"
 
@@ -90,7 +91,13 @@ struct Arguments {
   bool quiet = false;
 };
 
-CheckResult check_file(const Arguments& arguments) {
+/// What a file says of its load, where no case says what it has to be.
+struct CheckedFile {
+  CheckResult result;
+  std::string load;
+};
+
+CheckedFile check_file(const Arguments& arguments) {
   CheckResult malformed;
   try {
     CheckOptions options;
@@ -104,7 +111,11 @@ CheckResult check_file(const Arguments& arguments) {
       options.expect = arguments.expect == "proved" ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted;
     }
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
-    if (arguments.case_path.empty()) return check(bytes, options);
+    if (arguments.case_path.empty()) {
+      CheckedFile checked{check(bytes, options), ""};
+      if (checked.result.outcome != Outcome::kMalformed) checked.load = stated_load(bytes);
+      return checked;
+    }
     const taut::Problem problem = load_case(arguments.case_path).problem;
     const nlohmann::json of_case = to_json(problem);
     options.problem = &of_case;
@@ -114,13 +125,13 @@ CheckResult check_file(const Arguments& arguments) {
                                 arguments.interpolation);
       options.path = &*path;
     }
-    return check(bytes, options);
+    return {check(bytes, options), ""};
   } catch (const Malformed& error) {
     malformed.message = error.what();
   } catch (const InputError& error) {
     malformed.message = error.what();
   }
-  return malformed;
+  return {malformed, ""};
 }
 
 /// "; path file not compared; not compared: the case's query", or nothing.
@@ -207,12 +218,14 @@ int run(int argc, char** argv) {
   }
 
   const auto start = std::chrono::steady_clock::now();
-  const CheckResult result = check_file(arguments);
+  const CheckedFile checked = check_file(arguments);
+  const CheckResult& result = checked.result;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const bool is_malformed = result.outcome == Outcome::kMalformed;
   if (arguments.as_json && !arguments.quiet) {
     std::cout << to_json(result, seconds).dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
   } else if (!arguments.quiet && !is_malformed) {
+    if (!checked.load.empty()) std::cout << sanitize(checked.load) << "\n";
     std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
               << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "certify/tolerance/extremal_load.h"
+#include "certify/loads/extremal_load.h"
 #include "problem/decimal.h"
 
 namespace taut {
@@ -158,6 +158,17 @@ struct Errors {
   Table<Upper> h, twist;
 };
 
+/// The load at which a tension of cable r is extremal.
+template <class I>
+struct ItemLoad {
+  std::array<I, kCables> kappa;  ///< y_i·w*
+  Vector3<I> turn;               ///< T
+  UpperOf<I> reach;              ///< how far y_r·w* may be from y_r·w_nom
+};
+/// By cable r, at its least (0) and its greatest (1) tension.
+template <class I>
+using ItemLoads = std::array<std::array<ItemLoad<I>, 2>, kCables>;
+
 /// Everything on X that (t) is made of.
 template <class I>
 struct OnAll {
@@ -171,7 +182,7 @@ struct OnAll {
   std::array<I, kCables> length, density, tension_radius;      ///< |d_i|, λ_i, V_i
   std::array<I, kCables> load_rate;                            ///< y_r·ŵ
   Square<I> gram;                                              ///< Z_r·Z_i
-  LoadsAtPose<I> loads;                                        ///< the items
+  ItemLoads<I> items;                                          ///< only where loads are items
 };
 
 template <class I>
@@ -313,6 +324,118 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
   return rate;
 }
 
+/// κ_ri for the nominal wrench `w` of K.
+template <class I>
+std::array<I, kCables> densities(const OnAll<I>& x, const Vector6<I>& w) {
+  std::array<I, kCables> kappa;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    kappa[i] = I(0.0);
+    for (int k = 0; k < 3; ++k) kappa[i] = kappa[i] + x.force[i](k) * w(k) + x.moment[i](k) * w(3 + k);
+  }
+  return kappa;
+}
+
+/// The extremal loads of the items on X, row by row.
+template <class I>
+ItemLoads<I> item_loads(const UndisturbedBox<I>& box, const Matrix3<I>& r_WP, const OnAll<I>& x) {
+  const LoadsAtPose<I> at = loads_at(box.model.loads, r_WP);
+  const ExtremalLoads<I> loads(box.model.loads, at);
+  ItemLoads<I> result;
+  for (std::size_t r = 0; r < kCables; ++r) {
+    Vector6<I> y;
+    for (int k = 0; k < 3; ++k) {
+      y(k) = x.force[r](k);
+      y(3 + k) = x.moment[r](k);
+    }
+    const DensityRange<I> range = density_range(box.model.loads, at, y);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Extremum which = side == 0 ? Extremum::kLeast : Extremum::kGreatest;
+      const ExtremalLoad<I> load = loads.find(x.force[r], x.moment[r], which);
+      result[r][side] = {densities(x, Vector6<I>(load.wrench + box.model.wrench)), load.by_turn,
+                         above(side == 0 ? range.below : range.above)};
+    }
+  }
+  return result;
+}
+
+/// The rows of D^-1 on X, off those of C by at most `errors`.
+RowBalls row_balls(const Matrix6<double>& c, const Square<double>& errors) {
+  const auto ball = [&](int first) {
+    VectorBall<Six> v;
+    for (int k = 0; k < 3; ++k) {
+      v.mid[static_cast<std::size_t>(k)] = Six::generate([&](int r) { return c(r, first + k); });
+    }
+    v.size = size_of(v.mid) + Six(kUnderflow);
+    const auto column = [&](std::size_t j) { return Six::generate([&](std::size_t r) { return errors[r][j]; }); };
+    const auto j = static_cast<std::size_t>(first);
+    v.error = size_of(std::array<Six, 3>{column(j), column(j + 1), column(j + 2)}) + Six(kUnderflow);
+    return v;
+  };
+  return {ball(0), ball(3)};
+}
+
+/// Adds y_i·w(r) to the densities κ_ri for each r, w(r) being `load` of row r.
+void add_products(const Matrix6<double>& c, const RowBalls& rows, const ExtremalRows::Side& load, std::size_t side,
+                  ItemLoads<Interval>& loads) {
+  const auto force_size = rows.force.size.values(), moment_size = rows.moment.size.values();
+  const auto force_error = rows.force.error.values(), moment_error = rows.moment.error.values();
+  const Six force_most = load.force.size + load.force.error, moment_most = load.moment.size + load.moment.error;
+  const Six force_off = load.force.error + Six(kRounding) * load.force.size;
+  const Six moment_off = load.moment.error + Six(kRounding) * load.moment.size;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const int row = static_cast<int>(i);
+    Six product(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      product += Six(c(row, static_cast<int>(k))) * load.force.mid[k];
+      product += Six(c(row, 3 + static_cast<int>(k))) * load.moment.mid[k];
+    }
+    const Six error = Six(force_error[i]) * force_most + Six(force_size[i]) * force_off +
+                      Six(moment_error[i]) * moment_most + Six(moment_size[i]) * moment_off + Six(kUnderflow);
+    const auto minus_lower = (error - product).values(), upper = (error + product).values();
+    for (std::size_t r = 0; r < kCables; ++r) {
+      Interval& kappa = loads[r][side].kappa[i];
+      kappa = kappa + Interval(-minus_lower[r], upper[r]);
+    }
+  }
+}
+
+/// The same as item_loads(), all rows at once.
+ItemLoads<Interval> item_loads_of_all_rows(const UndisturbedBox<Interval>& box, const Matrix3<Interval>& r_WP,
+                                           const OnAll<Interval>& x, const Square<double>& errors) {
+  const RowBalls rows = row_balls(box.c, errors);
+  const ExtremalRows extremes = box.item_rows.extremes(ItemRows::rotation(r_WP), rows);
+  const Vector6<Interval> nominal = box.item_rows.nominal_wrench(r_WP) + box.model.wrench;
+  const std::array<Interval, kCables> kappa = densities(x, nominal);
+  ItemLoads<Interval> result;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const ExtremalRows::Side& load = extremes.sides[side];
+    const auto reach = load.reach.values();
+    for (std::size_t r = 0; r < kCables; ++r) {
+      result[r][side].kappa = kappa;
+      result[r][side].reach = reach[r];
+    }
+    add_products(box.c, rows, load, side, result);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto minus_lower = (load.turn.error - load.turn.mid[k]).values();
+      const auto upper = (load.turn.error + load.turn.mid[k]).values();
+      for (std::size_t r = 0; r < kCables; ++r) {
+        result[r][side].turn(static_cast<int>(k)) = Interval(-minus_lower[r], upper[r]);
+      }
+    }
+  }
+  return result;
+}
+
+/// In all of X, where the rows of D^-1 are off those of C by at most `errors`.
+template <class I>
+ItemLoads<I> item_loads(const UndisturbedBox<I>& box, const Matrix3<I>& r_WP, const OnAll<I>& x,
+                        const Square<UpperOf<I>>& errors) {
+  if constexpr (std::is_same_v<I, Interval>) {
+    if (box.item_rows.has_extremes() && !box.is_item_by_item) return item_loads_of_all_rows(box, r_WP, x, errors);
+  }
+  return item_loads(box, r_WP, x);
+}
+
 /// The states of all deviations, τ from 0 to a part of the whole: see theory.md 7, "Where the states are".
 template <class I>
 class States {
@@ -320,8 +443,8 @@ class States {
   using Upper = UpperOf<I>;
 
   /// At τ = 0.
-  States(const Model<I>& model, const Origin<I>& origin, const ToleranceModel<I>& tolerance)
-      : model_(model), origin_(origin), tolerance_(tolerance) {
+  States(const UndisturbedBox<I>& box, const Origin<I>& origin, const ToleranceModel<I>& tolerance)
+      : box_(box), origin_(origin), tolerance_(tolerance) {
     reached_.with(reached_, reached_, [](Upper& x, const Upper&, const Upper&) { x = Upper(0.0); });
     rate_ = rates(origin, tolerance, reached_, errors_);
   }
@@ -408,13 +531,13 @@ class States {
     if (origin_.has_items) {
       Matrix3<I> r_WP = origin_.r_WP;  // a turn by an angle moves no unit vector farther than that
       for (int i = 0; i < 9; ++i) r_WP(i) = r_WP(i) + ProofScalarTraits<I>::symmetric(guess_.turn);
-      x.loads = loads_at(model_.loads, r_WP);
+      x.items = item_loads(box_, r_WP, x, errors_.y);
     }
     return x;
   }
 
  private:
-  const Model<I>& model_;
+  const UndisturbedBox<I>& box_;
   const Origin<I>& origin_;
   const ToleranceModel<I>& tolerance_;
   Change<Upper> reached_;
@@ -498,10 +621,10 @@ UpperOf<I> tension_rate(const Origin<I>& origin, const ToleranceModel<I>& tolera
   return bound;
 }
 
-/// (t) for the least, the greatest and, where loads are items, the nominal tension of cable r.
+/// (t) for the least and the greatest tension of cable r.
 template <class I>
-std::array<UpperOf<I>, 3> tension_rates(const Origin<I>& origin, const Model<I>& model,
-                                        const ToleranceModel<I>& tolerance, const OnAll<I>& x, std::size_t r) {
+std::array<UpperOf<I>, 2> tension_rates(const Origin<I>& origin, const ToleranceModel<I>& tolerance, const OnAll<I>& x,
+                                        std::size_t r) {
   std::array<Vector3<I>, kCables> moved;
   std::array<I, kCables> share;  // Z_r·Z_i / V_r
   share.fill(I(0.0));
@@ -510,28 +633,30 @@ std::array<UpperOf<I>, 3> tension_rates(const Origin<I>& origin, const Model<I>&
     if (origin.has_ellipsoid) share[i] = i == r ? x.tension_radius[r] : I(x.gram[r][i] * inverse);
     moved[i] = cross(x.arm[i], Vector3<I>(x.h[r][i] + x.twist[r][i]));
   }
-  const auto rate = [&](Extremum which) {
-    std::array<I, kCables> kappa = x.density;
-    Vector3<I> turn(I(0.0), I(0.0), I(0.0));
-    if (origin.has_items) {
-      const ExtremalLoad<I> load = ExtremalLoads<I>(model.loads, x.loads).find(x.force[r], x.moment[r], which);
-      turn = load.by_turn;
-      for (std::size_t i = 0; i < kCables; ++i) {
-        kappa[i] = I(0.0);
-        for (int k = 0; k < 3; ++k) {
-          kappa[i] = kappa[i] + x.force[i](k) * (load.wrench(k) + model.wrench(k)) +
-                     x.moment[i](k) * (load.wrench(3 + k) + model.wrench(3 + k));
-        }
-      }
+  std::array<UpperOf<I>, 2> rates;
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::array<I, kCables> kappa = origin.has_items ? x.items[r][side].kappa : x.density;
+    if (origin.has_ellipsoid) {
+      for (std::size_t i = 0; i < kCables; ++i) kappa[i] = side == 0 ? kappa[i] - share[i] : kappa[i] + share[i];
     }
-    for (std::size_t i = 0; i < kCables; ++i) {
-      if (which == Extremum::kLeast) kappa[i] = kappa[i] - share[i];
-      if (which == Extremum::kGreatest) kappa[i] = kappa[i] + share[i];
+    const Vector3<I> turn = origin.has_items ? x.items[r][side].turn : Vector3<I>(I(0.0), I(0.0), I(0.0));
+    rates[side] = tension_rate(origin, tolerance, x, r, kappa, turn, moved);
+  }
+  return rates;
+}
+
+/// How far K moves tensions on X, by cable and side.
+template <class I>
+std::array<std::array<UpperOf<I>, 2>, kCables> reach_above(const Origin<I>& origin, const OnAll<I>& x) {
+  std::array<std::array<UpperOf<I>, 2>, kCables> reach;
+  for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      UpperOf<I> of_density = x.items[r][side].reach;
+      if (origin.has_ellipsoid) of_density += above(x.tension_radius[r]);
+      reach[r][side] = above(x.length[r]) * of_density;
     }
-    return tension_rate(origin, tolerance, x, r, kappa, turn, moved);
-  };
-  return {rate(Extremum::kLeast), rate(Extremum::kGreatest),
-          origin.has_items ? rate(Extremum::kNominal) : UpperOf<I>(0.0)};
+  }
+  return reach;
 }
 
 }  // namespace
@@ -569,9 +694,8 @@ std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, cons
     if (!certainly_positive(length)) return std::nullopt;
   }
   const Origin<I> origin = make_origin(box, tolerance);
-  States<I> states(box.model, origin, tolerance);
+  States<I> states(box, origin, tolerance);
   DeviationBounds<I> result;
-  if (origin.has_items) result.nominal.emplace().fill(Upper(0.0));
   const double share = 1.0 / continuation_steps;
   for (int step = 1; step <= continuation_steps; ++step) {
     if (!states.advance(share)) return std::nullopt;
@@ -579,10 +703,10 @@ std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, cons
     if (!x) return std::nullopt;
     for (std::size_t r = 0; r < kCables; ++r) {
       if (!box.length_controlled) result.length[r] += Upper(share) * length_rate(origin, tolerance, *x, r);
-      const std::array<Upper, 3> rate = tension_rates(origin, box.model, tolerance, *x, r);
+      const std::array<Upper, 2> rate = tension_rates(origin, tolerance, *x, r);
       for (std::size_t side = 0; side < 2; ++side) result.tension[r][side] += Upper(share) * rate[side];
-      if (result.nominal) (*result.nominal)[r] += Upper(share) * rate[2];
     }
+    if (origin.has_items) result.reach = reach_above(origin, *x);  // the last X holds all states
   }
   if (box.length_controlled) result.length = farthest;
   return result;

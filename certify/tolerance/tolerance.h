@@ -20,6 +20,7 @@
 
 #include "certify/arithmetic/neumann.h"
 #include "certify/arithmetic/slope_form.h"
+#include "certify/loads/item_rows.h"
 #include "certify/motion/motion.h"
 #include "kinematics/geometry.h"
 #include "kinematics/model.h"
@@ -49,19 +50,16 @@ struct DeviationBounds {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> length{};                  ///< of d_i [m]
   std::array<std::array<Upper, 2>, kCables> tension{};  ///< of f0_i − v_ii and f0_i + v_ii [N]
-  /// Of the tension of the nominal wrench [N]; only where loads are items.
-  std::optional<std::array<Upper, kCables>> nominal;
-  /// Of how far K moves a tension below (side 0) or above (side 1) its nominal one [N]. Of an ellipsoid alone both are
-  /// v_ii, half the difference of the two bounds.
-  [[nodiscard]] Upper tension_reach(std::size_t i, std::size_t side) const {
-    return nominal ? tension[i][side] + (*nominal)[i] : Upper(0.5) * (tension[i][0] + tension[i][1]);
-  }
+  /// How far K moves tensions of deviating machines below (side 0) and above (side 1) their nominal ones [N]; only where
+  /// loads are items.
+  std::optional<std::array<std::array<Upper, 2>, kCables>> reach;
 };
 
 /// What (t) needs to know of a box, undisturbed.
 template <class I>
 struct UndisturbedBox {
   const Model<I>& model;
+  const ItemRows& item_rows;  ///< of model.loads; only for Interval
   const MotionEnclosure<I>& motion;
   const CableGeometry<SlopeForm<I>>& geometry;
   const std::array<SlopeForm<I>, kCables>&length, &density, &radius;  ///< d_i, λ_i, |Z_i|
@@ -69,6 +67,7 @@ struct UndisturbedBox {
   const Matrix6<typename ProofScalarTraits<I>::Point>& c;             ///< C
   const Square<UpperOf<I>>& q;                                        ///< D^-1 = P C on T, |P − I| <= Q
   bool length_controlled;
+  bool is_item_by_item = false;  ///< sharper and slower bounds where loads are items, for Interval
 };
 
 /// The largest number of continuation steps.

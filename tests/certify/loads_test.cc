@@ -7,10 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <random>
 
 #include "certify/arithmetic/slope_form.h"
-#include "certify/tolerance/extremal_load.h"
+#include "certify/loads/extremal_load.h"
+#include "certify/loads/item_rows.h"
+#include "certify/row_forms.h"
 #include "kinematics/geometry.h"
 #include "kinematics/jet.h"
 #include "tests/soundness/loads.h"
@@ -47,6 +50,7 @@ LoadText random_load(Random& random) {
   load.gravity_m_s2 = {"0.5", "-1", "-9.81"};
   load.items.push_back({"fixed", Weight{"3", "3", random_vector(random), "0"}});
   load.items.push_back({"loose", Weight{"2", "5/2", random_vector(random), "0.125"}});
+  load.items.push_back({"swinging", Weight{"4", "4", random_vector(random), "0.2"}});
   for (const Axes axes : {Axes::kWorld, Axes::kPlatform}) {
     const char* name = axes == Axes::kWorld ? "world" : "platform";
     load.items.push_back({fmt::format("{} force", name), Force{random_set(random), axes, random_vector(random)}});
@@ -214,6 +218,234 @@ void expect_forms_to_enclose() {
 TEST(Loads, CentredFormsEncloseThem) {
   ASSERT_TRUE(run_upward([] { expect_forms_to_enclose<Interval>(); }));
   expect_forms_to_enclose<MpInterval>();
+}
+
+/// Rows that move along straight lines, and are off them by as much as they say.
+struct MovingRows {
+  std::array<Six, kCables> row, direction, error, slope_error;
+
+  MovingRows(Random& random, bool are_exact) {
+    const double off = are_exact ? 0 : 1e-3;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      row[i] = random_row(random);
+      direction[i] = random_row(random);
+      for (std::size_t k = 0; k < 6; ++k) {
+        error[i][k] = off * uniform(random, -1, 1);
+        slope_error[i][k] = off * uniform(random, -1, 1);
+      }
+    }
+  }
+  [[nodiscard]] Six at(std::size_t i, double t) const {
+    Six y;
+    for (std::size_t k = 0; k < 6; ++k) y[k] = row[i][k] + error[i][k] + t * (direction[i][k] + slope_error[i][k]);
+    return y;
+  }
+  [[nodiscard]] RowForms forms(double radius) const {
+    const auto size = [](const std::array<Six, kCables>& of, std::size_t i, std::size_t first) {
+      return 1e-9 + std::hypot(of[i][first], of[i][first + 1], of[i][first + 2]);
+    };
+    RowForms rows;
+    rows.radius = radius;
+    for (const std::size_t first : {0, 3}) {
+      VectorForm<taut::Six>& v = first == 0 ? rows.force : rows.moment;
+      for (std::size_t k = 0; k < 3; ++k) {
+        v.mid[k] = taut::Six::generate([&](std::size_t i) { return row[i][first + k]; });
+        v.slope[k] = taut::Six::generate([&](std::size_t i) { return direction[i][first + k]; });
+      }
+      v.mid_error = taut::Six::generate([&](std::size_t i) { return size(error, i, first); });
+      v.slope_error = taut::Six::generate([&](std::size_t i) { return size(slope_error, i, first); });
+      v.mid_size = taut::Six::generate([&](std::size_t i) { return size(row, i, first); });
+      v.slope_size = taut::Six::generate([&](std::size_t i) { return size(direction, i, first); });
+    }
+    return rows;
+  }
+};
+
+void expect_in_form(const SlopeForm<Interval>& form, double t, double value, const std::string& what) {
+  constexpr double kRounding = 1e-10;  // of the explicit loads
+  for (const Interval& enclosure : {Interval(form.at_mid + form.slope * Interval(t)), form.range}) {
+    ASSERT_LE(lower_bound(enclosure), value + kRounding) << what << " at " << t;
+    ASSERT_GE(upper_bound(enclosure), value - kRounding) << what << " at " << t;
+  }
+}
+
+void expect_rows_to_enclose() {
+  Random random(5);
+  for (int n = 0; n < 60; ++n) {
+    const LoadText load = random_load(random);
+    const ItemRows items(make_load_model<Interval>(load));
+    const std::array<double, 3> angles = {uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3)};
+    MovingRows moving(random, n % 2 == 0);
+    if (n % 3 == 0) moving.row[2].fill(0);  // every norm nearly vanishes at the midpoint
+    const double radius = std::pow(2.0, -static_cast<double>(n % 12));
+    const SlopeForm<Interval> t(Interval(0.0), Interval(1.0), Interval(-radius, radius));
+    const auto angle = [&](std::size_t k, double slope) { return t * Interval(slope) + Interval(angles[k]); };
+    const RotationForm turn = ItemRows::rotation(rotation(angle(0, 1), angle(1, 0.5), angle(2, -1)));
+    const RowForms rows = moving.forms(radius);
+    const ItemRows::Forms nominal = times(rows, items.nominal(turn));
+    const ItemRows::Reach reach = items.reach(turn, rows);
+    for (const double x : {-1.0, -0.37, -0.001, 0.0, 0.25, 1.0}) {
+      const double s = x * radius;
+      const Matrix3<double> r = rotation(s + angles[0], 0.5 * s + angles[1], -s + angles[2]);
+      const Vector6<double> exact_nominal = loads_at(make_load_model<double>(load), r).nominal;
+      for (std::size_t i = 0; i < kCables; ++i) {
+        const Six y = moving.at(i, s);
+        const campaign::Range<double> exact = range(load, r, y);
+        const double middle = dot(vector<double>(y), exact_nominal);
+        const std::string what = fmt::format("case {}, row {}", n, i);
+        expect_in_form(nominal[i], s, middle, what + ", nominal");
+        expect_in_form(reach.below[i], s, middle - exact.low, what + ", below");
+        expect_in_form(reach.above[i], s, exact.high - middle, what + ", above");
+      }
+    }
+  }
+}
+
+TEST(ItemRows, EncloseTheRangeOfExplicitLoads) {
+  ASSERT_TRUE(run_upward([] { expect_rows_to_enclose(); }));
+}
+
+/// At a point, with exact rows, nothing but rounding is added.
+TEST(ItemRows, AreTightAtAPoint) {
+  Random random(6);
+  ASSERT_TRUE(run_upward([&] {
+    for (int n = 0; n < 20; ++n) {
+      const LoadText load = random_load(random);
+      const MovingRows moving(random, true);
+      RowForms rows = moving.forms(0x1p-30);
+      for (VectorForm<taut::Six>* v : {&rows.force, &rows.moment}) v->mid_error = v->slope_error = taut::Six(0.0);
+      const Matrix3<double> r = Matrix3<double>::Identity();
+      const Matrix3<SlopeForm<Interval>> still = r.unaryExpr([](double x) { return SlopeForm<Interval>(x); });
+      const ItemRows items(make_load_model<Interval>(load));
+      const ItemRows::Reach reach = items.reach(ItemRows::rotation(still), rows);
+      for (std::size_t i = 0; i < kCables; ++i) {
+        const Six y = moving.at(i, 0);
+        const campaign::Range<double> exact = range(load, r, y);
+        const double middle = dot(vector<double>(y), loads_at(make_load_model<double>(load), r).nominal);
+        EXPECT_NEAR(lower_bound(reach.above[i].at_mid), exact.high - middle, 1e-10);
+        EXPECT_NEAR(upper_bound(reach.above[i].at_mid), exact.high - middle, 1e-10);
+        EXPECT_NEAR(lower_bound(reach.below[i].range), middle - exact.low, 1e-6);
+        EXPECT_NEAR(upper_bound(reach.below[i].range), middle - exact.low, 1e-6);
+      }
+    }
+  }));
+}
+
+/// The rows of the inverse of a matrix that moves along a straight line.
+TEST(ItemRows, AreThoseOfTheInverse) {
+  Random random(7);
+  const auto random_matrix = [&] {
+    return Matrix6<double>(Matrix6<double>::NullaryExpr([&] { return uniform(random, -1, 1); }));
+  };
+  int compared = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Matrix6<double> at_mid = random_matrix(), slope = random_matrix();
+    const double radius = std::pow(2.0, -4 - static_cast<double>(n % 12));
+    RowForms rows;
+    bool is_set = false;
+    ASSERT_TRUE(run_upward([&] {
+      Matrix6<SlopeForm<Interval>> d;
+      const SlopeForm<Interval> t(Interval(0.0), Interval(1.0), Interval(-radius, radius));
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) d(i, j) = t * Interval(slope(i, j)) + Interval(at_mid(i, j));
+      }
+      InverseBound<Interval> inverse;
+      is_set = inverse.set(d, radius);
+      if (is_set) rows = row_forms(inverse, radius);
+    }));
+    if (!is_set) continue;
+    ++compared;
+    for (const double x : {-1.0, -0.3, 0.0, 0.5, 1.0}) {
+      const double s = x * radius;
+      const Matrix6<double> exact = (at_mid + s * slope).inverse();
+      for (const int first : {0, 3}) {
+        const VectorForm<taut::Six>& v = first == 0 ? rows.force : rows.moment;
+        const auto mid_error = v.mid_error.values(), slope_error = v.slope_error.values();
+        for (std::size_t i = 0; i < kCables; ++i) {
+          double square = 0;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const double line = v.mid[k].values()[i] + s * v.slope[k].values()[i];
+            const double off = exact(static_cast<int>(i), first + static_cast<int>(k)) - line;
+            square += off * off;
+          }
+          ASSERT_LE(std::sqrt(square), mid_error[i] + std::abs(s) * slope_error[i] + 1e-10) << n << ", row " << i;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 30);
+}
+
+/// In all of a set of rows and rotations: those of the midst, and others as far away as the set reaches.
+void expect_extremes_to_enclose() {
+  Random random(8);
+  for (int n = 0; n < 60; ++n) {
+    LoadText load = random_load(random);
+    std::erase_if(load.items, [](const LoadItem& item) { return std::holds_alternative<LoadCases>(item.what); });
+    const ItemRows items(make_load_model<Interval>(load));
+    ASSERT_TRUE(items.has_extremes());
+    const LoadModel<MpInterval> model = make_load_model<MpInterval>(load);
+    const double off = n % 3 == 0 ? 0 : std::pow(10.0, -static_cast<double>(n % 7));
+    const Matrix3<double> r = random_rotation(random);
+    const MovingRows moving(random, true);
+    const RowForms forms = moving.forms(1);
+    const taut::Six error(std::sqrt(3.0) * off + 1e-12);
+    const RowBalls rows{{forms.force.mid, error, forms.force.mid_size},
+                        {forms.moment.mid, error, forms.moment.mid_size}};
+    const Matrix3<Interval> turns =
+        r.unaryExpr([&](double x) { return Interval(-(off + 1e-12 - x), x + off + 1e-12); });
+    const ExtremalRows extremes = items.extremes(ItemRows::rotation(turns), rows);
+    const Vector6<Interval> nominal = items.nominal_wrench(turns);
+    for (int m = 0; m < 4; ++m) {
+      const double by = m == 0 ? 0 : off;
+      const Vector3<double> axis(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+      const Matrix3<double> turned = Eigen::AngleAxisd(0.5 * by, axis.normalized()).toRotationMatrix() * r;
+      const Matrix3<MpInterval> here = turned.unaryExpr([](double x) { return MpInterval(x); });
+      const LoadsAtPose<MpInterval> at = loads_at(model, here);
+      for (int k = 0; k < 6; ++k) {
+        ASSERT_LE(lower_bound(nominal(k)), midpoint_approx(at.nominal(k)) + 1e-10);
+        ASSERT_GE(upper_bound(nominal(k)), midpoint_approx(at.nominal(k)) - 1e-10);
+      }
+      for (std::size_t i = 0; i < kCables; ++i) {
+        Six y = moving.row[i];
+        for (double& x : y) x += by * uniform(random, -1, 1);
+        const auto part = [&](std::size_t k) {
+          return Vector3<MpInterval>(MpInterval(y[k]), MpInterval(y[k + 1]), MpInterval(y[k + 2]));
+        };
+        const DensityRange<MpInterval> range = density_range(model, at, vector<MpInterval>(y));
+        for (std::size_t side = 0; side < 2; ++side) {
+          const ExtremalLoad<MpInterval> exact = ExtremalLoads<MpInterval>(model, at).find(
+              part(0), part(3), side == 0 ? Extremum::kLeast : Extremum::kGreatest);
+          const ExtremalRows::Side& seen = extremes.sides[side];
+          const auto expect_within = [&](const VectorBall<taut::Six>& ball, const auto& entry, const char* what) {
+            double square = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+              const double gap = ball.mid[k].values()[i] - entry(static_cast<int>(k));
+              square += gap * gap;
+            }
+            ASSERT_LE(std::sqrt(square), ball.error.values()[i] + 1e-9) << what << " of row " << i << ", case " << n;
+          };
+          const Vector6<MpInterval> moved = exact.wrench - at.nominal;
+          expect_within(
+              seen.force, [&](int k) { return midpoint_approx(moved(k)); }, "force");
+          expect_within(
+              seen.moment, [&](int k) { return midpoint_approx(moved(3 + k)); }, "moment");
+          expect_within(
+              seen.turn, [&](int k) { return midpoint_approx(exact.by_turn(k)); }, "turn");
+          const double reach = midpoint_approx(side == 0 ? range.below : range.above);
+          ASSERT_GE(seen.reach.values()[i], reach - 1e-10);
+          if (off == 0) {  // nothing but rounding is added
+            ASSERT_LE(seen.reach.values()[i], reach + 1e-8);
+            ASSERT_LE(seen.turn.error.values()[i], 1e-6);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ItemRows, ExtremesEncloseThoseOfEveryRow) {
+  ASSERT_TRUE(run_upward([] { expect_extremes_to_enclose(); }));
 }
 
 TEST(ExtremalLoads, AreDerivativesOfTheRange) {
