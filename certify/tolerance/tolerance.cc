@@ -227,6 +227,7 @@ Origin<I> make_origin(const UndisturbedBox<I>& box, const ToleranceModel<I>& tol
       origin.swing.set(r, i, swing);
       origin.sweep.set(r, i, cross_exact<I>({y[3], y[4], y[5]}, origin.reach[i]));
     }
+    if (!origin.has_ellipsoid) continue;
     for (std::size_t i = 0; i < r; ++i) {
       I sum(0.0);
       for (std::size_t k = 0; k < 6; ++k) sum = sum + box.root[r][k] * box.root[i][k];
@@ -514,14 +515,14 @@ class States {
       root_moved[r] = Upper(0.0);
       for (std::size_t k = 0; k < kCables; ++k) {
         density_moved += guess_.s[r][k] * above(origin_.density[k]);
-        root_moved[r] += guess_.s[r][k] * tension_radius[k];
+        if (origin_.has_ellipsoid) root_moved[r] += guess_.s[r][k] * tension_radius[k];
       }
       x.density[r] = origin_.density[r] + ProofScalarTraits<I>::symmetric(density_moved);
       x.tension_radius[r] = origin_.tension_radius[r] + ProofScalarTraits<I>::symmetric(root_moved[r]);
       if (origin_.has_ellipsoid && !certainly_positive(x.tension_radius[r])) return std::nullopt;
       x.length[r] = origin_.length[r] + ProofScalarTraits<I>::symmetric(until * length_change[r]);
     }
-    for (std::size_t r = 0; r < kCables; ++r) {
+    for (std::size_t r = 0; origin_.has_ellipsoid && r < kCables; ++r) {
       for (std::size_t i = 0; i < r; ++i) {
         const Upper moved =
             root_moved[r] * tension_radius[i] + tension_radius[r] * root_moved[i] + root_moved[r] * root_moved[i];

@@ -253,10 +253,12 @@ TEST(LoadItems, AreRefusedWithPlaceNameAndValue) {
       {"{name: a, mass: 3 kN}", "load.items[a].mass: got '3 kN', expected a mass: a number or an expression"},
       // What no machine has, and what could not be said in another unit.
       {"{name: a, force: 1e-299 kN, direction: any}",
-       "crane.yaml:11:24: load.items[a].force: got '1e-299 kN', expected zero or a magnitude between 1e-100 and 1e100 N"},
+       "crane.yaml:11:24: load.items[a].force: got '1e-299 kN', expected zero or a magnitude between 1e-100 and 1e100 "
+       "N"},
       {"{name: a, mass: 1e99 t}", "got '1e99 t', expected zero or a magnitude between 1e-100 and 1e100 kg"},
       {"{name: a, mass: 1e308 t}", "load.items[a].mass: expression '1e308', column 1: got '1e308', expected zero or a"},
-      {"{name: a, mass: 1e-400}", "load.items[a].mass: expression '1e-400', column 1: got '1e-400', expected zero or a"},
+      {"{name: a, mass: 1e-400}",
+       "load.items[a].mass: expression '1e-400', column 1: got '1e-400', expected zero or a"},
       {"{name: a, force: 1e400, direction: any}", "load.items[a].force: expression '1e400', column 1: got '1e400'"},
       {"{name: a, mass: 3 tonnes}", "bare (t) or with one of the units kg, g, t"},
       {"{name: a, mass: sqrt(4)}", "load.items[a].mass: got 'sqrt(4)', expected a mass"},
