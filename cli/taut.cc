@@ -24,6 +24,7 @@
 #include "cli/doctor_command.h"
 #include "cli/explain_command.h"
 #include "cli/init_command.h"
+#include "cli/map_command.h"
 #include "cli/output.h"
 #include "cli/pdf.h"
 #include "cli/plan_command.h"
@@ -148,6 +149,10 @@ int run(int argc, char** argv) {
   CLI::App* show_command = app.add_subcommand("show", "print what a case was understood to say; draw the robot");
   add_show_options(*show_command, show_arguments);
 
+  MapArguments map_arguments;
+  CLI::App* map_command = app.add_subcommand("map", "prove which poses of a space of two or three are feasible");
+  add_map_options(*map_command, map_arguments);
+
   checker::refuse_empty_arguments(app);
   try {
     app.parse(argc, argv);
@@ -165,6 +170,10 @@ int run(int argc, char** argv) {
   if (*sensitivity_command) {
     rounding_self_test();
     return with_error_code(ErrorCode::kCase, [&] { return run_sensitivity(sensitivity_arguments); });
+  }
+  if (*map_command) {
+    rounding_self_test();
+    return with_error_code(ErrorCode::kCase, [&] { return run_map(map_arguments); });
   }
   if (*show_command) return with_error_code(ErrorCode::kCase, [&] { return run_show(show_arguments); });
   if (*explain_command) return run_explain(explain_arguments);

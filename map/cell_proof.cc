@@ -369,7 +369,9 @@ bool Judgement<N>::holds_for_deviations() {
   bool holds = bounds.has_value();
   std::array<Form, kMargins.size()> margins;
   for (std::size_t i = 0; i < kCables; ++i) {
-    const std::array<Form, 2> tensions = tension_margins(i, density(i));
+    const Density here = density(i);
+    if (!here.is_enclosed) return false;  // the cell is too wide
+    const std::array<Form, 2> tensions = tension_margins(i, here);
     margins[number(MarginKind::kTensionMin, i)] = tensions[0];
     margins[number(MarginKind::kTensionMax, i)] = tensions[1];
     margins[number(MarginKind::kLengthMin, i)] = length_[i] - model_.length_lower[i];

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -51,6 +52,7 @@ class Subdivision {
   /// Shares are looked at after so many cells, whatever the number of threads is.
   static constexpr std::size_t kBatch = 4096;
   static constexpr std::size_t kGrain = 64;
+  using Clock = std::chrono::steady_clock;
 
   bool is_finished() {
     using End = CellMap::End;
@@ -60,6 +62,8 @@ class Subdivision {
       map_.end = End::kCells;
     } else if (options_.stop.stop_requested()) {
       map_.end = End::kStopped;
+    } else if (std::chrono::duration<double>(Clock::now() - begin_).count() > options_.seconds) {
+      map_.end = End::kTime;
     } else {
       return false;
     }
@@ -116,6 +120,7 @@ class Subdivision {
   }
 
   const SubdivisionOptions& options_;
+  Clock::time_point begin_ = Clock::now();
   std::unique_ptr<CellProof> proof_;
   CellMap map_;
   std::array<int, kMaxMapAxes> deepest_{};

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <stop_token>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct SubdivisionOptions {
   double least_width = 0.0005;
   double undecided_share = 0.01;        ///< of the space's volume, at which to stop
   std::size_t most_cells = 20'000'000;  ///< leaves
+  double seconds = std::numeric_limits<double>::infinity();
   std::stop_token stop = {};
 };
 
@@ -39,6 +41,7 @@ struct CellMap {
     kShare,   ///< no more than the wanted share is undecided
     kWidth,   ///< all undecided cells are as small as they may get, or limited by tolerances
     kCells,   ///< there are as many cells as there may be
+    kTime,    ///< the time was over
     kStopped  ///< on demand
   };
   MapSpace space;

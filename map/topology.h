@@ -2,11 +2,11 @@
 // Which cells of a map share a pose, and what hangs together.
 //
 // Two closed cells are neighbours if they share a point (of a face, an edge or a corner). Beyond that:
-//   kTurn       t = 0 and t = 1 are one;
-//   kRange      an end is a wall;
-//   flip        on θ = 0 the orientation depends on σ alone, whatever φ is: cells there share a pose if they share the
-//               other coordinates; on θ = π it depends on σ − 2φ alone: they share one if they share σ − 2φ (mod 2π) and
-//               the coordinates besides φ and σ. Where σ is fixed, that is φ and φ + π.
+//   kTurn    t = 0 and t = 1 are one;
+//   kRange   an end is a wall;
+//   flip     on θ = 0 the orientation depends on σ alone, whatever φ is: cells there share a pose if they share the
+//            other coordinates; on θ = π it depends on σ − 2φ alone: they share one if they share σ − 2φ (mod 2π) and
+//            the coordinates besides φ and σ. Where σ is fixed, that is φ and φ + π.
 // A component of inside cells is joined for certain; two components of cells that are not outside are apart for
 // certain: no motion of the coordinates within the space leads from one to the other. Proof: docs/theory.md, "Maps".
 #pragma once
