@@ -26,6 +26,7 @@
 #include "cli/doctor_command.h"
 #include "cli/explain_command.h"
 #include "cli/init_command.h"
+#include "cli/map_command.h"
 #include "cli/output.h"
 #include "cli/pdf.h"
 #include "cli/plan_command.h"
@@ -147,6 +148,8 @@ std::vector<Command> add_commands(CLI::App& app) {
       add_sensitivity_options, proving(ErrorCode::kCase, run_sensitivity)));
   commands.push_back(add_command<ShowArguments>(app, "show", "print what a case was understood to say; draw the robot",
                                                 add_show_options, with_code(ErrorCode::kCase, run_show)));
+  commands.push_back(add_command<MapArguments>(app, "map", "prove which poses of a space of two or three are feasible",
+                                               add_map_options, proving(ErrorCode::kCase, run_map)));
   return commands;
 }
 

@@ -12,6 +12,9 @@
 //
 // The prover evaluates pose, rotation and force densities on this scalar; a clearance between bodies or any other
 // quantity of the pose would be evaluated on it just the same.
+//
+// Over a box of several variables, `slope` is a Gradient (gradient.h), one slope a variable: x(t) − x(m) = Σ σ_k
+// (t_k − m_k) with σ_k in slope[k]. Every rule is linear in the slopes, so it is the same.
 #pragma once
 
 #include <string>
@@ -21,14 +24,14 @@
 
 namespace taut {
 
-template <class I>
+template <class I, class Slope = I>
 struct SlopeForm {
   I at_mid;
-  I slope;
+  Slope slope;
   I range;
 
   SlopeForm() = default;
-  SlopeForm(I mid, I slope_over, I range_over)
+  SlopeForm(I mid, Slope slope_over, I range_over)
       : at_mid(std::move(mid)), slope(std::move(slope_over)), range(std::move(range_over)) {}
   /// A constant.
   explicit(false) SlopeForm(const I& constant) : at_mid(constant), slope(0.0), range(constant) {}
@@ -76,10 +79,11 @@ struct SlopeForm {
     const I mid = euclidean_norm(x.at_mid, y.at_mid, z.at_mid);
     const I over = euclidean_norm(x.range, y.range, z.range);
     if (certainly_positive(mid + over)) {
-      const I change = x.slope * (x.at_mid + x.range) + y.slope * (y.at_mid + y.range) + z.slope * (z.at_mid + z.range);
+      const Slope change =
+          x.slope * (x.at_mid + x.range) + y.slope * (y.at_mid + y.range) + z.slope * (z.at_mid + z.range);
       return {mid, change / (mid + over), over};
     }
-    const I slope = euclidean_norm(x.slope, y.slope, z.slope);
+    const Slope slope = euclidean_norm(x.slope, y.slope, z.slope);
     return {mid, hull(slope, -slope), over};
   }
   /// With x = a(m), h = a(t) − x:  sin(x + h) − sin x = h (cos x sinc h − sin x verc h),
@@ -136,17 +140,17 @@ struct SlopeForm {
     return {pow_int(a.at_mid, n), derivative * a.slope, pow_int(a.range, n)};
   }
 
-  /// Intersects `range` with the mean-value form; `offset` encloses t − m for all t in T.
-  void tighten(const I& offset) { range = intersect(range, at_mid + slope * offset); }
+  /// Intersects `range` with the mean-value form; `offset` encloses t − m for all t in T (Gradient: t_k − m_k).
+  void tighten(const Slope& offset) { range = intersect(range, at_mid + slope * offset); }
 
  private:
   static I cosine_of_asin(const I& x) { return sqrt((I(1.0) + x) * (I(1.0) - x)); }
 };
 
-template <class I>
-struct ScalarTraits<SlopeForm<I>> {
-  static SlopeForm<I> from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
-  static SlopeForm<I> pi() { return ScalarTraits<I>::pi(); }
+template <class I, class Slope>
+struct ScalarTraits<SlopeForm<I, Slope>> {
+  static SlopeForm<I, Slope> from_decimal(const std::string& text) { return ScalarTraits<I>::from_decimal(text); }
+  static SlopeForm<I, Slope> pi() { return ScalarTraits<I>::pi(); }
 };
 
 }  // namespace taut

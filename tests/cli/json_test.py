@@ -78,6 +78,10 @@ class Json(InFolder):
         self.assertEqual(refuted["verdict"], "refuted")
         self.assertIsNotNone(refuted["headroom"]["tightest"])
 
+    def test_maps(self):
+        found = self.printed(TAUT, "map", ROBOT1, "--undecided", "5%", "--out", self.path("map"), code=0)
+        self.assertEqual(found["files"], [self.path("map", "map.svg")])
+
     def test_documents_and_checks(self):
         self.printed(TAUT, "plan", ROBOT1, "--out", self.path("out"), code=0)
         certificate = self.path("out", "certificate.json")

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `taut map`: which poses of a whole space are proved feasible, and which are proved not to be.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+namespace taut {
+
+struct MapArguments {
+  std::string case_path;
+  std::string undecided;  ///< "1 %", "0.01"; empty: 1 % of two coordinates, 10 % of three
+  double least_width = 0.0005;
+  double seconds = std::numeric_limits<double>::infinity();
+  std::size_t most_cells = 20'000'000;
+  std::string out;  ///< folder for map.svg, or empty
+  bool json = false;
+};
+
+void add_map_options(CLI::App& command, MapArguments& arguments);
+
+/// @returns the exit code: 0 where the map was made, as far as it was asked for; 2 where it was interrupted.
+/// @throws InputError for a case that has no map
+[[nodiscard]] int run_map(const MapArguments& arguments);
+
+}  // namespace taut

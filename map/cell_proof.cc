@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "map/cell_proof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "certify/box_proof.h"
+#include "map/cell_inverse.h"
+
+namespace taut {
+namespace {
+
+constexpr std::array<MarginId, 4 * kCables> kMargins = all_margins();
+
+/// The number of a margin in all_margins().
+constexpr std::size_t number(MarginKind kind, std::size_t cable) {
+  return static_cast<std::size_t>(kind) * kCables + cable;
+}
+constexpr bool is_numbered_by_kind() {
+  for (std::size_t n = 0; n < kMargins.size(); ++n) {
+    if (number(kMargins[n].kind, static_cast<std::size_t>(kMargins[n].cable)) != n) return false;
+  }
+  return true;
+}
+static_assert(is_numbered_by_kind());
+
+/// The problem ready for cells of N coordinates.
+template <std::size_t N>
+struct CellModel {
+  ProofModel<Interval> proof;
+  Evaluator<CellForm<N>> pose;
+  std::array<Interval, N> lower, extent;  ///< λ_k = lower_k + t_k extent_k
+};
+
+template <std::size_t N>
+CellModel<N> make_cell_model(const Problem& problem, const MapSpace& space) {
+  CellModel<N> model{make_proof_model(problem), Evaluator<CellForm<N>>(pose_tape(problem)), {}, {}};
+  const bool is_bounded = run_upward([&] {
+    for (std::size_t k = 0; k < N; ++k) {
+      model.lower[k] = evaluate_constant<Interval>(space.axes[k].lower);
+      model.extent[k] = evaluate_constant<Interval>(space.axes[k].upper) - model.lower[k];
+    }
+  });
+  if (!is_bounded) throw InputError("space: got a range whose ends are beyond the range of binary64, or not defined");
+  return model;
+}
+
+/// Of deviations (certify/tolerance/tolerance.h).
+constexpr int kContinuationSteps = 1;
+/// Cells so small are not halved further where deviations can't be bounded even at their midpoints.
+constexpr int kManyHalvings = 14;
+
+/// How far a deviation may change a margin.
+double change_of(MarginId margin, const DeviationBounds<Interval>& change) {
+  const auto i = static_cast<std::size_t>(margin.cable);
+  switch (margin.kind) {
+    case MarginKind::kTensionMin: return change.tension[i][0];
+    case MarginKind::kTensionMax: return change.tension[i][1];
+    case MarginKind::kLengthMin:
+    case MarginKind::kLengthMax: break;
+  }
+  return change.length[i];
+}
+
+/// The axis that was halved least.
+template <std::size_t N>
+std::uint8_t widest_axis(const Cell& cell) {
+  return static_cast<std::uint8_t>(std::min_element(cell.depth.begin(), cell.depth.begin() + N) - cell.depth.begin());
+}
+
+/// The judgement of one cell.
+template <std::size_t N>
+class Judgement {
+ public:
+  using Form = CellForm<N>;
+
+  enum class Extent { kCell, kMidpoint };
+
+  Judgement(const CellModel<N>& problem, const Cell& cell, CellVerdict& verdict, Extent extent = Extent::kCell)
+      : problem_(problem), model_(problem.proof.model), cell_(cell), verdict_(verdict) {
+    for (std::size_t k = 0; k < N; ++k) {
+      radius_[k] = extent == Extent::kCell ? cell.radius(k) : 0;
+      offset_[k] = Interval(-radius_[k], radius_[k]);
+      Form& x = parameters_[k];
+      const Interval mid(cell.mid(k));
+      x.at_mid = problem.lower[k] + mid * problem.extent[k];
+      x.range = problem.lower[k] + (mid + offset_[k]) * problem.extent[k];
+      x.slope = Gradient<Interval, N>(0.0);
+      x.slope[k] = problem.extent[k];
+    }
+  }
+
+  /// Encloses what deviations() takes. @returns whether J is non-singular
+  bool enclose_all() {
+    enclose_geometry();
+    if (!inverse_.set(geometry_.force_density, radius_) || !inverse_.is_regular()) return false;
+    prepare_columns();
+    return true;
+  }
+  /// What deviations may change. @pre enclose_all(), or what decide() does before it asks
+  [[nodiscard]] std::optional<DeviationBounds<Interval>> deviations() const;
+
+  void decide() {
+    enclose_geometry();
+    if (is_outside_by_length()) return;
+    if (!inverse_.set(geometry_.force_density, radius_)) {
+      verdict_.axis = widest_axis<N>(cell_);
+      return;
+    }
+    verdict_.regular = inverse_.is_regular();
+    prepare_columns();
+    if (inverse_.is_regular() && is_decided_by_tensions()) return;
+    if (is_unbalanced()) return;
+    suggest_axis();
+  }
+
+ private:
+  [[nodiscard]] bool is_proved(std::size_t margin) const { return (verdict_.proved >> margin & 1U) != 0; }
+  void end(CellKind kind, std::size_t reason) {
+    verdict_.kind = kind;
+    verdict_.reason = static_cast<std::uint8_t>(reason);
+  }
+
+  void enclose_geometry();
+  bool is_outside_by_length();
+  void prepare_columns();
+  bool is_decided_by_tensions();
+  bool is_unbalanced();
+  void suggest_axis();
+
+  /// Notes what is known of a margin. @returns whether it is not positive on all of the cell.
+  bool examine(std::size_t margin, const Form& value) {
+    if (certainly_nonpositive(value.range)) return true;
+    if (certainly_positive(value.range)) {
+      verdict_.proved |= 1U << margin;
+    } else {
+      weigh(value);
+    }
+    return false;
+  }
+  /// Adds to how much halving along each axis would help: by how much a margin changes, over its own size.
+  void weigh(const Form& value) {
+    std::array<double, N> change;
+    double total = 0;
+    for (std::size_t k = 0; k < N; ++k) total += change[k] = radius_[k] * magnitude(value.slope[k]);
+    for (std::size_t k = 0; k < N && total > 0; ++k) weight_[k] += change[k] / total;
+  }
+
+  /// Force densities λ_i = (D^-1 w)_i of one cable over the cell, for all wrenches of K.
+  struct Density {
+    bool is_enclosed = false;
+    Form nominal, below, above;      ///< of the nominal wrench, and how far K moves it
+    std::array<Interval, 6> root{};  ///< row Z_i of D^-1 L, of the ellipsoid
+    Form radius{0.0};                ///< |Z_i|
+  };
+  [[nodiscard]] Density density(std::size_t i) const;
+  void add_items(const Vector6<Form>& y, Density& density) const;
+  /// f_i − f_lo and f_hi − f_i of the least and the greatest tension.
+  [[nodiscard]] std::array<Form, 2> tension_margins(std::size_t i, const Density& density) const;
+  [[nodiscard]] bool holds_for_deviations();
+
+  /// The values that y·w takes over K at one pose, for y row i of C: from at most `least` to at least `greatest`.
+  struct Work {
+    double least, greatest;
+  };
+  [[nodiscard]] Work work(std::size_t i) const;
+
+  const CellModel<N>& problem_;
+  const Model<Interval>& model_;
+  const Cell& cell_;
+  CellVerdict& verdict_;
+  std::array<double, N> radius_;
+  Gradient<Interval, N> offset_;
+  std::array<Form, N> parameters_;
+  std::array<double, N> weight_{};
+
+  Vector3<Form> p_WP_;
+  Matrix3<Form> r_WP_;
+  CableGeometry<Form> geometry_;
+  std::array<Form, kCables> length_;
+  CellInverse<N> inverse_;
+  LoadsAtPose<Form> loads_;
+  Vector6<Interval> wrench_;  ///< the nominal one near the midpoint, a constant
+  Vector6<Form> remaining_;   ///< what the nominal wrench is more than that; of items only
+  CellColumns<7> columns_;    ///< C w and C L; without an ellipsoid, C w and C
+  CellColumns<6> identity_;   ///< C; only with both items and an ellipsoid
+};
+
+template <std::size_t N>
+void Judgement<N>::enclose_geometry() {
+  const Pose<Form> pose = evaluate_pose(problem_.pose, std::span<const Form>(parameters_));
+  p_WP_ = pose.p_WP;
+  r_WP_ = rotation(model_.angles, pose.angles);
+  for (int i = 0; i < 3; ++i) {
+    p_WP_(i).tighten(offset_);
+    for (int j = 0; j < 3; ++j) r_WP_(i, j).tighten(offset_);
+  }
+  geometry_ = cable_geometry(model_, p_WP_, r_WP_);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    length_[i] = length(geometry_.p_AB_W[i]);
+    length_[i].tighten(offset_);
+  }
+}
+
+template <std::size_t N>
+bool Judgement<N>::is_outside_by_length() {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const std::size_t least = number(MarginKind::kLengthMin, i), most = number(MarginKind::kLengthMax, i);
+    if (!is_proved(least) && examine(least, length_[i] - model_.length_lower[i])) {
+      end(CellKind::kLength, least);
+      return true;
+    }
+    if (!is_proved(most) && examine(most, -length_[i] + model_.length_upper[i])) {
+      end(CellKind::kLength, most);
+      return true;
+    }
+  }
+  return false;
+}
+
+template <std::size_t N>
+void Judgement<N>::prepare_columns() {
+  wrench_ = model_.wrench;
+  if (!model_.loads.empty()) {
+    loads_ = loads_at(model_.loads, r_WP_);
+    for (int j = 0; j < 6; ++j) {
+      const Interval near(midpoint_approx(loads_.nominal(j).at_mid));
+      wrench_(j) = wrench_(j) + near;
+      remaining_(j) = loads_.nominal(j) - near;
+    }
+  }
+  const Matrix6<double>& c = inverse_.c();
+  for (std::size_t i = 0; i < 6; ++i) {
+    const int row = static_cast<int>(i);
+    Interval sum(0.0);
+    for (int l = 0; l < 6; ++l) sum = sum + c(row, l) * wrench_(l);
+    columns_.value[i][0] = sum;
+    for (int j = 0; j < 6; ++j) {
+      const auto column = static_cast<std::size_t>(j);
+      identity_.value[i][column] = Interval(c(row, j));
+      Interval& entry = columns_.value[i][column + 1];
+      entry = Interval(c(row, j));
+      if (!model_.has_ellipsoid) continue;
+      entry = c(row, j) * model_.ellipsoid_root(j, j);
+      for (int l = 0; l < j && !model_.ellipsoid_is_diagonal; ++l) {
+        entry = entry + c(row, l) * model_.ellipsoid_root(l, j);
+      }
+    }
+  }
+  columns_.finish();
+  if (model_.has_ellipsoid && !model_.loads.empty()) identity_.finish();
+}
+
+template <std::size_t N>
+auto Judgement<N>::density(std::size_t i) const -> Density {
+  std::array<Form, 7> forms;
+  inverse_.row(i, columns_, forms);
+  Density result;
+  result.nominal = forms[0];
+  if (model_.has_ellipsoid) {
+    Form square(0.0);
+    for (std::size_t j = 1; j < 7; ++j) {
+      square = square + sqr(forms[j]);
+      result.root[j - 1] = forms[j].range;
+    }
+    square.tighten(offset_);
+    if (!certainly_positive(square.range)) return result;  // the cell is too wide
+    result.radius = sqrt(square);
+    result.radius.tighten(offset_);
+  } else {
+    result.root.fill(Interval(0.0));
+  }
+  result.below = result.above = result.radius;
+  if (!model_.loads.empty()) {
+    std::array<Form, 6> rows;
+    if (model_.has_ellipsoid) {
+      inverse_.row(i, identity_, rows);
+    } else {
+      std::copy(forms.begin() + 1, forms.end(), rows.begin());
+    }
+    Vector6<Form> y;
+    for (int j = 0; j < 6; ++j) y(j) = rows[static_cast<std::size_t>(j)];
+    for (int j = 0; j < 6; ++j) result.nominal = result.nominal + y(j) * remaining_(j);
+    result.nominal.tighten(offset_);
+    add_items(y, result);
+  }
+  result.is_enclosed = true;
+  return result;
+}
+
+template <std::size_t N>
+void Judgement<N>::add_items(const Vector6<Form>& y, Density& density) const {
+  const DensityRange<Form> range = density_range(model_.loads, loads_, y);
+  density.below = density.below + range.below;
+  density.above = density.above + range.above;
+  density.below.tighten(offset_);
+  density.above.tighten(offset_);
+}
+
+template <std::size_t N>
+auto Judgement<N>::tension_margins(std::size_t i, const Density& density) const -> std::array<Form, 2> {
+  Form low = length_[i] * (density.nominal - density.below);
+  Form high = length_[i] * (density.nominal + density.above);
+  low.tighten(offset_);
+  high.tighten(offset_);
+  return {low - model_.tension_lower[i], -high + model_.tension_upper[i]};
+}
+
+template <std::size_t N>
+bool Judgement<N>::is_decided_by_tensions() {
+  constexpr std::uint32_t kAll = (1U << kMargins.size()) - 1;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const std::array<std::size_t, 2> both = {number(MarginKind::kTensionMin, i), number(MarginKind::kTensionMax, i)};
+    if (is_proved(both[0]) && is_proved(both[1])) continue;
+    const Density here = density(i);
+    if (!here.is_enclosed) continue;
+    const std::array<Form, 2> margins = tension_margins(i, here);
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (is_proved(both[side]) || !examine(both[side], margins[side])) continue;
+      end(CellKind::kTension, both[side]);
+      return true;
+    }
+  }
+  if (verdict_.proved != kAll || (problem_.proof.tolerance && !holds_for_deviations())) return false;
+  end(CellKind::kInside, 0);
+  return true;
+}
+
+/// Each pose of the cell is taken as a constant that is known as well as the cell is small.
+template <std::size_t N>
+auto Judgement<N>::deviations() const -> std::optional<DeviationBounds<Interval>> {
+  using Constant = SlopeForm<Interval>;
+  const auto constant = [](const Form& x) { return Constant(x.range); };
+  MotionEnclosure<Interval> motion;
+  motion.status = MotionEnclosure<Interval>::Status::kKnown;
+  motion.p_WP = p_WP_.unaryExpr(constant);
+  motion.r_WP = r_WP_.unaryExpr(constant);
+  CableGeometry<Constant> geometry;
+  geometry.force_density = geometry_.force_density.unaryExpr(constant);
+  std::array<Constant, kCables> lengths, densities, radii;
+  Square<Interval> root;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    geometry.p_AB_W[i] = geometry_.p_AB_W[i].unaryExpr(constant);
+    const Density here = density(i);
+    if (!here.is_enclosed) return std::nullopt;
+    lengths[i] = constant(length_[i]);
+    densities[i] = constant(here.nominal);
+    radii[i] = constant(here.radius);
+    root[i] = here.root;
+  }
+  const ToleranceModel<Interval>& tolerance = *problem_.proof.tolerance;
+  return disturbance<Interval>({model_, motion, geometry, lengths, densities, radii, root, inverse_.c(), inverse_.q(),
+                                tolerance.length_controlled},
+                               tolerance, kContinuationSteps);
+}
+
+/// The bounds of deviations at the midpoint alone, without what the extent of the cell adds to them.
+template <std::size_t N>
+std::optional<DeviationBounds<Interval>> deviations_at_mid(const CellModel<N>& problem, const Cell& cell) {
+  CellVerdict unused;
+  Judgement<N> point(problem, cell, unused, Judgement<N>::Extent::kMidpoint);
+  return point.enclose_all() ? point.deviations() : std::nullopt;
+}
+
+template <std::size_t N>
+bool Judgement<N>::holds_for_deviations() {
+  const auto bounds = deviations();
+  bool holds = bounds.has_value();
+  std::array<Form, kMargins.size()> margins;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Density here = density(i);
+    if (!here.is_enclosed) return false;  // the cell is too wide
+    const std::array<Form, 2> tensions = tension_margins(i, here);
+    margins[number(MarginKind::kTensionMin, i)] = tensions[0];
+    margins[number(MarginKind::kTensionMax, i)] = tensions[1];
+    margins[number(MarginKind::kLengthMin, i)] = length_[i] - model_.length_lower[i];
+    margins[number(MarginKind::kLengthMax, i)] = -length_[i] + model_.length_upper[i];
+  }
+  const auto left = [&](std::size_t margin, const DeviationBounds<Interval>& change) {
+    return margins[margin].range - Interval(change_of(kMargins[margin], change));
+  };
+  for (std::size_t n = 0; bounds && n < margins.size(); ++n) {
+    if (certainly_positive(left(n, *bounds))) continue;
+    holds = false;
+    weigh(margins[n]);
+  }
+  if (holds) return true;
+  const auto at_mid = deviations_at_mid(problem_, cell_);
+  verdict_.is_tolerance = !at_mid && cell_.halvings() >= kManyHalvings;
+  for (std::size_t n = 0; at_mid && n < margins.size(); ++n) {
+    verdict_.is_tolerance = verdict_.is_tolerance || certainly_nonpositive(left(n, *at_mid));
+  }
+  return false;
+}
+
+template <std::size_t N>
+auto Judgement<N>::work(std::size_t i) const -> Work {
+  Form nominal(columns_.value[i][0]);
+  Form below(0.0), above(0.0);
+  if (model_.has_ellipsoid) {
+    Interval square(0.0);
+    for (std::size_t j = 1; j < 7; ++j) square = square + sqr(columns_.value[i][j]);
+    below = above = Form(sqrt(square));
+  }
+  if (!model_.loads.empty()) {
+    Vector6<Form> y;
+    for (int j = 0; j < 6; ++j) {
+      const Interval entry(inverse_.c()(static_cast<int>(i), j));
+      y(j) = Form(entry);
+      nominal = nominal + remaining_(j) * entry;
+    }
+    nominal.tighten(offset_);
+    Density items;
+    items.below = below;
+    items.above = above;
+    add_items(y, items);
+    below = items.below;
+    above = items.above;
+  }
+  return {(nominal.range - below.range).upper(), (nominal.range + above.range).lower()};
+}
+
+/// At a pose of the cell that balances every w of K within limits, D λ = w with λ_j = f_j/d_j, and so y·w = Σ_j (y·D_j)
+/// λ_j for y row i of C. The greatest y·w over K must not exceed the greatest such sum, nor the least fall below.
+template <std::size_t N>
+bool Judgement<N>::is_unbalanced() {
+  std::array<Interval, kCables> density;
+  for (std::size_t j = 0; j < kCables; ++j) {
+    // Where a length is beyond its limits, there is nothing to show.
+    const double least = std::max(length_[j].range.lower(), model_.length_lower[j].lower());
+    const double most = std::min(length_[j].range.upper(), model_.length_upper[j].upper());
+    if (!(least > 0 && least <= most)) return false;
+    density[j] = Interval(model_.tension_lower[j].lower(), model_.tension_upper[j].upper()) / Interval(least, most);
+  }
+  for (std::size_t i = 0; i < kCables; ++i) {
+    Interval sum(0.0);
+    for (std::size_t j = 0; j < kCables; ++j) sum = sum + inverse_.product(i, j) * density[j];
+    const Work needed = work(i);
+    const bool is_above = needed.greatest > sum.upper();
+    if (!is_above && !(needed.least < sum.lower())) continue;
+    end(CellKind::kUnbalanced, 2 * i + (is_above ? 0 : 1));
+    return true;
+  }
+  return false;
+}
+
+template <std::size_t N>
+void Judgement<N>::suggest_axis() {
+  if (std::all_of(weight_.begin(), weight_.end(), [](double x) { return !(x > 0); }) || !verdict_.regular) {
+    for (std::size_t k = 0; k < N; ++k) weight_[k] = inverse_.reach(k);
+  }
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < N; ++k) {
+    if (weight_[k] > weight_[best]) best = k;
+  }
+  verdict_.axis = static_cast<std::uint8_t>(best);
+}
+
+template <std::size_t N>
+class CellProofOf final : public CellProof {
+ public:
+  CellProofOf(const Problem& problem, const MapSpace& space) : model_(make_cell_model<N>(problem, space)) {}
+
+  [[nodiscard]] CellVerdict judge(const Cell& cell, std::uint32_t proved) const override {
+    CellVerdict verdict;
+    const bool is_valid = run_upward([&] {
+      verdict.proved = proved;
+      Judgement<N>(model_, cell, verdict).decide();
+    });
+    if (is_valid) return verdict;
+    verdict = CellVerdict();
+    verdict.proved = proved;
+    verdict.axis = widest_axis<N>(cell);
+    return verdict;
+  }
+
+ private:
+  CellModel<N> model_;
+};
+
+}  // namespace
+
+std::unique_ptr<CellProof> make_cell_proof(const Problem& problem, const MapSpace& space) {
+  switch (space.size()) {
+    case 2: return std::make_unique<CellProofOf<2>>(problem, space);
+    case 3: return std::make_unique<CellProofOf<3>>(problem, space);
+    default: throw std::logic_error("a map of neither two nor three axes");
+  }
+}
+
+}  // namespace taut

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "map/subdivision.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace taut {
+namespace {
+
+/// An undecided leaf that may be halved further.
+struct Pending {
+  Cell cell;
+  std::uint32_t node = 0;
+  std::uint32_t proved = 0;  ///< of a cell that contains it
+};
+
+class Subdivision {
+ public:
+  Subdivision(const Problem& problem, const MapSpace& space, const SubdivisionOptions& options)
+      : options_(options), proof_(make_cell_proof(problem, space)), pending_(kMaxCellHalvings + 1) {
+    map_.space = space;
+    map_.nodes.emplace_back();
+    map_.share[0] = 1;
+    pending_[0].push_back({});
+    for (std::size_t k = 0; k < space.size(); ++k) {
+      const double halvings = std::floor(std::log2(1 / options.least_width));
+      deepest_[k] = static_cast<int>(std::clamp(halvings, 0.0, double{kMaxCellDepth}));
+    }
+  }
+
+  CellMap run() {
+    for (std::size_t size = 0; size < pending_.size(); ++size) {
+      // Cells of one size are judged in the order in which their parents were: `first` is the next.
+      for (std::size_t first = 0; first < pending_[size].size(); first += kBatch) {
+        if (is_finished()) return std::move(map_);
+        judge({pending_[size].data() + first, std::min(kBatch, pending_[size].size() - first)});
+      }
+      pending_[size] = {};
+    }
+    map_.end = CellMap::End::kWidth;
+    return std::move(map_);
+  }
+
+ private:
+  /// Shares are looked at after so many cells, whatever the number of threads is.
+  static constexpr std::size_t kBatch = 4096;
+  static constexpr std::size_t kGrain = 64;
+  using Clock = std::chrono::steady_clock;
+
+  bool is_finished() {
+    using End = CellMap::End;
+    if (map_.share[0] <= options_.undecided_share) {
+      map_.end = End::kShare;
+    } else if (map_.leaves() + kBatch > options_.most_cells) {
+      map_.end = End::kCells;
+    } else if (options_.stop.stop_requested()) {
+      map_.end = End::kStopped;
+    } else if (std::chrono::duration<double>(Clock::now() - begin_).count() > options_.seconds) {
+      map_.end = End::kTime;
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void judge(std::span<const Pending> batch) {
+    verdicts_.resize(batch.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.size(), kGrain), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n < range.end(); ++n) {
+        verdicts_[n] = proof_->judge(batch[n].cell, batch[n].proved);
+      }
+    });
+    map_.judged += batch.size();
+    for (std::size_t n = 0; n < batch.size(); ++n) settle(batch[n], verdicts_[n]);
+  }
+
+  void settle(const Pending& pending, const CellVerdict& verdict) {
+    MapNode& node = map_.nodes[pending.node];
+    node.kind = verdict.kind;
+    node.reason = verdict.reason;
+    node.regular = verdict.regular;
+    if (verdict.kind != CellKind::kUndecided) {
+      const double volume = pending.cell.volume();
+      map_.share[0] -= volume;
+      map_.share[static_cast<std::size_t>(verdict.kind)] += volume;
+      return;
+    }
+    const std::optional<std::size_t> axis = axis_to_halve(pending.cell, verdict.axis);
+    if (!axis || verdict.is_tolerance) {
+      if (verdict.is_tolerance) map_.tolerance_share += pending.cell.volume();
+      return;
+    }
+    const auto child = static_cast<std::uint32_t>(map_.nodes.size());
+    node.child = child;
+    node.axis = static_cast<std::uint8_t>(*axis);
+    map_.nodes.emplace_back();
+    map_.nodes.emplace_back();
+    for (unsigned side = 0; side < 2; ++side) {
+      const Cell half = pending.cell.half(*axis, side);
+      pending_[static_cast<std::size_t>(half.halvings())].push_back({half, child + side, verdict.proved});
+    }
+  }
+
+  /// The one that is proposed, if it may be halved; else the widest that may.
+  [[nodiscard]] std::optional<std::size_t> axis_to_halve(const Cell& cell, std::size_t proposed) const {
+    if (cell.halvings() >= kMaxCellHalvings) return std::nullopt;
+    if (cell.depth[proposed] < deepest_[proposed]) return proposed;
+    std::optional<std::size_t> widest;
+    for (std::size_t k = 0; k < map_.space.size(); ++k) {
+      if (cell.depth[k] < deepest_[k] && (!widest || cell.depth[k] < cell.depth[*widest])) widest = k;
+    }
+    return widest;
+  }
+
+  const SubdivisionOptions& options_;
+  Clock::time_point begin_ = Clock::now();
+  std::unique_ptr<CellProof> proof_;
+  CellMap map_;
+  std::array<int, kMaxMapAxes> deepest_{};
+  std::vector<std::vector<Pending>> pending_;  ///< by the number of halvings: the largest first
+  std::vector<CellVerdict> verdicts_;
+};
+
+}  // namespace
+
+CellMap subdivide(const Problem& problem, const MapSpace& space, const SubdivisionOptions& options) {
+  return Subdivision(problem, space, options).run();
+}
+
+}  // namespace taut

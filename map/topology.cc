@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "map/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "certify/arithmetic/mp_interval.h"
+#include "problem/expression.h"
+
+namespace taut {
+
+MapBox box_of(const Cell& cell) {
+  MapBox box;
+  for (std::size_t k = 0; k < kMaxMapAxes; ++k) {
+    box.lower[k] = cell.lower(k);
+    box.upper[k] = cell.upper(k);
+  }
+  return box;
+}
+
+// ---- Where a pose is ------------------------------------------------------------------------------------------------
+
+namespace {
+
+using Interval2 = std::array<double, 2>;
+
+/// Places are widened by this much, far more than what is rounded below.
+constexpr double kRounding = 1e-14;
+
+/// The parts of [x[0], x[1]] modulo 1 within [0, 1].
+std::vector<Interval2> wrapped(Interval2 x) {
+  x = {x[0] - kRounding, x[1] + kRounding};
+  if (!(x[1] - x[0] < 1)) return {{0, 1}};
+  const double turns = std::floor(x[0]);
+  x = {x[0] - turns, x[1] - turns};
+  std::vector<Interval2> parts = {{std::min(x[0], 1.0), std::min(x[1], 1.0)}};
+  if (x[1] >= 1) parts.push_back({0, x[1] - 1});
+  return parts;
+}
+
+/// λ in t along an axis, enclosed, without regard to turns.
+Interval2 enclosed_t(const MapAxis& axis, const ExpressionText& coordinate) {
+  constexpr mpfr_prec_t kPrecision = 128;
+  const PrecisionScope precision(kPrecision);
+  const auto lower = evaluate_constant<MpInterval>(axis.lower);
+  const MpInterval t =
+      (evaluate_constant<MpInterval>(coordinate) - lower) / (evaluate_constant<MpInterval>(axis.upper) - lower);
+  return {lower_bound(t), upper_bound(t)};
+}
+
+/// A possible place along θ, and by how much φ is shifted there.
+struct Tilt {
+  Interval2 t;
+  double shift;
+};
+
+/// θ/π in [0, 1]: by whole turns, which are 2, and (φ, θ) = (φ + π, −θ).
+std::vector<Tilt> tilts(Interval2 t) {
+  t = {t[0] - kRounding, t[1] + kRounding};
+  if (!(t[1] - t[0] < 1)) return {{{0, 1}, 0}, {{0, 1}, 0.5}};
+  const double turns = 2 * std::floor((t[0] + 1) / 2);
+  t = {t[0] - turns, t[1] - turns};  // begins in [−1, 1]
+  std::vector<Tilt> parts;
+  const auto add = [&](double lower, double upper, double shift) {
+    if (lower <= upper) parts.push_back({{lower, upper}, shift});
+  };
+  add(std::max(t[0], 0.0), std::min(t[1], 1.0), 0);
+  if (t[0] <= 0) add(std::max(-t[1], 0.0), std::min(-t[0], 1.0), 0.5);
+  if (t[1] >= 1) add(std::max(2 - t[1], 0.0), std::min(2 - t[0], 1.0), 0.5);
+  return parts;
+}
+
+}  // namespace
+
+std::vector<MapBox> place_of(const MapSpace& space, const std::vector<ExpressionText>& coordinates) {
+  std::vector<Interval2> t;
+  for (std::size_t k = 0; k < space.size(); ++k) t.push_back(enclosed_t(space.axes[k], coordinates.at(k)));
+  std::vector<Tilt> tilted = {{{0, 0}, 0}};
+  if (space.flip) tilted = tilts(t[space.flip->theta]);
+  std::vector<MapBox> result;
+  for (const Tilt& tilt : tilted) {
+    std::vector<MapBox> boxes(1);
+    for (std::size_t k = 0; k < space.size(); ++k) {
+      std::vector<Interval2> parts;
+      switch (space.axes[k].kind) {
+        case MapAxis::Kind::kRange: parts = {{std::clamp(t[k][0], 0.0, 1.0), std::clamp(t[k][1], 0.0, 1.0)}}; break;
+        case MapAxis::Kind::kTilt: parts = {tilt.t}; break;
+        case MapAxis::Kind::kTurn: {
+          const double shift = space.flip && space.flip->phi == k ? tilt.shift : 0;
+          parts = wrapped({t[k][0] + shift, t[k][1] + shift});
+          break;
+        }
+      }
+      std::vector<MapBox> next;
+      for (const MapBox& box : boxes) {
+        for (const Interval2& part : parts) {
+          next.push_back(box);
+          next.back().lower[k] = part[0];
+          next.back().upper[k] = part[1];
+        }
+      }
+      boxes = std::move(next);
+    }
+    result.insert(result.end(), boxes.begin(), boxes.end());
+  }
+  return result;
+}
+
+// ---- Cells that share a pose ----------------------------------------------------------------------------------------
+
+namespace {
+
+bool meet(double a_lower, double a_upper, double b_lower, double b_upper) {
+  return a_lower <= b_upper && b_lower <= a_upper;
+}
+
+/// Whether closed intervals meet modulo 1. Exact for dyadic ends.
+bool meet_modulo_1(const Interval2& a, const Interval2& b) {
+  // Some integer n has a − b ∋ n.
+  return std::ceil(a[0] - b[1]) <= a[1] - b[0];
+}
+
+/// σ − 2φ in turns, over a box.
+Interval2 twist(const MapBox& box, const MapSpace::Flip& flip) {
+  return {box.lower[*flip.sigma] - 2 * box.upper[flip.phi], box.upper[*flip.sigma] - 2 * box.lower[flip.phi]};
+}
+
+/// Finds leaves that share a pose with a box.
+class Neighbourhood {
+ public:
+  Neighbourhood(const CellMap& map, std::vector<std::uint32_t>& found) : map_(map), found_(found) {}
+
+  /// Those that meet the box, as it is and across whole turns.
+  void add_around(const MapBox& box, std::size_t axis = 0) {
+    if (axis == map_.space.size()) {
+      add([&](const MapBox& other) { return meets(box, other); }, MapBox(), 0);
+      return;
+    }
+    add_around(box, axis + 1);
+    if (map_.space.axes[axis].kind != MapAxis::Kind::kTurn) return;
+    for (const double end : {0.0, 1.0}) {
+      if ((end == 0 ? box.lower : box.upper)[axis] != end) continue;
+      MapBox beyond = box;
+      beyond.lower[axis] = beyond.upper[axis] = 1 - end;
+      add_around(beyond, axis + 1);
+    }
+  }
+
+  /// Those that share a pose where (φ, θ) flip, on θ = 0 and on θ = π.
+  void add_flipped(const MapBox& box) {
+    const MapSpace::Flip& flip = *map_.space.flip;
+    if (box.lower[flip.theta] <= 0) {
+      MapBox pole = box;
+      pole.lower[flip.phi] = 0;
+      pole.upper[flip.phi] = 1;
+      pole.lower[flip.theta] = pole.upper[flip.theta] = 0;
+      add_around(pole);
+    }
+    if (box.upper[flip.theta] < 1) return;
+    MapBox pole = box;
+    pole.lower[flip.theta] = pole.upper[flip.theta] = 1;
+    if (!flip.sigma) {
+      pole.lower[flip.phi] += 0.5;
+      pole.upper[flip.phi] += 0.5;
+      for (const double turn : {0.0, 1.0}) {
+        MapBox part = pole;
+        part.lower[flip.phi] = std::max(0.0, pole.lower[flip.phi] - turn);
+        part.upper[flip.phi] = std::min(1.0, pole.upper[flip.phi] - turn);
+        if (part.lower[flip.phi] <= part.upper[flip.phi]) add_around(part);
+      }
+      return;
+    }
+    const Interval2 sought = twist(pole, flip);
+    pole.lower[flip.phi] = pole.lower[*flip.sigma] = 0;
+    pole.upper[flip.phi] = pole.upper[*flip.sigma] = 1;
+    add([&](const MapBox& other) { return meets(pole, other) && meet_modulo_1(sought, twist(other, flip)); }, MapBox(),
+        0);
+  }
+
+ private:
+  bool meets(const MapBox& a, const MapBox& b) const {
+    for (std::size_t k = 0; k < map_.space.size(); ++k) {
+      if (!meet(a.lower[k], a.upper[k], b.lower[k], b.upper[k])) return false;
+    }
+    return true;
+  }
+
+  /// Leaves below a node for which `is_met` holds, which is true of a box wherever it is of a part of it.
+  template <class Test>
+  void add(const Test& is_met, const MapBox& box, std::uint32_t node) {
+    if (!is_met(box)) return;
+    const MapNode& here = map_.nodes[node];
+    if (here.axis == MapNode::kLeaf) {
+      found_.push_back(node);
+      return;
+    }
+    const double mid = 0.5 * (box.lower[here.axis] + box.upper[here.axis]);  // exact
+    MapBox half = box;
+    half.upper[here.axis] = mid;
+    add(is_met, half, here.child);
+    half.upper[here.axis] = box.upper[here.axis];
+    half.lower[here.axis] = mid;
+    add(is_met, half, here.child + 1);
+  }
+
+  const CellMap& map_;
+  std::vector<std::uint32_t>& found_;
+};
+
+/// Disjoint sets of nodes.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t find(std::uint32_t x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    return x;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);  // the result does not depend on the order
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Numbers the components of the leaves that `is_member` names, the largest first.
+template <class IsMember>
+std::vector<MapComponent> number(const CellMap& map, Sets& sets, const IsMember& is_member,
+                                 std::vector<std::uint32_t>& component_of) {
+  std::vector<MapComponent> by_root(map.nodes.size());
+  map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
+    if (!is_member(map.nodes[node].kind)) return;
+    MapComponent& component = by_root[sets.find(node)];
+    component.volume += cell.volume();
+    ++component.cells;
+  });
+  std::vector<std::uint32_t> roots;
+  for (std::uint32_t node = 0; node < by_root.size(); ++node) {
+    if (by_root[node].cells > 0) roots.push_back(node);
+  }
+  std::ranges::stable_sort(roots, std::ranges::greater(), [&](std::uint32_t n) { return by_root[n].volume; });
+  std::vector<std::uint32_t> number_of(map.nodes.size(), MapTopology::kNone);
+  std::vector<MapComponent> result;
+  for (const std::uint32_t root : roots) {
+    number_of[root] = static_cast<std::uint32_t>(result.size());
+    result.push_back(by_root[root]);
+  }
+  component_of.assign(map.nodes.size(), MapTopology::kNone);
+  map.for_each_leaf([&](const Cell&, std::uint32_t node) {
+    if (is_member(map.nodes[node].kind)) component_of[node] = number_of[sets.find(node)];
+  });
+  return result;
+}
+
+}  // namespace
+
+MapTopology::MapTopology(const CellMap& map) : map_(map) {
+  Sets inside(map.nodes.size()), possible(map.nodes.size());
+  map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
+    const CellKind kind = map.nodes[node].kind;
+    if (is_outside(kind)) return;
+    for (const std::uint32_t other : neighbours(cell)) {
+      const CellKind other_kind = map.nodes[other].kind;
+      if (is_outside(other_kind)) continue;
+      possible.join(node, other);
+      if (kind == CellKind::kInside && other_kind == CellKind::kInside) inside.join(node, other);
+    }
+  });
+  inside_ = number(
+      map, inside, [](CellKind kind) { return kind == CellKind::kInside; }, inside_of_);
+  possible_ = number(
+      map, possible, [](CellKind kind) { return !is_outside(kind); }, possible_of_);
+}
+
+std::vector<std::uint32_t> MapTopology::neighbours(const Cell& cell) const {
+  std::vector<std::uint32_t> found;
+  Neighbourhood around(map_, found);
+  const MapBox box = box_of(cell);
+  around.add_around(box);
+  if (map_.space.flip) around.add_flipped(box);
+  return found;
+}
+
+std::vector<std::uint32_t> MapTopology::leaves_at(const std::vector<MapBox>& place) const {
+  std::vector<std::uint32_t> found;
+  Neighbourhood around(map_, found);
+  for (const MapBox& box : place) around.add_around(box);
+  std::ranges::sort(found);
+  found.erase(std::ranges::unique(found).begin(), found.end());
+  return found;
+}
+
+auto MapTopology::connection(const std::vector<MapBox>& from, const std::vector<MapBox>& to) const -> Connection {
+  const auto first = leaves_at(from), second = leaves_at(to);
+  // A place is in one of its leaves, and which one is not known: what is certain holds for all of them.
+  const auto is_possible = [&](std::uint32_t node) { return possible_of_[node] != kNone; };
+  if (std::ranges::none_of(first, is_possible) || std::ranges::none_of(second, is_possible)) {
+    return Connection::kOutside;
+  }
+  const std::uint32_t component = inside_of_[first.front()];
+  const auto is_in_it = [&](std::uint32_t node) { return inside_of_[node] == component; };
+  if (component != kNone && std::ranges::all_of(first, is_in_it) && std::ranges::all_of(second, is_in_it)) {
+    return Connection::kJoined;
+  }
+  for (const std::uint32_t a : first) {
+    for (const std::uint32_t b : second) {
+      if (is_possible(a) && possible_of_[a] == possible_of_[b]) return Connection::kOpen;
+    }
+  }
+  return Connection::kApart;
+}
+
+}  // namespace taut
