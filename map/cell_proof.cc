@@ -350,8 +350,9 @@ auto Judgement<N>::deviations() const -> std::optional<DeviationBounds<Interval>
     root[i] = here.root;
   }
   const ToleranceModel<Interval>& tolerance = *problem_.proof.tolerance;
-  return disturbance<Interval>({model_, motion, geometry, lengths, densities, radii, root, inverse_.c(), inverse_.q(),
-                                tolerance.length_controlled},
+  constexpr bool kItemByItem = true;
+  return disturbance<Interval>({model_, problem_.proof.item_rows, motion, geometry, lengths, densities, radii, root,
+                                inverse_.c(), inverse_.q(), tolerance.length_controlled, kItemByItem},
                                tolerance, kContinuationSteps);
 }
 
