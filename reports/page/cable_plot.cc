@@ -89,16 +89,20 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
                   : Html();
   const std::string what = fmt::format("{} of cable {} along the move [{}]", plot.is_length ? "Length" : "Tension",
                                        plot.cable + 1, unit.name());
+  const Certificate& certificate = scene.certificate;
+  const std::string basis =
+      std::string(certificate.problem.tolerances ? " on the machine as stated" : "") +
+      (certificate.path.interpolation == Interpolation::kCableLengths ? " at poses found next to the reference" : "");
   return html(
-      "<figure class=\"cable-plot\"><figcaption>{}, sampled; shaded: beyond a limit{}</figcaption><svg viewBox=\"0 0 "
+      "<figure class=\"cable-plot\"><figcaption>{}, sampled{}; shaded: beyond a limit{}</figcaption><svg viewBox=\"0 0 "
       "{} "
       "{}\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"band\" d=\"{}\"/>{}{}{}<rect class=\"frame\" x=\"{}\" "
       "y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">start</text><text x=\"{}\" y=\"{}\" "
       "class=\"end\">end</text></svg></figure>\n",
-      what, plot.marked ? "; dashed: where it is broken" : "", kWidth, kHeight, what, forbidden(kTop, frame.y(upper)),
-      forbidden(frame.y(lower), bottom), area(values, frame), limit(frame, lower, unit.exact(limits.lower)),
-      limit(frame, upper, unit.exact(limits.upper)), mark, kLeft, kTop, right - kLeft, bottom - kTop, kLeft,
-      kHeight - 8, right, kHeight - 8);
+      what, basis, plot.marked ? "; dashed: where it is broken" : "", kWidth, kHeight, what,
+      forbidden(kTop, frame.y(upper)), forbidden(frame.y(lower), bottom), area(values, frame),
+      limit(frame, lower, unit.exact(limits.lower)), limit(frame, upper, unit.exact(limits.upper)), mark, kLeft, kTop,
+      right - kLeft, bottom - kTop, kLeft, kHeight - 8, right, kHeight - 8);
 }
 
 }  // namespace taut
