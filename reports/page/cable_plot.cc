@@ -89,12 +89,16 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
                   : Html();
   const std::string what = fmt::format("{} of cable {} along the move [{}]", plot.is_length ? "Length" : "Tension",
                                        plot.cable + 1, unit.name());
+  const Certificate& certificate = scene.certificate;
+  const std::string basis =
+      std::string(certificate.problem.tolerances ? " on the machine as stated" : "") +
+      (certificate.path.interpolation == Interpolation::kCableLengths ? " at poses found next to the reference" : "");
   return html(
       "<figure class=\"cable-plot\"><figcaption>{}, sampled{}; shaded: beyond a limit{}</figcaption><svg "
       "viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"band\" d=\"{}\"/>{}{}{}"
       "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/><text x=\"{}\" y=\"{}\">start</text>"
       "<text x=\"{}\" y=\"{}\" class=\"end\">end</text></svg></figure>\n",
-      what, scene.certificate.problem.tolerances ? ", of the machine exactly as stated" : "",
+      what, basis,
       !plot.marked         ? ""
       : plot.is_of_deviant ? "; dashed: where a machine within the tolerances breaks it"
                            : "; dashed: where it is broken",

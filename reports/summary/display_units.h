@@ -22,7 +22,7 @@ class DisplayUnit {
   /// `digits` significant digits of an SI value in this unit, rounded towards −∞ or +∞.
   [[nodiscard]] std::string down(double si, int digits = 4) const;
   [[nodiscard]] std::string up(double si, int digits = 4) const;
-  /// The same rounded to nearest: for samples, which are no bounds.
+  /// The same rounded to nearest.
   [[nodiscard]] std::string nearest(double si, int digits = 4) const;
   /// An SI value in this unit, rounded to nearest: for text that claims nothing.
   [[nodiscard]] double approx(double si) const;

@@ -28,7 +28,7 @@ Rational exact(double x) {
 }
 Rational exact(const DecimalText& text) { return Decimal::parse(text).rational(); }
 
-enum class Rounding { kDown, kUp, kToNearest };
+enum class Rounding { kDown, kUp };
 
 /// The digits of x >= 0, on the side of x that `rounding` asks for.
 std::string digits_of(const Rational& x, int digits, Rounding rounding) {
@@ -36,18 +36,17 @@ std::string digits_of(const Rational& x, int digits, Rounding rounding) {
   constexpr double kLargest = 1e290;
   const auto nearest = x.convert_to<double>();
   std::string text = rounded_to_nearest(nearest, digits);
-  if (rounding == Rounding::kToNearest || !(nearest < kLargest)) return text;
+  if (!(nearest < kLargest)) return text;
   const Rational shown = exact(text);
   if (rounding == Rounding::kDown ? shown <= x : shown >= x) return text;
   return rounding == Rounding::kDown ? rounded_down(nearest * (1 - kRounding), digits)
                                      : rounded_up(nearest * (1 + kRounding), digits);
 }
 
-/// "+1.86", "−18.8", "0": the sign is that of x itself, whatever the digits are rounded to.
-std::string signed_digits(const Rational& x, const char* plus, bool is_sampled) {
+/// "+1.86", "−18.7", "0": rounded towards 0, which is the limit; the sign is that of x itself, whatever the digits are.
+std::string signed_digits(const Rational& x, const char* plus) {
   if (x == 0) return "0";
-  if (x > 0) return plus + digits_of(x, kDigits, is_sampled ? Rounding::kToNearest : Rounding::kDown);
-  return "−" + digits_of(-x, kDigits, is_sampled ? Rounding::kToNearest : Rounding::kUp);
+  return (x > 0 ? plus : "−") + digits_of(abs(x), kDigits, Rounding::kDown);
 }
 
 /// The limits of one quantity of the cables, exactly.
@@ -177,8 +176,8 @@ class Cables {
     return fmt::format("{} {}", number, unit.name());
   }
 
-  [[nodiscard]] std::string amount(const Rational& si, const char* plus, const DisplayUnit& unit) const {
-    const std::string text = signed_digits(si, plus, is_sampled_);
+  static std::string amount(const Rational& si, const char* plus, const DisplayUnit& unit) {
+    const std::string text = signed_digits(si, plus);
     const std::size_t sign = text.find_first_of("0123456789");
     return fmt::format("{}{} {}", text.substr(0, sign), unit.exact(text.substr(sign)), unit.name());
   }
@@ -187,7 +186,7 @@ class Cables {
     const Exact& t = tension_[i];
     const Rational above = t.least - t.lower;
     if (!slack_in_percent_) return amount(above, "+", force());
-    return signed_digits(100 * above / t.lower, "+", is_sampled_) + " %";
+    return signed_digits(100 * above / t.lower, "+") + " %";
   }
 
   [[nodiscard]] std::string of_top(std::size_t i) const {
@@ -197,7 +196,7 @@ class Cables {
     if (percent < 0) return "0 %";  // of a cable that only pushes
     std::string text;
     for (const int digits : {3, 4, 6, 9, 12, 15, 17}) {
-      text = digits_of(percent, digits, is_sampled_ ? Rounding::kToNearest : Rounding::kUp);
+      text = digits_of(percent, digits, percent > 100 ? Rounding::kDown : Rounding::kUp);
       const Rational shown = exact(text);
       if ((shown < 100) == (percent < 100) && (shown > 100) == (percent > 100)) break;
     }

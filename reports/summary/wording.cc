@@ -75,7 +75,7 @@ std::string down_text(double si, double limit_si, const DisplayUnit& unit) {
 }
 
 std::string sampled_text(double si, double limit_si, const DisplayUnit& unit) {
-  std::string text = told_apart(si, limit_si, unit, [&](double x, int digits) { return unit.nearest(x, digits); });
+  std::string text = si > limit_si ? down_text(si, limit_si, unit) : up_text(si, limit_si, unit);
   return text.starts_with('-') ? text.replace(0, 1, "−") : text;
 }
 

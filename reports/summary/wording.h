@@ -20,7 +20,7 @@ namespace taut {
 /// `digits` significant digits, rounded towards −∞ or +∞, without an exponent if it is readable without.
 [[nodiscard]] std::string rounded_down(double x, int digits = 4);
 [[nodiscard]] std::string rounded_up(double x, int digits = 4);
-/// The same rounded to nearest: for samples, which are no bounds.
+/// The same rounded to nearest.
 [[nodiscard]] std::string rounded_to_nearest(double x, int digits = 4);
 /// The number that a text of these begins with; not a number if it is none.
 [[nodiscard]] double number_in(const std::string& text);
@@ -29,7 +29,8 @@ namespace taut {
 [[nodiscard]] std::string up_text(double si, double limit_si, const DisplayUnit& unit);
 /// The same rounded down, for what stays above a lower limit or is proved at least that.
 [[nodiscard]] std::string down_text(double si, double limit_si, const DisplayUnit& unit);
-/// The same rounded to nearest, for samples: wherever one is shown, so that no two places differ.
+/// The same rounded towards the limit, for samples: wherever one is shown, so that no two places differ, and as what a
+/// witness proves of the same place is.
 [[nodiscard]] std::string sampled_text(double si, double limit_si, const DisplayUnit& unit);
 /// The text with a minus sign for each hyphen that begins a number: "(-1, 2)" becomes "(−1, 2)". Not for numbers that
 /// are to be copied, nor for commands.

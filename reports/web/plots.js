@@ -158,7 +158,7 @@ function bandAt(band, bands, position) {
 const NEARNESS = { calm: "", near: "near limit", close: "close to limit", out: "out of limits" };
 
 /// The range over the whole path, and whether it is proved or sampled; "" if nothing is known.
-function wholeRange(data, { index, name, uses, unit, factor }) {
+function wholeRange(data, { index, name, uses, unit, factor, limits }) {
   if (!uses) return "";
   const { is_proved: isProved } = data.cables;
   const signs = data.samples.sign;
@@ -168,7 +168,8 @@ function wholeRange(data, { index, name, uses, unit, factor }) {
   }
   const range = uses.ranges[index].map((x) => x * factor);
   if (isProved) return `proved ${span(range, unit)}`;
-  const [least, greatest] = range.map((x) => text(x, 3));
+  // Towards the limits, as on the first page.
+  const [least, greatest] = range.map((x, end) => (x > limits[end] ? atMost : atLeast)(x));
   return least === greatest ? `sampled ${least} ${unit}` : `sampled ${least} to ${greatest} ${unit}`;
 }
 

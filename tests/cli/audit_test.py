@@ -214,6 +214,7 @@ class Audit(Audits):
         page = text_of(self.path("out", "report.html"))
         self.assertIn(scope.replace("'", "&#39;"), page)
         self.assertNotIn("the path is proved", page)
+        self.assertIn("sampled at poses found next to the reference; shaded", page)
         self.assertIn("proved of the pose in its tube, not that the move leads there", page)
         certificate = self.certificate()
         own, other = certificate["witness"], certificate["stretches"][1]["inner"][1]
