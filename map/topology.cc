@@ -133,7 +133,7 @@ class Neighbourhood {
 
   /// Those that meet the box, as it is and across whole turns.
   void add_around(const MapBox& box, std::size_t axis = 0) {
-    if (axis == map_.space.size()) {
+    if (axis == map_.space.size() || axis >= kMaxMapAxes) {
       add([&](const MapBox& other) { return meets(box, other); }, MapBox(), 0);
       return;
     }
