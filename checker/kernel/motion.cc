@@ -107,7 +107,7 @@ class OnConstraints : public Equations {
 
 /// I + sin(angle) [n] + (1 - cos(angle)) [n]^2 with the unit vector n along an axis that is not 0.
 Matrix3<MeanValueForm> rotation_about(const ExactVector& axis, const MeanValueForm& angle) {
-  const mpq_class squared = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+  const mpq_class squared = dot(axis, axis);
   const Ball size = sqrt(Ball(squared));
   const MeanValueForm cosine = apply(Function::kCos, angle), sine = apply(Function::kSin, angle);
   Matrix3<MeanValueForm> R;
@@ -155,11 +155,11 @@ Frame geodesic(std::span<const Waypoint> controls, const Box& box) {
                rotation({constant(u0[0]), constant(u0[1]), constant(u0[2]), constant(w0)})};
 
   // The quaternion (v, c) = conj(q0) q1, turned so that c is positive.
-  const mpq_class c = u0[0] * u1[0] + u0[1] * u1[1] + u0[2] * u1[2] + w0 * w1;
+  const mpq_class c = dot(u0, u1) + w0 * w1;
   if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
   ExactVector v;
   for (std::size_t i = 0; i < 3; ++i) v[i] = (w0 * u1[i] - w1 * u0[i] - u0_u1[i]) * (c < 0 ? -1 : 1);
-  const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  const mpq_class squared = dot(v, v);
   if (squared == 0) return result;
   const MeanValueForm s = form(over({0, 1}, box));
   const MeanValueForm angle = Ball(2) * value(Function::kAtan, sqrt(Ball(squared)) / Ball(mpq_class(abs(c)))) * s;
