@@ -183,8 +183,8 @@ struct Box {
   int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
 };
 
-/// One load of an item, by the kind of its set: of a weight a mass and where its centre of gravity is, of a ball or disc
-/// a vector, of a line segment an amount, of load cases one of them.
+/// One load of an item, by the kind of its set: of a weight a mass and where its centre of gravity is, of a ball or
+/// disc a vector, of a line segment an amount, of load cases one of them.
 struct WeightChoice {
   mpq_class mass;
   ExactVector offset;  ///< of the centre of gravity from the item's point, in W [m]
