@@ -2,6 +2,7 @@
 #include "certificate/worst_loads.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@ namespace taut {
 namespace {
 
 using checker::Ball;
+using checker::dot;
 using checker::ExactVector;
 using checker::MeanValueForm;
 using Vector = Eigen::Vector3d;
@@ -29,9 +31,6 @@ ExactVector within(const mpq_class& radius, Vector direction, const ExactVector*
   ExactVector v;
   for (int k = 0; k < 3; ++k)
     v[static_cast<std::size_t>(k)] = std::ldexp(std::round(std::ldexp(direction(k), kBits)), -kBits);
-  const auto dot = [](const ExactVector& a, const ExactVector& b) -> mpq_class {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
   if (normal != nullptr) {
     const mpq_class along = dot(v, *normal) / dot(*normal, *normal);
     for (std::size_t k = 0; k < 3; ++k) v[k] -= along * (*normal)[k];
@@ -66,40 +65,29 @@ struct View {
   }
 };
 
-checker::LoadChoice choose(const checker::VectorSet& set, const Vector& gradient) {
-  if (const auto* segment = std::get_if<checker::SegmentOfVectors>(&set)) {
-    const bool rises = gradient.dot(approx(segment->direction)) > 0;
-    return checker::AmountChoice{rises ? segment->range.upper : segment->range.lower};
-  }
-  if (const auto* disc = std::get_if<checker::DiscOfVectors>(&set)) {
-    return checker::VectorChoice{within(disc->radius, gradient, &disc->normal)};
-  }
-  return checker::VectorChoice{within(std::get<checker::BallOfVectors>(set).radius, gradient)};
-}
-
 checker::LoadChoice choose(const checker::LoadItem& item, const Vector& gravity, const View& view) {
-  if (const auto* weight = std::get_if<checker::Weight>(&item.what)) {
+  using Choice = checker::LoadChoice;
+  const auto of_weight = [&](const checker::Weight& x) -> Choice {
     const Vector across = gravity.cross(view.moment);
-    const double value = view.gradient(item, false).dot(gravity) + weight->offset.get_d() * across.norm();
-    return checker::WeightChoice{value > 0 ? weight->mass.upper : weight->mass.lower, within(weight->offset, across)};
-  }
-  if (const auto* force = std::get_if<checker::Force>(&item.what)) {
-    return choose(force->set, view.gradient(item, false));
-  }
-  if (const auto* moment = std::get_if<checker::Moment>(&item.what)) {
-    return choose(moment->set, view.gradient(item, true));
-  }
-  const auto& cases = std::get<checker::LoadCases>(item.what);
-  const Vector of_force = view.gradient(item, false), of_moment = view.gradient(item, true);
-  const auto value = [&](std::size_t j) {
-    const checker::ExactWrench& w = cases.wrenches[j];
-    return of_force.dot(approx(ExactVector{w[0], w[1], w[2]})) + of_moment.dot(approx(ExactVector{w[3], w[4], w[5]}));
+    const double value = view.gradient(item, false).dot(gravity) + x.offset.get_d() * across.norm();
+    return checker::WeightChoice{value > 0 ? x.mass.upper : x.mass.lower, within(x.offset, across)};
   };
-  checker::CaseChoice best;
-  for (std::size_t j = 1; j < cases.wrenches.size(); ++j) {
-    if (value(j) > value(best.index)) best.index = j;
-  }
-  return best;
+  const auto of_ball_or_disc = [&](const checker::BallOrDisc& x) -> Choice {
+    return checker::VectorChoice{within(x.radius, view.gradient(item, x.is_moment), x.normal ? &*x.normal : nullptr)};
+  };
+  const auto of_line_segment = [&](const checker::LineSegment& x) -> Choice {
+    const bool rises = view.gradient(item, x.is_moment).dot(approx(x.direction)) > 0;
+    return checker::AmountChoice{rises ? x.range.upper : x.range.lower};
+  };
+  const auto of_cases = [&](const checker::LoadCases& x) -> Choice {
+    const Vector of_force = view.gradient(item, false), of_moment = view.gradient(item, true);
+    const auto value = [&](const checker::ExactWrench& w) {
+      return of_force.dot(approx(ExactVector{w[0], w[1], w[2]})) + of_moment.dot(approx(ExactVector{w[3], w[4], w[5]}));
+    };
+    const auto worst = std::ranges::max_element(x.wrenches, {}, value);
+    return checker::CaseChoice{static_cast<std::size_t>(worst - x.wrenches.begin())};
+  };
+  return std::visit(checker::Overloaded{of_weight, of_ball_or_disc, of_line_segment, of_cases}, item.set);
 }
 
 std::string text(const mpq_class& x) { return rational_text(Rational(x.get_str())); }

@@ -33,32 +33,30 @@ void read_radius(const Cursor& json, mpq_class& radius) {
   json.require(radius >= 0, "a radius >= 0");
 }
 
-/// @param at_key  "at_m", or a null pointer where the vectors act at no point
-VectorSet read_vectors(const Cursor& json, const char* at_key, LoadItem& item) {
-  VectorSet set;
+/// A force acts at a point, which is a key of its own; a moment acts at none.
+void read_vectors(const Cursor& json, bool is_moment, LoadItem& item) {
   const auto read_ball = [&](const Cursor& here) {
-    BallOfVectors ball;
+    BallOrDisc ball{is_moment, {}, {}};
     here.object("radius", [&](const Cursor& radius) { read_radius(radius, ball.radius); });
-    set = ball;
+    item.set = ball;
   };
   const auto read_disc = [&](const Cursor& here) {
-    DiscOfVectors disc;
-    here.object("normal", rational(disc.normal), "radius",
+    BallOrDisc disc{is_moment, {}, ExactVector()};
+    here.object("normal", rational(*disc.normal), "radius",
                 [&](const Cursor& radius) { read_radius(radius, disc.radius); });
-    require_not_zero(here["normal"], disc.normal);
-    set = disc;
+    require_not_zero(here["normal"], *disc.normal);
+    item.set = disc;
   };
-  const auto read_segment_of_vectors = [&](const Cursor& here) {
-    SegmentOfVectors segment;
+  const auto read_line_segment = [&](const Cursor& here) {
+    LineSegment segment{is_moment, {}, {}};
     here.object("direction", rational(segment.direction), "range", ordered(segment.range));
     require_not_zero(here["direction"], segment.direction);
-    set = segment;
+    item.set = segment;
   };
-  json.object(at_key, rational(item.at), "axes", read_into(item.axes), "ball?", read_ball, "disc?", read_disc,
-              "segment?", read_segment_of_vectors);
+  json.object(is_moment ? nullptr : "at_m", rational(item.at), "axes", read_into(item.axes), "ball?", read_ball,
+              "disc?", read_disc, "segment?", read_line_segment);
   json.require(json.has("ball") + json.has("disc") + json.has("segment") == 1,
                "exactly one of the keys 'ball', 'disc' and 'segment'");
-  return set;
 }
 
 void read_item(const Cursor& json, LoadItem& item, std::string& name) {
@@ -67,10 +65,10 @@ void read_item(const Cursor& json, LoadItem& item, std::string& name) {
     here.object("at_m", rational(item.at), "at_tolerance_m", rational(weight.offset), "mass_kg", ordered(weight.mass));
     here["at_tolerance_m"].require(weight.offset >= 0, "a tolerance >= 0");
     here["mass_kg"].require(weight.mass.lower >= 0, "a mass >= 0");
-    item.what = weight;
+    item.set = weight;
   };
-  const auto read_force = [&](const Cursor& here) { item.what = Force{read_vectors(here, "at_m", item)}; };
-  const auto read_moment = [&](const Cursor& here) { item.what = Moment{read_vectors(here, nullptr, item)}; };
+  const auto read_force = [&](const Cursor& here) { read_vectors(here, false, item); };
+  const auto read_moment = [&](const Cursor& here) { read_vectors(here, true, item); };
   const auto read_cases = [&](const Cursor& here) {
     LoadCases cases;
     const auto read_wrenches = [&](const Cursor& wrenches) {
@@ -79,7 +77,7 @@ void read_item(const Cursor& json, LoadItem& item, std::string& name) {
       rational(cases.wrenches)(wrenches);
     };
     here.object("at_m", rational(item.at), "axes", read_into(item.axes), "wrenches", read_wrenches);
-    item.what = cases;
+    item.set = cases;
   };
   json.object("force?", read_force, "load_cases?", read_cases, "moment?", read_moment, "name", name, "weight?",
               read_weight);
@@ -127,30 +125,22 @@ std::vector<LoadChoice> read_loads(const Cursor& json, const std::vector<LoadIte
   std::vector<LoadChoice> result;
   json.require_size(items.size());
   json.elements([&](const Cursor& here, std::size_t i) {
-    const LoadItem& item = items[i];
-    const auto of_vectors = [&](const VectorSet& set) -> LoadChoice {
-      AmountChoice amount;
-      VectorChoice vector;
-      if (std::holds_alternative<SegmentOfVectors>(set)) {
-        here.object("amount", rational(amount.amount));
-        return amount;
-      }
-      here.object("vector", rational(vector.vector));
-      return vector;
+    LoadChoice& choice = result.emplace_back();
+    const auto of_weight = [&](const Weight& /*set*/) {
+      WeightChoice& x = choice.emplace<WeightChoice>();
+      here.object("mass_kg", rational(x.mass), "offset_m", rational(x.offset));
     };
-    if (std::holds_alternative<Weight>(item.what)) {
-      WeightChoice weight;
-      here.object("mass_kg", rational(weight.mass), "offset_m", rational(weight.offset));
-      result.emplace_back(weight);
-    } else if (const auto* cases = std::get_if<LoadCases>(&item.what)) {
-      CaseChoice choice;
-      here.object("case", integer(choice.index, 0, static_cast<std::int64_t>(cases->wrenches.size()) - 1));
-      result.emplace_back(choice);
-    } else if (const auto* force = std::get_if<Force>(&item.what)) {
-      result.push_back(of_vectors(force->set));
-    } else {
-      result.push_back(of_vectors(std::get<Moment>(item.what).set));
-    }
+    const auto of_ball_or_disc = [&](const BallOrDisc& /*set*/) {
+      here.object("vector", rational(choice.emplace<VectorChoice>().vector));
+    };
+    const auto of_line_segment = [&](const LineSegment& /*set*/) {
+      here.object("amount", rational(choice.emplace<AmountChoice>().amount));
+    };
+    const auto of_cases = [&](const LoadCases& set) {
+      const auto last = static_cast<std::int64_t>(set.wrenches.size()) - 1;
+      here.object("case", integer(choice.emplace<CaseChoice>().index, 0, last));
+    };
+    std::visit(Overloaded{of_weight, of_ball_or_disc, of_line_segment, of_cases}, items[i].set);
   });
   return result;
 }

@@ -7,7 +7,7 @@ namespace taut::checker {
 namespace {
 
 void require_within(const std::array<mpq_class, 3>& x, const mpq_class& tolerance, const char* what) {
-  if (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] > tolerance * tolerance) {
+  if (dot(x, x) > tolerance * tolerance) {
     throw Rejected(std::string("the witness's deviation of ") + what + " is larger than its tolerance");
   }
 }
@@ -32,7 +32,7 @@ Problem deviating(Problem problem, const WitnessDeviation& by) {
   require_within({by.wrench, 0, 0}, 1, "the wrench");
   require_within(by.position, within.position, "the position");
   for (std::size_t c = 0; c < 3; ++c) problem.load_point[c] += by.load_point[c];
-  const Ball u = sqrt(Ball(mpq_class(by.turn[0] * by.turn[0] + by.turn[1] * by.turn[1] + by.turn[2] * by.turn[2])));
+  const Ball u = sqrt(Ball(dot(by.turn, by.turn)));
   const Ball angle = within.orientation.evaluate<MeanValueForm>({}).range() - Ball(2) * value(Function::kAtan, u);
   if (certainly_negative(angle))
     throw Rejected("the witness's deviation of the orientation is larger than its tolerance");

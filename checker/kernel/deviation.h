@@ -2,10 +2,10 @@
 // Clause "deviations": by how much tensions and lengths of a machine within the tolerances differ from the stated
 // one's.
 //
-// Scale a deviation (machine.h) by t from 0 to 1, the rotation along its axis: that is within the tolerances, too. Let
-// f' be the rate of a quantity f along this family. The way from t = 0 to t = 1 is taken in n parts; during part j
-// everything is enclosed for t in [0, j/n], for every u of the box and every deviation, and f changes by no more than
-// |f'| / n.
+// Scale a deviation (Tolerances in statement.h) by t from 0 to 1, the rotation along its axis: that is within the
+// tolerances, too. Let f' be the rate of a quantity f along this family. The way from t = 0 to t = 1 is taken in n
+// parts; during part j everything is enclosed for t in [0, j/n], for every u of the box and every deviation, and f
+// changes by no more than |f'| / n.
 //
 // Let the pose move at the rates p' and W (of rotation, about the axes of W). Then
 //     d_i' = p' + W x R b_i + b_i' - a_i',   r_i' = W x r_i + b_i' - p_m'      (b_i' and p_m' along the axes of W)
@@ -27,14 +27,14 @@
 // of Z and V_r = |z_r|, the tension with tension_radius F_r = |d_r| (x_r + c V_r), c = -1 or 1, has therefore the rate
 //     F_r' = phi u_r . d_r' + |d_r| (y_r . w' - sum_i kappa_i y_r . D_i'),
 //     kappa_i = x_i + c (z_r . z_i) / V_r,   phi = kappa_r,   u_r = d_r / |d_r|,
-// (This is the rate of |d_r| y_r . w* for a w* of K at which y_r . w is extreme:
-// kappa_i = y_i . w*. This holds for every compact K whose members are differentiable functions of t of some z from one
-// compact set: then the extreme is Lipschitz in t, and its derivative, wherever it exists, is that of y_r . w(z*) for
-// any
-// z* that attains it (Danskin). So with the items of a load (loads.h), kappa_i gains y_i . w* of each item, where w* is
-// one of a few wrenches that certainly include one that attains the extreme; w' is W . T: Q_r below gains |d_r| T. The
-// items have no other tolerances. With w_nominal for w*, F_r' is the rate of f0_r.)
-//     The rate is linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r,
+// It is the rate of |d_r| y_r . w* for a w* of K at which y_r . w is extreme: kappa_i = y_i . w*. The same holds for
+// every compact K whose members are differentiable functions of t of some z from one compact set: then the extreme is
+// Lipschitz in t, and its derivative, wherever it exists, is that of y_r . w(z*) for any z* that attains it (Danskin).
+// So with the items of a load (loads.h), kappa_i gains y_i . w* of each item, where w* is one of a few wrenches that
+// certainly include one that attains the extreme; w' is W . T: Q_r below gains |d_r| T. The items have no other
+// tolerances. With w_nominal for w*, F_r' is the rate of f0_r.
+//
+// The rate is linear in p', W, a_i', b_i', p_m', w'. Its coefficient of p' is P_r; that of W is Q_r + R p_m x P_r,
 // where Q_r is the one of a rotation about P_m; a coefficient's length times the tolerance bounds what that deviation
 // does. Where lengths are controlled, rho_j adds to it P_r . f_j + Q_r . m_j, up to what tracking turns.
 //

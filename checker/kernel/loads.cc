@@ -6,15 +6,6 @@
 namespace taut::checker {
 namespace {
 
-template <class... Visitors>
-struct Overloaded : Visitors... {
-  using Visitors::operator()...;
-};
-template <class... Visitors>
-Overloaded(Visitors...) -> Overloaded<Visitors...>;
-
-mpq_class squared(const ExactVector& x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
-
 /// v / |v| for each v != 0; where v may be 0, every vector of length up to 1.
 Vector3<Ball> direction(const Vector3<Ball>& v) {
   const Ball unit = plus_minus(Ball(1));
@@ -36,11 +27,7 @@ Wrench operator+(const Wrench& a, const Wrench& b) { return {a.force + b.force, 
 Load::Load(const LoadItem& item, const ExactVector& load_point, const ExactVector& gravity)
     : turns_(item.axes == Axes::kPlatform) {
   for (std::size_t c = 0; c < 3; ++c) from_load_point_[c] = Ball(mpq_class(item.at[c] - load_point[c]));
-  std::visit(
-      Overloaded{[&](const Weight& weight) { set(weight, gravity); },
-                 [&](const Force& force) { set(force.set, false); },
-                 [&](const Moment& moment) { set(moment.set, true); }, [&](const LoadCases& cases) { set(cases); }},
-      item.what);
+  std::visit(Overloaded{[&](const Weight& x) { set(x, gravity); }, [&](const auto& x) { set(x); }}, item.set);
 }
 
 void Load::set(const Weight& weight, const ExactVector& gravity) {
@@ -54,31 +41,25 @@ void Load::set(const Weight& weight, const ExactVector& gravity) {
   set_ = std::move(mass);
 }
 
-void Load::set(const VectorSet& vectors, bool is_moment) {
-  Matrix3<Ball> identity;
-  for (std::size_t i = 0; i < 3; ++i) identity[i][i] = Ball(1);
-  const auto disc = [&](const DiscOfVectors& x) {
-    Matrix3<Ball> projection = identity;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        projection[i][j] = Ball(mpq_class((i == j ? 1 : 0) - x.normal[i] * x.normal[j] / squared(x.normal)));
-      }
+void Load::set(const BallOrDisc& x) {
+  Matrix3<Ball> projection;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      mpq_class along_normal;
+      if (x.normal) along_normal = (*x.normal)[i] * (*x.normal)[j] / dot(*x.normal, *x.normal);
+      projection[i][j] = Ball(mpq_class((i == j ? 1 : 0) - along_normal));
     }
-    set_ = Round{Ball(x.radius), projection, is_moment};
-  };
-  const auto segment = [&](const SegmentOfVectors& x) {
-    const auto& [lower, upper] = x.range;
-    const mpq_class f_n = lower <= 0 && upper >= 0 ? mpq_class(0) : mpq_class((lower + upper) / 2);
-    const Vector3<Ball> unit = Ball(1) / sqrt(Ball(squared(x.direction))) * balls(x.direction);
-    const auto along = [&](const mpq_class& f) { return wrench_of(Ball(f) * unit, is_moment); };
-    nominal_ = along(f_n);
-    set_ = Corners{{along(lower - f_n), along(upper - f_n)}};
-  };
-  std::visit(Overloaded{[&](const BallOfVectors& x) {
-                          set_ = Round{Ball(x.radius), identity, is_moment};
-                        },
-                        disc, segment},
-             vectors);
+  }
+  set_ = Round{Ball(x.radius), projection, x.is_moment};
+}
+
+void Load::set(const LineSegment& x) {
+  const auto& [lower, upper] = x.range;
+  const mpq_class f_n = lower <= 0 && upper >= 0 ? mpq_class(0) : mpq_class((lower + upper) / 2);
+  const Vector3<Ball> unit = Ball(1) / sqrt(Ball(dot(x.direction, x.direction))) * balls(x.direction);
+  const auto along = [&](const mpq_class& f) { return wrench_of(Ball(f) * unit, x.is_moment); };
+  nominal_ = along(f_n);
+  set_ = Corners{{along(lower - f_n), along(upper - f_n)}};
 }
 
 void Load::set(const LoadCases& cases) {
@@ -161,53 +142,42 @@ Vector3<Ball> Load::turning(const Matrix3<Ball>& R, const Vector6<Ball>& y, cons
 namespace {
 
 /// The one load of an item. @throws Rejected unless it is in the item.
-LoadItem chosen(LoadItem item, const LoadChoice& choice, const ExactVector& gravity) {
+LoadSet chosen(const LoadSet& set, const LoadChoice& choice, const ExactVector& gravity) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw Rejected(std::string("the witness's load is not in its item: ") + what);
   };
-  const auto of_weight = [&](const Weight& x) -> LoadItem {
+  const auto of_weight = [&](const Weight& x) -> LoadSet {
     const auto& [mass, e] = std::get<WeightChoice>(choice);
     require(mass >= x.mass.lower && mass <= x.mass.upper, "the mass");
-    require(squared(e) <= x.offset * x.offset, "the offset of the centre of gravity");
-    const ExactVector F = {mass * gravity[0], mass * gravity[1], mass * gravity[2]};
-    const ExactWrench w = {
-        F[0], F[1], F[2], e[1] * F[2] - e[2] * F[1], e[2] * F[0] - e[0] * F[2], e[0] * F[1] - e[1] * F[0]};
-    return {LoadCases{{w}}, Axes::kWorld, item.at};
+    require(dot(e, e) <= x.offset * x.offset, "the offset of the centre of gravity");
+    const ExactVector F = {mass * gravity[0], mass * gravity[1], mass * gravity[2]}, M = cross(e, F);
+    return LoadCases{{ExactWrench{F[0], F[1], F[2], M[0], M[1], M[2]}}};
   };
-  const auto of_vectors = [&](const VectorSet& set, bool is_moment) -> LoadItem {
-    if (const auto* segment = std::get_if<SegmentOfVectors>(&set)) {
-      const mpq_class& f = std::get<AmountChoice>(choice).amount;
-      require(f >= segment->range.lower && f <= segment->range.upper, "the amount");
-      const SegmentOfVectors point = {segment->direction, {f, f}};
-      if (is_moment) return {Moment{point}, item.axes, item.at};
-      return {Force{point}, item.axes, item.at};
-    }
+  const auto of_ball_or_disc = [&](const BallOrDisc& x) -> LoadSet {
     const ExactVector& v = std::get<VectorChoice>(choice).vector;
-    if (const auto* disc = std::get_if<DiscOfVectors>(&set)) {
-      const ExactVector& n = disc->normal;
-      require(v[0] * n[0] + v[1] * n[1] + v[2] * n[2] == 0, "a vector that is out of its plane");
-    }
-    const mpq_class radius = std::visit(
-        Overloaded{[](const SegmentOfVectors&) { return mpq_class(); }, [](const auto& x) { return x.radius; }}, set);
-    require(squared(v) <= radius * radius, "the magnitude of a vector");
-    const ExactWrench w = is_moment ? ExactWrench{0, 0, 0, v[0], v[1], v[2]} : ExactWrench{v[0], v[1], v[2], 0, 0, 0};
-    return {LoadCases{{w}}, item.axes, item.at};
+    require(!x.normal || dot(v, *x.normal) == 0, "a vector that is out of its plane");
+    require(dot(v, v) <= x.radius * x.radius, "the magnitude of a vector");
+    if (x.is_moment) return LoadCases{{ExactWrench{0, 0, 0, v[0], v[1], v[2]}}};
+    return LoadCases{{ExactWrench{v[0], v[1], v[2], 0, 0, 0}}};
   };
-  const auto of_cases = [&](const LoadCases& x) -> LoadItem {
+  const auto of_line_segment = [&](const LineSegment& x) -> LoadSet {
+    const mpq_class& f = std::get<AmountChoice>(choice).amount;
+    require(f >= x.range.lower && f <= x.range.upper, "the amount");
+    return LineSegment{x.is_moment, x.direction, {f, f}};
+  };
+  const auto of_cases = [&](const LoadCases& x) -> LoadSet {
     const std::size_t j = std::get<CaseChoice>(choice).index;
     require(j < x.wrenches.size(), "the load case");
-    return {LoadCases{{x.wrenches[j]}}, item.axes, item.at};
+    return LoadCases{{x.wrenches[j]}};
   };
-  return std::visit(Overloaded{of_weight, [&](const Force& x) { return of_vectors(x.set, false); },
-                               [&](const Moment& x) { return of_vectors(x.set, true); }, of_cases},
-                    item.what);
+  return std::visit(Overloaded{of_weight, of_ball_or_disc, of_line_segment, of_cases}, set);
 }
 
 }  // namespace
 
 Problem acting(Problem problem, const std::vector<LoadChoice>& loads) {
   for (std::size_t i = 0; i < problem.items.size(); ++i) {
-    problem.items[i] = chosen(problem.items[i], loads.at(i), problem.gravity);
+    problem.items[i].set = chosen(problem.items[i].set, loads.at(i), problem.gravity);
   }
   return problem;
 }

@@ -92,18 +92,19 @@ class Load {
     Vector3<Ball> gravity;
     Ball offset;  ///< rho
   };
-  /// Ball and disc: f P v for all |v| <= 1, with P the projection along n.
+  /// f P v for all |v| <= 1; P is the projection along n of a disc, I of a ball.
   struct Round {
     Ball radius;
     Matrix3<Ball> projection;
     bool is_moment;
   };
-  /// Load cases; and f- e / |e| and f+ e / |e| of a segment.
+  /// Load cases; and f- e / |e| and f+ e / |e| of a line segment.
   struct Corners {
     std::vector<Wrench> from_nominal;
   };
   void set(const Weight& weight, const ExactVector& gravity);
-  void set(const VectorSet& set, bool is_moment);
+  void set(const BallOrDisc& x);
+  void set(const LineSegment& x);
   void set(const LoadCases& cases);
 
   bool turns_;  ///< axes of P

@@ -103,32 +103,20 @@ class OnConstraints : public Equations {
   std::vector<std::vector<MeanValueForm>> normals_;  ///< N, one row a parameter
 };
 
-// ---- Poses
-// -----------------------------------------------------------------------------------------------------------
+// ---- Poses ----------------------------------------------------------------------------------------------------------
 
-MeanValueForm cos(const MeanValueForm& x) { return apply(Function::kCos, x); }
-MeanValueForm sin(const MeanValueForm& x) { return apply(Function::kSin, x); }
-
-/// Rz(a) Ry(b) Rz(g).
-Matrix3<MeanValueForm> rotation_zyz(const MeanValueForm& a, const MeanValueForm& b, const MeanValueForm& g) {
-  const MeanValueForm ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b), cg = cos(g), sg = sin(g);
-  const MeanValueForm ca_cb = ca * cb, sa_cb = sa * cb;
-  return {{{ca_cb * cg - sa * sg, -(ca_cb * sg) - sa * cg, ca * sb},
-           {sa_cb * cg + ca * sg, ca * cg - sa_cb * sg, sa * sb},
-           {-(sb * cg), sb * sg, cb}}};
-}
-
-/// By an angle about an axis that is not 0: I + sin [n] + (1 - cos) [n]^2 with the unit vector n along it.
-Matrix3<MeanValueForm> rotation_about(const Vector3<mpq_class>& axis, const MeanValueForm& angle) {
-  const mpq_class squared = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+/// I + sin(angle) [n] + (1 - cos(angle)) [n]^2 with the unit vector n along an axis that is not 0.
+Matrix3<MeanValueForm> rotation_about(const ExactVector& axis, const MeanValueForm& angle) {
+  const mpq_class squared = dot(axis, axis);
   const Ball size = sqrt(Ball(squared));
-  const MeanValueForm sine = sin(angle), rest = MeanValueForm(Ball(1)) - cos(angle);
+  const MeanValueForm cosine = apply(Function::kCos, angle), sine = apply(Function::kSin, angle);
   Matrix3<MeanValueForm> R;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     // [n]^2 = n n' - I, whose entries are rational.
-    R[i][i] = MeanValueForm(Ball(1)) - Ball(mpq_class(1 - axis[i] * axis[i] / squared)) * rest;
-    const MeanValueForm both = Ball(mpq_class(axis[i] * axis[j] / squared)) * rest;
+    const mpq_class ii = axis[i] * axis[i] / squared, ij = axis[i] * axis[j] / squared;
+    R[i][i] = MeanValueForm(Ball(ii)) + Ball(mpq_class(1 - ii)) * cosine;
+    const MeanValueForm both = Ball(ij) * (MeanValueForm(Ball(1)) - cosine);
     const MeanValueForm turned = Ball(axis[k]) / size * sine;
     R[i][j] = both - turned;
     R[j][i] = both + turned;
@@ -138,15 +126,16 @@ Matrix3<MeanValueForm> rotation_about(const Vector3<mpq_class>& axis, const Mean
 
 Matrix3<MeanValueForm> orientation(const Problem& problem, const Vector6<MeanValueForm>& pose) {
   const MeanValueForm &x = pose[3], &y = pose[4], &z = pose[5];
+  const auto Rx = [](const MeanValueForm& angle) { return rotation_about({1, 0, 0}, angle); };
+  const auto Ry = [](const MeanValueForm& angle) { return rotation_about({0, 1, 0}, angle); };
+  const auto Rz = [](const MeanValueForm& angle) { return rotation_about({0, 0, 1}, angle); };
   switch (problem.angles) {
-    case AngleKind::kTiltAndTorsion: break;
-    case AngleKind::kRollPitchYaw:
-      return multiply(multiply(rotation_about({0, 0, 1}, z), rotation_about({0, 1, 0}, y)),
-                      rotation_about({1, 0, 0}, x));
-    case AngleKind::kZyz: return rotation_zyz(x, y, z);
+    case AngleKind::kTiltAndTorsion: return multiply(multiply(Rz(x), Ry(y)), Rz(z - x));
+    case AngleKind::kRollPitchYaw: return multiply(multiply(Rz(z), Ry(y)), Rx(x));
+    case AngleKind::kZyz: return multiply(multiply(Rz(x), Ry(y)), Rz(z));
     case AngleKind::kAxis: return rotation_about(problem.axis, x);
   }
-  return rotation_zyz(x, y, z - x);
+  throw std::logic_error("angles of no known kind");
 }
 
 Frame frame(const Problem& problem, const Vector6<MeanValueForm>& pose) {
@@ -155,41 +144,26 @@ Frame frame(const Problem& problem, const Vector6<MeanValueForm>& pose) {
 
 /// From one pose to another: the position on a straight line, the rotation about one axis and at a constant rate.
 Frame geodesic(std::span<const Waypoint> controls, const Box& box) {
-  const auto rational = [](const Waypoint& w, std::size_t i) { return mpq_class(w.x[i]); };
-  const auto vector = [&](const Waypoint& w) {
-    return Vector3<mpq_class>{rational(w, 3), rational(w, 4), rational(w, 5)};
-  };
   const auto position = [&](std::size_t i) {
     return form(mixed(controls, box, [i](const Waypoint& w) { return w.x[i]; }));
   };
+  const auto vector = [](const Waypoint& w) { return ExactVector{w.x[3], w.x[4], w.x[5]}; };
   const auto constant = [](const mpq_class& x) { return MeanValueForm(Ball(x)); };
-  const Vector3<mpq_class> u0 = vector(controls.front()), u1 = vector(controls.back()), u0_u1 = cross(u0, u1);
-  const mpq_class w0 = rational(controls.front(), 6), w1 = rational(controls.back(), 6);
+  const ExactVector u0 = vector(controls.front()), u1 = vector(controls.back()), u0_u1 = cross(u0, u1);
+  const mpq_class w0(controls.front().x[6]), w1(controls.back().x[6]);
   Frame result{{position(0), position(1), position(2)},
                rotation({constant(u0[0]), constant(u0[1]), constant(u0[2]), constant(w0)})};
 
   // The quaternion (v, c) = conj(q0) q1, turned so that c is positive.
-  const mpq_class c = u0[0] * u1[0] + u0[1] * u1[1] + u0[2] * u1[2] + w0 * w1;
+  const mpq_class c = dot(u0, u1) + w0 * w1;
   if (c == 0) throw Undefined("a geodesic of half a turn, whose axis is not defined");
-  Vector3<mpq_class> v;
+  ExactVector v;
   for (std::size_t i = 0; i < 3; ++i) v[i] = (w0 * u1[i] - w1 * u0[i] - u0_u1[i]) * (c < 0 ? -1 : 1);
-  const mpq_class squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  const mpq_class squared = dot(v, v);
   if (squared == 0) return result;
-
-  // I + sin(angle) [n] + (1 - cos(angle)) [n]^2 with the unit vector n along v.
-  const Ball size = sqrt(Ball(squared));
-  const Vector3<Ball> n = {Ball(v[0]) / size, Ball(v[1]) / size, Ball(v[2]) / size};
-  const Matrix3<Ball> N = {{{Ball(), -n[2], n[1]}, {n[2], Ball(), -n[0]}, {-n[1], n[0], Ball()}}};
-  const Matrix3<Ball> NN = multiply(N, N);
   const MeanValueForm s = form(over({0, 1}, box));
-  const MeanValueForm angle = Ball(2) * value(Function::kAtan, size / Ball(mpq_class(abs(c)))) * s;
-  const MeanValueForm sine = apply(Function::kSin, angle);
-  const MeanValueForm rest = MeanValueForm(Ball(1)) - apply(Function::kCos, angle);
-  Matrix3<MeanValueForm> turn;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) turn[i][j] = constant(i == j ? 1 : 0) + N[i][j] * sine + NN[i][j] * rest;
-  }
-  result.R = multiply(result.R, turn);
+  const MeanValueForm angle = Ball(2) * value(Function::kAtan, sqrt(Ball(squared)) / Ball(mpq_class(abs(c)))) * s;
+  result.R = multiply(result.R, rotation_about(v, angle));
   return result;
 }
 

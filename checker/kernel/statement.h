@@ -58,21 +58,8 @@ enum class AngleKind {
 using ExactVector = std::array<mpq_class, 3>;
 using ExactWrench = std::array<mpq_class, 6>;  ///< force [N] and moment [N m]
 
-/// All vectors of magnitude up to `radius` >= 0.
-struct BallOfVectors {
-  mpq_class radius;
-};
-/// Those of them at right angles to `normal`, which is not 0.
-struct DiscOfVectors {
-  mpq_class radius;
-  ExactVector normal;
-};
-/// f e / |e| for e = `direction`, not 0, and every f from range.lower to range.upper, which may be equal.
-struct SegmentOfVectors {
-  ExactVector direction;
-  Limits range;
-};
-using VectorSet = std::variant<BallOfVectors, DiscOfVectors, SegmentOfVectors>;
+/// a . b, exactly.
+inline mpq_class dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// m times gravity, for every mass m from mass.lower >= 0 to mass.upper, which may be equal [kg], at every point within
 /// `offset` >= 0 of the item's [m].
@@ -80,11 +67,19 @@ struct Weight {
   Limits mass;
   mpq_class offset;
 };
-struct Force {
-  VectorSet set;  ///< [N]
+/// All forces [N] or moments [N m] of magnitude up to `radius` >= 0; with a normal, which is not 0, those at right
+/// angles to it.
+struct BallOrDisc {
+  bool is_moment = false;
+  mpq_class radius;
+  std::optional<ExactVector> normal;
 };
-struct Moment {
-  VectorSet set;  ///< [N m]
+/// The forces or moments f e / |e| for e = `direction`, not 0, and every f from range.lower to range.upper, which may
+/// be equal.
+struct LineSegment {
+  bool is_moment = false;
+  ExactVector direction;
+  Limits range;
 };
 /// The convex hull of one or more wrenches about the item's point.
 struct LoadCases {
@@ -94,9 +89,11 @@ struct LoadCases {
 /// The axes in which a set is fixed: those of the world, or those that turn with the platform.
 enum class Axes { kWorld, kPlatform };
 
+using LoadSet = std::variant<Weight, BallOrDisc, LineSegment, LoadCases>;
+
 /// A set of wrenches that act at a point of the platform.
 struct LoadItem {
-  std::variant<Weight, Force, Moment, LoadCases> what;
+  LoadSet set;
   Axes axes = Axes::kWorld;  ///< of a weight always
   ExactVector at;            ///< c in P [m]; a moment has none
 };
@@ -186,8 +183,8 @@ struct Box {
   int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
 };
 
-/// One load of an item: of a weight a mass and where its centre of gravity is, of a ball or disc a vector, of a segment
-/// an amount, of load cases one of them.
+/// One load of an item, by the kind of its set: of a weight a mass and where its centre of gravity is, of a ball or
+/// disc a vector, of a line segment an amount, of load cases one of them.
 struct WeightChoice {
   mpq_class mass;
   ExactVector offset;  ///< of the centre of gravity from the item's point, in W [m]
@@ -202,6 +199,14 @@ struct CaseChoice {
   std::size_t index = 0;
 };
 using LoadChoice = std::variant<WeightChoice, VectorChoice, AmountChoice, CaseChoice>;
+
+/// A function of several types, made of one for each: for std::visit().
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
 
 /// Whether the lengths of the cables are what a controller commands, not the pose.
 inline bool is_length_controlled(const Problem& problem, const Path& path) {

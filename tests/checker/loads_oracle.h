@@ -67,21 +67,16 @@ Six<S> wrench_of(const LoadItem& item, const OneLoad<S>& load, const Platform<S>
   Vec<S> F = {zero, zero, zero};
   Vec<S> M = F;
   Vec<S> r = multiply(on.R, vector_of<S>(item.at) - on.load_point);
-  const auto vector_in = [&](const VectorSet& set) {
-    const auto* segment = std::get_if<SegmentOfVectors>(&set);
-    if (segment == nullptr) return load.vector;
-    const Vec<S> e = vector_of<S>(segment->direction);
-    return (load.amount / campaign::root(dot(e, e))) * e;
-  };
-  if (std::holds_alternative<Weight>(item.what)) {
+  if (std::holds_alternative<Weight>(item.set)) {
     F = load.amount * on.gravity;
     r = r + load.vector;
-  } else if (const auto* force = std::get_if<Force>(&item.what)) {
-    F = vector_in(force->set);
-  } else if (const auto* moment = std::get_if<Moment>(&item.what)) {
-    M = vector_in(moment->set);
+  } else if (const auto* segment = std::get_if<LineSegment>(&item.set)) {
+    const Vec<S> e = vector_of<S>(segment->direction);
+    (segment->is_moment ? M : F) = (load.amount / campaign::root(dot(e, e))) * e;
+  } else if (const auto* round = std::get_if<BallOrDisc>(&item.set)) {
+    (round->is_moment ? M : F) = load.vector;
   } else {
-    const auto& wrenches = std::get<LoadCases>(item.what).wrenches;
+    const auto& wrenches = std::get<LoadCases>(item.set).wrenches;
     for (std::size_t j = 0; j < wrenches.size(); ++j) {
       for (std::size_t c = 0; c < 3; ++c) {
         F[c] = F[c] + load.shares[j] * number<S>(wrenches[j][c]);
@@ -104,21 +99,18 @@ S dot_six(const Six<S>& a, const Six<S>& b) {
   return sum;
 }
 
-inline const VectorSet* vectors_of(const LoadItem& item) {
-  if (const auto* force = std::get_if<Force>(&item.what)) return &force->set;
-  if (const auto* moment = std::get_if<Moment>(&item.what)) return &moment->set;
-  return nullptr;
-}
+/// Null of a ball.
+inline const ExactVector* normal_of(const BallOrDisc& set) { return set.normal ? &*set.normal : nullptr; }
 
 /// The nominal load of an item.
 template <class S>
 OneLoad<S> nominal_load(const LoadItem& item) {
   OneLoad<S> load;
-  if (const auto* weight = std::get_if<Weight>(&item.what)) {
+  if (const auto* weight = std::get_if<Weight>(&item.set)) {
     load.amount = number<S>((weight->mass.lower + weight->mass.upper) / 2);
-  } else if (const auto* cases = std::get_if<LoadCases>(&item.what)) {
+  } else if (const auto* cases = std::get_if<LoadCases>(&item.set)) {
     load.shares.assign(cases->wrenches.size(), number<S>(mpq_class(1) / cases->wrenches.size()));
-  } else if (const auto* segment = std::get_if<SegmentOfVectors>(vectors_of(item))) {
+  } else if (const auto* segment = std::get_if<LineSegment>(&item.set)) {
     const auto& [lower, upper] = segment->range;
     if (lower > 0 || upper < 0) load.amount = number<S>((lower + upper) / 2);
   }
@@ -149,28 +141,27 @@ std::vector<OneLoad<S>> worst_loads(const LoadItem& item, const Six<S>& y, const
       result.push_back(load);
     }
   };
-  if (const auto* weight = std::get_if<Weight>(&item.what)) {
+  if (const auto* weight = std::get_if<Weight>(&item.set)) {
     for (const mpq_class& mass : {weight->mass.lower, weight->mass.upper}) {
       OneLoad<S> load;
       load.amount = number<S>(mass);
       both_ways(load, number<S>(weight->offset), nullptr);
     }
-  } else if (const auto* cases = std::get_if<LoadCases>(&item.what)) {
+  } else if (const auto* cases = std::get_if<LoadCases>(&item.set)) {
     for (std::size_t j = 0; j < cases->wrenches.size(); ++j) {
       OneLoad<S> load;
       load.shares.assign(cases->wrenches.size(), S(0.0));
       load.shares[j] = S(1.0);
       result.push_back(load);
     }
-  } else if (const auto* segment = std::get_if<SegmentOfVectors>(vectors_of(item))) {
+  } else if (const auto* segment = std::get_if<LineSegment>(&item.set)) {
     for (const mpq_class& f : {segment->range.lower, segment->range.upper}) {
       result.emplace_back();
       result.back().amount = number<S>(f);
     }
-  } else if (const auto* disc = std::get_if<DiscOfVectors>(vectors_of(item))) {
-    both_ways({}, number<S>(disc->radius), &disc->normal);
   } else {
-    both_ways({}, number<S>(std::get<BallOfVectors>(*vectors_of(item)).radius), nullptr);
+    const auto& round = std::get<BallOrDisc>(item.set);
+    both_ways({}, number<S>(round.radius), normal_of(round));
   }
   return result;
 }
@@ -192,22 +183,21 @@ OneLoad<S> random_load(const LoadItem& item, std::mt19937_64& random) {
     const S reach(random() % 2 == 0 ? 1 : uniform(random, 0, 1));
     load.vector = (reach * number<S>(radius) / campaign::root(dot(v, v))) * v;
   };
-  if (const auto* weight = std::get_if<Weight>(&item.what)) {
+  if (const auto* weight = std::get_if<Weight>(&item.set)) {
     load.amount = between(weight->mass);
     any_vector(weight->offset, nullptr);
-  } else if (const auto* cases = std::get_if<LoadCases>(&item.what)) {
+  } else if (const auto* cases = std::get_if<LoadCases>(&item.set)) {
     S sum(0.0);
     for (std::size_t j = 0; j < cases->wrenches.size(); ++j) {
       load.shares.push_back(S(uniform(random, 0, 1)));
       sum = sum + load.shares[j];
     }
     for (S& share : load.shares) share = share / sum;
-  } else if (const auto* segment = std::get_if<SegmentOfVectors>(vectors_of(item))) {
+  } else if (const auto* segment = std::get_if<LineSegment>(&item.set)) {
     load.amount = between(segment->range);
-  } else if (const auto* disc = std::get_if<DiscOfVectors>(vectors_of(item))) {
-    any_vector(disc->radius, &disc->normal);
   } else {
-    any_vector(std::get<BallOfVectors>(*vectors_of(item)).radius, nullptr);
+    const auto& round = std::get<BallOrDisc>(item.set);
+    any_vector(round.radius, normal_of(round));
   }
   return load;
 }
@@ -279,11 +269,11 @@ inline LoadItem random_item(std::mt19937_64& random, double size) {
   const auto magnitude = [&](double most) {
     return random() % 6 == 0 ? mpq_class(0) : mpq_class(abs(random_number(random, most)));
   };
-  const auto vectors = [&](double most) -> VectorSet {
+  const auto vectors = [&](bool is_moment, double most) -> LoadSet {
     switch (random() % 3) {
-      case 0: return BallOfVectors{magnitude(most)};
-      case 1: return DiscOfVectors{magnitude(most), random_vector(random, 3)};
-      default: return SegmentOfVectors{random_vector(random, 1e-2), random_limits(random, most)};
+      case 0: return BallOrDisc{is_moment, magnitude(most), {}};
+      case 1: return BallOrDisc{is_moment, magnitude(most), random_vector(random, 3)};
+      default: return LineSegment{is_moment, random_vector(random, 1e-2), random_limits(random, most)};
     }
   };
   if (random() % 2 == 0) item.axes = Axes::kPlatform;
@@ -292,11 +282,11 @@ inline LoadItem random_item(std::mt19937_64& random, double size) {
       Limits mass = random_limits(random, size / 10);
       if (mass.lower < 0) mass = {mpq_class(0), mass.upper - mass.lower};
       item.axes = Axes::kWorld;
-      item.what = Weight{mass, magnitude(0.03)};
+      item.set = Weight{mass, magnitude(0.03)};
       break;
     }
-    case 1: item.what = Force{vectors(size)}; break;
-    case 2: item.what = Moment{vectors(size / 10)}; break;
+    case 1: item.set = vectors(false, size); break;
+    case 2: item.set = vectors(true, size / 10); break;
     default: {
       LoadCases cases;
       for (std::size_t k = 1 + random() % 5; k > 0; --k) {
@@ -304,7 +294,7 @@ inline LoadItem random_item(std::mt19937_64& random, double size) {
         cases.wrenches.push_back({F[0], F[1], F[2], M[0], M[1], M[2]});
       }
       if (random() % 3 == 0) cases.wrenches.push_back(cases.wrenches.front());  // a tie
-      item.what = cases;
+      item.set = cases;
     }
   }
   return item;

@@ -298,13 +298,13 @@ TEST(BoxProof, AnExactLoadMayGrowByAsMuchAsIsEverStated) {
   problem.wrench = ExactWrench();
   problem.gravity = {0, 0, -10};
   problem.items = {{Weight{{mpq_class(1, 10), mpq_class(1, 10)}, 0}, Axes::kWorld, {}},
-                   {Force{SegmentOfVectors{{1, 2, 3}, {mpq_class(1, 7), mpq_class(1, 7)}}}, Axes::kPlatform, {}},
-                   {Moment{DiscOfVectors{0, {1, 2, 3}}}, Axes::kPlatform, {}}};
+                   {LineSegment{false, {1, 2, 3}, {mpq_class(1, 7), mpq_class(1, 7)}}, Axes::kPlatform, {}},
+                   {BallOrDisc{true, 0, ExactVector{1, 2, 3}}, Axes::kPlatform, {}}};
   Path path;
   path.waypoints = {waypoint({0.01, 0.02, 0.35, 0.3, 0.5, 0.6}), waypoint({0.011, 0.02, 0.35, 0.3, 0.5, 0.6})};
   const Bounds bounds = prove_box(Machine(problem), problem, path, 0, dyadic_box(0, 1, 0));
   EXPECT_EQ(approx(bounds.wrench_scale), 1e6);
-  problem.items.push_back({Force{BallOfVectors{mpq_class(1, 10)}}, Axes::kWorld, {}});
+  problem.items.push_back({BallOrDisc{false, mpq_class(1, 10), {}}, Axes::kWorld, {}});
   EXPECT_LT(approx(prove_box(Machine(problem), problem, path, 0, dyadic_box(0, 1, 0)).wrench_scale), 1e6);
 }
 
@@ -334,23 +334,17 @@ TEST(Acting, AcceptsTheEdgesOfAnItemAndNothingBeyond) {
   EXPECT_FALSE(is_in(weight, WeightChoice{3 + kTiny, {}}));
   EXPECT_FALSE(is_in(weight, WeightChoice{2, {mpq_class(3, 10), kTiny, mpq_class(-4, 10)}}));
   for (const bool is_moment : {false, true}) {
-    const auto item = [&](const VectorSet& set) {
-      LoadItem result;
-      result.axes = Axes::kPlatform;
-      if (is_moment) result.what = Moment{set};
-      if (!is_moment) result.what = Force{set};
-      return result;
-    };
-    const LoadItem ball = item(BallOfVectors{5});
+    const auto item = [](const LoadSet& set) { return LoadItem{set, Axes::kPlatform, {}}; };
+    const LoadItem ball = item(BallOrDisc{is_moment, 5, {}});
     EXPECT_TRUE(is_in(ball, VectorChoice{{3, 0, 4}}));
     EXPECT_FALSE(is_in(ball, VectorChoice{{3, kTiny, 4}}));
-    EXPECT_TRUE(is_in(item(BallOfVectors{0}), VectorChoice{}));
-    EXPECT_FALSE(is_in(item(BallOfVectors{0}), VectorChoice{{kTiny, 0, 0}}));
-    const LoadItem disc = item(DiscOfVectors{5, {0, 7, 0}});
+    EXPECT_TRUE(is_in(item(BallOrDisc{is_moment, 0, {}}), VectorChoice{}));
+    EXPECT_FALSE(is_in(item(BallOrDisc{is_moment, 0, {}}), VectorChoice{{kTiny, 0, 0}}));
+    const LoadItem disc = item(BallOrDisc{is_moment, 5, ExactVector{0, 7, 0}});
     EXPECT_TRUE(is_in(disc, VectorChoice{{3, 0, -4}}));
     EXPECT_FALSE(is_in(disc, VectorChoice{{3, kTiny, 0}})) << "out of the plane";
     EXPECT_FALSE(is_in(disc, VectorChoice{{3 + kTiny, 0, 4}}));
-    const LoadItem segment = item(SegmentOfVectors{{1, 1, 0}, {-1, 2}});
+    const LoadItem segment = item(LineSegment{is_moment, {1, 1, 0}, {-1, 2}});
     EXPECT_TRUE(is_in(segment, AmountChoice{-1}));
     EXPECT_TRUE(is_in(segment, AmountChoice{2}));
     EXPECT_FALSE(is_in(segment, AmountChoice{2 + kTiny}));
@@ -385,22 +379,21 @@ TEST(Acting, IsTheWrenchOfTheseLoads) {
         load.vector = vector_of<BigFloat>(v);
         return v;
       };
-      if (const auto* weight = std::get_if<Weight>(&item.what)) {
+      if (const auto* weight = std::get_if<Weight>(&item.set)) {
         const mpq_class mass = (2 * weight->mass.lower + weight->mass.upper) / 3;
         load.amount = number<BigFloat>(mass);
         choices.emplace_back(WeightChoice{mass, some_vector(weight->offset, nullptr)});
-      } else if (const auto* cases = std::get_if<LoadCases>(&item.what)) {
+      } else if (const auto* cases = std::get_if<LoadCases>(&item.set)) {
         const std::size_t j = random() % cases->wrenches.size();
         load.shares.assign(cases->wrenches.size(), BigFloat(0.0));
         load.shares[j] = BigFloat(1.0);
         choices.emplace_back(CaseChoice{j});
-      } else if (const auto* segment = std::get_if<SegmentOfVectors>(vectors_of(item))) {
+      } else if (const auto* segment = std::get_if<LineSegment>(&item.set)) {
         load.amount = number<BigFloat>(segment->range.upper);
         choices.emplace_back(AmountChoice{segment->range.upper});
-      } else if (const auto* disc = std::get_if<DiscOfVectors>(vectors_of(item))) {
-        choices.emplace_back(VectorChoice{some_vector(disc->radius, &disc->normal)});
       } else {
-        choices.emplace_back(VectorChoice{some_vector(std::get<BallOfVectors>(*vectors_of(item)).radius, nullptr)});
+        const auto& round = std::get<BallOrDisc>(item.set);
+        choices.emplace_back(VectorChoice{some_vector(round.radius, normal_of(round))});
       }
     }
     const Machine machine(acting(problem, choices));

@@ -204,8 +204,8 @@ TEST(Witness, LoadsActOnTheMachineThatDeviates) {
     scene.problem.gravity = {0, mpq_class(1, 8), -10};
     scene.problem.items = {
         {Weight{{mpq_class(1, 32), mpq_class(1, 16)}, mpq_class(1, 64)}, Axes::kWorld, {mpq_class(1, 64), 0, 0}},
-        {Force{BallOfVectors{mpq_class(1, 2)}}, Axes::kPlatform, {0, mpq_class(-1, 32), 0}},
-        {Moment{SegmentOfVectors{{1, 1, 1}, {-1, mpq_class(1, 64)}}}, Axes::kPlatform, {}}};
+        {BallOrDisc{false, mpq_class(1, 2), {}}, Axes::kPlatform, {0, mpq_class(-1, 32), 0}},
+        {LineSegment{true, {1, 1, 1}, {-1, mpq_class(1, 64)}}, Axes::kPlatform, {}}};
     const auto number = [](const mpq_class& x) { return BigFloat(x.get_d()); };  // of few bits
     const ExactVector e = {0, mpq_class(1, 128), mpq_class(1, 128)};
     const ExactVector force = {mpq_class(1, 4), mpq_class(-1, 8), 0};
