@@ -172,8 +172,9 @@ bool set_radius(const Forms<I, 7>& forms, const I& offset, Densities<I>& densiti
   return true;
 }
 
-/// A constant near the items' nominal wrench at the midpoint, which depends on the pose, is multiplied by D^-1 as w0 is,
-/// so that what cancels between its components does so before it is enclosed. What remains is added with the items.
+/// A constant near the items' nominal wrench at the midpoint, which depends on the pose, is multiplied by D^-1 as w0
+/// is, so that what cancels between its components does so before it is enclosed. What remains is added with the
+/// items.
 template <class I>
 struct ItemsOverBox {
   ItemsOverBox(const ProofModel<I>& problem, const Matrix3<SlopeForm<I>>& r_WP, Vector6<I>& w)
@@ -400,8 +401,8 @@ MarginId weakest(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure)
   return weakest;
 }
 
-/// How far K moves a tension of any deviating machine below (side 0) or above (side 1) its nominal one, from that of the
-/// undisturbed one. Of an ellipsoid alone both are v_ii, half the difference of the two bounds.
+/// How far K moves a tension of any deviating machine below (side 0) or above (side 1) its nominal one, from that of
+/// the undisturbed one. Of an ellipsoid alone both are v_ii, half the difference of the two bounds.
 template <class I>
 I disturbed_reach(const I& undisturbed, std::size_t cable, std::size_t side, const DeviationBounds<I>& disturbance) {
   if (disturbance.reach) return ProofScalarTraits<I>::symmetric((*disturbance.reach)[cable][side]);

@@ -91,7 +91,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-/// What a file says of its load, where no case says what it has to be.
+/// With the load that an accepted certificate is about, where no case says what it has to be.
 struct CheckedFile {
   CheckResult result;
   std::string load;
@@ -113,7 +113,7 @@ CheckedFile check_file(const Arguments& arguments) {
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
       CheckedFile checked{check(bytes, options), ""};
-      if (checked.result.outcome != Outcome::kMalformed) checked.load = stated_load(bytes);
+      if (checked.result.outcome == Outcome::kAccepted) checked.load = stated_load(bytes);
       return checked;
     }
     const taut::Problem problem = load_case(arguments.case_path).problem;
@@ -225,9 +225,9 @@ int run(int argc, char** argv) {
   if (arguments.as_json && !arguments.quiet) {
     std::cout << to_json(result, seconds).dump(2, ' ', true, nlohmann::json::error_handler_t::replace) << std::endl;
   } else if (!arguments.quiet && !is_malformed) {
-    if (!checked.load.empty()) std::cout << sanitize(checked.load) << "\n";
     std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
               << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
+    if (!checked.load.empty()) std::cout << sanitize(checked.load) << std::endl;
   }
   if (!arguments.quiet && is_malformed)
     std::cerr << name(result.outcome) << ": " << sanitize(result.message) << std::endl;

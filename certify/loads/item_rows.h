@@ -3,8 +3,9 @@
 //
 // kinematics/loads.h states it for one density and any scalar. Here rows of D^-1 and vectors of the platform are kept
 // around middles (vector_form.h). What all items together do, Σ above_n and Σ below_n, is a convex function of such
-// vectors, and Lipschitz. Along mid + slope (t − m) it is convex in t, so its values at the midpoint and at both ends of
-// T bound its slopes from m; the errors add what the Lipschitz constants say. docs/theory.md, "Items, all rows at once".
+// vectors, and Lipschitz. Along mid + slope (t − m) it is convex in t, so its values at the midpoint and at both ends
+// of T bound its slopes from m; the errors add what the Lipschitz constants say. docs/theory.md, "Items, all rows at
+// once".
 #pragma once
 
 #include <array>

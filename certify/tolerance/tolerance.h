@@ -50,8 +50,8 @@ struct DeviationBounds {
   using Upper = UpperOf<I>;
   std::array<Upper, kCables> length{};                  ///< of d_i [m]
   std::array<std::array<Upper, 2>, kCables> tension{};  ///< of f0_i − v_ii and f0_i + v_ii [N]
-  /// How far K moves tensions of deviating machines below (side 0) and above (side 1) their nominal ones [N]; only where
-  /// loads are items.
+  /// How far K moves tensions of deviating machines below (side 0) and above (side 1) their nominal ones [N]; only
+  /// where loads are items.
   std::optional<std::array<std::array<Upper, 2>, kCables>> reach;
 };
 

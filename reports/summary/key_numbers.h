@@ -21,8 +21,8 @@ struct KeyNumber {
 };
 
 /// Proved where the whole move is proved: then rounded so that every one of them is true of the move. Else of samples,
-/// rounded towards the limit, and marked so in their details. The cable that is named has the least, or highest, of what is
-/// printed. None where nothing is known, or nothing was checked.
+/// rounded towards the limit, and marked so in their details. The cable that is named has the least, or highest, of
+/// what is printed. None where nothing is known, or nothing was checked.
 [[nodiscard]] std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use);
 
 /// How one cable uses its limits, as text of three digits, or of as many as tell it from the limit. Signs are those of

@@ -50,6 +50,8 @@ TEST(TautCheck, AnotherCaseIsRejectedAndABrokenOneIsBadInput) {
 TEST(TautCheck, PrintsASentence) {
   const Output proved = run(kFolder + "accepted/robot1_near_goal.json");
   EXPECT_TRUE(proved.text.starts_with("accepted: proved again: 1 segment, 5 boxes, ")) << proved.text;
+  EXPECT_NE(proved.text.find("\nload: an ellipsoid around (0, 0, 1) N"), std::string::npos) << proved.text;
+  EXPECT_EQ(run(kFolder + "rejected/anchor_moved.json").text.find("load:"), std::string::npos);
   EXPECT_TRUE(
       run(kFolder + "rejected/anchor_moved.json").text.starts_with("rejected: not confirmed: segment 0, box ["));
   EXPECT_EQ(run("--quiet " + kFolder + "malformed/cut.json").text, "");
