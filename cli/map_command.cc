@@ -156,7 +156,7 @@ void print(const Case& the_case, const CaseMap& made) {
   print_components("inside", made.topology.inside());
   print_components("inside or undecided", made.topology.possible());
   for (std::size_t n = 0; n < made.connections.size(); ++n) {
-    fmt::print("  waypoints {} and {}: {}\n", n + 1, n + 2, text(made.connections[n]));
+    fmt::print("  from waypoint {} to {} of the query: {}\n", n, n + 1, text(made.connections[n]));
   }
   fmt::print("{} from {} judged in {:.2f} s.\n", plural(map.leaves(), "cell"), map.judged, made.seconds);
 }

@@ -37,7 +37,7 @@ class Map(InFolder):
         said = run(TAUT, "map", ROBOT1, "--undecided", "5 %")
         self.assertEqual((said.returncode, said.stderr), (0, ""))
         for expected in ("Load: ", "phi [rad] from -3.1416 to 3.1416, a whole turn", "which is every tilt",
-                         "inside, proved", "outside, proved", "undecided", "waypoints 1 and 2: joined"):
+                         "inside, proved", "outside, proved", "undecided", "from waypoint 0 to 1 of the query: joined"):
             self.assertIn(expected, said.stdout)
 
     def test_the_same_map_on_any_number_of_threads(self):
