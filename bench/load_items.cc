@@ -21,7 +21,7 @@
 #include <string_view>
 
 #include "case/case_file.h"
-#include "certify/path_proof.h"
+#include "certificate/elaborate.h"
 
 namespace taut {
 namespace {
@@ -149,7 +149,7 @@ std::vector<Row> measure(const std::vector<Load>& loads, const std::string& tole
 struct MarginRow {
   std::string load;
   bool tolerances;
-  PathProof proof;
+  Certificate certificate;
 };
 
 /// The crane's straight move with its load as items and as the ellipsoid around them.
@@ -163,7 +163,8 @@ std::vector<MarginRow> margins() {
     for (const Load& load : {Load{"items", items}, Load{"around_items", around}}) {
       Problem problem = parse_case(load.yaml, load.name).problem;
       if (!tolerances) problem.tolerances.reset();
-      rows.push_back({load.name, tolerances, prove_path(Prover(problem), Path{query_waypoints(problem)})});
+      const Path path{query_waypoints(problem)};
+      rows.push_back({load.name, tolerances, elaborate(problem, path, prove_path(Prover(problem), path))});
     }
   }
   return rows;
@@ -173,13 +174,13 @@ void print_margins(nlohmann::json& json) {
   fmt::print("\n| load of the crane | tolerances | verdict | tension margin, N | K may grow by | boxes |\n");
   fmt::print("|---|---|---|---|---|---|\n");
   for (const MarginRow& row : margins()) {
-    const PathProof& proof = row.proof;
-    const bool is_proved = proof.verdict == Verdict::kProved;
-    const std::string margin = is_proved ? proof.margins.tension_N : "–";
-    const std::string growth = is_proved ? proof.margins.wrench_scale : "–";
-    const char* verdict = is_proved ? "proved" : proof.verdict == Verdict::kRefuted ? "refuted" : "undecided";
+    const Certificate& certificate = row.certificate;
+    const bool is_proved = certificate.verdict == Verdict::kProved;
+    const std::string margin = is_proved ? certificate.margins->tension_N : "–";
+    const std::string growth = is_proved ? certificate.margins->wrench_scale : "–";
+    const char* verdict = is_proved ? "proved" : certificate.verdict == Verdict::kRefuted ? "refuted" : "undecided";
     fmt::print("| {} | {} | {} | {} | {} | {} |\n", row.load, row.tolerances ? "yes" : "none", verdict, margin, growth,
-               proof.boxes);
+               count_boxes(certificate));
     json.push_back({{"load", row.load},
                     {"tolerances", row.tolerances},
                     {"verdict", verdict},

@@ -157,6 +157,8 @@ std::size_t segment_of(const PathWitness& witness) { return static_cast<std::siz
 /// Looks for boxes and witnesses of one segment.
 class Elaborator::Search {
  public:
+  static constexpr int kMostWayParts = 64;  ///< that a box asks for
+
   Search(const Elaborator& elaborator, const Segment& segment)
       : elaborator_(elaborator), path_(to_kernel(segment, !elaborator.problem_.constraints.empty())) {}
 
@@ -288,7 +290,6 @@ class Elaborator::Search {
       return result;
     }
   };
-  static constexpr int kMostWayParts = 64;
 
   template <class Attempt>
   static bool at_some_precision(const Attempt& attempt) {
@@ -404,7 +405,8 @@ class Elaborator::Search {
   int attempts_ = 0;
 };
 
-/// Halves boxes of a path that state its least margins.
+/// Halves the boxes that state a path's least margins, or takes the way to their deviations in more parts, until what
+/// they state is nearly what the kernel shows of single poses.
 class Elaborator::Tightener {
  public:
   using Bound = double (*)(const KernelBox&);
@@ -413,10 +415,11 @@ class Elaborator::Tightener {
             std::vector<std::vector<KernelBox>>& boxes)
       : elaborator_(elaborator), segment_(segment), boxes_(boxes) {}
 
-  void raise(Bound bound) {
-    constexpr int kMostSplits = 64;
+  /// @param enough  the share of what is shown of single poses
+  void raise(Bound bound, double enough) {
+    constexpr int kMostSteps = 96;
     double found = std::numeric_limits<double>::infinity();  // the least at midpoints
-    while (splits_ < kMostSplits && split_worst(bound, found)) ++splits_;
+    for (int step = 0; step < kMostSteps && improve_worst(bound, enough, found);) ++step;
   }
 
  private:
@@ -436,9 +439,8 @@ class Elaborator::Tightener {
     return worst == boxes_.end() || worst->empty() ? nullptr : &*worst;
   }
 
-  /// False where the worst box states enough, or can't be halved.
-  bool split_worst(Bound bound, double& found) {
-    constexpr double kEnough = 0.5;
+  /// False where the worst box states enough, or can't be improved.
+  bool improve_worst(Bound bound, double enough, double& found) {
     Boxes* const boxes = worst_segment(bound);
     if (boxes == nullptr) return false;
     const auto worst = worst_of(*boxes, bound);
@@ -447,21 +449,51 @@ class Elaborator::Tightener {
     point.begin = point.end = (worst->box.begin + worst->box.end) / 2;
     const std::optional<KernelBox> there = search.attempt(point);
     if (!there) return false;
-    found = std::min(found, bound(*there));
-    if (!(bound(*worst) < kEnough * found)) return false;
-    Boxes halves;
-    if (!search.prove(worst->box.begin, point.begin, halves) || !search.prove(point.begin, worst->box.end, halves)) {
-      return false;
+    const std::optional<KernelBox> finer = with_more_parts(search, point);
+    const double most = finer ? std::max(bound(*finer), bound(*there)) : bound(*there);
+    found = std::min(found, most);
+    if (!(bound(*worst) < enough * found)) return false;
+    const double loss_to_width = bound(*there) - bound(*worst);
+    const double loss_to_parts = most - bound(*there);
+    if (loss_to_parts > loss_to_width) {
+      const std::optional<KernelBox> replaced = with_more_parts(search, worst->box);
+      if (replaced && bound(*replaced) > bound(*worst)) {
+        *worst = *replaced;
+        return true;
+      }
     }
-    const auto after = boxes->erase(worst);
-    boxes->insert(after, halves.begin(), halves.end());
+    return halve(search, *boxes, worst);
+  }
+
+  [[nodiscard]] std::optional<KernelBox> with_more_parts(Search& search, checker::Box box) const {
+    if (!elaborator_.has_tolerances() || box.parts >= Search::kMostWayParts) return std::nullopt;
+    box.parts *= 4;
+    return search.attempt(box);
+  }
+
+  static bool halve(Search& search, Boxes& boxes, Boxes::iterator worst) {
+    const checker::Box& box = worst->box;
+    const mpq_class middle = (box.begin + box.end) / 2;
+    Boxes halves;
+    for (auto [begin, end] : {std::pair(box.begin, middle), std::pair(middle, box.end)}) {
+      checker::Box half = box;
+      half.begin = begin;
+      half.end = end;
+      const std::optional<KernelBox> proved = search.attempt(half);
+      if (proved) {
+        halves.push_back(*proved);
+      } else if (!search.prove(begin, end, halves)) {
+        return false;
+      }
+    }
+    const auto after = boxes.erase(worst);
+    boxes.insert(after, halves.begin(), halves.end());
     return true;
   }
 
   const Elaborator& elaborator_;
   const std::function<Segment(std::size_t k)>& segment_;
   std::vector<Boxes>& boxes_;
-  int splits_ = 0;
 };
 
 // ---- Elaborator -----------------------------------------------------------------------------------------------------
@@ -514,9 +546,9 @@ std::optional<std::vector<checker::Box>> Elaborator::motion(const Segment& segme
 void Elaborator::tighten(const std::function<Segment(std::size_t k)>& segment,
                          std::vector<std::vector<KernelBox>>& boxes) const {
   Tightener tightener(*this, segment, boxes);
-  tightener.raise([](const KernelBox& x) { return x.tension_N; });
-  tightener.raise([](const KernelBox& x) { return x.wrench_scale - 1; });
-  tightener.raise([](const KernelBox& x) { return x.length_m; });
+  tightener.raise([](const KernelBox& x) { return x.tension_N; }, 0.98);
+  tightener.raise([](const KernelBox& x) { return x.wrench_scale - 1; }, 0.98);
+  tightener.raise([](const KernelBox& x) { return x.length_m; }, 0.99);
 }
 
 std::optional<Witness> Elaborator::witness(const Segment& segment, const PathWitness& found) const {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/input_error.h"
 #include "certify/gravest.h"
@@ -106,104 +105,10 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
   return std::nullopt;
 }
 
-/// A lower bound that a box or segment states: of a tension or length margin, or of by how much K may grow.
-enum class LeastOf { kTension, kLength, kScale };
-
-template <class Proof>
-double stated(LeastOf bound, const Proof& proof) {
-  switch (bound) {
-    case LeastOf::kTension: return proof.tension_N;
-    case LeastOf::kLength: return proof.length_m;
-    case LeastOf::kScale: break;
-  }
-  return proof.wrench_scale - 1;
-}
-
-/// Raises the least margins of a proved path, by halving the boxes that state them: large boxes prove a path at little
-/// cost, but state less than there is. Stops where half of what a box's midpoint has is stated.
-class Sharpener {
- public:
-  Sharpener(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
-            std::vector<SegmentProof>& segments)
-      : prover_(prover), segment_(segment), segments_(segments), verdicts_(segments.size()) {}
-
-  void raise(LeastOf bound) {
-    constexpr double kEnough = 0.5;
-    double found = std::numeric_limits<double>::infinity();  // at midpoints
-    while (splits_ < kMostSplits) {
-      const auto least = std::ranges::min_element(
-          segments_, [&](const SegmentProof& a, const SegmentProof& b) { return stated(bound, a) < stated(bound, b); });
-      const auto k = static_cast<std::size_t>(least - segments_.begin());
-      const Segment segment = segment_(k);
-      if (!judge_all(segment, k)) return;
-      std::vector<BoxVerdict>& verdicts = verdicts_[k];
-      const auto worst = std::ranges::min_element(
-          verdicts, [&](const BoxVerdict& a, const BoxVerdict& b) { return stated(bound, a) < stated(bound, b); });
-      const std::ptrdiff_t i = worst - verdicts.begin();
-      const DyadicBox box = segments_[k].boxes[static_cast<std::size_t>(i)];
-      if (box.depth + kPointDepth > DyadicBox::kMaxDepth) return;
-      found = std::min(found, stated(bound, prover_.judge(segment, next_to_mid(box))));
-      if (!(stated(bound, *worst) < kEnough * found)) return;
-      const BoxVerdict left = prover_.judge(segment, box.left());
-      const BoxVerdict right = prover_.judge(segment, box.right());
-      if (left.kind != BoxVerdict::Kind::kProved || right.kind != BoxVerdict::Kind::kProved) return;
-      ++splits_;
-      *worst = left;
-      verdicts.insert(verdicts.begin() + i + 1, right);
-      segments_[k].boxes[static_cast<std::size_t>(i)] = box.left();
-      segments_[k].boxes.insert(segments_[k].boxes.begin() + i + 1, box.right());
-      segments_[k].boxes_judged += 2;
-      state(k);
-    }
-  }
-
- private:
-  static constexpr int kMostSplits = 64;  // of a path
-  static constexpr int kPointDepth = 20;  // of a box that is little more than a point, below that of the box around it
-
-  static DyadicBox next_to_mid(const DyadicBox& box) {
-    return {((box.k << 1) + 1) << (kPointDepth - 1), box.depth + kPointDepth};
-  }
-
-  /// The verdicts on all boxes of a segment, once.
-  bool judge_all(const Segment& segment, std::size_t k) {
-    if (!verdicts_[k].empty()) return true;
-    std::vector<BoxVerdict> verdicts;
-    for (const DyadicBox& box : segments_[k].boxes) {
-      verdicts.push_back(prover_.judge(segment, box));
-      if (verdicts.back().kind != BoxVerdict::Kind::kProved) return false;
-    }
-    verdicts_[k] = std::move(verdicts);
-    return true;
-  }
-
-  void state(std::size_t k) {
-    SegmentProof& segment = segments_[k];
-    segment.tension_N = segment.length_m = segment.wrench_scale = std::numeric_limits<double>::infinity();
-    for (const BoxVerdict& verdict : verdicts_[k]) {
-      segment.tension_N = std::min(segment.tension_N, verdict.tension_N);
-      segment.length_m = std::min(segment.length_m, verdict.length_m);
-      segment.wrench_scale = std::min(segment.wrench_scale, verdict.wrench_scale);
-    }
-  }
-
-  const Prover& prover_;
-  const std::function<Segment(std::size_t)>& segment_;
-  std::vector<SegmentProof>& segments_;
-  std::vector<std::vector<BoxVerdict>> verdicts_;  ///< of the boxes of those segments that were looked at
-  int splits_ = 0;
-};
-
 }  // namespace
 
 Margins margins_below(double tension_N, double length_m, double wrench_scale) {
   return {decimal_below(tension_N), decimal_below(length_m), decimal_below(wrench_scale)};
-}
-
-void tighten_margins(const Prover& prover, const std::function<Segment(std::size_t)>& segment,
-                     std::vector<SegmentProof>& segments) {
-  Sharpener sharpener(prover, segment, segments);
-  for (const LeastOf bound : {LeastOf::kTension, LeastOf::kScale, LeastOf::kLength}) sharpener.raise(bound);
 }
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop) {
@@ -219,10 +124,6 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     const SegmentProof* earlier = known ? known(path.segment(k)) : nullptr;
     result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k), 0, stop);
   });
-  if (std::ranges::all_of(result.segments, [](const auto& x) { return x.verdict == Verdict::kProved; })) {
-    tighten_margins(
-        prover, [&](std::size_t k) { return path.segment(k); }, result.segments);
-  }
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     const SegmentProof& segment = result.segments[k];
@@ -237,17 +138,6 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
       result.open_segment = static_cast<int>(k);
     }
   }
-  if (result.verdict != Verdict::kProved) return result;
-  const SegmentProof* tension = &result.segments[0];
-  const SegmentProof* length = tension;
-  const SegmentProof* scale = tension;
-  for (const SegmentProof& segment : result.segments) {
-    result.segment_margins.push_back(margins_below(segment.tension_N, segment.length_m, segment.wrench_scale));
-    if (segment.tension_N < tension->tension_N) tension = &segment;
-    if (segment.length_m < length->length_m) length = &segment;
-    if (segment.wrench_scale < scale->wrench_scale) scale = &segment;
-  }
-  result.margins = margins_below(tension->tension_N, length->length_m, scale->wrench_scale);
   return result;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Proves a path segment by segment, on all cores, and gathers the margins of the whole. Boxes that state the path's
-// least margins are then halved, up to 64 times, until half of what there is is stated.
+// Proves a path segment by segment, on all cores.
 #pragma once
 
 #include <functional>
@@ -40,24 +39,16 @@ struct Margins {
 
 struct PathProof {
   Verdict verdict = Verdict::kUndecided;
-  std::vector<SegmentProof> segments;    ///< one a segment; complete only if proved
-  std::vector<Margins> segment_margins;  ///< likewise
-  Margins margins;                       ///< smallest along the path; only if proved
-  std::optional<PathWitness> witness;    ///< only if refuted
-  Reason reason;                         ///< only if undecided
-  int open_segment = -1;                 ///< only if undecided
+  std::vector<SegmentProof> segments;  ///< one a segment; complete only if proved
+  std::optional<PathWitness> witness;  ///< only if refuted
+  Reason reason;                       ///< only if undecided
+  int open_segment = -1;               ///< only if undecided
   long boxes = 0;
   long boxes_judged = 0;
 };
 
 /// The proof of a segment if it was made before, else null: so that a planner's proofs are not made twice.
 using KnownProof = std::function<const SegmentProof*(const Segment& segment)>;
-
-/// Raises the least margins of a proved path by halving the boxes that state them.
-/// @param segment   number k of the path, ready to be proved about
-/// @param segments  their proofs, all "proved"; boxes and margins are replaced
-void tighten_margins(const Prover& prover, const std::function<Segment(std::size_t k)>& segment,
-                     std::vector<SegmentProof>& segments);
 
 /// Verdict for the whole path. A path of one waypoint is refuted if that is infeasible, else undecided ("no segment").
 [[nodiscard]] PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known = {},

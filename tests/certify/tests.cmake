@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 taut_add_test(certify big_float LABELS unit LIBS taut::certify)
 taut_add_test(certify segment_proof LABELS unit LIBS taut::case taut::certify)
-taut_add_test(certify path_proof LABELS unit LIBS taut::case taut::certify)
+taut_add_test(certify elaborate LABELS unit LIBS taut::case taut::certificate)
 taut_add_test(certify certificate LABELS unit LIBS taut::case taut::certificate)
 taut_add_test(certify certificate_writer LABELS unit LIBS taut::case taut::certificate)
 taut_add_test(certify grazing LABELS unit LIBS taut::case taut::certify)
