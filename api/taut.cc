@@ -39,6 +39,7 @@
 #include "reports/summary/illustration.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/samples.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut::v0 {
 
@@ -604,8 +605,10 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
     const std::optional<SigningKey> key = signing_key(options.signing_key_pem);
     const taut::Case& about = the_case.content().the_case;
     taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
-    certificate.illustration = {
-        {"kind", "proof"}, {"units", to_json(about.units)}, {"document_fields", to_json(about.document_fields)}};
+    certificate.illustration = {{"kind", "proof"},
+                                {"units", to_json(about.units)},
+                                {"document_fields", to_json(about.document_fields)},
+                                {"decoration", to_json(about.decoration)}};
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
                                options.stop);
@@ -647,7 +650,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     const Audit audited = audit_path(
         source,
         {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units,
-         content.the_case.document_fields, options.headroom_seconds},
+         content.the_case.document_fields, content.the_case.decoration, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

@@ -15,6 +15,7 @@
 #include "reports/summary/display_units.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/illustration.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut {
 namespace {
@@ -301,8 +302,10 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.verdict = audit.verdict;
   ending.margins = audit.margins;
   ending.source = source.source();
-  ending.illustration = {
-      {"kind", "audit"}, {"units", to_json(options.units)}, {"document_fields", to_json(options.document_fields)}};
+  ending.illustration = {{"kind", "audit"},
+                         {"units", to_json(options.units)},
+                         {"document_fields", to_json(options.document_fields)},
+                         {"decoration", to_json(options.decoration)}};
   if (source.counts_lines()) ending.illustration["lines"] = audit.lines.to_json();
   if (audit.verdict == Verdict::kRefuted) ending.witness = audit.witness;
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);

@@ -49,6 +49,7 @@ struct AuditOptions {
   const SigningKey* key = nullptr;   ///< null: the certificate is not signed
   CaseUnits units{};                 ///< in which the report shows results
   DocumentFields document_fields{};  ///< for the head of the report
+  Decoration decoration{};           ///< for its pictures
   double headroom_seconds = 0;       ///< that find_headroom() may take; 0: it is not sought
   HeadroomProgress headroom_progress = {};
 };

@@ -13,6 +13,7 @@
 #include "reports/summary/display_units.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/illustration.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut {
 
@@ -76,6 +77,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   illustration["units"] = to_json(the_case.units);
   illustration["document_fields"] = to_json(the_case.document_fields);
+  illustration["decoration"] = to_json(the_case.decoration);
   if (options.headroom_seconds > 0 && !stop.stop_requested()) {
     const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
     result.headroom =

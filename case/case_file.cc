@@ -21,6 +21,7 @@
 #include "base/labels.h"
 #include "base/sanitize.h"
 #include "case/around_items.h"
+#include "case/decoration_fields.h"
 #include "case/fields.h"
 #include "case/load.h"
 #include "problem/decimal.h"
@@ -506,9 +507,10 @@ DocumentFields read_document_fields(const Map& map) {
   return result;
 }
 
-Case read_case(const Field& root) {
+/// @param folder  of the file: names of files in it are relative to this
+Case read_case(const Field& root, const std::filesystem::path& folder) {
   const Map map = root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot",
-                            "load", "tolerances", "space", "query", "planner", "audit", "expect"});
+                            "load", "tolerances", "space", "query", "planner", "audit", "decoration", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }
@@ -521,6 +523,7 @@ Case read_case(const Field& root) {
   result.problem.load = read_load(map.at("load"), units, result.warnings);
   if (is_around_items(map.at("load"))) result.items_in_ellipsoid = result.problem.load;
   result.document_fields = read_document_fields(map);
+  if (const auto field = map.find("decoration")) result.decoration = read_decoration(*field, units, folder);
   if (const auto field = map.find("tolerances")) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
   }
@@ -622,7 +625,7 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
   }
   require_utf8(text, places);
   try {
-    Case result = read_case(Field(places, only_document(text, name), ""));
+    Case result = read_case(Field(places, only_document(text, name), ""), std::filesystem::path(name).parent_path());
     validate(result.problem);
     if (result.items_in_ellipsoid) {
       result.problem.load = ellipsoid_around_items(*result.items_in_ellipsoid, arm_of(result.problem.robot));

@@ -548,7 +548,7 @@ void Elaborator::tighten(const std::function<Segment(std::size_t k)>& segment,
   Tightener tightener(*this, segment, boxes);
   tightener.raise([](const KernelBox& x) { return x.tension_N; }, 0.98);
   tightener.raise([](const KernelBox& x) { return x.wrench_scale - 1; }, 0.98);
-  tightener.raise([](const KernelBox& x) { return x.length_m; }, 0.99);
+  tightener.raise([](const KernelBox& x) { return x.length_m; }, 0.998);
 }
 
 std::optional<Witness> Elaborator::witness(const Segment& segment, const PathWitness& found) const {

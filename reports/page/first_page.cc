@@ -324,7 +324,7 @@ Html picture(const ReportContext& scene, const Summary& s) {
   if (scene.certificate.path.waypoints.empty()) return {};
   const auto [position, why] = place_of_picture(scene, s);
   return machine_picture(scene, position, nearness_there(scene, s, position),
-                         fmt::format("{}: {}", why, place_text(scene, position)));
+                         fmt::format("{}: {}", why, place_text(scene, position)), shown_bodies_note(scene));
 }
 
 }  // namespace

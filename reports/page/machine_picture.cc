@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "problem/expression.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut {
 
@@ -36,7 +38,7 @@ class Picture {
   Picture(const ReportContext& scene, const MachineView& view, double position,
           const std::array<Nearness, kCables>& nearness, const PictureSize& size);
 
-  [[nodiscard]] Html draw(const std::string& caption);
+  [[nodiscard]] Html draw(const std::string& caption, const Html& note);
 
  private:
   [[nodiscard]] Point2 place(const Vector3d& p) const { return (view_(p) - centre_) * scale_ + middle_; }
@@ -44,6 +46,8 @@ class Picture {
   void frame();
   void grid();
   void base();
+  void shown_frame();
+  void shown_payload();
   void ghosts();
   void track();
   void strokes();
@@ -178,7 +182,8 @@ void Picture::base() {
   }
   double above = 0;
   for (const Vector3d& a : anchors) above += view_.up.dot(a) / static_cast<double>(anchors.size());
-  if (above > view_.up.dot(sample_.pose.p_WP)) {
+  const bool is_carried_by_shown_frame = scene_.illustration.decoration.frame.has_value();
+  if (!is_carried_by_shown_frame && above > view_.up.dot(sample_.pose.p_WP)) {
     for (const Vector3d& a : anchors) {
       const Point2 foot = place(view_.foot(a));
       behind_ += line("foot", foot - Point2(9, 0), foot + Point2(9, 0));
@@ -194,6 +199,42 @@ void Picture::base() {
     }
   }
   if (sides.empty() && anchors.size() > 1) stroke("frame", "unseen-casing", anchors.front(), anchors.back());
+}
+
+/// The edges of a body that is only shown, the longest ones if there are many.
+std::string edges_data(const ShownBody& body, const std::function<Point2(const Vector3d&)>& place) {
+  constexpr std::size_t kMostEdges = 2000;
+  struct Edge {
+    Point2 a, b;
+  };
+  std::vector<Edge> edges;
+  for (const auto& [a, b] : feature_edges(body)) {
+    edges.push_back({place(Vector3d(a[0], a[1], a[2])), place(Vector3d(b[0], b[1], b[2]))});
+  }
+  std::ranges::sort(edges, std::greater(), [](const Edge& e) { return (e.a - e.b).norm(); });
+  edges.resize(std::min(edges.size(), kMostEdges), {Point2::Zero(), Point2::Zero()});
+  std::string data;
+  for (const Edge& edge : edges) data += path_data({edge.a, edge.b}, false);
+  return data;
+}
+
+void Picture::shown_frame() {
+  const std::optional<ShownBody>& frame = scene_.illustration.decoration.frame;
+  if (!frame) return;
+  behind_ += html("<path class=\"shown\" d=\"{}\"/>", edges_data(*frame, [&](const Vector3d& p) { return place(p); }));
+}
+
+void Picture::shown_payload() {
+  const std::optional<ShownBody>& payload = scene_.illustration.decoration.payload;
+  if (!payload) return;
+  const Matrix3<double> turn = rotation(scene_.sampler.model().angles, sample_.pose.angles);
+  const auto at = [&](const Vector3d& p) { return place(sample_.pose.p_WP + turn * p); };
+  std::vector<Point2> points;
+  for (const std::array<double, 3>& p : payload->corners) points.push_back(at(Vector3d(p[0], p[1], p[2])));
+  std::vector<Point2> outline;
+  for (const std::size_t i : hull(points)) outline.push_back(points[i]);
+  between_ += html("<path class=\"shown payload\" d=\"{}\"/><path class=\"shown edges\" d=\"{}\"/>",
+                   path_data(outline, true), edges_data(*payload, at));
 }
 
 /// The outlines of the platform at the start and at the goal, unless it is shown there.
@@ -435,10 +476,12 @@ void Picture::scale_and_axes() {
   }
 }
 
-Html Picture::draw(const std::string& caption) {
+Html Picture::draw(const std::string& caption, const Html& note) {
   grid();
   ghosts();
+  shown_frame();
   base();
+  shown_payload();
   platform();
   strokes();
   track();
@@ -448,8 +491,8 @@ Html Picture::draw(const std::string& caption) {
   scale_and_axes();
   return html(
       "<figure class=\"machine\"><figcaption>{}</figcaption><svg viewBox=\"0 0 {} {}\" role=\"img\" "
-      "aria-label=\"The machine. {}\">{}{}{}{}</svg></figure>\n",
-      caption, coordinate(width_), coordinate(height_), caption, behind_, between_, front_, text_);
+      "aria-label=\"The machine. {}\">{}{}{}{}</svg>{}</figure>\n",
+      caption, coordinate(width_), coordinate(height_), caption, behind_, between_, front_, text_, note);
 }
 
 }  // namespace
@@ -470,14 +513,23 @@ std::array<Nearness, kCables> nearness_at(const Model<double>& model, const Stat
   return result;
 }
 
+Html shown_bodies_note(const ReportContext& scene) {
+  const Decoration& shown = scene.illustration.decoration;
+  if (!shown.frame && !shown.payload) return {};
+  const char* what = shown.frame && shown.payload ? "The frame and the payload in thin lines are"
+                     : shown.frame                ? "The frame in thin lines is"
+                                                  : "The payload in thin lines is";
+  return html("<p class=\"note\">{} drawn as the case says: <b>not checked</b>.</p>\n", what);
+}
+
 Html machine_picture(const ReportContext& scene, double position, const std::array<Nearness, kCables>& nearness,
-                     const std::string& caption) {
-  return machine_picture(scene, MachineView(scene), position, nearness, caption, {});
+                     const std::string& caption, const Html& note) {
+  return machine_picture(scene, MachineView(scene), position, nearness, caption, {}, note);
 }
 
 Html machine_picture(const ReportContext& scene, const MachineView& view, double position,
-                     const std::array<Nearness, kCables>& nearness, const std::string& caption,
-                     const PictureSize& size) {
+                     const std::array<Nearness, kCables>& nearness, const std::string& caption, const PictureSize& size,
+                     const Html& note) {
   const Path& path = scene.certificate.path;
   if (path.waypoints.empty()) return {};
   if (!view.is_drawable) {
@@ -488,7 +540,7 @@ Html machine_picture(const ReportContext& scene, const MachineView& view, double
   }
   const auto last = static_cast<double>(path.segments());
   const double at = position > 0 ? std::min(position, last) : 0;
-  return Picture(scene, view, at, nearness, size).draw(caption);
+  return Picture(scene, view, at, nearness, size).draw(caption, note);
 }
 
 }  // namespace taut

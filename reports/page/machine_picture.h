@@ -25,11 +25,16 @@ struct PictureSize {
 /// The machine at a position of the path, its cables coloured by how near they are to their limits; the start and the
 /// goal as dashed outlines; fitted to all that the path sweeps. Nothing if there is no path, and words where numbers
 /// are too large to be drawn. @param position counts segments; clamped to the path
+/// @param note  below the picture
 [[nodiscard]] Html machine_picture(const ReportContext& scene, double position,
-                                   const std::array<Nearness, kCables>& nearness, const std::string& caption);
+                                   const std::array<Nearness, kCables>& nearness, const std::string& caption,
+                                   const Html& note);
 /// The same, where many pictures of a machine share a view. @pre `view` is of `scene`
 [[nodiscard]] Html machine_picture(const ReportContext& scene, const MachineView& view, double position,
                                    const std::array<Nearness, kCables>& nearness, const std::string& caption,
-                                   const PictureSize& size);
+                                   const PictureSize& size, const Html& note = {});
+
+/// Says of the frame and the payload that pictures show that nothing checks them; nothing where none are shown.
+[[nodiscard]] Html shown_bodies_note(const ReportContext& scene);
 
 }  // namespace taut

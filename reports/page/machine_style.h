@@ -34,6 +34,9 @@ inline constexpr const char* kMachineStyle = R"css(
 .machine svg .fixed { fill: var(--steel); fill-opacity: 0.07; stroke: none; }
 .machine .hatch { stroke: var(--steel); stroke-width: 0.8; opacity: 0.45; }
 .machine .frame { stroke: var(--steel); stroke-width: 5; }
+.machine .shown { stroke: var(--steel); stroke-width: 0.9; opacity: 0.6; }
+.machine svg .shown.payload { fill: var(--warm-edge); fill-opacity: 0.12; stroke: none; opacity: 1; }
+.machine .shown.edges { stroke: var(--warm-edge); opacity: 0.8; }
 .machine .post { stroke: var(--post); stroke-width: 6; }
 .machine .foot { stroke: var(--post); stroke-width: 4; }
 .machine svg .anchor { fill: var(--anchor); }

@@ -165,11 +165,23 @@ std::vector<Vector3d> base_of(const ReportContext& scene) {
   return {anchors.begin(), anchors.end()};
 }
 
+std::vector<Vector3d> box_corners(const std::optional<ShownBody>& body) {
+  if (!body) return {};
+  Eigen::AlignedBox3d box;
+  for (const std::array<double, 3>& corner : body->corners) box.extend(Vector3d(corner[0], corner[1], corner[2]));
+  std::vector<Vector3d> result;
+  for (int k = 0; k < 8; ++k) result.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  return result;
+}
+
 MachineView::MachineView(const ReportContext& scene)
     : up(-downward(scene.sampler.model(), scene.certificate.problem.load)), elevation(0.3) {
   across = across_of(up);
   inward = up.cross(across);
   swept = base_of(scene);
+  const Decoration& shown = scene.illustration.decoration;
+  std::ranges::copy(box_corners(shown.frame), std::back_inserter(swept));
+  const std::vector<Vector3d> payload = box_corners(shown.payload);
   const bool is_path = !found_no_path(scene.certificate);
   constexpr std::size_t kPoses = 120;
   const std::size_t stride = is_path ? std::max<std::size_t>(1, scene.samples.size() / kPoses) : 1;
@@ -179,6 +191,8 @@ MachineView::MachineView(const ReportContext& scene)
     std::ranges::copy(platform_at(scene, sample.pose), std::back_inserter(swept));
     swept.push_back(load_point_at(scene, sample.pose));
     std::ranges::copy(weights_at(scene, sample.pose), std::back_inserter(swept));
+    const Matrix3<double> turn = rotation(scene.sampler.model().angles, sample.pose.angles);
+    for (const Vector3d& corner : payload) swept.emplace_back(sample.pose.p_WP + turn * corner);
   }
   const auto is_number = [](const Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kTooLarge; };
   is_drawable = std::ranges::all_of(swept, is_number);

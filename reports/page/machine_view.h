@@ -55,5 +55,7 @@ struct MachineView {
 /// The centres of gravity of the load's weights at a pose, each in the middle of where it may be [m].
 [[nodiscard]] std::vector<Eigen::Vector3d> weights_at(const ReportContext& scene, const Pose<double>& pose);
 [[nodiscard]] std::vector<Eigen::Vector3d> base_of(const ReportContext& scene);
+/// The corners of the box around a body that is only shown, along its own axes; none where there is none.
+[[nodiscard]] std::vector<Eigen::Vector3d> box_corners(const std::optional<ShownBody>& body);
 
 }  // namespace taut

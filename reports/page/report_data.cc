@@ -20,6 +20,7 @@
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/nearness.h"
+#include "reports/summary/shown_bodies.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
 
@@ -374,6 +375,21 @@ json view(const ReportContext& scene) {
           {"load", brief_load(scene.certificate.problem.load)}};
 }
 
+/// As in an illustration, with corners in metres.
+json decoration(const Decoration& shown) {
+  json result = to_json(shown);
+  const auto corners = [](const ShownBody& body) {
+    json list = json::array();
+    for (const std::array<double, 3>& corner : body.corners) {
+      for (const double x : corner) list.push_back(number(x));
+    }
+    return list;
+  };
+  if (shown.frame) result["frame"]["corners"] = corners(*shown.frame);
+  if (shown.payload) result["payload"]["corners"] = corners(*shown.payload);
+  return result;
+}
+
 /// The centres of gravity of the load's weights, in the axes of the platform.
 json weights(const LoadText& load) {
   json result = json::array();
@@ -495,6 +511,7 @@ json report_data(const ReportContext& scene) {
           {"witness", witness(scene)},
           {"reached", reached(scene)},
           {"weights", weights(certificate.problem.load)},
+          {"decoration", decoration(scene.illustration.decoration)},
           {"is_found", !found_no_path(certificate)},
           {"worst", worst ? number(*worst) : json()},
           {"view", view(scene)},

@@ -8,6 +8,7 @@
 #include "base/json_cursor.h"
 #include "base/labels.h"
 #include "reports/summary/headroom_summary.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut {
 namespace {
@@ -51,6 +52,9 @@ Illustration::Illustration(const nlohmann::json& json, std::size_t parameters) {
   if (illustration.contains("units")) units = display_units_from_json(illustration.at("units").value());
   if (illustration.contains("document_fields")) {
     document_fields = document_fields_from_json(illustration.at("document_fields").value());
+  }
+  if (illustration.contains("decoration")) {
+    decoration = decoration_from_json(illustration.at("decoration").value());
   }
   if (illustration.contains("stats") && illustration.at("stats").value().is_object()) {
     for (const auto& [key, value] : illustration.value()["stats"].items()) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "case/decoration.h"
 #include "case/document_fields.h"
 #include "certify/headroom.h"
 #include "reports/summary/display_units.h"
@@ -29,6 +30,7 @@ struct Illustration {
   DisplayUnits units;                        ///< the case's, in which the report shows results
   FileLines lines;                           ///< of an audited file, where waypoints stand
   DocumentFields document_fields;            ///< the case's, for the head of the report
+  Decoration decoration;                     ///< the case's, for its pictures
 
   Illustration() = default;
   /// @throws InputError for a missing key or a wrong type.

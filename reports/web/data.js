@@ -16,6 +16,8 @@
 //   stretches   the parts of the path that are not proved: from, to, violated (else open)
 //   witness     position, to, kind, cable; or null
 //   weights     centres of gravity of the load's weights, in the axes of the platform
+//   decoration  bodies that are only shown: frame (in the world) and payload (in the axes of the platform), each with
+//               corners and triangles (flat lists), if the case has them
 //   is_found    whether there is a path; else the samples are of the query's waypoints
 //   worst       position of the place that the pictures show first; or null
 //   view        of all pictures: across and up (axes of the picture when seen from the front, in the world), azimuth

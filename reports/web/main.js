@@ -177,14 +177,16 @@ function explainPicture(holder) {
     ...(data.tube_m !== null && !viewer.tubeIsThin ? [["fill tube", "where the origin may be"]] : []),
     ...(data.worst !== null ? [["fill worst-dot", data.witness ? "the witness" : "worst place"]] : []),
     ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])];
+  if (Object.keys(data.decoration).length > 0) cables.push(["fill shown", "drawn only, not checked"]);
   if (data.weights.length > 0) cables.push(["fill weight", "centre of gravity of a weight"]);
   const ends = ["ghost-line", "platform at the start (S) and at the goal (G)"];
   holder.append(legend(...(data.is_found ? [...cables, ends, ...path] : [ends])));
   const note = (...words) => holder.append(element("p", { class: "note" }, ...words));
   if (!data.is_found) note("No path was found: only the start and the goal are shown.");
   else {
+    const ground = data.decoration.frame ? "The ground stands" : "Posts and ground stand";
     note("Colours are of this place, in floating point, by the limit that is nearer: of tension over all loads, or " +
-      "of length. Posts and ground stand for whatever carries the anchors; the grid is level.");
+      `of length. ${ground} for whatever carries the anchors; the grid is level.`);
   }
   if (data.tube_m === null || !data.is_found) return;
   const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;

@@ -12,6 +12,8 @@ import {
   CylinderGeometry,
   DirectionalLight,
   DoubleSide,
+  EdgesGeometry,
+  Float32BufferAttribute,
   Group,
   LineBasicMaterial,
   LineSegments,
@@ -35,7 +37,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { themed } from "./colours.js";
-import { between, locate, spaced, status } from "./data.js";
+import { between, extent, locate, spaced, status } from "./data.js";
 import { shareGestures } from "./gestures.js";
 import { nearness } from "./nearness.js";
 import { Overlay } from "./overlay.js";
@@ -101,9 +103,10 @@ class Viewer {
     const turn = new Matrix4().makeBasis(across, up, across.clone().cross(up)).transpose();
     this.world.quaternion.setFromRotationMatrix(turn);
     const points = robot.base.map(vector);
+    this.payloadBox = boxCorners(this.data.decoration.payload);
     const count = samples.position.length;
     for (let k = 0; k < count; k += Math.max(1, Math.floor(count / 60))) points.push(...this.swept(k));
-    points.push(...this.swept(count - 1));
+    points.push(...this.swept(count - 1), ...boxCorners(this.data.decoration.frame).map(vector));
     points.push(...points.map((p) => this.foot(p)), ...this.gridLines().flat());
     const low = points.reduce((a, b) => a.clone().min(b), points[0]);
     const high = points.reduce((a, b) => a.clone().max(b), points[0]);
@@ -120,7 +123,8 @@ class Viewer {
     const { robot, samples, is_found: isFound } = this.data;
     const position = samples.position[k];
     if (!isFound && position !== Math.round(position)) return []; // nothing is between the waypoints
-    return [...robot.platform, robot.load_point, ...this.data.weights].map((b) => this.at(b, position));
+    return [...robot.platform, robot.load_point, ...this.data.weights, ...this.payloadBox]
+      .map((b) => this.at(b, position));
   }
 
   /// A point of the platform at a place of the path, in the world.
@@ -183,7 +187,8 @@ class Viewer {
     const up = vector(view.up);
     const height = base.reduce((sum, a) => sum + a.dot(up), 0) / base.length;
     const { samples } = this.data;
-    if (height > vector(samples.p.map((column) => column[0])).dot(up)) {
+    this.showBody(this.world, this.data.decoration.frame, this.materials.shownFrame);
+    if (!this.data.decoration.frame && height > vector(samples.p.map((column) => column[0])).dot(up)) {
       for (const a of base) {
         // What carries the machine is not known: it is drawn behind all that is.
         const post = rod(this.foot(a), a, metres(0.012), this.materials.post);
@@ -239,8 +244,23 @@ class Viewer {
       weight.position.copy(vector(p));
       body.add(weight);
     }
+    this.showBody(body, this.data.decoration.payload, this.materials.shownPayload);
     this.world.add(body);
     return body;
+  }
+
+  /// A body that is only shown: see-through, with its edges.
+  showBody(group, body, material) {
+    if (!body) return;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(body.corners, 3));
+    geometry.setIndex(body.triangles);
+    const faces = geometry.toNonIndexed(); // so that each face has its own normal
+    faces.computeVertexNormals();
+    const mesh = new Mesh(faces, material.faces);
+    const edges = new LineSegments(new EdgesGeometry(geometry, 30), material.edges);
+    mesh.renderOrder = edges.renderOrder = -1;
+    group.add(mesh, edges);
   }
 
   /// A rod with a casing, which keeps it apart from what is behind it, and gaps that are only shown near its limits.
@@ -415,6 +435,9 @@ class Viewer {
       casing: "--paper", gap: "--paper", worst: "--close",
     };
     for (const [name, property] of Object.entries(colours)) this.materials[name].color.set(themed(property));
+    for (const [name, property] of [["shownFrame", "--steel"], ["shownPayload", "--warm-edge"]]) {
+      for (const material of Object.values(this.materials[name])) material.color.set(themed(property));
+    }
     for (const { material, name } of this.lines) material.color.set(themed(name));
     for (const { userData: { core, nearness: near } } of this.cables) core.material.color.set(themed(`--${near}`));
     this.draw();
@@ -517,6 +540,18 @@ class Viewer {
   }
 }
 
+/// The corners of the box around a body that is only shown; none where there is none.
+function boxCorners(body) {
+  if (!body) return [];
+  const [xs, ys, zs] = [0, 1, 2].map((k) => extent(body.corners.filter((_, i) => i % 3 === k)));
+  return xs.flatMap((x) => ys.flatMap((y) => zs.map((z) => [x, y, z])));
+}
+
+const shown = (faces, edges) => ({
+  faces: new MeshLambertMaterial({ transparent: true, opacity: faces, side: DoubleSide, depthWrite: false }),
+  edges: new LineBasicMaterial({ transparent: true, opacity: edges }),
+});
+
 function materials() {
   const inFront = { transparent: true, depthWrite: false, depthTest: false };
   return {
@@ -535,5 +570,7 @@ function materials() {
     casing: new MeshBasicMaterial({ side: BackSide }),
     gap: new MeshBasicMaterial(),
     worst: new MeshBasicMaterial({ ...inFront }),
+    shownFrame: shown(0.16, 0.55),
+    shownPayload: shown(0.3, 0.8),
   };
 }

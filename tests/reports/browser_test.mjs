@@ -57,7 +57,7 @@ before(async () => {
   [withWebgl, withoutWebgl] = await Promise.all([launch(WEBGL), launch(NO_WEBGL)]);
   for (const name of ["robot1-slice-qs-qg", "robot2-sphere-q2-q3", "robot2-sphere-sigma-free-q2-q3",
     "robot2-free-q2-q3", "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
-    "tutorial/04-tolerances"]) plan(name);
+    "tutorial/04-tolerances", "cranes/portal-20t"]) plan(name);
   audit("robot1-geodesic", inAudits("robot1-geodesic.tum"));
   audit("robot1-cable-lengths", inAudits("robot1-cable-lengths.csv"));
   audit("robot1-straight-qs-qg", inAudits("robot1-straight-qs-qg.csv"));
@@ -505,6 +505,16 @@ test("buttons look from the front, the side and above, and go to the worst place
   for (const [share, value] of marks) {
     assert.ok(share > 0 && Math.abs(share * 1000 - value) <= 1, "it is marked on the slider");
   }
+  await close(page);
+});
+
+test("a frame and a payload that a case shows are drawn, and said to be unchecked", async () => {
+  const page = await open("cranes/portal-20t");
+  assert.match(await page.textContent("figure.machine .note"), /frame and the payload .* not checked/);
+  assert.match(await page.textContent('#move'), /drawn only, not checked/);
+  const still = (kind) => page.$eval(`figure.machine .${kind}`, (path) => path.getAttribute("d").match(/M/g).length);
+  assert.equal(await still("shown.edges"), 12, "of a container, the edges");
+  assert.ok(await still("shown") >= 8 * 12, "of a frame of eight bars");
   await close(page);
 });
 

@@ -16,7 +16,7 @@ constexpr std::array<Nearness, kCables> kAllCalm{};
 
 std::string picture(const nlohmann::json& certificate, double position,
                     const std::array<Nearness, kCables>& nearness = kAllCalm) {
-  return machine_picture(sample::scene(certificate), position, nearness, "Worst place").str();
+  return machine_picture(sample::scene(certificate), position, nearness, "Worst place", {}).str();
 }
 
 std::size_t count(const std::string& text, const std::string& part) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The key `decoration` of a case. Internal to case/.
+#pragma once
+
+#include <filesystem>
+
+#include "case/decoration.h"
+#include "case/fields.h"
+
+namespace taut::case_fields {
+
+/// @param folder  of the case file: file names are relative to it
+/// @throws InputError at the field, also where a file can't be read or is no mesh.
+[[nodiscard]] Decoration read_decoration(const Field& field, const Units& units, const std::filesystem::path& folder);
+
+}  // namespace taut::case_fields

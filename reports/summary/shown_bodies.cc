@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/summary/shown_bodies.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+namespace taut {
+namespace {
+
+using Corner = std::array<double, 3>;
+
+constexpr double kSteps = 1e5;  ///< of corners in JSON, in a metre; a certificate has no numbers but integers
+
+nlohmann::json to_json(const ShownBody& body) {
+  nlohmann::json corners = nlohmann::json::array();
+  nlohmann::json triangles = nlohmann::json::array();
+  for (const Corner& corner : body.corners) {
+    for (const double x : corner) corners.push_back(std::llround(x * kSteps));
+  }
+  for (const auto& triangle : body.triangles) {
+    for (const std::uint32_t i : triangle) triangles.push_back(i);
+  }
+  return {{"corners", corners}, {"triangles", triangles}};
+}
+
+std::optional<ShownBody> shown_body_from_json(const nlohmann::json& json) {
+  if (!json.is_object() || !json.contains("corners") || !json.contains("triangles")) return std::nullopt;
+  const nlohmann::json& corners = json["corners"];
+  const nlohmann::json& triangles = json["triangles"];
+  if (!corners.is_array() || !triangles.is_array() || corners.size() % 3 != 0 || triangles.size() % 3 != 0 ||
+      triangles.size() > 3 * kMostShownTriangles || corners.size() > 9 * kMostShownTriangles) {
+    return std::nullopt;
+  }
+  ShownBody body;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!corners[i].is_number_integer()) return std::nullopt;
+    if (i % 3 == 0) body.corners.emplace_back();
+    body.corners.back()[i % 3] = corners[i].get<double>() / kSteps;
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (!triangles[i].is_number_unsigned() || triangles[i].get<std::uint64_t>() >= body.corners.size()) {
+      return std::nullopt;
+    }
+    if (i % 3 == 0) body.triangles.emplace_back();
+    body.triangles.back()[i % 3] = triangles[i].get<std::uint32_t>();
+  }
+  return is_shown_body(body) ? std::optional(std::move(body)) : std::nullopt;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const Decoration& decoration) {
+  nlohmann::json result = nlohmann::json::object();
+  if (decoration.frame) result["frame"] = to_json(*decoration.frame);
+  if (decoration.payload) result["payload"] = to_json(*decoration.payload);
+  return result;
+}
+
+Decoration decoration_from_json(const nlohmann::json& decoration) {
+  Decoration result;
+  if (!decoration.is_object()) return result;
+  if (decoration.contains("frame")) result.frame = shown_body_from_json(decoration["frame"]);
+  if (decoration.contains("payload")) result.payload = shown_body_from_json(decoration["payload"]);
+  return result;
+}
+
+std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body) {
+  // Corners by their places: STL files give every triangle its own.
+  struct Sides {
+    Eigen::Vector3d first = Eigen::Vector3d::Zero();
+    int count = 0;
+    bool turns = false;
+  };
+  std::map<std::array<Corner, 2>, Sides> edges;
+  const double most_along = std::cos(std::numbers::pi / 6);
+  for (const auto& triangle : body.triangles) {
+    std::array<Corner, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) at[i] = body.corners[triangle[i]];
+    const auto vector = [&](std::size_t i) { return Eigen::Map<const Eigen::Vector3d>(at[i].data()); };
+    const Eigen::Vector3d normal = (vector(1) - vector(0)).cross(vector(2) - vector(0)).normalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner& a = at[i];
+      const Corner& b = at[(i + 1) % 3];
+      Sides& sides = edges[a < b ? std::array{a, b} : std::array{b, a}];
+      if (++sides.count == 1) {
+        sides.first = normal;
+      } else {
+        sides.turns |= std::abs(sides.first.dot(normal)) < most_along;
+      }
+    }
+  }
+  std::vector<std::array<Corner, 2>> result;
+  for (const auto& [edge, sides] : edges) {
+    if (sides.count == 1 || sides.turns) result.push_back(edge);
+  }
+  return result;
+}
+
+}  // namespace taut

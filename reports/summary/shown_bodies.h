@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bodies that a report's pictures show beside the machine, as a certificate's illustration carries them. Nothing
+// checks them.
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "case/decoration.h"
+
+namespace taut {
+
+/// The object `decoration` of an illustration: for `frame` and `payload`, where they are, flat lists of `corners` [10 µm]
+/// and of `triangles`, three indices of corners each.
+[[nodiscard]] nlohmann::json to_json(const Decoration& decoration);
+/// Reads it. A body that a case could not state is taken as not stated: anybody can alter an illustration.
+[[nodiscard]] Decoration decoration_from_json(const nlohmann::json& decoration);
+
+/// The edges that show a body's form, as pairs of points: those at which it turns by more than 30 degrees, and its
+/// rims.
+[[nodiscard]] std::vector<std::array<std::array<double, 3>, 2>> feature_edges(const ShownBody& body);
+
+}  // namespace taut
