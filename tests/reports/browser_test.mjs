@@ -514,7 +514,7 @@ test("a frame and a payload that a case shows are drawn, and said to be unchecke
   assert.match(await page.textContent('#move'), /drawn only, not checked/);
   const still = (kind) => page.$eval(`figure.machine .${kind}`, (path) => path.getAttribute("d").match(/M/g).length);
   assert.equal(await still("shown.edges"), 12, "of a container, the edges");
-  assert.ok(await still("shown") >= 8 * 12, "of a frame of eight bars");
+  assert.ok(await still("shown") > 80, "of a frame of eight bars, some edges of which coincide");
   await close(page);
 });
 
