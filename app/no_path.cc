@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <map>
 
@@ -32,28 +33,20 @@ OutsideReason first_reason(const MapNode& leaf) {
   return {kind, static_cast<std::size_t>(margin.cable), is_most ? std::size_t{1} : 0};
 }
 
-/// Makes the certificate's tree of a map: the outside cells next to those that were reached have reasons.
+/// Makes the certificate's tree of a map: the outside cells next to those that hang together with one of two places have
+/// reasons.
 class Wall {
  public:
-  Wall(const Problem& problem, CellMap map, const std::vector<MapBox>& from)
-      : outside_(problem), map_(std::move(map)), from_(from) {}
+  Wall(const Problem& problem, CellMap map, std::vector<MapBox> from, std::vector<MapBox> to)
+      : outside_(problem), map_(std::move(map)), places_{widened(std::move(from)), widened(std::move(to))} {}
 
   /// Empty where the kernel does not prove enough of the cells.
-  std::string tree(std::vector<MapBox> to) {
+  std::string tree() {
     constexpr int kMostRounds = 8;
-    constexpr double kPlaceRounding = 1e-8;  // more than the checker's 2^-30
-    for (MapBox& box : to) {
-      for (std::size_t k = 0; k < kMaxMapAxes; ++k) {
-        box.lower[k] = std::max(0.0, box.lower[k] - kPlaceRounding);
-        box.upper[k] = std::min(1.0, box.upper[k] + kPlaceRounding);
-      }
-    }
     for (int round = 0; round < kMostRounds; ++round) {
-      const std::vector<bool> reached = reached_leaves(map_, from_);
-      for (const std::uint32_t leaf : leaves_at(map_, to)) {
-        if (reached[leaf]) return "";
-      }
-      if (prove(cells_next_to(reached))) return text(0);
+      const auto first = cells_around(places_[0], places_[1]), second = cells_around(places_[1], places_[0]);
+      if (!first || !second) return "";
+      if (prove(first->size() <= second->size() ? *first : *second)) return text(0);
     }
     return "";
   }
@@ -64,14 +57,32 @@ class Wall {
     std::uint32_t node = 0;
   };
 
-  [[nodiscard]] std::vector<Leaf> cells_next_to(const std::vector<bool>& reached) const {
+  static std::vector<MapBox> widened(std::vector<MapBox> place) {
+    constexpr double kRounding = 1e-8;  // more than the checker's 2^-30
+    for (MapBox& box : place) {
+      for (std::size_t k = 0; k < kMaxMapAxes; ++k) {
+        box.lower[k] = std::max(0.0, box.lower[k] - kRounding);
+        box.upper[k] = std::min(1.0, box.upper[k] + kRounding);
+      }
+    }
+    return place;
+  }
+
+  /// The outside cells next to all that hangs together with a place; nothing if the other place is there, too.
+  [[nodiscard]] std::optional<std::vector<Leaf>> cells_around(const std::vector<MapBox>& place,
+                                                              const std::vector<MapBox>& other) const {
+    const std::vector<bool> reached = reached_leaves(map_, place);
+    for (const std::uint32_t leaf : leaves_at(map_, other)) {
+      if (reached[leaf]) return std::nullopt;
+    }
     std::vector<bool> is_wall(map_.nodes.size(), false);
+    const auto add = [&](const std::vector<std::uint32_t>& leaves) {
+      for (const std::uint32_t leaf : leaves) is_wall[leaf] = is_outside(map_.nodes[leaf].kind);
+    };
+    add(leaves_at(map_, place));  // a waypoint may be in outside cells alone
     map_.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
-      if (!reached[node]) return;
-      for (const std::uint32_t next : neighbours(map_, cell)) is_wall[next] = is_outside(map_.nodes[next].kind);
+      if (reached[node]) add(neighbours(map_, cell));
     });
-    // A waypoint may be in an outside cell that touches nothing that was reached.
-    for (const std::uint32_t leaf : leaves_at(map_, from_)) is_wall[leaf] = is_outside(map_.nodes[leaf].kind);
     std::vector<Leaf> wall;
     map_.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
       if (is_wall[node]) wall.push_back({cell, node});
@@ -118,7 +129,7 @@ class Wall {
 
   OutsideCells outside_;
   CellMap map_;
-  const std::vector<MapBox>& from_;
+  std::array<std::vector<MapBox>, 2> places_;
   std::map<std::uint32_t, std::string> proved_;  ///< parts of the tree, by node
 };
 
@@ -180,9 +191,9 @@ NoPathAttempt seek_no_path(const Case& the_case, const SeparationOptions& option
     Separation found = separate(problem, *result.space, problem.query[from], problem.query[from + 1], left);
     result.cells += found.map.leaves();
     if (found.answer == Separation::Answer::kApart) {
-      const auto first = place_of(*result.space, problem.query[from]);
-      const auto second = place_of(*result.space, problem.query[from + 1]);
-      NoPath no_path{from, Wall(problem, found.map, first).tree(second), {}};
+      Wall wall(problem, found.map, place_of(*result.space, problem.query[from]),
+                place_of(*result.space, problem.query[from + 1]));
+      NoPath no_path{from, wall.tree(), {}};
       no_path.illustration = {{"kind", "no path"},
                               {"units", to_json(the_case.units)},
                               {"document_fields", to_json(the_case.document_fields)}};
