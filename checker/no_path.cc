@@ -291,17 +291,18 @@ void require_outside(const NoPathCertificate& certificate, const StatedMachine& 
 
 }  // namespace
 
+bool is_parted(const NoPathCertificate& certificate, const std::function<void()>& before_step) {
+  Flood flood(certificate, before_step);
+  for (const CellBox& box : places(certificate, certificate.from)) flood.run(box);
+  return std::ranges::none_of(places(certificate, certificate.from + 1),
+                              [&](const CellBox& box) { return flood.has_reached(box); });
+}
+
 Theorem::Counts confirm(const NoPathCertificate& certificate, const ConfirmOptions& options) {
-  std::vector<CellBox> goal;
-  Flood flood(certificate, options.before_box);
   try {
-    goal = places(certificate, certificate.from + 1);
-    for (const CellBox& box : places(certificate, certificate.from)) flood.run(box);
+    if (!is_parted(certificate, options.before_box)) throw Rejected("cells without a reason join the two waypoints");
   } catch (const Undefined& why) {
     throw Rejected(std::string("not confirmed: the waypoints: ") + why.what());
-  }
-  for (const CellBox& box : goal) {
-    if (flood.has_reached(box)) throw Rejected("cells without a reason join the two waypoints");
   }
   std::vector<OutsideCell> cells;
   collect(certificate.tree, {}, cells);

@@ -18,6 +18,11 @@ namespace taut::checker {
 /// Cost: some tenths of a millisecond for each cell with a reason, and some microseconds for each other one.
 Theorem::Counts confirm(const NoPathCertificate& certificate, const ConfirmOptions& options);
 
+/// Whether the cells with a reason part the two waypoints, be these reasons true or not.
+/// @param before_step  is called now and then, and may throw
+/// @throws Rejected or Undefined where a waypoint's place is not enclosed, or is out of its range.
+[[nodiscard]] bool is_parted(const NoPathCertificate& certificate, const std::function<void()>& before_step);
+
 /// The parameters over a cell: for each axis the part [k/2^depth, (k+1)/2^depth] of it.
 struct CellPart {
   std::uint32_t k = 0;
