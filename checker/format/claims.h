@@ -39,8 +39,10 @@ inline constexpr const char* kNoPathClaim =
     "wrench w in K, some f with f_lo,i < f_i < f_hi,i for all six cables i = 1..6 has J f = w. The machine is exactly "
     "as stated, without deviations. So no path between these waypoints is feasible for every machine, load and pose "
     "within the tolerances, either; but some machine within them may have a path. The ends of ranges are walls. Values "
-    "of a parameter without a range are one if they differ by whole turns, and where the space states a flip, "
-    "parameters that give one orientation are one. Robot, load, limits and space are the exact numbers of the problem.";
+    "of a parameter without a range are one if they differ by whole turns, and where the space states a flip, values "
+    "of "
+    "phi, theta and sigma that are one orientation are one. Robot, load, limits and space are the exact numbers of the "
+    "problem.";
 
 inline constexpr const char* kUndecidedClaim =
     "Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.";

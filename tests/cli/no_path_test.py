@@ -105,6 +105,15 @@ class NoPath(InFolder):
         self.assertIn("did not show whether a path exists from waypoint 0 of the query to 1", words)
         self.assertRegex(words, r"the middle one at phi = \S+ rad \(± \S+ rad\), theta = ")
 
+    def test_map_writes_the_certificate(self):
+        said = run(TAUT, "map", APART, "--undecided", "3%", "--out", self.path("map"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("map"))), ["certificate.json", "map.svg"])
+        checked = run(CHECK, self.path("map", "certificate.json"), APART, "--expect", "no path")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        self.assertEqual(run(TAUT, "map", ROBOT1, "--undecided", "5%", "--out", self.path("joined")).returncode, 0)
+        self.assertEqual(os.listdir(self.path("joined")), ["map.svg"])
+
     def test_regress(self):
         for name in ("robot1-sigma34-apart", "robot1-sigma10-joined"):
             case = os.path.join(CASES, "maps", name + ".yaml")

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
+#include <vector>
 
 #include "kinematics/margin.h"
 #include "map/separation.h"
@@ -126,6 +128,100 @@ TEST(Separation, PartsTheRegionsOfRobot1sSlice) {
 TEST(Separation, IgnoresTolerances) {
   const Problem problem = robot1_with_tolerances(false);
   EXPECT_EQ(separated(problem, {"-2.3", "1.6"}, {"-1.2", "2.0"}).answer, Separation::Answer::kApart);
+}
+
+/// Whether steps between neighbouring points of a raster of feasible poses lead from one place to another. In double.
+class Raster {
+ public:
+  static constexpr int kTurn = 360, kTilt = 180;
+
+  explicit Raster(const Problem& problem) {
+    const auto machine = campaign::make_machine<double>(problem);
+    constexpr double kPi = 3.14159265358979323846;
+    for (int i = 0; i < kTurn; ++i) {
+      for (int j = 0; j < kTilt; ++j) {
+        const double phi = kPi * (2.0 * (i + 0.5) / kTurn - 1), theta = kPi * (j + 0.5) / kTilt;
+        const campaign::RigidPose<double> pose = {{0, 0, 0.35}, campaign::orientation(phi, theta, 34 * kPi / 180)};
+        feasible_[index(i, j)] = is_feasible(problem, campaign::statics(machine, pose));
+      }
+    }
+  }
+  static int index(int i, int j) { return ((i % kTurn + kTurn) % kTurn) * kTilt + j; }
+  [[nodiscard]] bool is_feasible(int at) const { return feasible_[at]; }
+
+  /// Numbers what hangs together by steps of phi or theta, and across theta = pi to phi + pi.
+  [[nodiscard]] std::vector<int> components() const {
+    std::vector<int> component(feasible_.size(), -1);
+    for (int start = 0, count = 0; start < kTurn * kTilt; ++start) {
+      if (!feasible_[start] || component[start] >= 0) continue;
+      std::vector<int> pending = {start};
+      component[start] = count;
+      while (!pending.empty()) {
+        const int i = pending.back() / kTilt, j = pending.back() % kTilt;
+        pending.pop_back();
+        std::vector<int> next = {index(i + 1, j), index(i - 1, j)};
+        if (j > 0) next.push_back(index(i, j - 1));
+        next.push_back(j + 1 < kTilt ? index(i, j + 1) : index(i + kTurn / 2, j));
+        for (const int n : next) {
+          if (!feasible_[n] || component[n] >= 0) continue;
+          component[n] = count;
+          pending.push_back(n);
+        }
+      }
+      ++count;
+    }
+    return component;
+  }
+
+ private:
+  static bool is_feasible(const Problem& problem, const campaign::StaticsAt<double>& at) {
+    bool result = true;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const auto within = [](double low, double high, const Limits& limits) {
+        return low > std::stod(limits.lower) && high < std::stod(limits.upper);
+      };
+      result = result && within(at.tension_low[i], at.tension_high[i], problem.robot.tension_N[i]) &&
+               within(at.length[i], at.length[i], problem.robot.length_m[i]);
+    }
+    return result;
+  }
+  std::vector<bool> feasible_ = std::vector<bool>(kTurn * kTilt);
+};
+
+/// Limits are changed at random, so that passages are narrow where they are: no pair of poses that feasible poses of a
+/// raster join is ever called apart.
+TEST(Separation, IsNotContradictedByARaster) {
+  Random random(34);
+  int apart = 0, joined = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    Problem problem = robot1_slice();
+    const std::string most = std::to_string(0.4 + 0.02 * static_cast<double>(random() % 10));
+    const std::string least = std::to_string(0.02 + 0.01 * static_cast<double>(random() % 6));
+    for (Limits& limits : problem.robot.tension_N) limits = {least, most};
+    const Raster raster(problem);
+    const std::vector<int> component = raster.components();
+    std::vector<int> feasible;
+    for (int n = 0; n < static_cast<int>(component.size()); ++n) {
+      if (component[n] >= 0) feasible.push_back(n);
+    }
+    ASSERT_GT(feasible.size(), 100U);
+    for (int pair = 0; pair < 6; ++pair) {
+      const int a = feasible[random() % feasible.size()], b = feasible[random() % feasible.size()];
+      const auto place = [](int at) -> std::vector<ExpressionText> {
+        const int i = at / Raster::kTilt, j = at % Raster::kTilt;
+        return {"pi*(" + std::to_string(2 * i + 1) + "/360-1)", "pi*" + std::to_string(2 * j + 1) + "/360"};
+      };
+      const Separation found = separated(problem, place(a), place(b));
+      if (found.answer == Separation::Answer::kApart) {
+        ++apart;
+        EXPECT_NE(component[a], component[b]) << "limits " << least << " to " << most;
+      } else if (found.answer == Separation::Answer::kJoined) {
+        ++joined;
+      }
+    }
+  }
+  EXPECT_GT(apart, 8);
+  EXPECT_GT(joined, 8);
 }
 
 TEST(Separation, SaysWhereAWayMightBe) {
