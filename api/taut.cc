@@ -57,6 +57,9 @@ struct Theorem::Content {
 
 struct TheoremMaker {
   static Theorem make(const checker::Theorem& theorem) {
+    if (theorem.verdict() == checker::Theorem::Verdict::kNoPath) {
+      return Theorem(std::make_shared<const Theorem::Content>(Theorem::Content{theorem, theorem.claim(), {}, {}}));
+    }
     const taut::Certificate certificate = read_certificate(theorem.certificate());
     std::optional<PathWitness> witness;
     if (certificate.witness) witness = certificate.witness->violation;
@@ -448,8 +451,12 @@ std::vector<std::pair<std::string, std::string>> Certificate::document_fields() 
 Theorem::Theorem(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Verdict Theorem::verdict() const {
-  const bool is_proved = content_->theorem.verdict() == checker::Theorem::Verdict::kProved;
-  return is_proved ? Verdict::kProved : Verdict::kRefuted;
+  switch (content_->theorem.verdict()) {
+    case checker::Theorem::Verdict::kProved: return Verdict::kProved;
+    case checker::Theorem::Verdict::kRefuted: return Verdict::kRefuted;
+    case checker::Theorem::Verdict::kNoPath: break;
+  }
+  return Verdict::kNoPath;
 }
 
 const std::string& Theorem::claim() const { return content_->claim; }

@@ -8,6 +8,7 @@
 #include "app/illustration.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
+#include "certify/undecided.h"
 #include "kinematics/navigation_manifold.h"
 #include "planner/time_budget.h"
 #include "reports/summary/display_units.h"
@@ -64,6 +65,28 @@ Growth grow(const Case& the_case, Planner& planner, const PlannedCaseOptions& op
   return growth;
 }
 
+/// Whether the search ended without a path, and not because it was told to.
+bool is_exhausted(const Plan& plan) {
+  if (plan.proof.verdict != Verdict::kUndecided || plan.undecided_waypoint) return false;
+  const std::optional<Undecided> reason = undecided_reason(plan.proof.reason.text());
+  return reason == Undecided::kNoPathFound || reason == Undecided::kChartBudget;
+}
+
+/// @returns whether `result` is that of the proof that no path exists
+bool try_no_path(const Case& the_case, const PlannedCaseOptions& options, const std::stop_token& stop,
+                 PlannedCase& result) {
+  if (!(options.no_path_seconds > 0) || stop.stop_requested() || !is_exhausted(result.plan)) return false;
+  SeparationOptions separation;
+  separation.seconds = options.no_path_seconds;
+  separation.stop = stop;
+  result.no_path = seek_no_path(the_case, separation, options.key);
+  if (result.no_path->answer != NoPathAttempt::Answer::kApart) return false;
+  result.text = result.no_path->certificate;
+  result.checked = recheck(result.text, options.max_seconds, stop);
+  require_confirmed(result.checked);
+  return true;
+}
+
 }  // namespace
 
 PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
@@ -71,6 +94,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   PlannedCase result;
   result.plan = planner.plan(progress, stop);
   if (options.grow) result.growth = grow(the_case, planner, options, progress, stop);
+  if (try_no_path(the_case, options, stop, result)) return result;
   const Plan& plan = result.plan;
   Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
   nlohmann::json& illustration = certificate.illustration;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/headroom.h"
+#include "app/no_path.h"
 #include "app/recheck.h"
 #include "certificate/signature.h"
 #include "planner/planner.h"
@@ -38,10 +39,11 @@ struct Growth {
 
 struct PlannedCase {
   Plan plan;
-  std::optional<Growth> growth;      ///< where it was asked for
-  std::optional<Headroom> headroom;  ///< where it was sought
-  std::string text;                  ///< of certificate.json
-  checker::CheckResult checked;      ///< what the checker says of it: the verdict
+  std::optional<Growth> growth;          ///< where it was asked for
+  std::optional<Headroom> headroom;      ///< where it was sought
+  std::optional<NoPathAttempt> no_path;  ///< where the search found no path, and a proof that there is none was tried
+  std::string text;                      ///< of certificate.json
+  checker::CheckResult checked;          ///< what the checker says of it: the verdict
 };
 
 struct PlannedCaseOptions {
@@ -53,10 +55,13 @@ struct PlannedCaseOptions {
   std::function<void(const GrowthEstimate&)> announce_growth{};
   double headroom_seconds = kHeadroomSeconds;  ///< that find_headroom() may take; 0: it is not sought
   HeadroomProgress headroom_progress = {};
+  /// That proving that no path exists may take where the search found none; 0: it is not tried.
+  double no_path_seconds = 0;
 };
 
 /// Plans, proves and has the checker prove the certificate again. Asked to stop before it is done with planning, it
-/// still has the best path so far checked.
+/// still has the best path so far checked. Where the search found no path and it is proved that there is none, text and
+/// verdict are those of that proof.
 /// @throws as Planner::plan(); std::logic_error where the checker rejects the certificate.
 [[nodiscard]] PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                                     const Progress& progress, const std::stop_token& stop);

@@ -36,7 +36,7 @@ checker::CheckResult too_long_to_check() {
 
 const char* verdict_name(const checker::CheckResult& checked) {
   if (checked.theorem) {
-    return checked.theorem->verdict() == checker::Theorem::Verdict::kProved ? "proved" : "refuted";
+    return checker::name(checked.theorem->verdict());
   }
   return checked.outcome == checker::Outcome::kUndecided ? "undecided" : "unchecked";
 }

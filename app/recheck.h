@@ -23,7 +23,7 @@ inline constexpr std::uintmax_t kMostCheckedBytes = std::uintmax_t{128} << 20U;
 /// The result for a certificate that is too long to be checked here.
 [[nodiscard]] checker::CheckResult too_long_to_check();
 
-/// "proved" or "refuted" where there is a theorem, "undecided" where nothing is claimed, else "unchecked".
+/// "proved", "refuted" or "no path" where there is a theorem, "undecided" where nothing is claimed, else "unchecked".
 /// @pre neither rejected nor malformed.
 [[nodiscard]] const char* verdict_name(const checker::CheckResult& checked);
 

@@ -466,9 +466,10 @@ void read_expectation(const Field& field, const Units& units, Case& result) {
     verdict = map.at("verdict");
     result.bounds = read_bounds(map, units);
   }
-  result.expect = read_choice<Expectation>(
-      verdict,
-      {{"proved", Expectation::kProved}, {"refuted", Expectation::kRefuted}, {"undecided", Expectation::kUndecided}});
+  result.expect = read_choice<Expectation>(verdict, {{"proved", Expectation::kProved},
+                                                     {"refuted", Expectation::kRefuted},
+                                                     {"undecided", Expectation::kUndecided},
+                                                     {"no path", Expectation::kNoPath}});
 }
 
 AuditedPath read_audited_path(const Field& field) {

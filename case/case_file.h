@@ -19,7 +19,7 @@ namespace taut {
 enum class Strategy { kAStar, kGreedyBestFirst };
 enum class Cost { kRotation, kGreatCircle, kParameters, kTravel };
 enum class Smoothing { kNone, kShorten, kSpline };
-enum class Expectation { kNone, kProved, kRefuted, kUndecided };
+enum class Expectation { kNone, kProved, kRefuted, kUndecided, kNoPath };
 
 /// What Cost::kTravel adds up: how far a point of the platform moves, and a length for each radian that it turns.
 struct TravelCost {

@@ -12,6 +12,7 @@
 #include "base/sha256.h"
 #include "checker/confirm.h"
 #include "checker/format/parts.h"
+#include "checker/no_path.h"
 
 namespace taut::checker {
 namespace {
@@ -101,6 +102,12 @@ std::string duration(double seconds) {
   return seconds < 1 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.10g} s", seconds);
 }
 
+/// What was read, for whoever shows it.
+void keep(const std::string& bytes, const CheckOptions& options, CheckResult& result) {
+  if (!options.keeps_certificate) return;
+  result.certificate = std::make_shared<const nlohmann::json>(nlohmann::json::parse(bytes));
+}
+
 std::string describe_accepted(const Certificate& certificate, const CheckResult& result) {
   const std::string audit = certificate.problem.query.empty() ? "an audit, " : "";
   const std::string boxes = plural(result.counts.boxes, "box");
@@ -126,31 +133,99 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
       listed, boxes, bits);
 }
 
-/// Signer, case, path file and verdict are those that were asked for.
-void require_asked_for(const Certificate& certificate, const CheckOptions& options, CheckResult& result) {
+void require_trusted(const CheckOptions& options, CheckResult& result) {
   result.is_trusted = std::ranges::find(options.trusted, result.signer) != options.trusted.end();
   if (!options.trusted.empty() && !result.is_trusted) {
     throw Rejected(result.signer.empty() ? "nobody signed it" : "nobody trusted signed it");
   }
+}
+
+void require_case(const nlohmann::json& problem, const CheckOptions& options, CheckResult& result) {
   if (options.problem != nullptr) {
-    result.not_compared = require_problem(certificate.problem_json, *options.problem);
+    result.not_compared = require_problem(problem, *options.problem);
   } else {
     result.not_compared.emplace_back("case");
   }
+}
+
+void require_verdict(Theorem::Verdict verdict, const CheckOptions& options) {
+  if (!options.expect || *options.expect == verdict) return;
+  throw Rejected(std::string("the certificate says ") + name(verdict) + ", expected " + name(*options.expect));
+}
+
+Theorem::Verdict theorem_verdict(Verdict verdict) {
+  return verdict == Verdict::kProved ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted;
+}
+
+/// Signer, case, path file and verdict are those that were asked for.
+void require_asked_for(const Certificate& certificate, const CheckOptions& options, CheckResult& result) {
+  require_trusted(options, result);
+  require_case(certificate.problem_json, options, result);
   if (options.path != nullptr) {
     require_path(certificate, result.sha256, *options.path);
   } else {
     result.not_compared.emplace_back("path file");
   }
-  if (!options.expect || certificate.verdict == Verdict::kUndecided) return;
-  const bool expects_proved = *options.expect == Theorem::Verdict::kProved;
-  if (expects_proved != (certificate.verdict == Verdict::kProved)) {
-    throw Rejected(std::string("the certificate says ") +
-                   (expects_proved ? "refuted, expected proved" : "proved, expected refuted"));
+  if (certificate.verdict != Verdict::kUndecided) require_verdict(theorem_verdict(certificate.verdict), options);
+}
+
+/// How to confirm, with a budget that began at `start`.
+ConfirmOptions confirm_options(const CheckOptions& options, std::chrono::steady_clock::time_point start) {
+  if (options.max_seconds && *options.max_seconds <= 0) throw Interrupted("no time");
+  ConfirmOptions result;
+  result.threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  result.before_box = [&options, start] {
+    const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+    const bool is_over = options.max_seconds && used.count() >= *options.max_seconds;
+    if (is_over || options.stop.stop_requested()) throw Interrupted("interrupted");
+  };
+  return result;
+}
+
+using TimePoint = std::chrono::steady_clock::time_point;
+
+/// @returns what is proved; nothing where the certificate claims nothing
+std::optional<Theorem::Verdict> check_path(const std::string& bytes, Outline outline, const CheckOptions& options,
+                                           TimePoint start, CheckResult& result) {
+  const Certificate certificate = read_certificate(std::move(outline));
+  keep(bytes, options, result);
+  result.signer = certificate.signer;
+  result.is_audit = certificate.problem.query.empty();
+  result.counts = {certificate.segment_texts.size(), certificate.boxes, 0};
+  require_asked_for(certificate, options, result);
+  if (certificate.verdict == Verdict::kUndecided) {
+    result.outcome = Outcome::kUndecided;
+    result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
+    return std::nullopt;
   }
+  result.counts = confirm(certificate, confirm_options(options, start));
+  result.message = describe_accepted(certificate, result);
+  return theorem_verdict(certificate.verdict);
+}
+
+Theorem::Verdict check_no_path(const std::string& bytes, Outline outline, const CheckOptions& options, TimePoint start,
+                               CheckResult& result) {
+  const NoPathCertificate certificate = read_no_path(std::move(outline));
+  keep(bytes, options, result);
+  result.signer = certificate.signer;
+  require_trusted(options, result);
+  require_case(certificate.problem_json, options, result);
+  if (options.path != nullptr) throw Rejected("it is about no path, but about all that might lead to a waypoint");
+  require_verdict(Theorem::Verdict::kNoPath, options);
+  result.counts = confirm(certificate, confirm_options(options, start));
+  result.message = fmt::format(
+      "proved again: no path exists from waypoint {} of the query to waypoint {}; {} without "
+      "a feasible pose part them; {} bits",
+      certificate.from, certificate.from + 1, plural(result.counts.boxes, "cell"), result.counts.bits);
+  return Theorem::Verdict::kNoPath;
 }
 
 }  // namespace
+
+const char* name(Theorem::Verdict verdict) {
+  constexpr std::array<const char*, 3> kNames = {"proved", "refuted", "no path"};
+  return kNames.at(static_cast<std::size_t>(verdict));
+}
 
 const char* name(Outcome outcome) {
   constexpr std::array<const char*, 5> kNames = {"accepted", "rejected", "undecided", "unchecked", "malformed"};
@@ -168,32 +243,13 @@ CheckResult check(const std::string& bytes, const CheckOptions& options) {
   CheckResult result;
   result.sha256 = sha256(bytes);
   try {
-    const Certificate certificate = read_certificate(bytes);
-    if (options.keeps_certificate) {
-      result.certificate = std::make_shared<const nlohmann::json>(nlohmann::json::parse(bytes));
-    }
-    result.signer = certificate.signer;
-    result.is_audit = certificate.problem.query.empty();
-    result.counts = {certificate.segment_texts.size(), certificate.boxes, 0};
-    require_asked_for(certificate, options, result);
-    if (certificate.verdict == Verdict::kUndecided) {
-      result.outcome = Outcome::kUndecided;
-      result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
-      return result;
-    }
-    if (options.max_seconds && *options.max_seconds <= 0) throw Interrupted("no time");
-    ConfirmOptions confirm_options;
-    confirm_options.threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-    confirm_options.before_box = [&] {
-      const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-      const bool is_over = options.max_seconds && used.count() >= *options.max_seconds;
-      if (is_over || options.stop.stop_requested()) throw Interrupted("interrupted");
-    };
-    result.counts = confirm(certificate, confirm_options);
-    result.message = describe_accepted(certificate, result);
-    const bool is_proved = certificate.verdict == Verdict::kProved;
-    result.theorem = Theorem(is_proved ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted, result.certificate,
-                             result.sha256, result.counts);
+    Outline outline = read_json(bytes);
+    const bool is_no_path = outline.json.is_object() && outline.json.value("format", nlohmann::json()) == kNoPathFormat;
+    const std::optional<Theorem::Verdict> verdict =
+        is_no_path ? check_no_path(bytes, std::move(outline), options, start, result)
+                   : check_path(bytes, std::move(outline), options, start, result);
+    if (!verdict) return result;
+    result.theorem = Theorem(*verdict, result.certificate, result.sha256, result.counts);
     result.outcome = Outcome::kAccepted;
   } catch (const Malformed& error) {
     result.outcome = Outcome::kMalformed;

@@ -6,6 +6,7 @@
 // errors.h, ball.h, mean_value_form.h, expression.h, linear.h, statement.h, loads.h, machine.h, zero.h, motion.h,
 // deviation.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of
 // which poses); then format/ (that the numbers are those of the file); format/signature.h if it matters who wrote it.
+// For "no path": cell_form.h, outside.h and .cc in kernel/, then no_path.h and .cc.
 #pragma once
 
 #include <memory>
@@ -22,7 +23,7 @@
 namespace taut::checker {
 
 enum class Outcome {
-  kAccepted,   ///< the claim, "proved" or "refuted", was proved again
+  kAccepted,   ///< the claim, "proved", "refuted" or "no path", was proved again
   kRejected,   ///< well formed, but some statement could not be confirmed, or is not what was asked for
   kUndecided,  ///< well formed, and the certificate itself claims nothing
   kUnchecked,  ///< well formed, but the budget ran out: nothing is known of its claim
@@ -31,6 +32,8 @@ enum class Outcome {
 
 /// "accepted", "rejected", "undecided", "unchecked" or "malformed".
 [[nodiscard]] const char* name(Outcome outcome);
+/// "proved", "refuted" or "no path".
+[[nodiscard]] const char* name(Theorem::Verdict verdict);
 
 enum class Law;  // of kernel/statement.h, which this header leaves out as it needs Arb
 
@@ -53,7 +56,7 @@ struct ExpectedPath {
 struct CheckOptions {
   const nlohmann::json* problem = nullptr;   ///< where not null: what the certificate's `problem` must equal
   const ExpectedPath* path = nullptr;        ///< where not null: what its `path` must equal
-  std::optional<Theorem::Verdict> expect{};  ///< a claim of the other verdict is rejected
+  std::optional<Theorem::Verdict> expect{};  ///< a claim of another verdict is rejected
   std::vector<std::string> trusted{};        ///< unless empty: public keys (signature.h), one of which must have signed
   unsigned threads = 0;                      ///< to prove with; 0: as many as there are cores
   std::optional<double> max_seconds{};       ///< budget; 0: read and compare, but prove nothing; nothing: no end

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/confirm.h"
 
-#include <flint/flint.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +9,11 @@
 #include <memory>
 #include <mutex>
 #include <span>
-#include <thread>
 
 #include "checker/format/parts.h"
 #include "checker/kernel/box_proof.h"
 #include "checker/near_waypoints.h"
+#include "checker/parallel.h"
 #include "checker/witness.h"
 
 namespace taut::checker {
@@ -26,38 +25,6 @@ std::string name_of(std::size_t segment, const Box& box) {
 
 std::string name_of(const Witness& witness) {
   return fmt::format("the witness at segment {}, s = {}", witness.at.segment, witness.at.s.get_str());
-}
-
-/// Calls `work(k)` for k in [0, count) on some threads. Rethrows what was thrown for the smallest k.
-template <class Work>
-void for_each(std::size_t count, unsigned threads, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  std::atomic<std::size_t> first_failure = count;
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto run = [&] {
-    for (std::size_t k = next++; k < first_failure; k = next++) {
-      try {
-        work(k);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (k >= first_failure) continue;
-        first_failure = k;
-        failure = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (unsigned i = 1; i < threads && i < count; ++i) {
-      pool.emplace_back([&] {
-        run();
-        flint_cleanup();
-      });
-    }
-    run();
-  }
-  if (failure) std::rethrow_exception(failure);
 }
 
 class Confirmation {

@@ -73,6 +73,8 @@ ExpectedPath read_expected_path(const std::string& text, const std::string& name
   return path;
 }
 
+constexpr std::array kVerdicts = {Theorem::Verdict::kProved, Theorem::Verdict::kRefuted, Theorem::Verdict::kNoPath};
+
 int exit_code(Outcome outcome) {
   constexpr std::array<int, 5> kCodes = {0, 1, 2, 2, 3};  // in the order of the outcomes
   return kCodes.at(static_cast<std::size_t>(outcome));
@@ -108,7 +110,7 @@ CheckedFile check_file(const Arguments& arguments) {
       options.trusted.push_back(read_public_key(read_whole(path, kMaxKeyFile), path));
     }
     if (!arguments.expect.empty()) {
-      options.expect = arguments.expect == "proved" ? Theorem::Verdict::kProved : Theorem::Verdict::kRefuted;
+      options.expect = *std::ranges::find(kVerdicts, arguments.expect, [](Theorem::Verdict v) { return name(v); });
     }
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
@@ -160,7 +162,7 @@ nlohmann::json to_json(const CheckResult& result, double seconds) {
     signature = {{"key", fingerprint(result.signer)}, {"public_key", result.signer}, {"trusted", result.is_trusted}};
   }
   nlohmann::json verdict;  // null unless it is known
-  if (result.theorem) verdict = result.theorem->verdict() == Theorem::Verdict::kProved ? "proved" : "refuted";
+  if (result.theorem) verdict = name(result.theorem->verdict());
   if (result.outcome == Outcome::kUndecided) verdict = "undecided";
   return {{"command", "check"},           {"outcome", name(result.outcome)}, {"message", result.message},
           {"verdict", verdict},           {"audit", result.is_audit},        {"segments", result.counts.segments},
@@ -182,8 +184,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "law of the path file, where it is not the usual one: straight, geodesic or cable-lengths")
       ->check(CLI::IsMember({"straight", "geodesic", "cable-lengths"}))
       ->needs(path);
-  app.add_option("--expect", arguments.expect, "reject a certificate of the other verdict: proved or refuted")
-      ->check(CLI::IsMember({"proved", "refuted"}));
+  app.add_option("--expect", arguments.expect, "reject a certificate of another verdict: proved, refuted or 'no path'")
+      ->check(CLI::IsMember({"proved", "refuted", "no path"}));
   app.add_option("--trust", arguments.key_paths,
                  "reject what is not signed by this Ed25519 public key (PEM); repeatable")
       ->allow_extra_args(false);

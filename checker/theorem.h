@@ -24,22 +24,23 @@ class Theorem {
   enum class Verdict {
     kProved,   ///< the claim holds along the whole path
     kRefuted,  ///< it does not: the witness violates a limit or is singular
+    kNoPath,   ///< no motion leads from one waypoint of the query to the next; there are no path, margins or witness
   };
   struct Counts {
     std::size_t segments = 0;
-    std::size_t boxes = 0;
-    int bits = 0;  ///< the highest precision that was used
+    std::size_t boxes = 0;  ///< of kNoPath: the cells that were proved to hold no feasible pose
+    int bits = 0;           ///< the highest precision that was used
   };
 
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   /// What was proved or refuted, in words; the checker has compared them with the words that the format prescribes.
   [[nodiscard]] const std::string& claim() const { return text("claim"); }
   [[nodiscard]] const nlohmann::json& problem() const { return certificate()["problem"]; }
-  [[nodiscard]] const nlohmann::json& path() const { return certificate()["path"]; }
+  [[nodiscard]] const nlohmann::json& path() const { return part("path"); }
   /// Proved lower bounds, decimals as the certificate writes them; an empty object unless proved.
-  [[nodiscard]] const nlohmann::json& margins() const { return certificate()["margins"]; }
+  [[nodiscard]] const nlohmann::json& margins() const { return part("margins"); }
   /// The violation; null unless refuted.
-  [[nodiscard]] const nlohmann::json& witness() const { return certificate()["witness"]; }
+  [[nodiscard]] const nlohmann::json& witness() const { return part("witness"); }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   /// SHA-256 of the bytes that were checked, 64 lower-case hex digits.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
@@ -56,6 +57,11 @@ class Theorem {
   Theorem(Verdict verdict, std::shared_ptr<const nlohmann::json> certificate, std::string sha256, Counts counts)
       : verdict_(verdict), certificate_(std::move(certificate)), sha256_(std::move(sha256)), counts_(counts) {}
 
+  /// What only certificates of paths have.
+  [[nodiscard]] const nlohmann::json& part(const char* key) const {
+    if (verdict_ == Verdict::kNoPath) throw std::logic_error("a theorem without a path");
+    return certificate()[key];
+  }
   [[nodiscard]] const std::string& text(const char* key) const {
     return certificate()[key].get_ref<const std::string&>();
   }

@@ -18,7 +18,8 @@ namespace taut {
 
 enum ExitCode { kProvedExit = 0, kRefutedExit = 1, kUndecidedExit = 2, kBadInputExit = 3, kInternalExit = 4 };
 
-/// The exit code for what the checker says: proved or refuted where there is a theorem, else undecided.
+/// The exit code for what the checker says: proved or, for "no path" too, refuted where there is a theorem, else
+/// undecided.
 [[nodiscard]] ExitCode exit_code(const checker::CheckResult& checked);
 
 /// "--max-seconds" of plan, audit and report: the checker's budget.

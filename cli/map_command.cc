@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "base/sanitize.h"
 #include "case/case_file.h"
 #include "cli/console.h"
+#include "cli/no_path_output.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
 #include "map/singular.h"
@@ -263,7 +265,9 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
       .add_option("--cells", arguments.most_cells,
                   "the most cells, each of which takes up to 120 bytes of memory (default: 20000000)")
       ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
-  command.add_option("--out", arguments.out, "folder to write map.svg to: a picture of two coordinates");
+  command.add_option("--out", arguments.out,
+                     "folder to write map.svg to, a picture of two coordinates, and where waypoints of the query are "
+                     "apart, certificate.json, which proves it");
   command.add_flag("--json", arguments.json, "print the result as JSON");
 }
 
@@ -294,6 +298,9 @@ int run_map(const MapArguments& arguments) {
     make_directories(arguments.out);
     files.push_back(std::filesystem::path(arguments.out) / "map.svg");
     write_whole({{files.front(), picture(the_case, made)}});
+    if (std::ranges::find(made.connections, Connection::kApart) != made.connections.end()) {
+      for (const auto& file : write_no_path(the_case, arguments.out, interruption.token())) files.push_back(file);
+    }
   }
   if (arguments.json) {
     nlohmann::json document = to_json(the_case, made);

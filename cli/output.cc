@@ -44,9 +44,10 @@ nlohmann::json messages_json(const std::vector<std::string>& texts) {
 
 nlohmann::json result_json(const checker::CheckResult& checked) {
   const bool is_undecided = checked.outcome == checker::Outcome::kUndecided;
+  const bool has_path = checked.theorem && checked.theorem->verdict() != checker::Theorem::Verdict::kNoPath;
   return {{"verdict", verdict_name(checked)},
-          {"margins", checked.theorem ? checked.theorem->margins() : nlohmann::json::object()},
-          {"witness", checked.theorem ? checked.theorem->witness() : nlohmann::json()},
+          {"margins", has_path ? checked.theorem->margins() : nlohmann::json::object()},
+          {"witness", has_path ? checked.theorem->witness() : nlohmann::json()},
           {"undecided", is_undecided ? checked.certificate->at("undecided") : nlohmann::json()},
           {"recheck", to_json(checked)}};
 }

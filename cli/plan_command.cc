@@ -17,6 +17,7 @@
 #include "base/sanitize.h"
 #include "certificate/signature.h"
 #include "certify/undecided.h"
+#include "checker/arguments.h"
 #include "cli/console.h"
 #include "cli/headroom_output.h"
 #include "cli/number_option.h"
@@ -41,7 +42,26 @@ struct Said {
   std::string text;
 };
 
-Said said(const Case& the_case, const Plan& plan, const checker::CheckResult& checked) {
+/// Where a proof that no path exists was tried: what became of it.
+Said said_of_no_path(const Case& the_case, const NoPathAttempt& attempt, const checker::CheckResult& checked) {
+  if (!checked.theorem) return {"UNCHECKED", fmt::format("{}. Nothing is claimed.", checked.message)};
+  return {"no path", fmt::format("no motion within the space leads from waypoint {} of the query to waypoint {} with "
+                                 "every pose of it feasible, {} without a feasible pose part them (proved).{}",
+                                 attempt.from, attempt.from + 1, plural(checked.counts.boxes, "cell"),
+                                 the_case.problem.tolerances
+                                     ? " That is about the machine exactly as typed; so no path is feasible for every "
+                                       "machine within the tolerances."
+                                     : "")};
+}
+
+bool is_no_path(const PlannedCase& planned) {
+  return planned.no_path && planned.no_path->answer == NoPathAttempt::Answer::kApart;
+}
+
+Said said(const Case& the_case, const PlannedCase& planned) {
+  const Plan& plan = planned.plan;
+  const checker::CheckResult& checked = planned.checked;
+  if (is_no_path(planned)) return said_of_no_path(the_case, *planned.no_path, checked);
   const PathProof& proof = plan.proof;
   if (checked.outcome == checker::Outcome::kUnchecked) {
     return {"UNCHECKED", fmt::format("{}. Nothing is claimed of the path.", checked.message)};
@@ -70,7 +90,8 @@ Said said(const Case& the_case, const Plan& plan, const checker::CheckResult& ch
     }
     case Verdict::kUndecided: break;
   }
-  return {"undecided", with_code(proof.reason.text()) + "."};
+  const std::string tried = planned.no_path ? " " + describe_open(the_case, *planned.no_path) : "";
+  return {"undecided", with_code(proof.reason.text()) + "." + tried};
 }
 
 /// What may be wrong with the case, if its first infeasible waypoint suggests it; else empty.
@@ -120,6 +141,23 @@ nlohmann::json growth_json(const std::optional<Growth>& growth) {
           {"time_is_up", growth->time_is_up}};
 }
 
+/// Null unless it was tried to prove that no path exists.
+nlohmann::json no_path_json(const std::optional<NoPathAttempt>& attempt) {
+  if (!attempt) return {};
+  using Answer = NoPathAttempt::Answer;
+  const bool is_apart = attempt->answer == Answer::kApart;
+  const bool is_open = attempt->answer == Answer::kOpen;
+  const char* const answer = is_apart                             ? "apart"
+                             : attempt->answer == Answer::kJoined ? "joined"
+                             : is_open                            ? "open"
+                                                                  : "unsupported";
+  return {{"answer", answer},
+          {"waypoint", is_apart || is_open ? nlohmann::json(attempt->from) : nlohmann::json()},
+          {"open_share", attempt->open ? nlohmann::json(attempt->open->open_share) : nlohmann::json()},
+          {"cells", attempt->cells},
+          {"elapsed_seconds", attempt->seconds}};
+}
+
 nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
   const Plan& plan = outcome.planned.plan;
   const PlanStatistics& s = plan.statistics;
@@ -151,7 +189,8 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"out", outcome.out.string()}};
   result.update(result_json(checked));
   const bool is_proved = outcome.is_proved();
-  const Said what = said(the_case, plan, checked);
+  const Said what = said(the_case, outcome.planned);
+  result["no_path"] = no_path_json(outcome.planned.no_path);
   result["messages"] =
       messages_json({is_proved ? "" : fmt::format("{}: {}", what.verdict, what.text), hint(the_case, plan)});
   return result;
@@ -224,6 +263,7 @@ PlannedCase plan(const Case& the_case, Planner& planner, const PlanArguments& ar
     std::fflush(stdout);
   };
   options.headroom_seconds = arguments.headroom_seconds;
+  options.no_path_seconds = arguments.no_path_seconds;
   options.headroom_progress = [&](std::size_t done, std::size_t all) {
     line.show([&] { return headroom_progress_text(done, all); });
   };
@@ -254,6 +294,12 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
   add_headroom_option(command, arguments.headroom_seconds);
+  command
+      .add_option("--no-path", arguments.no_path_seconds,
+                  fmt::format("seconds for proving that no path exists, where the search found none (default: {:.0f}); "
+                              "0: don't try",
+                              kNoPathSeconds))
+      ->check(checker::complain_of_seconds);
   add_max_seconds_option(command, arguments.max_seconds);
 }
 
@@ -279,10 +325,12 @@ int run_plan(const PlanArguments& arguments) {
   const PlannedCase planned = plan(case_, planner, arguments, key, interruption.token());
   const checker::CheckResult& checked = planned.checked;
   Outcome outcome{planned, {}, out};
-  const ReportContext context(checked);
   const ReportOptions report_options{"", "", date};
-  std::vector<FileContent> files = {{out / "certificate.json", planned.text},
-                                    {out / "report.html", html_report(context, report_options)}};
+  std::optional<ReportContext> context;
+  if (!is_no_path(planned)) context.emplace(checked);
+  std::vector<FileContent> files = {
+      {out / "certificate.json", planned.text},
+      {out / "report.html", context ? html_report(*context, report_options) : html_report(checked, report_options)}};
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
   if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
@@ -301,9 +349,13 @@ int run_plan(const PlanArguments& arguments) {
     print_json(result);
     return exit_code(checked);
   }
-  const Summary shown(context, report_options);
-  print_verdict(verdict_in_full(shown), said(case_, planned.plan, checked).text);
-  print_key_numbers(shown.key_numbers);
+  if (context) {
+    const Summary shown(*context, report_options);
+    print_verdict(verdict_in_full(shown), said(case_, planned).text);
+    print_key_numbers(shown.key_numbers);
+  } else {
+    print_verdict(checked.theorem ? "NO PATH EXISTS" : "UNCHECKED", said(case_, planned).text);
+  }
   if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) print_wrapped(may_be);
   print_search(outcome, DisplayUnits(case_.units));
   if (checked.outcome != checker::Outcome::kUnchecked) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/headroom.h"
+#include "app/no_path.h"
 #include "app/recheck.h"
 #include "path_io/controller_csv.h"
 
@@ -24,6 +25,7 @@ struct PlanArguments {
   bool json = false;
   double max_seconds = kCheckSeconds;          ///< that the checker may take
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares
+  double no_path_seconds = kNoPathSeconds;     ///< for proving that no path exists
 };
 
 void add_plan_options(CLI::App& command, PlanArguments& arguments);

@@ -61,6 +61,7 @@ const char* name(Expectation expectation) {
     case Expectation::kProved: return "proved";
     case Expectation::kRefuted: return "refuted";
     case Expectation::kUndecided: return "undecided";
+    case Expectation::kNoPath: return "no path";
     case Expectation::kNone: break;
   }
   return "";

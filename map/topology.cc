@@ -275,18 +275,18 @@ MapTopology::MapTopology(const CellMap& map) : map_(map) {
       map, possible, [](CellKind kind) { return !is_outside(kind); }, possible_of_);
 }
 
-std::vector<std::uint32_t> MapTopology::neighbours(const Cell& cell) const {
+std::vector<std::uint32_t> neighbours(const CellMap& map, const Cell& cell) {
   std::vector<std::uint32_t> found;
-  Neighbourhood around(map_, found);
+  Neighbourhood around(map, found);
   const MapBox box = box_of(cell);
   around.add_around(box);
-  if (map_.space.flip) around.add_flipped(box);
+  if (map.space.flip) around.add_flipped(box);
   return found;
 }
 
-std::vector<std::uint32_t> MapTopology::leaves_at(const std::vector<MapBox>& place) const {
+std::vector<std::uint32_t> leaves_at(const CellMap& map, const std::vector<MapBox>& place) {
   std::vector<std::uint32_t> found;
-  Neighbourhood around(map_, found);
+  Neighbourhood around(map, found);
   for (const MapBox& box : place) around.add_around(box);
   std::ranges::sort(found);
   found.erase(std::ranges::unique(found).begin(), found.end());

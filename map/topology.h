@@ -30,6 +30,11 @@ struct MapBox {
 /// space's turn, and where (φ, θ) flip, to θ in [0, π]. Rounding may make it more than one box.
 [[nodiscard]] std::vector<MapBox> place_of(const MapSpace& space, const std::vector<ExpressionText>& coordinates);
 
+/// The leaves that may hold a place.
+[[nodiscard]] std::vector<std::uint32_t> leaves_at(const CellMap& map, const std::vector<MapBox>& place);
+/// The leaves that share a pose with a cell, itself among them, in no order, some more than once.
+[[nodiscard]] std::vector<std::uint32_t> neighbours(const CellMap& map, const Cell& cell);
+
 struct MapComponent {
   double volume = 0;      ///< the share of the space
   std::size_t cells = 0;  ///< leaves
@@ -49,10 +54,10 @@ class MapTopology {
   [[nodiscard]] std::uint32_t inside_component(std::uint32_t node) const { return inside_of_[node]; }
   [[nodiscard]] std::uint32_t possible_component(std::uint32_t node) const { return possible_of_[node]; }
 
-  /// The leaves that may hold a place.
-  [[nodiscard]] std::vector<std::uint32_t> leaves_at(const std::vector<MapBox>& place) const;
-  /// The leaves that share a pose with a cell, itself among them, in no order, some more than once.
-  [[nodiscard]] std::vector<std::uint32_t> neighbours(const Cell& cell) const;
+  [[nodiscard]] std::vector<std::uint32_t> leaves_at(const std::vector<MapBox>& place) const {
+    return taut::leaves_at(map_, place);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> neighbours(const Cell& cell) const { return taut::neighbours(map_, cell); }
 
   enum class Connection {
     kJoined,   ///< inside cells join them: a motion exists, every pose of which is feasible

@@ -126,6 +126,7 @@ const char* name_of(taut::Verdict verdict) {
     case taut::Verdict::kProved: return "proved";
     case taut::Verdict::kRefuted: return "refuted";
     case taut::Verdict::kUndecided: return "undecided";
+    case taut::Verdict::kNoPath: return "no path";
     case taut::Verdict::kUnchecked: break;
   }
   return "unchecked";

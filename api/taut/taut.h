@@ -173,7 +173,8 @@ enum class Verdict {
   kProved,     ///< the claim holds along the whole path
   kRefuted,    ///< it does not, and that is proved
   kUndecided,  ///< nothing is claimed; that does not mean that the path is unsafe
-  kUnchecked   ///< the independent checker was not asked, or not given the time: nothing is known of what is claimed
+  kUnchecked,  ///< the independent checker was not asked, or not given the time: nothing is known of what is claimed
+  kNoPath      ///< no motion at all leads from one waypoint of a query to the next; of theorems that check() makes
 };
 
 /// Proved lower bounds, rounded down.
@@ -206,7 +207,7 @@ struct Witness {
 /// cheap.
 class TAUT_EXPORT Theorem {
  public:
-  [[nodiscard]] Verdict verdict() const;                 ///< kProved or kRefuted
+  [[nodiscard]] Verdict verdict() const;                 ///< kProved, kRefuted or kNoPath
   [[nodiscard]] const std::string& claim() const;        ///< in words
   [[nodiscard]] std::optional<Margins> margins() const;  ///< only if proved
   [[nodiscard]] std::optional<Witness> witness() const;  ///< only if refuted; the gravest that was found

@@ -41,7 +41,7 @@ class Parts {
 
 class Reader {
  public:
-  explicit Reader(std::string_view text) : outline_(read_json(text)), top_(outline_.json, "") {}
+  explicit Reader(Outline outline) : outline_(std::move(outline)), top_(outline_.json, "") {}
 
   Certificate read() {
     require_version();
@@ -321,6 +321,7 @@ Stretch Certificate::stretch(std::size_t i) const {
   return read_stretch(Cursor(json, "stretches", i), problem, path);
 }
 
-Certificate read_certificate(std::string_view text) { return Reader(text).read(); }
+Certificate read_certificate(Outline outline) { return Reader(std::move(outline)).read(); }
+Certificate read_certificate(std::string_view text) { return read_certificate(read_json(text)); }
 
 }  // namespace taut::checker

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/format/strict_json.h"
 #include "checker/format/witness.h"
 
 namespace taut::checker {
@@ -60,5 +61,7 @@ struct Certificate {
 /// @param text  must outlive the certificate, which refers to it.
 /// @throws Malformed naming the key.
 [[nodiscard]] Certificate read_certificate(std::string_view text);
+/// The same for a text that read_json() has gone through.
+[[nodiscard]] Certificate read_certificate(Outline outline);
 
 }  // namespace taut::checker

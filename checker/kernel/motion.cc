@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "checker/kernel/rotation.h"
+
 namespace taut::checker {
 namespace {
 
@@ -104,39 +106,6 @@ class OnConstraints : public Equations {
 };
 
 // ---- Poses ----------------------------------------------------------------------------------------------------------
-
-/// I + sin(angle) [n] + (1 - cos(angle)) [n]^2 with the unit vector n along an axis that is not 0.
-Matrix3<MeanValueForm> rotation_about(const ExactVector& axis, const MeanValueForm& angle) {
-  const mpq_class squared = dot(axis, axis);
-  const Ball size = sqrt(Ball(squared));
-  const MeanValueForm cosine = apply(Function::kCos, angle), sine = apply(Function::kSin, angle);
-  Matrix3<MeanValueForm> R;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    // [n]^2 = n n' - I, whose entries are rational.
-    const mpq_class ii = axis[i] * axis[i] / squared, ij = axis[i] * axis[j] / squared;
-    R[i][i] = MeanValueForm(Ball(ii)) + Ball(mpq_class(1 - ii)) * cosine;
-    const MeanValueForm both = Ball(ij) * (MeanValueForm(Ball(1)) - cosine);
-    const MeanValueForm turned = Ball(axis[k]) / size * sine;
-    R[i][j] = both - turned;
-    R[j][i] = both + turned;
-  }
-  return R;
-}
-
-Matrix3<MeanValueForm> orientation(const Problem& problem, const Vector6<MeanValueForm>& pose) {
-  const MeanValueForm &x = pose[3], &y = pose[4], &z = pose[5];
-  const auto Rx = [](const MeanValueForm& angle) { return rotation_about({1, 0, 0}, angle); };
-  const auto Ry = [](const MeanValueForm& angle) { return rotation_about({0, 1, 0}, angle); };
-  const auto Rz = [](const MeanValueForm& angle) { return rotation_about({0, 0, 1}, angle); };
-  switch (problem.angles) {
-    case AngleKind::kTiltAndTorsion: return multiply(multiply(Rz(x), Ry(y)), Rz(z - x));
-    case AngleKind::kRollPitchYaw: return multiply(multiply(Rz(z), Ry(y)), Rx(x));
-    case AngleKind::kZyz: return multiply(multiply(Rz(x), Ry(y)), Rz(z));
-    case AngleKind::kAxis: return rotation_about(problem.axis, x);
-  }
-  throw std::logic_error("angles of no known kind");
-}
 
 Frame frame(const Problem& problem, const Vector6<MeanValueForm>& pose) {
   return {{pose[0], pose[1], pose[2]}, orientation(problem, pose)};

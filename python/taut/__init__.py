@@ -188,7 +188,7 @@ class Witness:
 @dataclasses.dataclass(frozen=True)
 class Theorem:
     """What the independent checker has proved."""
-    verdict: str                 #: "proved" or "refuted"
+    verdict: str                 #: "proved", "refuted" or "no path"
     claim: str                   #: in words
     margins: Optional[Margins]   #: only if proved
     witness: Optional[Witness]   #: only if refuted; the gravest that was found

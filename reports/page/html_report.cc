@@ -12,6 +12,7 @@
 #include "reports/page/first_page_style.h"
 #include "reports/page/machine_style.h"
 #include "reports/page/margins.h"
+#include "reports/page/no_path_page.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
@@ -118,18 +119,23 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {
+  require_plain(options);
+  if (is_about_no_path(checked)) return no_path_page(checked, options);
   return html_report(ReportContext(checked), options);
 }
 std::string text_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
+  if (is_about_no_path(checked)) return no_path_text(checked, false);
   return to_text(Summary(ReportContext(checked), options));
 }
 std::string markdown_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
+  if (is_about_no_path(checked)) return no_path_text(checked, true);
   return to_markdown(Summary(ReportContext(checked), options));
 }
 nlohmann::json json_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
+  if (is_about_no_path(checked)) return no_path_json(checked);
   return to_json(Summary(ReportContext(checked), options));
 }
 

@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""taut plan where no path exists: verdict, files, certificate; and taut-check on altered certificates.
+
+Usage: no_path_test.py TAUT TAUT_CHECK SOURCE_DIR
+"""
+import copy
+import functools
+import hashlib
+import json
+import os
+import tempfile
+
+from command_line import CASES, CHECK, ROBOT1, TAUT, InFolder, main, run, text_of
+
+APART = os.path.join(CASES, "maps", "robot1-sigma34-apart.yaml")
+LETTERS = "ABCDEFGHIJKLabcdefghijklmnopqrstuvwx"
+
+
+def digest(value):
+    text = json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    return hashlib.sha256(text.encode("ascii")).hexdigest()
+
+
+def sealed(certificate):
+    """With the digests and the count that belong to the rest."""
+    certificate["problem_sha256"] = digest(certificate["problem"])
+    certificate.pop("footer", None)
+    certificate["footer"] = {"nodes": len(certificate["map"]["tree"]), "sha256": digest(certificate)}
+    return certificate
+
+
+@functools.cache
+def planned():
+    """The certificate of the case; not to be altered in place."""
+    with tempfile.TemporaryDirectory() as out:
+        said = run(TAUT, "plan", APART, "--out", out)
+        assert said.returncode == 1, said.stdout + said.stderr
+        return json.loads(text_of(os.path.join(out, "certificate.json")))
+
+
+def subtree(tree, node):
+    """The end of the part of a tree that begins at a node."""
+    open_ends = 1
+    while open_ends:
+        open_ends += 1 if tree[node] in "012" else -1
+        node += 1
+    return node
+
+
+class NoPath(InFolder):
+    @property
+    def certificate(self):
+        return planned()
+
+    def check(self, certificate, *arguments):
+        file = self.write("mutant.json", json.dumps(certificate, sort_keys=True))
+        return run(CHECK, file, *arguments)
+
+    def assert_outcome(self, certificate, outcome, *arguments):
+        said = self.check(certificate, *arguments)
+        self.assertEqual((said.stdout + said.stderr).split(":")[0], outcome, said.stdout + said.stderr)
+        return said
+
+    def with_tree(self, tree):
+        mutant = copy.deepcopy(self.certificate)
+        mutant["map"]["tree"] = tree
+        return sealed(mutant)
+
+    # ---- taut plan ---------------------------------------------------------------------------------------------------
+
+    def test_what_plan_says_and_writes(self):
+        out = self.path("out")
+        said = run(TAUT, "plan", APART, "--out", out)
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        self.assertIn("NO PATH EXISTS: no motion within the space leads from waypoint 0", " ".join(said.stdout.split()))
+        self.assertEqual(sorted(os.listdir(out)), ["certificate.json", "report.html"])
+        page = text_of(os.path.join(out, "report.html"))
+        for expected in ("NO PATH EXISTS", "There is no continuous motion".lower(), "<svg", "waypoint 0: phi ="):
+            self.assertIn(expected, page)
+        self.assertNotIn("<script", page)
+        checked = run(CHECK, os.path.join(out, "certificate.json"), APART, "--expect", "no path")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        self.assertIn("no path exists from waypoint 0 of the query to waypoint 1", checked.stdout)
+        report = run(TAUT, "report", os.path.join(out, "certificate.json"), "--text")
+        self.assertTrue(report.stdout.startswith("NO PATH EXISTS: "), report.stdout + report.stderr)
+
+    def test_json(self):
+        said = run(TAUT, "plan", APART, "--out", self.path("out"), "--json")
+        self.assertEqual(said.returncode, 1)
+        found = json.loads(said.stdout)
+        self.assertEqual((found["verdict"], found["no_path"]["answer"]), ("no path", "apart"))
+        self.assertEqual((found["margins"], found["witness"], found["length_m"]), ({}, None, None))
+
+    def test_it_need_not_be_tried(self):
+        said = run(TAUT, "plan", APART, "--out", self.path("out"), "--no-path", "0")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("NO PATH FOUND", said.stdout)
+
+    def test_an_open_map_says_where(self):
+        """Too short a time for a map: what is open is said."""
+        said = run(TAUT, "plan", APART, "--out", self.path("out"), "--no-path", "0.000001")
+        self.assertEqual(said.returncode, 2)
+        words = " ".join(said.stdout.split())
+        self.assertIn("did not show whether a path exists from waypoint 0 of the query to 1", words)
+        self.assertRegex(words, r"the middle one at phi = \S+ rad \(± \S+ rad\), theta = ")
+
+    def test_map_writes_the_certificate(self):
+        said = run(TAUT, "map", APART, "--undecided", "3%", "--out", self.path("map"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("map"))), ["certificate.json", "map.svg"])
+        checked = run(CHECK, self.path("map", "certificate.json"), APART, "--expect", "no path")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        self.assertEqual(run(TAUT, "map", ROBOT1, "--undecided", "5%", "--out", self.path("joined")).returncode, 0)
+        self.assertEqual(os.listdir(self.path("joined")), ["map.svg"])
+
+    def test_regress(self):
+        for name in ("robot1-sigma34-apart", "robot1-sigma10-joined"):
+            case = os.path.join(CASES, "maps", name + ".yaml")
+            said = run(TAUT, "regress", case, "--out", self.path(name))
+            self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+
+    # ---- Altered certificates ----------------------------------------------------------------------------------------
+
+    def test_it_is_accepted_as_it_is(self):
+        self.assert_outcome(self.certificate, "accepted")
+        self.assert_outcome(sealed(copy.deepcopy(self.certificate)), "accepted", APART)
+
+    def test_reasons(self):
+        tree = self.certificate["map"]["tree"]
+        walls = [n for n, c in enumerate(tree) if c.isalpha()]
+        self.assertGreater(len(walls), 300)
+        for node in walls[::len(walls) // 12]:
+            for what in self.other_sides(tree[node]):
+                self.assert_outcome(self.with_tree(tree[:node] + what + tree[node + 1:]), "rejected")
+
+    @staticmethod
+    def other_sides(letter):
+        """The same cable beyond its other limit, and a length in place of a tension: both false."""
+        n = LETTERS.index(letter)
+        return {LETTERS[n ^ 1], LETTERS[n % 12]} - {letter}
+
+    def test_cells_without_their_reasons(self):
+        """Any run of the wall that is left out lets the flood through."""
+        tree = self.certificate["map"]["tree"]
+        walls = [n for n, c in enumerate(tree) if c.isalpha()]
+        run_length = 12
+        for begin in range(0, len(walls) - run_length, len(walls) // 10):
+            dropped = set(walls[begin:begin + run_length])
+            self.assert_outcome(self.with_tree("".join("." if n in dropped else c for n, c in enumerate(tree))),
+                                "rejected")
+        self.assert_outcome(self.with_tree("."), "rejected")
+
+    def test_all_is_said_to_be_outside(self):
+        for letter in "Aam":
+            self.assert_outcome(self.with_tree(letter), "rejected")
+        open_too = self.certificate["map"]["tree"].replace(".", "a")
+        self.assert_outcome(self.with_tree(open_too), "rejected")
+
+    def test_nodes(self):
+        tree = self.certificate["map"]["tree"]
+        inner = [n for n, c in enumerate(tree) if c in "01" and subtree(tree, n) - n > 60]
+        for node in inner[::max(1, len(inner) // 6)]:
+            flipped = "1" if tree[node] == "0" else "0"
+            self.assert_outcome(self.with_tree(tree[:node] + flipped + tree[node + 1:]), "rejected")
+            middle, end = subtree(tree, node + 1), subtree(tree, node)
+            swapped = tree[:node + 1] + tree[middle:end] + tree[node + 1:middle] + tree[end:]
+            self.assert_outcome(self.with_tree(swapped), "rejected")
+
+    def test_trees_that_are_none(self):
+        tree = self.certificate["map"]["tree"]
+        for text in ("", tree[:-1], tree + ".", tree.replace(".", "y", 1), "2" + tree + ".", tree.replace(".", " ", 1)):
+            self.assert_outcome(self.with_tree(text), "malformed")
+
+    def changed(self, change):
+        mutant = copy.deepcopy(self.certificate)
+        change(mutant)
+        return sealed(mutant)
+
+    def test_the_problem(self):
+        """What was proved of one problem does not hold of others; and with the case, no other is accepted."""
+        def waypoint(n, *to):
+            return lambda c: c["problem"]["query"]["waypoints"].__setitem__(n, list(to))
+        goal = self.certificate["problem"]["query"]["waypoints"][1]
+
+        def loosened(c):
+            c["problem"]["robot"]["tension_N"] = [["0.0001", "5"]] * 6
+
+        def calm(c):
+            c["problem"]["load"]["wrench"] = ["0", "0", "0.5", "0", "0", "0"]
+
+        def turned(c):
+            c["problem"]["space"]["pose"]["sigma"] = "(10)*pi/180"
+
+        def no_flip(c):
+            c["problem"]["space"]["flip"] = None
+        for change in (waypoint(0, *goal), waypoint(1, "-2.3", "1.6"), loosened, calm, turned, no_flip):
+            mutant = self.changed(change)
+            self.assert_outcome(mutant, "rejected")
+            self.assertIn("another problem", self.assert_outcome(mutant, "rejected", APART).stdout)
+
+    def test_periodicity(self):
+        """Without its period phi is a range with walls: another problem, whose wall at the ends nothing proves."""
+        def walled(c):
+            c["problem"]["space"]["flip"] = None
+            c["problem"]["space"]["parameters"] = [
+                {"name": "phi", "kind": "range", "range": ["-pi", "pi"]},
+                {"name": "theta", "kind": "range", "range": ["0", "pi"]}]
+        self.assertIn("another problem", self.assert_outcome(self.changed(walled), "rejected", APART).stdout)
+
+        def narrowed(c):
+            walled(c)
+            c["problem"]["space"]["parameters"][0]["range"] = ["-3", "3"]
+        self.assert_outcome(self.changed(narrowed), "rejected")
+
+        def unbounded(c):
+            c["problem"]["space"]["flip"] = None
+            c["problem"]["space"]["pose"]["px"] = "phi/10"
+            c["problem"]["space"]["parameters"][0]["kind"] = "real"
+        self.assert_outcome(self.changed(unbounded), "malformed")
+
+    def test_form(self):
+        def put(*path):
+            *keys, last, value = path
+
+            def change(c):
+                for key in keys:
+                    c = c[key]
+                c[last] = value
+            return change
+        for change in (put("version", 2), put("verdict", "proved"), put("claim", "No path exists."),
+                       put("waypoints", [1, 2]), put("waypoints", [0, 0]), put("waypoints", [0]),
+                       put("map", "bits", 31), put("map", "bits", 4097), put("map", "extra", 1), put("extra", 1),
+                       put("format", "taut-certificate"), put("problem", "query", "waypoints", []),
+                       put("problem", "space", "constraints", ["phi"])):
+            self.assert_outcome(self.changed(change), "malformed")
+        altered = copy.deepcopy(self.certificate)
+        altered["map"]["tree"] = altered["map"]["tree"].replace("a", "c", 1)
+        self.assertIn("altered", self.assert_outcome(altered, "malformed").stderr)
+        cut = copy.deepcopy(self.certificate)
+        cut["footer"]["nodes"] += 1
+        self.assert_outcome(cut, "malformed")
+
+    def test_what_was_asked_for(self):
+        self.assert_outcome(self.certificate, "rejected", "--expect", "proved")
+        self.assert_outcome(self.certificate, "rejected", ROBOT1)
+        self.assert_outcome(self.certificate, "unchecked", "--max-seconds", "0")
+        path = self.write("path.csv", "phi,theta\n0,1\n1,1\n")
+        self.assert_outcome(self.certificate, "rejected", APART, "--path", path)
+
+
+if __name__ == "__main__":
+    main()
