@@ -85,7 +85,7 @@ void for_each_mark(const CaseMap& made, const Add& add) {
 }
 
 std::string picture(const CaseMap& made, const std::vector<std::vector<std::array<double, 2>>>& path) {
-  constexpr double kEnclosure = 1.0 / 4096;  // of det J = 0: a quarter of a pixel
+  constexpr double kEnclosure = 1.0 / 2048;  // of det J = 0: half a pixel
   constexpr double kBoth = 1.0 / 512;
   const MapResult& result = made.result();
   MapOverlay overlay;
