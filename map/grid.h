@@ -10,7 +10,8 @@
 
 namespace taut {
 
-/// What is proved of all poses of a closed box; the numbers are those of files and stay. `start` is where one goes from.
+/// What is proved of all poses of a closed box; the numbers are those of files and stay. The start is where one goes
+/// from.
 enum class GridValue : std::uint8_t {
   kOpen = 0,          ///< nothing
   kInside = 1,        ///< feasible; whether they are reached from the start is open, or there is no start
@@ -24,8 +25,9 @@ enum class GridValue : std::uint8_t {
 using GridSize = std::array<std::uint32_t, kMaxMapAxes>;
 inline constexpr std::uint32_t kMaxGridSize = std::uint32_t{1} << 20;
 
-/// Box (i, j, l) is the product of [i/n, (i+1)/n] and so on in t; its value is at (i · size[1] + j) · size[2] + l. A box
-/// that has parts of several kinds is of the kind that is true of all of them. @pre 1 <= size[k] <= kMaxGridSize
+/// Box (i, j, l) is the product of [i/n, (i+1)/n] and so on in t; its value is at (i · size[1] + j) · size[2] + l. A
+/// box that has parts of several kinds is of the kind that is true of all of them.
+/// @pre 1 <= size[k] <= kMaxGridSize
 [[nodiscard]] std::vector<GridValue> grid_of(const CellMap& map, const std::optional<MapRegion>& region,
                                              const GridSize& size);
 

@@ -111,7 +111,7 @@ class Outline {
     edges_.push_back({is_rising ? lower : upper, is_rising ? upper : lower, direction, side.cell});
   }
 
-  // ---- Rings ---------------------------------------------------------------------------------------------------------
+  // ---- Rings -------------------------------------------------------------------------------------------------------
 
   /// The edge that goes on: where two begin, the one on the left, which stays with the cell.
   [[nodiscard]] std::size_t next(const Edge& edge) const {

@@ -17,8 +17,8 @@ struct SliceMark {
 };
 
 /// An HTML page that needs nothing else: two coordinates as a picture, a slider for the third. The slider is moved by
-/// keys, too, and any coordinate may be the third. Cells so fine that the page would have more than about 2 MB are shown
-/// together as undecided, and the page says so. @pre the map has three axes
+/// keys, too, and any coordinate may be the third. Cells so fine that the page would have more than about 2 MB are
+/// shown together as undecided, and the page says so. @pre the map has three axes
 [[nodiscard]] std::string slices_page(const MapResult& result, const std::vector<SliceMark>& marks);
 
 }  // namespace taut
