@@ -91,6 +91,7 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
                      "theta: 0.3' (default: 0)");
   command.add_option("--out", arguments.out,
                      "folder to write a picture to: map.svg of two coordinates, map.html of three");
+  command.add_flag("--png", arguments.png, "draw map.png beside map.svg, by an installed Chromium; only with --out");
   command.add_option("--path", arguments.path, "path to draw there, such as path.csv; only with --out");
   command.add_option("--polygons", arguments.polygons, "file to write polygons to, as GeoJSON; two coordinates only");
   command.add_option("--grid", arguments.grid,
@@ -120,15 +121,16 @@ int run_map(const MapArguments& arguments) {
   if (made.result().map.end == CellMap::End::kStopped) {
     return report_interruption("map", "interrupted", arguments.json);
   }
-  const std::vector<std::filesystem::path> written = files.write(made);
+  const auto written = files.write(made, interruption.token());
+  if (!written) return report_interruption("map", "interrupted", arguments.json);
   if (arguments.json) {
     nlohmann::json document = to_json(the_case, made);
     document["load"] = to_json(load_statement(the_case));
-    add_ending(document, stopwatch, kProvedExit, written);
+    add_ending(document, stopwatch, kProvedExit, *written);
     print_json(document);
   } else {
     print(the_case, made);
-    for (const std::filesystem::path& file : written) fmt::print("Written: {}\n", sanitize(file.string()));
+    for (const std::filesystem::path& file : *written) fmt::print("Written: {}\n", sanitize(file.string()));
   }
   return kProvedExit;
 }

@@ -17,6 +17,7 @@ struct MapArguments {
   std::size_t most_cells = 20'000'000;
   std::string from;       ///< a waypoint's number, or coordinates; empty: the query's first
   std::string out;        ///< folder for map.svg or map.html, or empty
+  bool png = false;       ///< map.png beside map.svg
   std::string path;       ///< of the file of a path that is drawn
   std::string polygons;   ///< file, or empty
   std::string grid;       ///< file.npy, or empty

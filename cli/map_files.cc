@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/input_error.h"
 #include "base/sanitize.h"
+#include "cli/browser.h"
 #include "cli/map_path.h"
 #include "map/both_limits.h"
 #include "map/singular.h"
@@ -115,6 +116,10 @@ MapFiles::MapFiles(const MapArguments& arguments, const MappedCase& mapped) : ar
     require_another(arguments.polygons, arguments.case_path);
     require_writable(arguments.polygons);
   }
+  if (arguments.png) {
+    require_two("--png", space, "the picture is flat");
+    if (arguments.out.empty()) throw InputError(ErrorCode::kUse, "--png: got no --out, expected a folder to draw in");
+  }
   if (!arguments.path.empty()) {
     require_two("--path", space, "it is drawn in a flat picture");
     if (arguments.out.empty()) throw InputError(ErrorCode::kUse, "--path: got no --out, expected a folder to draw in");
@@ -139,14 +144,20 @@ MapFiles::MapFiles(const MapArguments& arguments, const MappedCase& mapped) : ar
   grid_size_ = read_grid_size(arguments.grid_size, space.size());
 }
 
-std::vector<std::filesystem::path> MapFiles::write(const CaseMap& made) const {
+std::optional<std::vector<std::filesystem::path>> MapFiles::write(const CaseMap& made,
+                                                                  const std::stop_token& stop) const {
   const MapResult& result = made.result();
   std::vector<FileContent> files;
   if (!arguments_.out.empty()) {
-    make_directories(arguments_.out);
     const std::filesystem::path folder = arguments_.out;
     if (result.axes.size() == 2) {
       files.push_back({folder / "map.svg", picture(made, path_)});
+      if (arguments_.png) {
+        const auto [width, height] = map_picture_size(result);
+        std::optional<std::string> png = draw_as_png(files.back().content, width, height, stop);
+        if (!png) return std::nullopt;
+        files.push_back({folder / "map.png", std::move(*png)});
+      }
     } else {
       files.push_back({folder / "map.html", slices(made)});
     }
@@ -158,6 +169,7 @@ std::vector<std::filesystem::path> MapFiles::write(const CaseMap& made) const {
     files.push_back({array, grid_npy(values, grid_size_, result.axes.size())});
     files.push_back({arguments_.grid + ".json", grid_meaning(result, values, grid_size_, array.filename().string())});
   }
+  if (!arguments_.out.empty()) make_directories(arguments_.out);
   write_whole(files);
   std::vector<std::filesystem::path> paths;
   for (const FileContent& file : files) paths.push_back(file.path);

@@ -2,7 +2,10 @@
 // The files that `taut map` writes.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "cli/case_map.h"
@@ -17,8 +20,10 @@ class MapFiles {
   /// Checks all that can be checked before the map is made. @throws InputError
   MapFiles(const MapArguments& arguments, const MappedCase& mapped);
 
-  /// Writes all of them, or none. @returns their paths. @throws InputError
-  [[nodiscard]] std::vector<std::filesystem::path> write(const CaseMap& made) const;
+  /// Writes all of them, or none. @returns their paths; nothing where `stop` asked to stop.
+  /// @throws InputError; BrowserFailed
+  [[nodiscard]] std::optional<std::vector<std::filesystem::path>> write(const CaseMap& made,
+                                                                        const std::stop_token& stop) const;
 
  private:
   const MapArguments& arguments_;

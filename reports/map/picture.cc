@@ -51,14 +51,19 @@ constexpr const char* kPatterns = R"(<defs>
 /// Lengths in pixels need no more than hundredths.
 std::string pixels(double x) { return fmt::format("{:.6g}", std::round(100 * x) / 100); }
 
+/// Of the plot, along both axes.
+std::array<double, 2> scale_of(const MapResult& result) {
+  const double x = result.axes[0].upper - result.axes[0].lower;
+  const double y = result.axes[1].upper - result.axes[1].lower;
+  const double ratio = std::clamp(y / x, 0.3, 1.2);  // of unlike units, whatever fits a page
+  return {kWidth - kLeft - kRight, (kWidth - kLeft - kRight) * ratio};
+}
+double height_of(const MapResult& result) { return std::ceil(kTop + scale_of(result)[1] + kBottom); }
+
 class Drawing {
  public:
-  Drawing(const MapResult& result, const MapOverlay& overlay) : result_(result), overlay_(overlay) {
-    const double x = result.axes[0].upper - result.axes[0].lower;
-    const double y = result.axes[1].upper - result.axes[1].lower;
-    const double ratio = std::clamp(y / x, 0.3, 1.2);  // of unlike units, whatever fits a page
-    scale_ = {kWidth - kLeft - kRight, (kWidth - kLeft - kRight) * ratio};
-    height_ = kTop + scale_[1] + kBottom;
+  Drawing(const MapResult& result, const MapOverlay& overlay)
+      : result_(result), overlay_(overlay), scale_(scale_of(result)), height_(height_of(result)) {
     gather(Cell(), 0);
     for (const Cell& cell : overlay.both) cells_[kBothLook].push_back(cell);
   }
@@ -198,13 +203,17 @@ class Drawing {
 
   const MapResult& result_;
   const MapOverlay& overlay_;
-  std::array<double, 2> scale_{};
-  double height_ = 0;
+  std::array<double, 2> scale_;
+  double height_;
   std::array<std::vector<Cell>, kLooks> cells_;
   std::vector<Cell> cut_off_;  ///< inside
 };
 
 }  // namespace
+
+std::array<int, 2> map_picture_size(const MapResult& result) {
+  return {static_cast<int>(kWidth), static_cast<int>(height_of(result))};
+}
 
 std::string map_svg(const MapResult& result, const MapOverlay& overlay) { return Drawing(result, overlay).draw(); }
 

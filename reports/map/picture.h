@@ -28,5 +28,7 @@ struct MapOverlay {
 /// edges. Cells finer than a tenth of a pixel are drawn with what is around them, as undecided. @pre the map has two
 /// axes
 [[nodiscard]] std::string map_svg(const MapResult& result, const MapOverlay& overlay);
+/// Its width and height [px].
+[[nodiscard]] std::array<int, 2> map_picture_size(const MapResult& result);
 
 }  // namespace taut

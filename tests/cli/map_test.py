@@ -229,10 +229,25 @@ class Map(InFolder):
         self.assertIn("whose rows are poses or cable lengths, expected a file of the case's own", said.stderr)
         self.assertFalse(os.path.exists(self.path("other")))
 
+    def test_a_png_is_the_svg_with_two_dots_a_pixel(self):
+        found = self.found(ROBOT1, "--undecided", "5%", "--out", self.path("map"), "--png")
+        self.assertEqual(found["files"], [self.path("map", "map.svg"), self.path("map", "map.png")])
+        with open(self.path("map", "map.png"), "rb") as file:
+            png = file.read()
+        self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+        picture = xml.fromstring(text_of(self.path("map", "map.svg")))
+        size = [int.from_bytes(png[at:at + 4], "big") for at in (16, 20)]
+        self.assertEqual(size, [2 * int(picture.get("width")), 2 * int(picture.get("height"))])
+        said = run(TAUT, "map", ROBOT1, "--undecided", "5%", "--out", self.path("none"), "--png",
+                   env={**os.environ, "TAUT_BROWSER": "/no/such/browser"})
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("--png: found no browser", said.stderr)
+        self.assertFalse(os.path.exists(self.path("none")))
+
     def test_files_that_are_refused(self):
         for arguments, expected in ((["--grid", "g.csv"], "expected a name that ends in .npy"),
                                     (["--grid-size", "4"], "got no --grid"),
-                                    (["--path", "path.csv"], "got no --out"),
+                                    (["--path", "path.csv"], "got no --out"), (["--png"], "got no --out"),
                                     (["--grid", "g.npy", "--polygons", "g.npy.json"], "expected another file"),
                                     (["--polygons", ROBOT1], "cases"),
                                     *((["--grid", "g.npy", "--grid-size", size], "--grid-size: got")
