@@ -24,6 +24,7 @@
 #include "case/decoration_fields.h"
 #include "case/fields.h"
 #include "case/load.h"
+#include "case/waypoint.h"
 #include "problem/decimal.h"
 #include "problem/expression.h"
 #include "problem/units.h"
@@ -330,27 +331,30 @@ Space read_space(const Field& field, const Units& units) {
   return space;
 }
 
-std::vector<std::vector<ExpressionText>> read_query(const Field& field, const Space& space) {
+/// A value for each of the space's parameters.
+std::vector<ExpressionText> read_waypoint(const Field& field, const Space& space) {
   std::vector<std::string> names;
   for (const Parameter& parameter : space.text.parameters) names.push_back(parameter.name);
-  std::vector<std::vector<ExpressionText>> waypoints;
-  const std::string expected = "a list of at least two waypoints";
   const std::vector<std::string> coordinates = pose_names(space.text.angles.kind);
   const auto hint = [&](const std::string& key) -> std::string {  // where parameters are coordinates of the pose
     const bool are_coordinates = std::ranges::all_of(
         names, [&](const std::string& name) { return std::ranges::find(coordinates, name) != coordinates.end(); });
     return are_coordinates ? angles_hint(key, space.text.angles.kind) : "";
   };
-  const Map map = field.map({"waypoints"});
-  const std::vector<Field> items = map.at("waypoints").list(expected);
-  if (items.empty()) map.at("waypoints").fail(expected);
-  for (const Field& item : items) {
-    const Map waypoint = item.map(names, [&](const std::string& key) { return hint(key); });
-    std::vector<ExpressionText>& values = waypoints.emplace_back();
-    for (std::size_t j = 0; j < names.size(); ++j) {
-      values.push_back(read_expression(waypoint.at(names[j]), space.units[j], {}));
-    }
+  const Map waypoint = field.map(names, hint);
+  std::vector<ExpressionText> values;
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    values.push_back(read_expression(waypoint.at(names[j]), space.units[j], {}));
   }
+  return values;
+}
+
+std::vector<std::vector<ExpressionText>> read_query(const Field& field, const Space& space) {
+  const Map map = field.map({"waypoints"});
+  const std::vector<Field> items = map.at("waypoints").list("a list of at least two waypoints");
+  if (items.empty()) map.at("waypoints").fail("a list of at least two waypoints");
+  std::vector<std::vector<ExpressionText>> waypoints;
+  for (const Field& item : items) waypoints.push_back(read_waypoint(item, space));
   return waypoints;
 }
 
@@ -509,7 +513,9 @@ DocumentFields read_document_fields(const Map& map) {
 }
 
 /// @param folder  of the file: names of files in it are relative to this
-Case read_case(const Field& root, const std::filesystem::path& folder) {
+/// @param typed   a further waypoint, which is read where the space is known
+Case read_case(const Field& root, const std::filesystem::path& folder,
+               const std::function<void(const Space&)>& typed) {
   const Map map = root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot",
                             "load", "tolerances", "space", "query", "planner", "audit", "decoration", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
@@ -535,6 +541,9 @@ Case read_case(const Field& root, const std::filesystem::path& folder) {
     const Space space = read_space(map.at("space"), units);
     result.problem.space = space.text;
     if (query) result.problem.query = read_query(*query, space);
+    if (typed) typed(space);
+  } else if (typed) {
+    (void)map.at("space");  // says that there is none
   }
   if (const auto planner = map.find("planner")) result.planner = read_planner(*planner, units);
   if (const auto audit = map.find("audit")) result.audit = read_audited_path(*audit);
@@ -619,14 +628,16 @@ double arm_of(const RobotText& robot) {
   return sum > 0 ? sum / kCables : 1;
 }
 
-Case parse(const std::string& text, const std::string& name, const CaseCheck& check) {
+Case parse(const std::string& text, const std::string& name, const CaseCheck& check,
+           const std::function<void(const Space&)>& typed = {}) {
   Places places(name);
   if (text.size() > kMaxFileBytes) {
     throw InputError(fmt::format("{}: got more than {} bytes, expected a case file", name, kMaxFileBytes), {name});
   }
   require_utf8(text, places);
   try {
-    Case result = read_case(Field(places, only_document(text, name), ""), std::filesystem::path(name).parent_path());
+    Case result =
+        read_case(Field(places, only_document(text, name), ""), std::filesystem::path(name).parent_path(), typed);
     validate(result.problem);
     if (result.items_in_ellipsoid) {
       result.problem.load = ellipsoid_around_items(*result.items_in_ellipsoid, arm_of(result.problem.robot));
@@ -643,7 +654,22 @@ Case parse(const std::string& text, const std::string& name, const CaseCheck& ch
   }
 }
 
-Case load(const std::string& path, const CaseCheck& check) {
+/// A waypoint as `{phi: 1, theta: 2}`, or without the braces.
+std::vector<ExpressionText> read_typed_waypoint(const std::string& text, const std::string& name, const Space& space) {
+  Places places(name);
+  require_utf8(text, places);
+  try {
+    const bool has_braces =
+        text.find_first_not_of(' ') != std::string::npos && text[text.find_first_not_of(' ')] == '{';
+    return read_waypoint(Field(places, only_document(has_braces ? text : "{" + text + "}", name), ""), space);
+  } catch (const YAML::Exception& error) {
+    throw InputError(
+        fmt::format("{}: got '{}', expected a waypoint such as 'phi: 10 deg, theta: 0.3'", name, excerpt(text)),
+        {name});
+  }
+}
+
+Case load(const std::string& path, const CaseCheck& check, const std::function<void(const Space&)>& typed = {}) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxFileBytes + 1, '\0');
@@ -652,7 +678,7 @@ Case load(const std::string& path, const CaseCheck& check) {
     throw InputError(ErrorCode::kFile, fmt::format("{}: could not read: {}", path, reason), {path});
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse(text, path, check);
+  return parse(text, path, check, typed);
 }
 
 }  // namespace
@@ -663,6 +689,23 @@ Case parse_case(const std::string& text, const std::string& name, const CaseChec
 
 Case load_case(const std::string& path, const CaseCheck& check) {
   return with_error_code(ErrorCode::kCase, [&] { return load(path, check); });
+}
+
+Case load_case_and_waypoint(const std::string& path, const std::string& text, const std::string& name,
+                            TypedWaypoint& waypoint, const CaseCheck& check) {
+  const auto read = [&](const Space& space) { waypoint = read_typed_waypoint(text, name, space); };
+  const auto check_both = [&](const Case& the_case) {
+    Problem from_there = the_case.problem;
+    from_there.query = {waypoint, waypoint};
+    try {
+      validate(from_there);
+    } catch (const FieldError& error) {
+      const std::string coordinate = error.field().substr(error.field().rfind('.') + 1);
+      throw InputError(fmt::format("{}: {}: got {}, {}", name, coordinate, error.seen(), error.expected()), {name});
+    }
+    if (check) check(the_case);
+  };
+  return with_error_code(ErrorCode::kCase, [&] { return load(path, check_both, read); });
 }
 
 }  // namespace taut

@@ -84,7 +84,7 @@ void check_browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"}) {
     if (const auto found = in_path(name)) return line(true, "browser", *found);
   }
-  line(false, "browser", "no Chromium: taut report --pdf needs one (Debian's package chromium)");
+  line(false, "browser", "no Chromium: taut report --pdf and taut map --png need one (Debian's package chromium)");
 }
 
 void check_temporary() {

@@ -15,7 +15,13 @@ struct MapArguments {
   double least_width = 0.0005;
   double seconds = std::numeric_limits<double>::infinity();
   std::size_t most_cells = 20'000'000;
-  std::string out;  ///< folder for map.svg, or empty
+  std::string from;       ///< a waypoint's number, or coordinates; empty: the query's first
+  std::string out;        ///< folder for map.svg or map.html, or empty
+  bool png = false;       ///< map.png beside map.svg
+  std::string path;       ///< of the file of a path that is drawn
+  std::string polygons;   ///< file, or empty
+  std::string grid;       ///< file.npy, or empty
+  std::string grid_size;  ///< "1024" or "720,360"; empty: 1024 of two coordinates, 128 of three
   bool json = false;
 };
 

@@ -2,18 +2,16 @@
 // What `taut map` writes where waypoints are apart.
 #pragma once
 
-#include <filesystem>
+#include <optional>
 #include <stop_token>
-#include <vector>
+#include <string>
 
 #include "case/case_file.h"
 
 namespace taut {
 
-/// Writes certificate.json into a folder, the certificate that no path exists from the first waypoint of the query that
-/// is apart from the next, once the checker has proved it. @returns the files written: none where that is not proved
-/// within the budget of `taut plan`. @throws InputError where it can't be written.
-[[nodiscard]] std::vector<std::filesystem::path> write_no_path(const Case& the_case, const std::filesystem::path& out,
-                                                               const std::stop_token& stop);
+/// The certificate that no path exists from the first waypoint of the query that is apart from the next, once the
+/// checker has proved it; nothing where that is not proved within the budget of `taut plan`.
+[[nodiscard]] std::optional<std::string> no_path_certificate(const Case& the_case, const std::stop_token& stop);
 
 }  // namespace taut

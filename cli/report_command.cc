@@ -13,9 +13,9 @@
 #include "base/sanitize.h"
 #include "certificate/certificate_reader.h"
 #include "certify/arithmetic/rounding.h"
+#include "cli/browser.h"
 #include "cli/console.h"
 #include "cli/output.h"
-#include "cli/pdf.h"
 #include "cli/verdict_output.h"
 
 namespace taut {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "certify/arithmetic/mp_interval.h"
+#include "map/disjoint_sets.h"
 #include "problem/expression.h"
 
 namespace taut {
@@ -208,27 +208,9 @@ class Neighbourhood {
   std::vector<std::uint32_t>& found_;
 };
 
-/// Disjoint sets of nodes.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);  // the result does not depend on the order
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// Numbers the components of the leaves that `is_member` names, the largest first.
 template <class IsMember>
-std::vector<MapComponent> number(const CellMap& map, Sets& sets, const IsMember& is_member,
+std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const IsMember& is_member,
                                  std::vector<std::uint32_t>& component_of) {
   std::vector<MapComponent> by_root(map.nodes.size());
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
@@ -258,7 +240,7 @@ std::vector<MapComponent> number(const CellMap& map, Sets& sets, const IsMember&
 }  // namespace
 
 MapTopology::MapTopology(const CellMap& map) : map_(map) {
-  Sets inside(map.nodes.size()), possible(map.nodes.size());
+  DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
     const CellKind kind = map.nodes[node].kind;
     if (is_outside(kind)) return;

@@ -211,11 +211,12 @@ Explanation explained(ErrorCode code) {
                    "taut: key.pem: got a private key of type RSA, expected an unencrypted Ed25519 private key in PEM "
                    "(openssl genpkey -algorithm ed25519) [E7]");
     case ErrorCode::kBrowser:
-      return entry("There is no browser to print with",
-                   "taut report --pdf prints the page with an installed Chromium, and found none.",
-                   "None is installed, or TAUT_BROWSER names a program that does not exist.",
-                   "Install Debian's package chromium, set TAUT_BROWSER, or print report.html from any browser.",
-                   "taut: --pdf: found no browser (chromium, …), expected Chromium: … [E8]");
+      return entry(
+          "There is no browser to print with",
+          "taut report --pdf and taut map --png draw with an installed Chromium, and found none.",
+          "None is installed, or TAUT_BROWSER names a program that does not exist.",
+          "Install Debian's package chromium, set TAUT_BROWSER, or open report.html or map.svg in any browser.",
+          "taut: --pdf: found no browser (chromium, …), expected Chromium: … [E8]");
     case ErrorCode::kRegress:
       return entry(
           "The folder of cases can't be used", "There are no cases in it, or the baseline file is not a baseline.",

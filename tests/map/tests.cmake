@@ -4,3 +4,7 @@ taut_add_test(map cell_proof LABELS unit LIBS taut::case taut::map fmt::fmt COST
 taut_add_test(map subdivision LABELS unit LIBS taut::case taut::map TBB::tbb)
 taut_add_test(map no_path LABELS unit LIBS taut::case taut::map taut::certificate fmt::fmt COST 20)
 taut_add_test(map topology LABELS unit LIBS taut::case taut::map)
+taut_add_test(map outline LABELS unit LIBS taut::case taut::map)
+taut_add_test(map region LABELS unit LIBS taut::case taut::map)
+taut_add_test(map singular LABELS unit LIBS taut::case taut::map)
+taut_add_test(map raster LABELS slow LIBS taut::case taut::map TBB::tbb TIMEOUT 1800)

@@ -12,11 +12,11 @@
 
 #include "kinematics/geometry.h"
 #include "tests/map/problems.h"
+#include "tests/map/random_map.h"
 
 namespace taut::testing {
 namespace {
 
-using Random = std::mt19937_64;
 constexpr double kPi = 3.14159265358979323846;
 
 MapSpace space_of(bool flip, bool sigma) {
@@ -32,34 +32,6 @@ MapSpace walled() {
   space.axes[1] = {"theta", MapAxis::Kind::kRange, "0.1", "1.2"};
   space.flip.reset();
   return space;
-}
-
-/// A random tree of at most kDepth halvings of each axis, with random verdicts.
-constexpr int kDepth = 3;
-CellMap random_map(Random& random, const MapSpace& space, double inside, double outside) {
-  CellMap map;
-  map.space = space;
-  map.nodes.emplace_back();
-  std::vector<std::pair<Cell, std::uint32_t>> open = {{Cell(), 0}};
-  while (!open.empty()) {
-    const auto [cell, node] = open.back();
-    open.pop_back();
-    const std::size_t axis = random() % space.size();
-    if (cell.depth[axis] == kDepth || random() % 5 == 0) {
-      const double draw = std::uniform_real_distribution<double>(0, 1)(random);
-      map.nodes[node].kind = draw < inside             ? CellKind::kInside
-                             : draw < inside + outside ? CellKind::kTension
-                                                       : CellKind::kUndecided;
-      continue;
-    }
-    map.nodes[node].axis = static_cast<std::uint8_t>(axis);
-    map.nodes[node].child = static_cast<std::uint32_t>(map.nodes.size());
-    for (unsigned side = 0; side < 2; ++side) {
-      open.emplace_back(cell.half(axis, side), static_cast<std::uint32_t>(map.nodes.size()));
-      map.nodes.emplace_back();
-    }
-  }
-  return map;
 }
 
 using Point = std::array<int, 3>;  // in units of 2^-kDepth

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page as PDF, printed by a Chromium that the user has: it knows the page's style sheet and script as no library
-// does.
+// Pages as PDF and pictures as PNG, by a Chromium that the user has: it knows a page's style sheet and script as no
+// library does.
 #pragma once
 
 #include <filesystem>
@@ -22,5 +22,11 @@ class BrowserFailed : public std::runtime_error {
 /// @returns the PDF's bytes, whole; nothing where `stop` asked to stop.
 /// @throws InputError where there is no browser; BrowserFailed where it fails or takes too long.
 [[nodiscard]] std::optional<std::string> print_to_pdf(const std::string& page, const std::stop_token& stop);
+
+/// Draws an SVG picture of this size [px] as PNG, with two dots a pixel, in the same way.
+/// @returns the PNG's bytes, whole; nothing where `stop` asked to stop.
+/// @throws InputError where there is no browser; BrowserFailed where it fails or takes too long.
+[[nodiscard]] std::optional<std::string> draw_as_png(const std::string& svg, int width, int height,
+                                                     const std::stop_token& stop);
 
 }  // namespace taut

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/pdf.h"
+#include "cli/browser.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -78,15 +78,42 @@ bool is_whole_pdf(const std::string& bytes) {
          bytes.find("%%EOF", bytes.size() - std::min(bytes.size(), kTail)) != std::string::npos;
 }
 
-}  // namespace
+bool is_whole_png(const std::string& bytes) {
+  using namespace std::string_literals;
+  return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.ends_with("\0\0\0\0IEND\xae\x42\x60\x82"s);
+}
 
-std::optional<std::string> print_to_pdf(const std::string& page, const std::stop_token& stop) {
+/// Something that a browser makes of a page.
+struct Product {
+  const char* option;     ///< of taut, which messages name
+  const char* kind;       ///< "PDF"
+  const char* file;       ///< in the scratch directory
+  const char* otherwise;  ///< what to do where there is no browser
+  bool (*is_whole)(const std::string& bytes);
+};
+
+std::string found_browser(const Product& product) {
+  const std::vector<std::string> candidates = browsers();
+  const auto browser = std::ranges::find_if(candidates, can_be_found);
+  if (browser != candidates.end()) return *browser;
+  throw InputError(
+      ErrorCode::kBrowser,
+      fmt::format("{}: found no browser ({}), expected Chromium: install Debian's package chromium, or set "
+                  "TAUT_BROWSER to a Chromium or Chrome; or {}",
+                  product.option, fmt::join(candidates, ", "), product.otherwise));
+}
+
+/// What the browser makes of a page with these further options, the last of which says where to write it.
+std::optional<std::string> made_by_browser(const Product& product, const std::string& page,
+                                           const std::vector<std::string>& further, const char* write,
+                                           const std::stop_token& stop) {
   constexpr double kMostSeconds = 300;
   const ScratchDirectory scratch;
-  const std::filesystem::path html = scratch.path() / "report.html";
-  const std::filesystem::path pdf = scratch.path() / "report.pdf";
+  const std::filesystem::path html = scratch.path() / "page.html";
+  const std::filesystem::path made = scratch.path() / product.file;
   write_whole({{html, page}});
-  std::vector<std::string> options = {"--headless",
+  std::vector<std::string> command = {found_browser(product),
+                                      "--headless",
                                       "--disable-background-networking",
                                       "--disable-component-update",
                                       "--disable-default-apps",
@@ -95,33 +122,42 @@ std::optional<std::string> print_to_pdf(const std::string& page, const std::stop
                                       "--disable-gpu",
                                       "--disable-sync",
                                       "--no-first-run",
-                                      "--no-pdf-header-footer",
                                       "--host-resolver-rules=MAP * ~NOTFOUND",
                                       "--virtual-time-budget=20000",  // [ms]: the page's script draws its plots
-                                      fmt::format("--user-data-dir={}", (scratch.path() / "profile").string()),
-                                      fmt::format("--print-to-pdf={}", pdf.string())};
-  if (::geteuid() == 0) options.emplace_back("--no-sandbox");  // which Chromium refuses to set up for root
-  options.push_back(address(html));
+                                      fmt::format("--user-data-dir={}", (scratch.path() / "profile").string())};
+  command.insert(command.end(), further.begin(), further.end());
+  command.push_back(write + made.string());
+  if (::geteuid() == 0) command.emplace_back("--no-sandbox");  // which Chromium refuses to set up for root
+  command.push_back(address(html));
 
-  const std::vector<std::string> candidates = browsers();
-  const auto browser = std::ranges::find_if(candidates, can_be_found);
-  if (browser == candidates.end()) {
-    throw InputError(
-        ErrorCode::kBrowser,
-        fmt::format("--pdf: found no browser ({}), expected Chromium: install Debian's package chromium, or set "
-                    "TAUT_BROWSER to a Chromium or Chrome; or print report.html from any browser",
-                    fmt::join(candidates, ", ")));
-  }
-  options.insert(options.begin(), *browser);
-  const FinishedProgram finished = run_program(options, stop, kMostSeconds);
-  std::string bytes = std::filesystem::exists(pdf) ? read_whole(pdf) : "";
+  const FinishedProgram finished = run_program(command, stop, kMostSeconds);
+  std::string bytes = std::filesystem::exists(made) ? read_whole(made) : "";
   if (finished.interrupted) return std::nullopt;
-  if (finished.timed_out) throw BrowserFailed(fmt::format("{}: no PDF in {} s", *browser, kMostSeconds));
-  if (finished.exit_code != 0 || !is_whole_pdf(bytes)) {
-    throw BrowserFailed(fmt::format("{}: no PDF: it ended with {}; its last words: {}", *browser, finished.exit_code,
-                                    last_words(finished.out + finished.err)));
+  if (finished.timed_out) throw BrowserFailed(fmt::format("{}: no {} in {} s", command[0], product.kind, kMostSeconds));
+  if (finished.exit_code != 0 || !product.is_whole(bytes)) {
+    throw BrowserFailed(fmt::format("{}: no {}: it ended with {}; its last words: {}", command[0], product.kind,
+                                    finished.exit_code, last_words(finished.out + finished.err)));
   }
   return bytes;
+}
+
+}  // namespace
+
+std::optional<std::string> print_to_pdf(const std::string& page, const std::stop_token& stop) {
+  constexpr Product kPdf = {"--pdf", "PDF", "report.pdf", "print report.html from any browser", is_whole_pdf};
+  return made_by_browser(kPdf, page, {"--no-pdf-header-footer"}, "--print-to-pdf=", stop);
+}
+
+std::optional<std::string> draw_as_png(const std::string& svg, int width, int height, const std::stop_token& stop) {
+  constexpr Product kPng = {"--png", "PNG", "picture.png", "open map.svg in any browser", is_whole_png};
+  const std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>map</title>"
+      "<style>body { margin: 0 } svg { display: block }</style></head><body>" +
+      svg + "</body></html>\n";
+  return made_by_browser(
+      kPng, page,
+      {"--hide-scrollbars", "--force-device-scale-factor=2", fmt::format("--window-size={},{}", width, height)},
+      "--screenshot=", stop);
 }
 
 }  // namespace taut

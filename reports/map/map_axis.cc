@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/map/map_axis.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "problem/expression.h"
+#include "reports/summary/scene.h"
+
+namespace taut {
+
+const char* axis_kind_name(MapAxis::Kind kind) {
+  switch (kind) {
+    case MapAxis::Kind::kRange: return "range";
+    case MapAxis::Kind::kTurn: return "turn";
+    case MapAxis::Kind::kTilt: break;
+  }
+  return "tilt";
+}
+
+std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space, const DisplayUnits& units) {
+  constexpr double kDegrees = 57.295779513082320877;
+  std::vector<ShownAxis> result;
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const MapAxis& axis = space.axes[k];
+    const double lower = evaluate_constant<double>(axis.lower), upper = evaluate_constant<double>(axis.upper);
+    const std::string si = unit(text, k);
+    if (si == "m") {
+      result.push_back({axis.name, units.length.name(), units.length.approx(lower), units.length.approx(upper)});
+    } else if (si == "rad" && units.in_degrees) {
+      result.push_back({axis.name, "deg", kDegrees * lower, kDegrees * upper});
+    } else {
+      result.push_back({axis.name, si, lower, upper});
+    }
+  }
+  return result;
+}
+
+std::string volume_unit(const std::vector<ShownAxis>& axes) {
+  constexpr std::array<const char*, 4> kPowers = {"", "", "²", "³"};
+  std::vector<std::pair<std::string, std::size_t>> times;
+  for (const ShownAxis& axis : axes) {
+    if (axis.unit.empty()) continue;
+    if (times.empty() || times.back().first != axis.unit) times.emplace_back(axis.unit, 0);
+    ++times.back().second;
+  }
+  std::string result;
+  for (const auto& [unit, count] : times) result += (result.empty() ? "" : "·") + unit + kPowers.at(count);
+  return result;
+}
+
+double whole_volume(const std::vector<ShownAxis>& axes) {
+  double result = 1;
+  for (const ShownAxis& axis : axes) result *= axis.upper - axis.lower;
+  return result;
+}
+
+}  // namespace taut

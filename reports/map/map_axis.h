@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The axes of a map as people read them, and what is said of all of its outputs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "map/map_space.h"
+#include "reports/summary/display_units.h"
+
+namespace taut {
+
+/// A coordinate, with the values of its ends in a unit that people read.
+struct ShownAxis {
+  std::string name;
+  std::string unit;  ///< "rad", "deg", "mm"; empty where the case does not tell what the coordinate is
+  double lower = 0, upper = 1;
+
+  /// The value at t, rounded.
+  [[nodiscard]] double at(double t) const { return lower + t * (upper - lower); }
+  [[nodiscard]] std::string title() const { return unit.empty() ? name : name + " [" + unit + "]"; }
+};
+
+/// "range", "turn" or "tilt".
+[[nodiscard]] const char* axis_kind_name(MapAxis::Kind kind);
+
+/// All axes of a map of a problem's space.
+[[nodiscard]] std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space,
+                                                const DisplayUnits& units);
+
+/// The unit of the volume: "rad²", "mm·deg", "" where none has a unit.
+[[nodiscard]] std::string volume_unit(const std::vector<ShownAxis>& axes);
+/// The volume of the whole space in that unit, rounded.
+[[nodiscard]] double whole_volume(const std::vector<ShownAxis>& axes);
+
+}  // namespace taut
