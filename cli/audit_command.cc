@@ -114,7 +114,8 @@ std::string hint(const Audit& audit, const PathSource& source) {
   return reversed_load_hint(source.problem(), source.first_segment());
 }
 
-void print_stretches(const Audit& audit, const Case& the_case, const PathSource& source) {
+void print_stretches(const Audit& audit, const Case& the_case, const PathSource& source,
+                     const checker::CheckResult& checked) {
   if (audit.verdict == Verdict::kProved) {
     print_wrapped(source.problem().tolerances
                       ? "This holds for every deviation within the case's tolerances."
@@ -122,6 +123,9 @@ void print_stretches(const Audit& audit, const Case& the_case, const PathSource&
   }
   if (audit.witness && (audit.witness_is_gravest || is_implied(source))) {
     print_wrapped(witness_text(audit, the_case, source.place_name()));
+  }
+  if (const std::string load = load_that_breaks(the_case.problem.load, checked); !load.empty()) {
+    print_wrapped(load.substr(1));
   }
   if (!audit.stretches.empty()) fmt::print("Not proved:\n");
   const std::size_t shown = std::min(audit.stretches.size(), kShownStretches);
@@ -147,10 +151,7 @@ void print(const Audit& audit, const Case& the_case, const PathSource& source, c
   }
   fmt::print("{}", wrapped(source.remarks(), standard_output().columns));
   if (!is_unchecked) {
-    print_stretches(audit, the_case, source);
-    if (const std::string load = load_that_breaks(the_case.problem.load, checked); !load.empty()) {
-      print_wrapped(load.substr(1));
-    }
+    print_stretches(audit, the_case, source, checked);
     if (const std::string may_be = hint(audit, source); !may_be.empty()) print_wrapped(may_be);
   }
   print_wrapped(fmt::format("Audited {} in {:.3g} s, {:.4g} a second.", plural(audit.segments, "segment"),

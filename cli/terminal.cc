@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 
 #include "base/sanitize.h"
+#include "problem/units.h"
 
 namespace taut {
 namespace {
@@ -30,6 +32,35 @@ std::size_t terminal_columns() {
   return error == std::errc() && end == text.data() + text.size() && columns > 0 ? columns : kUsualColumns;
 }
 
+/// "0.5", "(-4", "−1e-3)": what a unit may stand behind.
+bool is_number(std::string_view word) {
+  for (const std::string_view sign : {"(", "±", "+", "-", "−"}) {
+    if (word.starts_with(sign)) word.remove_prefix(sign.size());
+  }
+  while (!word.empty() && word.back() == ')') word.remove_suffix(1);
+  return !word.empty() && std::isdigit(static_cast<unsigned char>(word.front())) != 0 &&
+         std::isdigit(static_cast<unsigned char>(word.back())) != 0;
+}
+
+/// "N", "kN·m,", "%.": with what punctuation may follow.
+bool is_unit(std::string_view word) {
+  const std::size_t last = word.find_last_not_of(".,:;)");
+  std::string name(word.substr(0, last == std::string_view::npos ? 0 : last + 1));
+  constexpr std::string_view kProduct = "·";
+  if (const std::size_t product = name.find(kProduct); product != std::string::npos) {
+    name.replace(product, kProduct.size(), "*");
+  }
+  return name == "%" || find_unit(name).has_value();
+}
+
+/// Where the word that begins at `begin` ends, a number's unit included.
+std::size_t end_of_word(std::string_view line, std::size_t begin) {
+  const std::size_t end = std::min(line.find(' ', begin), line.size());
+  if (end == line.size() || !is_number(line.substr(begin, end - begin))) return end;
+  const std::size_t next = std::min(line.find(' ', end + 1), line.size());
+  return is_unit(line.substr(end + 1, next - end - 1)) ? next : end;
+}
+
 /// One line, without its line feed, broken between words.
 std::string wrapped_line(std::string_view line, std::size_t columns, std::size_t indent) {
   const std::size_t margin = std::min(line.find_first_not_of(' '), line.size());
@@ -40,7 +71,7 @@ std::string wrapped_line(std::string_view line, std::size_t columns, std::size_t
   for (std::size_t at = margin; at < line.size();) {
     const std::size_t begin = line.find_first_not_of(' ', at);
     if (begin == std::string_view::npos) break;
-    const std::size_t end = std::min(line.find(' ', begin), line.size());
+    const std::size_t end = end_of_word(line, begin);
     const std::string_view word = line.substr(begin, end - begin);
     const std::size_t gap = begin - at;  // blanks that align columns stay within a line
     const std::size_t width = characters(word);

@@ -19,7 +19,8 @@ struct Terminal {
 /// or TERM is "dumb". Elsewhere neither.
 [[nodiscard]] Terminal standard_output();
 
-/// Breaks lines between words, so that each has at most `columns` characters; longer words have a line of their own.
+/// Breaks lines between words, so that each has at most `columns` characters; longer words have a line of their own. A
+/// number and its unit are one word.
 /// Continued lines are indented by `indent` more blanks than the line has. With 0 columns the text stays as it is.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent = 2);
 

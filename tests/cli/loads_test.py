@@ -168,6 +168,18 @@ class Loads(unittest.TestCase):
         self.assertAlmostEqual(tension, low, delta=1e-6 * abs(low))
         self.assertLess(high, 2000)
 
+    def test_an_audit_says_the_load_right_behind_the_gravest_violation(self):
+        out = os.path.join(self.folder.name, "out")
+        calm, gust = (os.path.join(CASES, "cranes", name) for name in ("portal-20t.yaml", "portal-20t-gust.yaml"))
+        self.assertEqual(command(TAUT, "plan", calm, "--out", out, "--headroom", "0").returncode, 0)
+        said = command(TAUT, "audit", gust, os.path.join(out, "path.csv"), "--out", os.path.join(out, "audit"),
+                       "--headroom", "0")
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        lines = said.stdout.splitlines()
+        gravest = next(k for k, line in enumerate(lines) if line.startswith("Gravest: "))
+        self.assertRegex(lines[gravest + 1], r"^A load that breaks the limit there: 'platform' 8 t; 'payload' ")
+        self.assertEqual(lines[gravest + 2], "Not proved:")
+
     def test_an_ellipsoid_around_items_takes_their_place(self):
         around = ITEMS.replace("  items:", "  ellipsoid: around_items\n  items:")
         said = self.run_on(around, "show").stdout

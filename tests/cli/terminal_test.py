@@ -61,6 +61,19 @@ class Terminal(InFolder):
                 return [word for word in words if not re.fullmatch(r"\d+\.\d+", word)]
             self.assertEqual(untimed(words_of(said)), untimed(piped.stdout.split()), "no word is lost")
 
+    def test_a_number_and_its_unit_stay_together(self):
+        unit = re.compile(r"(?:k?N(?:·m)?|mm|m|t|kg|%|deg|ms)[.,;:)]*$")
+        parted = re.compile(r"\d\)?$")
+        broken = 0
+        run(TAUT, "plan", GUST, "--out", self.path("out"), "--headroom", "0")
+        for columns in range(40, 100, 4):
+            said, _ = on_terminal(TAUT, "report", self.path("out", "certificate.json"), "--text", columns=columns)
+            lines = [line.split() for line in ESCAPE.sub("", said).splitlines() if line.strip()]
+            for line, following in zip(lines, lines[1:]):
+                broken += bool(parted.search(line[-1]) or unit.match(line[-1]))
+                self.assertFalse(parted.search(line[-1]) and unit.match(following[0]), (columns, line, following))
+        self.assertGreater(broken, 0, "some line ends with a number or its unit")
+
     def test_the_verdict_is_in_colour_unless_nobody_wants_that(self):
         for case, colour, word in ((ROBOT1, 32, "PROVED"), (GUST, 31, "REFUTED - DO NOT RUN"),
                                    (BRIDGING, 31, "REFUTED - DO NOT RUN")):

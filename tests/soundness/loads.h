@@ -131,10 +131,11 @@ void for_each_vector(const SetOfVectors<S>& set, const Vec<S>& gradient, Visit v
   };
   visit_both(gradient);
   if constexpr (std::is_same_v<S, double>) return;  // a search, which takes many; the judge looks at more
-  for (const double x : {0.0, 1.0}) {
-    for (const double y : {-1.0, 0.0, 1.0}) {
-      for (const double z : {-1.0, 0.0, 1.0}) visit_both({S(x), S(y), S(z)});
-    }
+  // Every axis that (x, y, z) of -1, 0 and 1 gives, once: its opposite is visited with it.
+  for (int n = 1; n <= 13; ++n) {
+    const int code = 13 + n;  // in base 3: the first digit that is not 1 is 2
+    visit_both({S(static_cast<double>(code / 9 - 1)), S(static_cast<double>(code / 3 % 3 - 1)),
+                S(static_cast<double>(code % 3 - 1))});
   }
 }
 

@@ -131,6 +131,7 @@ struct Machine {
   std::array<Vec<S>, kCables> a, b;
   Vec<S> load_point;
   Six<S> wrench;
+  bool has_ellipsoid = false;
   SixBySix<S> inverse_ellipsoid;  ///< 0 where there is no ellipsoid
   Vec<S> gravity;
   std::vector<Load<S>> loads;
@@ -185,7 +186,8 @@ Machine<S> make_machine(const Problem& problem) {
       machine.inverse_ellipsoid[i][k] = S(problem.load.ellipsoid && i == k ? 1.0 : 0.0);
     }
   }
-  if (problem.load.ellipsoid) solve(ellipsoid, machine.inverse_ellipsoid);
+  machine.has_ellipsoid = problem.load.ellipsoid.has_value();
+  if (machine.has_ellipsoid) solve(ellipsoid, machine.inverse_ellipsoid);
   machine.gravity = vector(problem.load.gravity_m_s2);
   for (const LoadItem& item : problem.load.items) machine.loads.push_back(make_load<S>(item));
   return machine;
@@ -213,7 +215,7 @@ void for_each_block(Deviation& x, F visit) {
   visit(std::span<double>(&x.wrench, 1));
 }
 
-/// The sizes of the tolerances, and what stands for none.
+/// The sizes of the tolerances, 0 for none.
 template <class S>
 struct Tolerances {
   Six<S> a, b, length;
@@ -295,6 +297,79 @@ std::optional<RigidPose<S>> hold(const Machine<S>& machine, RigidPose<S> pose, c
   return std::nullopt;
 }
 
+/// Lengths, J^T about the origin (a row (u_i ; a_i × u_i) for each cable), and where the load's point is.
+template <class S>
+struct Geometry {
+  Six<S> length;
+  SixBySix<S> transposed_jacobian;
+  Vec<S> load_point;
+};
+
+template <class S>
+Geometry<S> geometry(const Machine<S>& machine, const RigidPose<S>& pose) {
+  Geometry<S> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vec<S> d = pose.p + pose.r * machine.b[i] - machine.a[i];
+    result.length[i] = root(dot(d, d));
+    const Vec<S> u = (S(1.0) / result.length[i]) * d;
+    const Vec<S> m = cross(machine.a[i], u);
+    result.transposed_jacobian[i] = {u[0], u[1], u[2], m[0], m[1], m[2]};
+  }
+  result.load_point = pose.p + pose.r * machine.load_point;
+  return result;
+}
+
+/// Of some cables the rows y of J^-1 X, X carrying wrenches about P_m to the origin: a wrench w makes the tension y w.
+/// @returns det J; 0 or not finite where it is singular
+template <class S, std::size_t N>
+S tension_rows(const Geometry<S>& at, const std::array<std::size_t, N>& cables, std::array<Six<S>, N>& rows) {
+  std::array<std::array<S, N>, 6> z;
+  for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t n = 0; n < N; ++n) z[j][n] = S(j == cables[n] ? 1.0 : 0.0);
+  }
+  const S determinant = solve(at.transposed_jacobian, z);
+  for (std::size_t n = 0; n < N; ++n) {
+    const Vec<S> moment{z[3][n], z[4][n], z[5][n]};
+    const Vec<S> force = Vec<S>{z[0][n], z[1][n], z[2][n]} + cross(moment, at.load_point);
+    rows[n] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+  }
+  return determinant;
+}
+
+template <class S>
+S determinant(const Machine<S>& machine, const RigidPose<S>& pose) {
+  std::array<Six<S>, 0> none;
+  return tension_rows(geometry(machine, pose), std::array<std::size_t, 0>{}, none);
+}
+
+/// The range over K of a tension with row y.
+template <class S>
+Range<S> tension_range(const Machine<S>& machine, const RigidPose<S>& pose, const Six<S>& y) {
+  S tension(0.0), square(0.0);
+  for (std::size_t j = 0; j < 6; ++j) {
+    tension = tension + y[j] * machine.wrench[j];
+    if (!machine.has_ellipsoid) continue;
+    S sum(0.0);
+    for (std::size_t k = 0; k < 6; ++k) sum = sum + machine.inverse_ellipsoid[j][k] * y[k];
+    square = square + y[j] * sum;
+  }
+  const S radius = root(square);
+  Range<S> result{tension - radius, tension + radius};
+  for (const Load<S>& load : machine.loads) {
+    const Range<S> range = extremes(load, machine.gravity, pose.r, machine.load_point, TensionOf<S>{y});
+    result = {result.low + range.low, result.high + range.high};
+  }
+  return result;
+}
+
+/// One cable's tensions over K.
+template <class S>
+Range<S> tension_range(const Machine<S>& machine, const RigidPose<S>& pose, std::size_t cable) {
+  std::array<Six<S>, 1> row;
+  tension_rows(geometry(machine, pose), std::array<std::size_t, 1>{cable}, row);
+  return tension_range(machine, pose, row[0]);
+}
+
 template <class S>
 struct StaticsAt {
   Six<S> length, tension_low, tension_high;  ///< tensions over K
@@ -303,45 +378,15 @@ struct StaticsAt {
 
 template <class S>
 StaticsAt<S> statics(const Machine<S>& machine, const RigidPose<S>& pose) {
+  const Geometry<S> at = geometry(machine, pose);
   StaticsAt<S> result;
-  SixBySix<S> jacobian, transform;
+  result.length = at.length;
+  std::array<Six<S>, kCables> rows;
+  result.determinant = tension_rows(at, std::array<std::size_t, kCables>{0, 1, 2, 3, 4, 5}, rows);
   for (std::size_t i = 0; i < kCables; ++i) {
-    const Vec<S> d = pose.p + pose.r * machine.b[i] - machine.a[i];
-    result.length[i] = root(dot(d, d));
-    const Vec<S> u = (S(1.0) / result.length[i]) * d;
-    const Vec<S> m = cross(machine.a[i], u);
-    for (std::size_t k = 0; k < 3; ++k) {
-      jacobian[k][i] = u[k];
-      jacobian[3 + k][i] = m[k];
-    }
-  }
-  const Vec<S> at = pose.p + pose.r * machine.load_point;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) transform[i][k] = S(i == k ? 1.0 : 0.0);
-  }
-  transform[3][1] = -at[2];
-  transform[3][2] = at[1];
-  transform[4][0] = at[2];
-  transform[4][2] = -at[0];
-  transform[5][0] = -at[1];
-  transform[5][1] = at[0];
-  result.determinant = solve(jacobian, transform);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Six<S>& y = transform[i];
-    S tension(0.0), square(0.0);
-    for (std::size_t j = 0; j < 6; ++j) {
-      tension = tension + y[j] * machine.wrench[j];
-      S sum(0.0);
-      for (std::size_t k = 0; k < 6; ++k) sum = sum + machine.inverse_ellipsoid[j][k] * y[k];
-      square = square + y[j] * sum;
-    }
-    result.tension_low[i] = tension - root(square);
-    result.tension_high[i] = tension + root(square);
-    for (const Load<S>& load : machine.loads) {
-      const Range<S> range = extremes(load, machine.gravity, pose.r, machine.load_point, TensionOf<S>{y});
-      result.tension_low[i] = result.tension_low[i] + range.low;
-      result.tension_high[i] = result.tension_high[i] + range.high;
-    }
+    const Range<S> range = tension_range(machine, pose, rows[i]);
+    result.tension_low[i] = range.low;
+    result.tension_high[i] = range.high;
   }
   return result;
 }

@@ -592,12 +592,19 @@ std::optional<RigidPose<S>> Motion<S>::commanded(const S& s, const Deviation& de
 }
 
 template <class S>
-std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const Deviation& deviation) const {
+std::optional<RigidPose<S>> Motion<S>::pose(const S& s, const Deviation& deviation) const {
   std::optional<RigidPose<S>> pose = commanded(s, deviation);
-  if (!pose) return std::nullopt;
+  if (!pose || !trial_.problem.tolerances) return pose;
   pose->p = pose->p + scaled(tolerances_.position, deviation.position);
   pose->r = turn(scaled(tolerances_.turn, deviation.turn)) * pose->r;
-  return campaign::statics(machine(deviation), *pose);
+  return pose;
+}
+
+template <class S>
+std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const Deviation& deviation) const {
+  const std::optional<RigidPose<S>> at = pose(s, deviation);
+  if (!at) return std::nullopt;
+  return campaign::statics(trial_.problem.tolerances ? machine(deviation) : machine_, *at);
 }
 
 namespace {
@@ -631,7 +638,7 @@ bool Motion<S>::is_within(const taut::Deviation& witness) const {
 }
 
 template <class S>
-std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation& witness) const {
+std::optional<MachineAt<S>> Motion<S>::witnessed(const S& s, const taut::Deviation& witness) const {
   std::optional<RigidPose<S>> pose = commanded(s, Deviation());
   constexpr int kParts = 16;
   constexpr int kNewtonSteps = 25;
@@ -651,7 +658,7 @@ std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation
     if (!trial_.is_held()) break;
     pose = hold(machine, *pose, wanted, kNewtonSteps);
     if (!pose) return std::nullopt;
-    const bool sign = campaign::statics(machine, *pose).determinant > S(0.0);
+    const bool sign = determinant(machine, *pose) > S(0.0);
     if (part > 1 && sign != last_sign) return std::nullopt;  // it has passed a singular pose
     last_sign = sign;
   }
@@ -659,7 +666,7 @@ std::optional<StaticsAt<S>> Motion<S>::statics(const S& s, const taut::Deviation
   const Vec<S> u = vector<S>(witness.turn);
   pose->p = pose->p + vector<S>(witness.position_m);
   pose->r = rotation(Quaternion<S>{u[0], u[1], u[2], S(1.0)}) * pose->r;
-  return campaign::statics(machine, *pose);
+  return MachineAt<S>{machine, *pose};
 }
 
 template class Motion<double>;

@@ -75,6 +75,12 @@ struct Trial {
 [[nodiscard]] Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances,
                                std::optional<LoadKind> loads);
 
+template <class S>
+struct MachineAt {
+  Machine<S> machine;
+  RigidPose<S> pose;
+};
+
 /// What the machine does along a trial, in scalar S (double or BigFloat).
 template <class S>
 class Motion {
@@ -85,11 +91,12 @@ class Motion {
   [[nodiscard]] RigidPose<S> reference(const S& s) const;
   /// The commanded pose, near the reference; nothing where Newton's method finds none.
   [[nodiscard]] std::optional<RigidPose<S>> commanded(const S& s, const Deviation& deviation) const;
-  /// Statics of the machine as it is, tracking error included.
+  /// Where the machine as it is has its platform, tracking error included.
+  [[nodiscard]] std::optional<RigidPose<S>> pose(const S& s, const Deviation& deviation) const;
   [[nodiscard]] std::optional<StaticsAt<S>> statics(const S& s, const Deviation& deviation) const;
 
-  /// Of the machine of a witness. @pre is_within(witness)
-  [[nodiscard]] std::optional<StaticsAt<S>> statics(const S& s, const taut::Deviation& witness) const;
+  /// The machine of a witness, and where it has its platform. @pre is_within(witness)
+  [[nodiscard]] std::optional<MachineAt<S>> witnessed(const S& s, const taut::Deviation& witness) const;
   /// Whether a witness keeps to the tolerances.
   [[nodiscard]] bool is_within(const taut::Deviation& witness) const;
 

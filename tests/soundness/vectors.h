@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors of the campaign, in double and in 200 bits.
+// Vectors of the campaign, in double, in double with a bound on its error, and in 200 bits.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "problem/problem.h"
 #include "tests/oracle/oracle_at_origin.h"
+#include "tests/soundness/guarded.h"
 
 namespace taut::campaign {
 
@@ -34,6 +35,8 @@ S number(const std::string& text) {
   }
   if constexpr (std::is_same_v<S, double>) {
     return std::strtod(text.c_str(), nullptr);
+  } else if constexpr (std::is_same_v<S, Guarded>) {
+    return Guarded::rounded(std::strtod(text.c_str(), nullptr), 0);
   } else {
     return oracle::big(text);
   }
