@@ -110,7 +110,7 @@ const char* text(CellMap::End end) {
 const char* text(Connection connection) {
   switch (connection) {
     case Connection::kJoined: return "joined: a motion exists, and every pose of it is feasible (proved)";
-    case Connection::kApart: return "apart: no motion within the space joins them (proved)";
+    case Connection::kApart: return "apart: no motion of the coordinates within their ranges joins them (proved)";
     case Connection::kOutside: return "apart: one of them is itself infeasible (proved)";
     case Connection::kOpen: break;
   }
