@@ -97,8 +97,8 @@ ShownBody triangulated(const Field& field, const std::vector<Point>& points, con
     }
   }
   if (triangles > kMostShownTriangles) {
-    field.complain(fmt::format("got a mesh of {} triangles, expected at most {} for a picture", triangles,
-                               kMostShownTriangles));
+    field.complain(
+        fmt::format("got a mesh of {} triangles, expected at most {} for a picture", triangles, kMostShownTriangles));
   }
   return body;
 }
@@ -135,8 +135,8 @@ ShownBody read_shown_body(const Field& field, const Units& units, const std::fil
   std::vector<Point> points;
   Polygons polygons;
   if (!read_polygons(extension, content_of(mesh, folder / name), points, polygons)) {
-    mesh.complain(fmt::format("got {}, which is no whole {} file, expected a mesh", describe(mesh.node()),
-                              extension.substr(1)));
+    mesh.complain(
+        fmt::format("got {}, which is no whole {} file, expected a mesh", describe(mesh.node()), extension.substr(1)));
   }
   ShownBody body = triangulated(mesh, points, polygons);
   Eigen::Affine3d place = Eigen::Affine3d::Identity();
@@ -154,9 +154,10 @@ ShownBody read_shown_body(const Field& field, const Units& units, const std::fil
     p = place * Eigen::Vector3d(p);
   }
   if (!is_shown_body(body)) {
-    mesh.complain(fmt::format("got {}, in which a corner is missing, no number or beyond {:g} m, or no face is, "
-                              "expected a mesh",
-                              describe(mesh.node()), kFarthestShown));
+    mesh.complain(
+        fmt::format("got {}, in which a corner is missing, no number or beyond {:g} m, or no face is, "
+                    "expected a mesh",
+                    describe(mesh.node()), kFarthestShown));
   }
   return body;
 }

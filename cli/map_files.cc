@@ -163,8 +163,7 @@ std::optional<std::vector<std::filesystem::path>> MapFiles::write(const CaseMap&
       files.push_back({folder / "map.html", slices(made)});
     }
   }
-  const bool are_apart =
-      std::ranges::find(made.connections(), CaseMap::Connection::kApart) != made.connections().end();
+  const bool are_apart = std::ranges::find(made.connections(), CaseMap::Connection::kApart) != made.connections().end();
   if (!arguments_.out.empty() && are_apart) {
     if (std::optional<std::string> certificate = no_path_certificate(mapped_.the_case, stop)) {
       files.push_back({std::filesystem::path(arguments_.out) / "certificate.json", std::move(*certificate)});

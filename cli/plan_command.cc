@@ -289,7 +289,8 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
           fmt::format("what --grow may take before it saves what it has (default: {:.0f})", arguments.grow_seconds))
       ->check(positive_number("a number of seconds above 0"))
       ->needs(grow);
-  command.add_option("--budget", arguments.budget_seconds, "seconds for planning and proving, instead of the case's own")
+  command
+      .add_option("--budget", arguments.budget_seconds, "seconds for planning and proving, instead of the case's own")
       ->check(positive_number("a number of seconds above 0"));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");

@@ -174,8 +174,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   add_usage_messages(app, argc, argv);
   app.footer(
-      "Exit codes of plan and audit, whose verdict is the independent checker's: 0 proved, 1 refuted, 2 undecided or "
-      "unchecked, 3 bad input, 4 internal failure or untrustworthy machine. Of the others: 0 done, 1 rejected (report) "
+      "Exit codes of plan and audit, whose verdict is the independent checker's: 0 proved, 1 refuted or no "
+      "path, 2 undecided or unchecked, 3 bad input, 4 internal failure or untrustworthy machine. Of the others: 0 "
+      "done, 1 rejected (report) "
       "or not as expected (regress), 2 interrupted or unchecked, 3 and 4 likewise.");
   const std::vector<Command> commands = add_commands(app);
   checker::refuse_empty_arguments(app);

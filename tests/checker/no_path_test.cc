@@ -190,10 +190,10 @@ TEST(CellTree, RefusesWhatIsNoTree) {
 /// A random form, and the function of which it is the form: x + sum y_k u_k, exactly.
 struct RandomForm {
   explicit RandomForm(Random& random) {
-    std::uniform_real_distribution<double> number(0.5, 2), slope(-0.3, 0.3);
+    std::uniform_real_distribution<double> number(0.5, 2), slope(-0.04, 0.04);
     form.at = Ball(x = number(random));
     for (std::size_t k = 0; k < kCellAxes; ++k) {
-      y[k] = random() % 4 == 0 ? 0 : slope(random) / 3;
+      y[k] = random() % 4 == 0 ? 0 : slope(random);
       form.slope[k] = Ball(y[k]);
     }
   }

@@ -130,7 +130,7 @@ TEST(Separation, IgnoresTolerances) {
   EXPECT_EQ(separated(problem, {"-2.3", "1.6"}, {"-1.2", "2.0"}).answer, Separation::Answer::kApart);
 }
 
-/// Whether steps between neighbouring points of a raster of feasible poses lead from one place to another. In double.
+/// Feasible poses on a raster, and what hangs together by steps between neighbouring ones. In double.
 class Raster {
  public:
   static constexpr int kTurn = 360, kTilt = 180;
@@ -142,18 +142,19 @@ class Raster {
       for (int j = 0; j < kTilt; ++j) {
         const double phi = kPi * (2.0 * (i + 0.5) / kTurn - 1), theta = kPi * (j + 0.5) / kTilt;
         const campaign::RigidPose<double> pose = {{0, 0, 0.35}, campaign::orientation(phi, theta, 34 * kPi / 180)};
-        feasible_[index(i, j)] = is_feasible(problem, campaign::statics(machine, pose));
+        const campaign::StaticsAt<double> at = campaign::statics(machine, pose);
+        state_[index(i, j)] = !is_feasible(problem, at) ? 0 : at.determinant > 0 ? 1 : -1;
       }
     }
   }
   static int index(int i, int j) { return ((i % kTurn + kTurn) % kTurn) * kTilt + j; }
-  [[nodiscard]] bool is_feasible(int at) const { return feasible_[at]; }
 
-  /// Numbers what hangs together by steps of phi or theta, and across theta = pi to phi + pi.
+  /// Numbers what hangs together by steps of phi or theta, and across theta = pi to phi + pi. A step never changes the
+  /// sign of det J, as it would pass a singular pose.
   [[nodiscard]] std::vector<int> components() const {
-    std::vector<int> component(feasible_.size(), -1);
+    std::vector<int> component(state_.size(), -1);
     for (int start = 0, count = 0; start < kTurn * kTilt; ++start) {
-      if (!feasible_[start] || component[start] >= 0) continue;
+      if (state_[start] == 0 || component[start] >= 0) continue;
       std::vector<int> pending = {start};
       component[start] = count;
       while (!pending.empty()) {
@@ -163,7 +164,7 @@ class Raster {
         if (j > 0) next.push_back(index(i, j - 1));
         next.push_back(j + 1 < kTilt ? index(i, j + 1) : index(i + kTurn / 2, j));
         for (const int n : next) {
-          if (!feasible_[n] || component[n] >= 0) continue;
+          if (state_[n] != state_[start] || component[n] >= 0) continue;
           component[n] = count;
           pending.push_back(n);
         }
@@ -185,7 +186,7 @@ class Raster {
     }
     return result;
   }
-  std::vector<bool> feasible_ = std::vector<bool>(kTurn * kTilt);
+  std::vector<int> state_ = std::vector<int>(kTurn * kTilt);  ///< 0: infeasible; else the sign of det J
 };
 
 /// Limits are changed at random, so that passages are narrow where they are: no pair of poses that feasible poses of a
