@@ -68,7 +68,8 @@ test("starts at the start's slice, and keys move the slider", async () => {
   for (let n = 0; n < 8; ++n) await page.keyboard.press("ArrowRight");
   assert.equal(await page.locator("#here").textContent(), "sigma = 0.1963 rad");
   assert.equal(await page.locator("#third").getAttribute("aria-valuetext"), "sigma = 0.1963 rad");
-  assert.match(await page.locator("#slice").getAttribute("aria-label"), /% inside; whether the start reaches it is open/);
+  const label = await page.locator("#slice").getAttribute("aria-label");
+  assert.match(label, /% inside; whether the start reaches it is open/);
   if (screenshots) await page.screenshot({ path: join(screenshots, "slices.png"), fullPage: true });
 });
 
