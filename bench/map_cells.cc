@@ -70,8 +70,8 @@ void run(bool is_quick) {
   const Problem slice = load_case(cases + "robot1-slice-qs-qg.yaml").problem;
   const Problem sphere = load_case(cases + "robot2-sphere-sigma-free-q2-q3.yaml").problem;
   constexpr const char* kHead =
-      "| cells | undecided | judged | processor s | thousand cells/s | samples a cell | joining, s | components | "
-      "memory, MB | bytes a cell |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "| cells | undecided | judged | time, s | 1000/s | samples/cell | joining, s | parts | MB | bytes/cell "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   const double sample_of_two = sample_seconds(slice), sample_of_three = sample_seconds(sphere);
   fmt::print("Robot 1's slice, all cells halved to a width; a sample takes {:.2f} us.\n\n| least width {}",
              1e6 * sample_of_two, kHead);

@@ -127,25 +127,34 @@ void print_components(const char* what, const std::vector<MapComponent>& compone
              components.size() > kMost ? ", …" : "");
 }
 
-/// Where one may go.
+double down(double x) { return std::floor(x); }
+double up(double x) { return std::ceil(x); }
+
+/// A share of the space in the units of its volume, "6.99 rad², ", rounded to four digits; empty without units.
+std::string size_text(const MapResult& result, double share, double (*rounded)(double)) {
+  const std::string unit = volume_unit(result.axes);
+  const double size = share * whole_volume(result.axes);
+  if (unit.empty() || !(size > 0)) return "";
+  const double last = std::pow(10.0, std::floor(std::log10(size)) - 3);
+  return fmt::format("{:.4g} {}, ", rounded(size / last) * last, unit);
+}
+
+/// Where one may go. What is proved is at least so much.
 void print_region(const CaseMap& made) {
-  const MapRegion& region = *made.result().region;
-  fmt::print("Where motions from {} may go:\n", sanitize(made.result().start));
+  const MapResult& result = made.result();
+  const MapRegion& region = *result.region;
+  fmt::print("Where motions from {} may go:\n", sanitize(result.start));
   if (region.starts_outside()) {
     fmt::print("  nowhere: it is itself infeasible (proved)\n");
     return;
   }
-  const std::string unit = volume_unit(made.result().axes);
-  const double whole = whole_volume(made.result().axes);
-  const auto size = [&](double share) { return unit.empty() ? "" : fmt::format("{:.4g} {}, ", share * whole, unit); };
-  const double open = region.possible() - region.reachable();
+  const double reachable = region.reachable(), open = region.possible() - reachable, cut_off = 1 - region.possible();
   fmt::print("  reachable, proved  {:>9}  {}joined by motions of which every pose is feasible\n",
-             percent_down(region.reachable()), size(region.reachable()));
-  fmt::print("  open               {:>9}  {}\n", percent_up(open),
-             unit.empty() ? "" : fmt::format("{:.4g} {}", open * whole, unit));
-  fmt::print("  cut off, proved    {:>9}  {}outside, or beyond it: no motion within the space leads there\n",
-             percent_down(1 - region.possible()), size(1 - region.possible()));
-  if (region.reachable() == 0) fmt::print("  The start itself is not proved inside: see --cell and --undecided.\n");
+             percent_down(reachable), size_text(result, reachable, down));
+  fmt::print("  open               {:>9}  {}neither is proved\n", percent_up(open), size_text(result, open, up));
+  fmt::print("  cut off, proved    {:>9}  {}outside, or behind it: no motion within the space leads there\n",
+             percent_down(cut_off), size_text(result, cut_off, down));
+  if (reachable == 0) fmt::print("  The start itself is not proved inside: see --cell and --undecided.\n");
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ function draw() {
   for (const { name, t: place } of data.marks) {
     const isHere = Math.abs(place[axis] - t) <= 0.5 / Number(slider.max) + 1e-9;
     const [x, y] = [place[u] * width, (1 - place[v]) * height];
-    context.globalAlpha = isHere ? 1 : 0.45;
+    context.globalAlpha = isHere ? 1 : 0.7;
     context.beginPath();
     context.arc(x, y, 7, 0, 7);
     context.fillStyle = "#fff";
@@ -154,7 +154,7 @@ function draw() {
     context.font = "20px sans-serif";
     context.textAlign = x > 0.85 * width ? "right" : "left";
     context.strokeStyle = "#fff";
-    const label = isHere ? name : `${name} (at ${data.axes[axis].name} = ${number(value(axis, place[axis]))})`;
+    const label = isHere ? name : `(${name})`;  // in another slice
     const left = x + (x > 0.85 * width ? -12 : 12);
     context.strokeText(label, left, y - 9);
     context.fillStyle = "#000";
@@ -241,7 +241,8 @@ std::string slices_page(const MapResult& result, const std::vector<SliceMark>& m
                   "as undecided.");
   }
   const std::string body = html(R"(<h1>{}</h1>
-<p>One slice of the map of three coordinates at a time. The slider, which the arrow keys move, too, sets the third.</p>
+<p>One slice of the map of three coordinates at a time. The slider, which the arrow keys move, too, sets the third.
+Poses whose names are in parentheses are in other slices.</p>
 <div class="controls"><label for="axis">Slice along</label><select id="axis"></select>
 <label for="third" id="here"></label><input type="range" id="third" min="0" max="256" step="1" value="128"></div>
 <div class="plot"><div class="y"><span id="yhigh"></span><span id="yname"></span><span id="ylow"></span></div>
@@ -253,7 +254,9 @@ std::string slices_page(const MapResult& result, const std::vector<SliceMark>& m
                                 result.title, notes)
                                .str();
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" +
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "script-src 'unsafe-inline'\"><meta name=\"viewport\" content=\"width=device-width, "
+         "initial-scale=1\"><title>" +
          escape(result.title) + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + body +
          "<script type=\"application/json\" id=\"data\">" + script_json(data) + "</script>\n<script>" + kScript +
          "</script>\n</body></html>\n";

@@ -15,3 +15,7 @@ set_tests_properties(reports.browser PROPERTIES LABELS slow TIMEOUT 600)
 add_test(NAME reports.words COMMAND "${TAUT_NODE}" --test "${CMAKE_CURRENT_SOURCE_DIR}/reports/words_test.mjs"
   "${CMAKE_CURRENT_SOURCE_DIR}/reports/data_test.mjs" "${CMAKE_CURRENT_SOURCE_DIR}/reports/nearness_test.mjs")
 set_tests_properties(reports.words PROPERTIES LABELS unit)
+add_test(NAME reports.map_slices
+  COMMAND "${TAUT_NODE}" "${CMAKE_CURRENT_SOURCE_DIR}/reports/map_slices_test.mjs" $<TARGET_FILE:taut>
+    "${PROJECT_SOURCE_DIR}/cases")
+set_tests_properties(reports.map_slices PROPERTIES LABELS slow TIMEOUT 300)
