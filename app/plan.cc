@@ -91,6 +91,7 @@ bool try_no_path(const Case& the_case, const PlannedCaseOptions& options, const 
 
 PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseOptions& options,
                       const Progress& progress, const std::stop_token& stop) {
+  const Decoration decoration = read_meshes(the_case.decoration);
   PlannedCase result;
   result.plan = planner.plan(progress, stop);
   if (options.grow) result.growth = grow(the_case, planner, options, progress, stop);
@@ -101,7 +102,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
   illustration["units"] = to_json(the_case.units);
   illustration["document_fields"] = to_json(the_case.document_fields);
-  illustration["decoration"] = to_json(the_case.decoration);
+  illustration["decoration"] = to_json(decoration);
   if (options.headroom_seconds > 0 && !stop.stop_requested()) {
     const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
     result.headroom =

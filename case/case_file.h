@@ -73,7 +73,7 @@ struct Case {
   /// What may not be meant as it was typed, each with its place; for people, before a verdict.
   std::vector<std::string> warnings;
   DocumentFields document_fields;  ///< for the head of a report
-  Decoration decoration;           ///< for its pictures
+  DecorationFiles decoration;      ///< for its pictures
   std::string description;         ///< the file's leading comment block, for reports
   CaseUnits units;                 ///< of numbers typed without one, for messages and results
 };

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/input_error.h"
 #include "base/sanitize.h"
 #include "case/decoration_fields.h"
 #include "problem/expression.h"
@@ -34,7 +35,6 @@ bool is_shown_body(const ShownBody& body) {
          std::ranges::all_of(body.triangles, has_corners);
 }
 
-namespace case_fields {
 namespace {
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
@@ -42,18 +42,20 @@ using Polygons = std::vector<std::vector<std::size_t>>;
 
 constexpr std::size_t kMostBytes = 64 << 20;
 
-std::string content_of(const Field& field, const std::filesystem::path& path) {
+[[noreturn]] void fail(const MeshFile& file, const std::string& message) {
+  throw InputError(ErrorCode::kCase, fmt::format("{}got '{}', {}", file.where, excerpt(file.name), message));
+}
+
+std::string content_of(const MeshFile& mesh) {
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(mesh.path, std::ios::binary);
   std::string content(kMostBytes + 1, '\0');
   if (!file.read(content.data(), static_cast<std::streamsize>(content.size())) && !file.eof()) {
-    field.complain(fmt::format("got {}, which could not be read: {}", describe(field.node()),
-                               errno != 0 ? std::strerror(errno) : "no reason is known"));
+    fail(mesh, fmt::format("which could not be read: {}", errno != 0 ? std::strerror(errno) : "no reason is known"));
   }
-  if (static_cast<std::size_t>(file.gcount()) > kMostBytes) {
-    field.fail(fmt::format("a mesh of at most {} MB", kMostBytes >> 20));
-  }
-  content.resize(static_cast<std::size_t>(file.gcount()));
+  const auto size = static_cast<std::size_t>(file.gcount());
+  if (size > kMostBytes) fail(mesh, fmt::format("expected a mesh of at most {} MB", kMostBytes >> 20));
+  content.resize(size);
   return content;
 }
 
@@ -83,9 +85,14 @@ bool read_polygons(const std::string& extension, const std::string& content, std
 }
 
 /// A polygon of n corners as n − 2 triangles around its first corner.
-ShownBody triangulated(const Field& field, const std::vector<Point>& points, const Polygons& polygons) {
+ShownBody triangulated(const MeshFile& mesh, const std::vector<Point>& points, const Polygons& polygons) {
   ShownBody body;
-  for (const Point& p : points) body.corners.push_back({p.x(), p.y(), p.z()});
+  for (const Point& p : points) {
+    std::array<double, 3>& corner = body.corners.emplace_back(mesh.at);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) corner[i] += mesh.turn[i][j] * p[static_cast<int>(j)];
+    }
+  }
   std::size_t triangles = 0;
   for (const std::vector<std::size_t>& polygon : polygons) {
     for (std::size_t k = 2; k < polygon.size(); ++k) {
@@ -97,11 +104,44 @@ ShownBody triangulated(const Field& field, const std::vector<Point>& points, con
     }
   }
   if (triangles > kMostShownTriangles) {
-    field.complain(
-        fmt::format("got a mesh of {} triangles, expected at most {} for a picture", triangles, kMostShownTriangles));
+    fail(mesh, fmt::format("a mesh of {} triangles, expected at most {} for a picture", triangles,
+                           kMostShownTriangles));
   }
   return body;
 }
+
+std::string extension_of(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+ShownBody read_mesh(const MeshFile& mesh) {
+  std::vector<Point> points;
+  Polygons polygons;
+  const std::string extension = extension_of(mesh.name);
+  if (!read_polygons(extension, content_of(mesh), points, polygons)) {
+    fail(mesh, fmt::format("which is no whole {} file, expected a mesh", extension.substr(1)));
+  }
+  ShownBody body = triangulated(mesh, points, polygons);
+  if (!is_shown_body(body)) {
+    fail(mesh, fmt::format("in which a corner is missing, no number or beyond {:g} m, or no face is, expected a mesh",
+                           kFarthestShown));
+  }
+  return body;
+}
+
+}  // namespace
+
+Decoration read_meshes(const DecorationFiles& files) {
+  Decoration result;
+  if (files.frame) result.frame = read_mesh(*files.frame);
+  if (files.payload) result.payload = read_mesh(*files.payload);
+  return result;
+}
+
+namespace case_fields {
+namespace {
 
 Eigen::Matrix3d read_rotation(const Field& field, const Unit& angle) {
   const Map map = field.map({"roll", "pitch", "yaw"});
@@ -119,12 +159,11 @@ Eigen::Matrix3d read_rotation(const Field& field, const Unit& angle) {
 
 double metres(const Unit& unit) { return ScalarTraits<double>::from_decimal(decimal_to_si("1", unit)); }
 
-ShownBody read_shown_body(const Field& field, const Units& units, const std::filesystem::path& folder) {
+MeshFile read_mesh_file(const Field& field, const Units& units, const std::filesystem::path& folder) {
   const Map map = field.map({"mesh", "unit", "at", "rotation"});
   const Field mesh = map.at("mesh");
   const std::string name = mesh.text("the name of an STL, OBJ or PLY file");
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = extension_of(name);
   if (extension != ".stl" && extension != ".obj" && extension != ".ply") {
     mesh.fail("the name of an STL, OBJ or PLY file");
   }
@@ -132,43 +171,30 @@ ShownBody read_shown_body(const Field& field, const Units& units, const std::fil
   const std::string expected = "the unit of the mesh's coordinates, one of " + unit_names(Dimension::kLength);
   const auto unit = find_unit(unit_field.text(expected));
   if (!unit || unit->dimension != Dimension::kLength) unit_field.fail(expected);
-  std::vector<Point> points;
-  Polygons polygons;
-  if (!read_polygons(extension, content_of(mesh, folder / name), points, polygons)) {
-    mesh.complain(
-        fmt::format("got {}, which is no whole {} file, expected a mesh", describe(mesh.node()), extension.substr(1)));
+  MeshFile result{name, mesh.remark(""), folder / name, {}, {}};
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (const auto rotation = map.find("rotation")) turn = read_rotation(*rotation, units[Dimension::kAngle]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      result.turn[i][j] = metres(*unit) * turn(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
   }
-  ShownBody body = triangulated(mesh, points, polygons);
-  Eigen::Affine3d place = Eigen::Affine3d::Identity();
   if (const auto at = map.find("at")) {
     const std::vector<Field> coordinates = at->list(3, "a point: a list of three lengths");
     for (std::size_t k = 0; k < 3; ++k) {
-      place.translation()(static_cast<Eigen::Index>(k)) =
-          ScalarTraits<double>::from_decimal(read_quantity(coordinates[k], units[Dimension::kLength]));
+      result.at[k] = ScalarTraits<double>::from_decimal(read_quantity(coordinates[k], units[Dimension::kLength]));
     }
   }
-  if (const auto turn = map.find("rotation")) place.linear() = read_rotation(*turn, units[Dimension::kAngle]);
-  place.scale(metres(*unit));
-  for (std::array<double, 3>& corner : body.corners) {
-    Eigen::Map<Eigen::Vector3d> p(corner.data());
-    p = place * Eigen::Vector3d(p);
-  }
-  if (!is_shown_body(body)) {
-    mesh.complain(
-        fmt::format("got {}, in which a corner is missing, no number or beyond {:g} m, or no face is, "
-                    "expected a mesh",
-                    describe(mesh.node()), kFarthestShown));
-  }
-  return body;
+  return result;
 }
 
 }  // namespace
 
-Decoration read_decoration(const Field& field, const Units& units, const std::filesystem::path& folder) {
+DecorationFiles read_decoration(const Field& field, const Units& units, const std::filesystem::path& folder) {
   const Map map = field.map({"frame", "payload"});
-  Decoration result;
-  if (const auto frame = map.find("frame")) result.frame = read_shown_body(*frame, units, folder);
-  if (const auto payload = map.find("payload")) result.payload = read_shown_body(*payload, units, folder);
+  DecorationFiles result;
+  if (const auto frame = map.find("frame")) result.frame = read_mesh_file(*frame, units, folder);
+  if (const auto payload = map.find("payload")) result.payload = read_mesh_file(*payload, units, folder);
   return result;
 }
 

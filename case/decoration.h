@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace taut {
@@ -25,6 +27,24 @@ struct Decoration {
   std::optional<ShownBody> payload;  ///< what moves with the platform, in the axes of the platform
   bool operator==(const Decoration&) const = default;
 };
+
+/// A mesh that a case names, and where it stands: a point x of the file is at `turn` x + `at`.
+struct MeshFile {
+  std::string name;   ///< as the case has it
+  std::string where;  ///< in the case file, for messages: "crane.yaml:12:5: decoration.frame.mesh: "
+  std::filesystem::path path;
+  std::array<std::array<double, 3>, 3> turn;  ///< by rows, times the file's unit [m]
+  std::array<double, 3> at;                   ///< [m]
+};
+
+/// As a case states it. The case can be read, compared and proved about without these files.
+struct DecorationFiles {
+  std::optional<MeshFile> frame, payload;
+};
+
+/// Reads the meshes. @throws InputError naming the place in the case, where a file can't be read, is no mesh, or is more
+/// than a picture can show
+[[nodiscard]] Decoration read_meshes(const DecorationFiles& files);
 
 /// Whether a picture can show it: numbers within the bounds above, and indices that have a corner.
 [[nodiscard]] bool is_shown_body(const ShownBody& body);

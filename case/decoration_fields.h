@@ -10,7 +10,6 @@
 namespace taut::case_fields {
 
 /// @param folder  of the case file: file names are relative to it
-/// @throws InputError at the field, also where a file can't be read or is no mesh.
-[[nodiscard]] Decoration read_decoration(const Field& field, const Units& units, const std::filesystem::path& folder);
+[[nodiscard]] DecorationFiles read_decoration(const Field& field, const Units& units, const std::filesystem::path& folder);
 
 }  // namespace taut::case_fields

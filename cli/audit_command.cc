@@ -316,7 +316,7 @@ int run_audit(const AuditArguments& arguments) {
     };
     result = audit_path(
         source,
-        {arguments.bits, out, key ? &*key : nullptr, case_.units, case_.document_fields, case_.decoration,
+        {arguments.bits, out, key ? &*key : nullptr, case_.units, case_.document_fields, read_meshes(case_.decoration),
          arguments.headroom_seconds,
          [&](std::size_t done, std::size_t all) { line.show([&] { return headroom_progress_text(done, all); }); }},
         [&](std::string_view text) {

@@ -183,7 +183,7 @@ Explanation explained(ErrorCode code) {
     case ErrorCode::kPath:
       return entry(
           "The path file is wrong", "The path to be audited can't be read, or does not fit the case.",
-          "A column without a unit or with an unknown name. A row with a missing number. A repeated pose. Lengths "
+          "A column without a unit or with an unknown name. A row with a missing number.. Lengths "
           "whose first row is not at the start pose.",
           "docs/audits.md describes the formats of path files.",
           "taut: path.csv:2: theta: got 'x', expected a decimal number such as 0.05 or 1e-4 [E4]");

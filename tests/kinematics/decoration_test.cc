@@ -57,7 +57,7 @@ class DecorationOfACase : public ::testing::Test {
         "load: {wrench: [0, 0, 1, 0, 0, 0], ellipsoid: {diagonal: [1, 1, 1, 1, 1, 1]}}\n"
         "decoration: " +
         decoration + "\n";
-    return parse_case(text, (folder_ / "test.yaml").string()).decoration;
+    return read_meshes(parse_case(text, (folder_ / "test.yaml").string()).decoration);
   }
   void expect_rejected(const std::string& decoration, const std::string& message) const {
     EXPECT_THAT([&] { (void)read(decoration); },
@@ -130,7 +130,7 @@ TEST_F(DecorationOfACase, IsRefusedWhereItIsNoMesh) {
   for (const char* name : {"empty.obj", "words.stl", "cut.stl", "huge.stl", "nan.stl", "index.obj", "far.obj"}) {
     expect_rejected(std::string("{payload: {mesh: ") + name + ", unit: m}}", "expected a mesh");
   }
-  expect_rejected("{frame: {mesh: many.obj, unit: m}}", "got a mesh of 20001 triangles, expected at most 20000");
+  expect_rejected("{frame: {mesh: many.obj, unit: m}}", "a mesh of 20001 triangles, expected at most 20000");
 }
 
 }  // namespace
