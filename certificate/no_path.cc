@@ -14,7 +14,7 @@ namespace {
 using checker::OutsideReason;
 using nlohmann::json;
 
-constexpr int kMostHalvings = 6;  ///< of a cell that the kernel does not prove at one go
+constexpr int kMostHalvings = 4;  ///< of a cell that the kernel does not prove at one go
 
 checker::Problem to_kernel(const Problem& problem) {
   const json text = to_json(problem);

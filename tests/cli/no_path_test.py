@@ -194,10 +194,13 @@ class NoPath(InFolder):
 
         def no_flip(c):
             c["problem"]["space"]["flip"] = None
-        for change in (waypoint(0, *goal), waypoint(1, "-2.3", "1.6"), loosened, calm, turned, no_flip):
-            mutant = self.changed(change)
-            self.assert_outcome(mutant, "rejected")
-            self.assertIn("another problem", self.assert_outcome(mutant, "rejected", APART).stdout)
+        changes = (waypoint(0, *goal), waypoint(1, "-2.3", "1.6"), loosened, turned, no_flip)
+        for change in changes:
+            self.assert_outcome(self.changed(change), "rejected")
+        # With half the load the same cables go slack: it is true of that problem as well, but not of the case.
+        for change in (*changes, calm):
+            said = self.assert_outcome(self.changed(change), "rejected", APART)
+            self.assertIn("another problem", said.stdout)
 
     def test_periodicity(self):
         """Without its period phi is a range with walls: another problem, whose wall at the ends nothing proves."""
@@ -235,7 +238,7 @@ class NoPath(InFolder):
                        put("problem", "space", "constraints", ["phi"])):
             self.assert_outcome(self.changed(change), "malformed")
         altered = copy.deepcopy(self.certificate)
-        altered["map"]["tree"] = altered["map"]["tree"].replace("a", "c", 1)
+        altered["map"]["tree"] = altered["map"]["tree"][:-1] + "B"
         self.assertIn("altered", self.assert_outcome(altered, "malformed").stderr)
         cut = copy.deepcopy(self.certificate)
         cut["footer"]["nodes"] += 1
@@ -245,7 +248,7 @@ class NoPath(InFolder):
         self.assert_outcome(self.certificate, "rejected", "--expect", "proved")
         self.assert_outcome(self.certificate, "rejected", ROBOT1)
         self.assert_outcome(self.certificate, "unchecked", "--max-seconds", "0")
-        path = self.write("path.csv", "phi,theta\n0,1\n1,1\n")
+        path = self.write("path.csv", "phi[rad],theta[rad]\n0,1\n1,1\n")
         self.assert_outcome(self.certificate, "rejected", APART, "--path", path)
 
 
