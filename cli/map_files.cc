@@ -88,7 +88,7 @@ void for_each_mark(const CaseMap& made, const Add& add) {
 
 std::string picture(const CaseMap& made, const std::vector<std::vector<std::array<double, 2>>>& path) {
   constexpr double kEnclosure = 1.0 / 2048;  // of det J = 0: half a pixel
-  constexpr double kBoth = 1.0 / 512;
+  constexpr double kBoth = 1.0 / 2048;
   const MapResult& result = made.result();
   MapOverlay overlay;
   overlay.singular = singular_cells(result.problem, result.map, kEnclosure);
