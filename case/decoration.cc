@@ -104,8 +104,8 @@ ShownBody triangulated(const MeshFile& mesh, const std::vector<Point>& points, c
     }
   }
   if (triangles > kMostShownTriangles) {
-    fail(mesh, fmt::format("a mesh of {} triangles, expected at most {} for a picture", triangles,
-                           kMostShownTriangles));
+    fail(mesh,
+         fmt::format("a mesh of {} triangles, expected at most {} for a picture", triangles, kMostShownTriangles));
   }
   return body;
 }

@@ -10,6 +10,7 @@
 namespace taut::case_fields {
 
 /// @param folder  of the case file: file names are relative to it
-[[nodiscard]] DecorationFiles read_decoration(const Field& field, const Units& units, const std::filesystem::path& folder);
+[[nodiscard]] DecorationFiles read_decoration(const Field& field, const Units& units,
+                                              const std::filesystem::path& folder);
 
 }  // namespace taut::case_fields

@@ -148,7 +148,8 @@ std::vector<Command> add_commands(CLI::App& app) {
       add_sensitivity_options, proving(ErrorCode::kCase, run_sensitivity)));
   commands.push_back(add_command<ShowArguments>(app, "show", "print what a case was understood to say; draw the robot",
                                                 add_show_options, with_code(ErrorCode::kCase, run_show)));
-  commands.push_back(add_command<MapArguments>(app, "map", "prove which poses are feasible, of two or three free coordinates",
+  commands.push_back(add_command<MapArguments>(app, "map",
+                                               "prove which poses are feasible, of two or three free coordinates",
                                                add_map_options, proving(ErrorCode::kCase, run_map)));
   return commands;
 }
