@@ -103,10 +103,10 @@ TEST(OutsideCells, ProveNothingOfACellWithAFeasiblePose) {
   const OutsideCells outside(problem);
   int inside = 0;
   found.map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
-    if (found.map.nodes[node].kind != CellKind::kInside || ++inside % 7 != 0) return;
+    if (found.map.nodes[node].kind != CellKind::kInside || ++inside % 29 != 0) return;
     EXPECT_EQ(outside.tree({{cell.k[0], cell.depth[0]}, {cell.k[1], cell.depth[1]}}, {}), "");
   });
-  EXPECT_GT(inside, 20);
+  EXPECT_GT(inside, 100);
 }
 
 // ---- Separation -----------------------------------------------------------------------------------------------------
