@@ -606,6 +606,7 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
     taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
     certificate.illustration = {
         {"kind", "proof"}, {"units", to_json(about.units)}, {"document_fields", to_json(about.document_fields)}};
+    add_stated(certificate.illustration, about);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
                                options.stop);
@@ -647,7 +648,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     const Audit audited = audit_path(
         source,
         {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units,
-         content.the_case.document_fields, options.headroom_seconds},
+         content.the_case.document_fields, &content.the_case, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());
