@@ -22,7 +22,7 @@
 // vertices and directions), and of 200 bits wherever it is not 16 times that bound above 0. So nothing is lost: a
 // margin that 200 bits would find broken is negative, and then binary64 can't be that sure, unless its bound does not
 // hold. This is tested, too: of seeds that are surveyed every margin is computed in both. Where a load has balls and
-// discs, of which the judge tries 28 vectors for each cable, a judgement takes a tenth of the time that 200 bits take.
+// discs, of which the judge tries 28 vectors for each cable, that saves most of the time of a judgement.
 //
 // Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--undecided] [--surveys N]
 // [--kernels N] [--decades N] [--multiprecision N] [--threads N] [--budget SECONDS]
@@ -949,7 +949,7 @@ int main(int argc, char** argv) {
   app.add_option("--decades", options.decades, "only the so many smallest of 13 decades of margins")
       ->check(CLI::Range(1, kDecades));
   app.add_option("--multiprecision", options.multiprecision,
-                 "boxes in MPFR after which a segment is left undecided (10000, which takes half a minute)")
+                 "boxes in MPFR after which a segment is left undecided (10000, which can take half a minute)")
       ->check(CLI::PositiveNumber);
   app.add_option("--threads", threads, "0: all");
   app.add_option("--budget", budget, "stop after so many seconds");
