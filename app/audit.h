@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/as_items.h"
 #include "app/path_source.h"
 #include "case/case_file.h"
 #include "certificate/certificate_writer.h"
@@ -50,6 +51,7 @@ struct AuditOptions {
   CaseUnits units{};                 ///< in which the report shows results
   DocumentFields document_fields{};  ///< for the head of the report
   Decoration decoration{};           ///< for its pictures
+  const Case* the_case = nullptr;    ///< whose angles and items in an ellipsoid the report shows; null: none
   double headroom_seconds = 0;       ///< that find_headroom() may take; 0: it is not sought
   HeadroomProgress headroom_progress = {};
 };
@@ -84,6 +86,7 @@ struct Audit {
   FilePlace witness_place{};              ///< of its `at`
   bool witness_is_gravest = false;        ///< of all that were found; else the first, as the motion is implied
   std::optional<Headroom> headroom{};     ///< where it was sought
+  std::optional<AsItems> as_items{};      ///< of an ellipsoid around items, where headroom was sought
   FileLines lines{};                      ///< on which its waypoints stand; none where the path is a certificate's
   double seconds = 0;
 };

@@ -103,11 +103,14 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   illustration["units"] = to_json(the_case.units);
   illustration["document_fields"] = to_json(the_case.document_fields);
   illustration["decoration"] = to_json(decoration);
+  add_stated(illustration, the_case);
   if (options.headroom_seconds > 0 && !stop.stop_requested()) {
     const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
     result.headroom =
         plan_headroom(the_case, plan, wrench_scale, options.headroom_seconds, options.headroom_progress, stop);
     illustration["headroom"] = to_json(*result.headroom);
+    result.as_items = prove_as_items(the_case, plan, certificate.margins, options.headroom_seconds, stop);
+    if (result.as_items) illustration["as_items"] = to_json(result.as_items);
   }
   result.text = certificate_text(certificate, options.key);
   result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop);

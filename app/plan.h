@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/as_items.h"
 #include "app/headroom.h"
 #include "app/no_path.h"
 #include "app/recheck.h"
@@ -41,6 +42,7 @@ struct PlannedCase {
   Plan plan;
   std::optional<Growth> growth;          ///< where it was asked for
   std::optional<Headroom> headroom;      ///< where it was sought
+  std::optional<AsItems> as_items;       ///< of an ellipsoid around items, where headroom was sought
   std::optional<NoPathAttempt> no_path;  ///< where the search found no path, and a proof that there is none was tried
   std::string text;                      ///< of certificate.json
   checker::CheckResult checked;          ///< what the checker says of it: the verdict

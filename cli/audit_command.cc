@@ -317,7 +317,7 @@ int run_audit(const AuditArguments& arguments) {
     result = audit_path(
         source,
         {arguments.bits, out, key ? &*key : nullptr, case_.units, case_.document_fields, read_meshes(case_.decoration),
-         arguments.headroom_seconds,
+         &case_, arguments.headroom_seconds,
          [&](std::size_t done, std::size_t all) { line.show([&] { return headroom_progress_text(done, all); }); }},
         [&](std::string_view text) {
           digest.update(text);
@@ -361,6 +361,7 @@ int run_audit(const AuditArguments& arguments) {
     object["out"] = out.string();
     object["headroom"] =
         checked.outcome == checker::Outcome::kUnchecked ? nlohmann::json() : headroom_json(result.headroom);
+    object["as_items"] = checked.outcome == checker::Outcome::kUnchecked ? nlohmann::json() : to_json(result.as_items);
     std::vector<std::filesystem::path> written = {out / "certificate.json"};
     if (report) written.push_back(report_path);
     if (controller) written.push_back(out / "controller.csv");
@@ -370,6 +371,7 @@ int run_audit(const AuditArguments& arguments) {
   } else {
     print(result, case_, source, checked, context);
     if (checked.outcome != checker::Outcome::kUnchecked) {
+      if (result.as_items) print_wrapped(sentence(*result.as_items, DisplayUnits(case_.units)));
       print_headroom(result.headroom, source.problem(), case_.units);
     }
     print_wrapped(sentence(checked));

@@ -183,6 +183,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"smooth_seconds", s.smooth_seconds},
                            {"prove_seconds", s.prove_seconds},
                            {"headroom", headroom_json(outcome.planned.headroom)},
+                           {"as_items", to_json(outcome.planned.as_items)},
                            {"growth", growth_json(outcome.planned.growth)},
                            {"load", to_json(load_statement(the_case))},
                            {"warnings", the_case.warnings},
@@ -360,6 +361,7 @@ int run_plan(const PlanArguments& arguments) {
   if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) print_wrapped(may_be);
   print_search(outcome, DisplayUnits(case_.units));
   if (checked.outcome != checker::Outcome::kUnchecked) {
+    if (planned.as_items) print_wrapped(sentence(*planned.as_items, DisplayUnits(case_.units)));
     print_headroom(planned.headroom, case_.problem, case_.units);
   }
   print_wrapped(sentence(checked));

@@ -128,8 +128,11 @@ Html exact_load(const ReportContext& scene) {
   return section("exact-load", "Set of loads, exact", ellipsoid_table(load, scene.illustration.units));
 }
 
-Html space(const Problem& problem) {
-  return section("space", "Poses that the platform may take", space_tables(problem));
+Html space(const Certificate& certificate) {
+  return section("space", "Poses that the platform may take",
+                 has_poses(certificate.path.interpolation)
+                     ? html("<p>Any: waypoints are positions and quaternions, and nothing depends on parameters.</p>\n")
+                     : space_tables(certificate.problem));
 }
 
 Html exact_path(const ReportContext& scene) {

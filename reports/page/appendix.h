@@ -11,7 +11,7 @@ namespace taut {
 /// Centre and matrix of the ellipsoid of loads, where there is one.
 [[nodiscard]] Html exact_load(const ReportContext& scene);
 /// The space of poses, as the case states it.
-[[nodiscard]] Html space(const Problem& problem);
+[[nodiscard]] Html space(const Certificate& certificate);
 /// The path's waypoints, to the last bit.
 [[nodiscard]] Html exact_path(const ReportContext& scene);
 /// Where the stretches that are not proved, and their witnesses, begin and end.

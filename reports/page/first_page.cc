@@ -7,6 +7,7 @@
 #include "certify/severity.h"
 #include "reports/page/cable_plot.h"
 #include "reports/page/machine_picture.h"
+#include "reports/summary/around_items.h"
 #include "reports/summary/broken_limits.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
@@ -48,6 +49,13 @@ Html scope(const ReportContext& scene, const Summary& s) {
   if (s.load.items.empty()) load += html(" {}", with_minus_signs(s.load.spread));
   for (const auto& [name, words] : s.load.items) {
     load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
+  }
+  if (s.load.around_items) {
+    load += html("<br><span class=\"note\">{}", kItemsNotChecked);
+    for (const auto& [name, words] : s.load.around_items->items) {
+      load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
+    }
+    load += html("</span>");
   }
   row("Load", load);
   for (const Statement& statement : s.statements) {

@@ -100,7 +100,7 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Html inputs_in_words =
       machine(scene) + (is_claimed ? tolerances(scene) : Html()) + assumptions(scene.certificate) + path_section(scene);
   const Html proof = verdict_section(summary) + (is_claimed ? theorem(scene.certificate) + margins(scene) : Html());
-  const Html exact = exact_load(scene) + space(problem) + exact_path(scene) + exact_stretches(scene) +
+  const Html exact = exact_load(scene) + space(scene.certificate) + exact_path(scene) + exact_stretches(scene) +
                      (is_claimed ? exact_margins(scene) : Html()) + inputs(scene.certificate) + recheck(scene);
   const Html body = first_page(scene, summary) + results + inputs_in_words + proof +
                     html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact) +

@@ -10,6 +10,7 @@
 #include "reports/page/report_data.h"
 #include "reports/page/robot_drawing.h"
 #include "reports/page/still_picture.h"
+#include "reports/summary/angles.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -95,7 +96,7 @@ Html margins_along(const ReportContext& scene) {
 Html poses(const ReportContext& scene) {
   return section("pose", "Pose along the path",
                  html("<p>Position p of the platform’s origin in the world; {}. Floating-point samples.</p>\n",
-                      rotation_formula(scene.certificate.problem.space.angles)) +
+                      rotation_formula(shown_angles(scene.certificate))) +
                      unscripted() + place("pose"));
 }
 

@@ -16,6 +16,7 @@
 #include "problem/scalar.h"
 #include "reports/page/machine_view.h"
 #include "reports/page/plane.h"
+#include "reports/summary/angles.h"
 #include "reports/summary/cable_use.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
@@ -177,7 +178,8 @@ json forces(const ReportContext& scene) {
 json samples(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
   std::vector<double> position, distance, turned, scale, sign;
-  const std::vector<std::string> symbols = angle_symbols(scene.certificate.problem.space.angles.kind);
+  const AngleKind kind = shown_angles(scene.certificate).kind;
+  const std::vector<std::string> symbols = angle_symbols(kind);
   std::array<std::vector<double>, 3> p;
   std::vector<std::vector<double>> angles(symbols.size());
   std::array<std::vector<double>, 4> q;
@@ -185,6 +187,7 @@ json samples(const ReportContext& scene) {
   std::vector<std::vector<double>> parameters;
   json time = json::array();
   std::optional<TiltAndTorsion> tilt;
+  std::optional<std::array<double, 3>> before;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   for (const PathSample& sample : scene.samples) {
@@ -196,7 +199,12 @@ json samples(const ReportContext& scene) {
     if (pose.q.dot(last) < 0) pose.q.coeffs() *= -1;
     last = pose.q;
     std::array<double, 3> shown = sample.pose.angles;
-    if (has_poses(scene.certificate.path.interpolation)) {  // its angles are wrapped
+    const bool is_of_poses = has_poses(scene.certificate.path.interpolation);  // its angles are wrapped
+    if (is_of_poses && kind != AngleKind::kTiltAndTorsion) {
+      shown = angles_of(kind, pose.q.toRotationMatrix());
+      if (before) shown = nearest_angles(kind, shown, *before);
+      before = shown;
+    } else if (is_of_poses) {
       tilt = tilt_and_torsion(pose.q, tilt);
       for (std::size_t c = 0; c < 3; ++c) shown[c] = tilt->value(c);
     }

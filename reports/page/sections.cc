@@ -6,6 +6,7 @@
 
 #include "reports/page/table_sizes.h"
 #include "reports/summary/angles.h"
+#include "reports/summary/around_items.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/scope.h"
@@ -114,14 +115,22 @@ Html robot_tables(const Problem& problem, const DisplayUnits& units) {
                cables);
 }
 
-/// The items in words.
-Html items_table(const LoadText& load) {
-  const LoadStatement statement = load_statement(load);
+Html items_table(const LoadStatement& statement, const char* caption) {
   std::vector<std::vector<Html>> rows;
   for (const auto& [name, words] : statement.items) rows.push_back({html("<bdi>{}</bdi>", name), html("{}", words)});
   return html("<p>{} {}</p>\n", statement.total, statement.spread) +
-         table(html("What the load consists of; K is the sum. Ranges with many digits are rounded inward"),
-               {{html("Item")}, {html("What it is")}}, rows);
+         table(html("{}", caption), {{html("Item")}, {html("What it is")}}, rows);
+}
+
+/// The items in words, and those that the case puts an ellipsoid around.
+Html load_tables(const Certificate& certificate) {
+  Html result = items_table(load_statement(certificate.problem.load),
+                            "What the load consists of; K is the sum. Ranges with many digits are rounded inward");
+  if (const auto items = stated_items(certificate)) {
+    result += html("<p class=\"note\">{}</p>\n", kItemsNotChecked) +
+              items_table(*items, "What the case puts the ellipsoid around; not checked");
+  }
+  return result;
 }
 
 /// How the path follows the constraints, and how far that takes it from the waypoints.
@@ -151,7 +160,7 @@ int position_decimals(const RobotText& robot) {
 Html pose_table(const ReportContext& scene, std::size_t step) {
   const Path& path = scene.certificate.path;
   const bool is_spline = path.interpolation == Interpolation::kCubicBSpline;
-  const AngleKind kind = scene.certificate.problem.space.angles.kind;
+  const AngleKind kind = shown_angles(scene.certificate).kind;
   const DisplayUnit& length = scene.illustration.units.length;
   const int decimals = position_decimals(scene.certificate.problem.robot);
   const char* const what = is_spline ? "Control point" : "Waypoint";
@@ -166,7 +175,7 @@ Html pose_table(const ReportContext& scene, std::size_t step) {
         is_spline ? scene.sampler.pose(path.waypoints[k]) : scene.sampler.at(path, static_cast<double>(k)).pose;
     rows.push_back({html("{}", k)});
     for (int c = 0; c < 3; ++c) rows.back().push_back(html("{}", length.fixed(pose.p_WP(c), decimals)));
-    const auto angles = customary_angles(kind, pose.angles);
+    const auto angles = angles_of(kind, scene.sampler.model().angles, pose.angles);
     for (std::size_t c = 0; c < symbols.size(); ++c) {
       rows.back().push_back(html("{:.1f}", angles[c] * kDegrees + 0.0));
     }
@@ -186,8 +195,7 @@ Html theorem(const Certificate& certificate) {
       row(html("λ<sub>k</sub>"), html("waypoint k: one exact number for each parameter of the space of poses"),
           html("m, rad")),
       row(html("p, R"),
-          html("position of the platform's origin; its orientation by {}",
-               rotation_formula(certificate.problem.space.angles)),
+          html("position of the platform's origin; its orientation by {}", rotation_formula(shown_angles(certificate))),
           html("m, rad")),
       row(html("a<sub>i</sub>, b<sub>i</sub>"),
           html("anchors of cable i on the base (world axes) and on the platform (platform axes)"), html("m")),
@@ -232,9 +240,14 @@ Html assumptions(const Certificate& certificate) {
 }
 
 Html headroom(const ReportContext& scene) {
-  if (!scene.illustration.headroom) return {};
-  const std::vector<std::string> sentences =
-      headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+  std::vector<std::string> sentences;
+  if (scene.illustration.headroom) {
+    sentences = headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+  }
+  const bool is_unchecked = scene.recheck.result == Recheck::Result::kUnchecked;
+  if (const auto found = stated_as_items(scene.certificate); found && !is_unchecked) {
+    sentences.insert(sentences.begin(), sentence(*found, scene.illustration.units));
+  }
   if (sentences.empty()) return {};
   Html body;
   for (const std::string& sentence : sentences) body += html("<p>{}</p>\n", sentence);
@@ -288,9 +301,8 @@ Html tolerances(const ReportContext& scene) {
 }
 
 Html machine(const ReportContext& scene) {
-  return section(
-      "robot", "Machine and load",
-      robot_tables(scene.certificate.problem, scene.illustration.units) + items_table(scene.certificate.problem.load));
+  return section("robot", "Machine and load",
+                 robot_tables(scene.certificate.problem, scene.illustration.units) + load_tables(scene.certificate));
 }
 
 Html path_section(const ReportContext& scene) {

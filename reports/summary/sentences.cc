@@ -10,6 +10,7 @@
 #include "certify/severity.h"
 #include "certify/undecided.h"
 #include "problem/decimal.h"
+#include "reports/summary/around_items.h"
 #include "reports/summary/explanations.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -460,13 +461,19 @@ std::string proof_text(const ReportContext& scene) {
                      plural(certificate.segments.size(), "segment"), witness.empty() ? "" : ", and " + witness);
 }
 
+std::string load_sentences(const Certificate& certificate) {
+  LoadStatement load = load_statement(certificate.problem.load);
+  if (const auto items = stated_items(certificate)) load.around_items = std::make_shared<const LoadStatement>(*items);
+  return fmt::format("{}", fmt::join(report_lines(load), " "));
+}
+
 }  // namespace
 
 std::vector<Statement> statements(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const Problem& problem = certificate.problem;
   return {{"motion", "Motion", motion_text(scene)},
-          {"load", "Loads", load_text(problem.load)},
+          {"load", "Loads", load_sentences(certificate)},
           {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
           {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
           {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},

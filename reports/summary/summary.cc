@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/sanitize.h"
+#include "reports/summary/around_items.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/wording.h"
 
@@ -124,8 +125,15 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
   use_caption = taut::use_caption(scene, use.source);
   if (title.empty()) title = title_from_name(name);
   assurance_case = taut::assurance_case(scene, title);
+  const bool is_unchecked = scene.recheck.result == Recheck::Result::kUnchecked;
+  if (const auto items = stated_items(scene.certificate)) {
+    load.around_items = std::make_shared<const LoadStatement>(*items);
+  }
   if (scene.illustration.headroom)
     headroom = headroom_sentences(*scene.illustration.headroom, scene.certificate.problem, scene.illustration.units);
+  if (const auto found = stated_as_items(scene.certificate); found && !is_unchecked) {
+    headroom.insert(headroom.begin(), sentence(*found, scene.illustration.units));
+  }
   lift_plan = taut::lift_plan(scene, *this);  // of all the rest
 }
 
@@ -268,7 +276,7 @@ nlohmann::json to_json(const Summary& s) {
       {"not_covered", scope_json(s.not_covered)},
       {"assurance_case", to_json(s.assurance_case)},
       {"lift_plan", to_json(s.lift_plan)},
-      {"load", to_json(s.load)},
+      {"load", report_json(s.load)},
       {"cables_source", name(s.use.source)},
       {"cables", cables},
       {"recheck", {{"result", name(s.recheck.result)}, {"checker", s.recheck.checker}, {"message", s.recheck.message}}},

@@ -214,8 +214,9 @@ std::string pose_text(const ReportContext& scene, const Pose<double>& pose) {
   };
   const auto position = [&](int c) { return text(length.approx(pose.p_WP(c)), length.approx(1e-6)); };  // micrometres
   std::string result = fmt::format("p = ({}, {}, {}) {}", position(0), position(1), position(2), length.name());
-  const std::vector<std::string> symbols = angle_symbols(scene.certificate.problem.space.angles.kind);
-  const auto angles = customary_angles(scene.certificate.problem.space.angles.kind, pose.angles);
+  const AngleKind kind = shown_angles(scene.certificate).kind;
+  const std::vector<std::string> symbols = angle_symbols(kind);
+  const auto angles = angles_of(kind, scene.sampler.model().angles, pose.angles);
   for (std::size_t c = 0; c < symbols.size(); ++c) {
     result += fmt::format(", {} = {}°", symbols[c], text(angles[c] * kDegrees, 1e-3));
   }

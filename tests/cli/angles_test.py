@@ -127,6 +127,26 @@ class RollPitchAndYaw(Angles):
                 inner = sum(a * b for a, b in zip(q, quaternion(*self.angles(row))))
                 self.assertAlmostEqual(abs(inner), 1, places=14)
 
+    def test_laws_between_poses_are_reported_in_the_angles_of_the_case(self):
+        log = self.log("log.csv", ["px[m]", "py[m]", "pz[m]", "roll[rad]", "pitch[rad]", "yaw[rad]"],
+                       lambda row: self.position(row) + self.angles(row))
+        for law in ("geodesic", "cable-lengths"):
+            self.taut("audit", CASE, log, "--interpolation", law, "--headroom", "0", "--out", self.path(law))
+            report = text_of(self.path(law, "report.html"))
+            for heading in ("roll [°]", "pitch [°]", "yaw [°]"):
+                self.assertIn(f"{heading}</th>", report)
+            self.assertIn('"angle_names":["roll","pitch","yaw"]', report)
+            self.assertIn("R = Rz(yaw) Ry(pitch) Rx(roll). Floating-point samples", report)
+            self.assertNotRegex(report.split("<script")[0], "torsion|[φθσ]", "no angles that the case does not have")
+            text = self.taut("report", self.path(law, "certificate.json"), "--text")
+            self.assertRegex(text, r"From p = [^=]*, roll = 0°, pitch = 0°, yaw = 34° to p = [^=]*, roll = 17\.189°, "
+                                   r"pitch = 28\.648°, yaw = 34°")
+            data = json.loads(re.search(r'(?s)<script[^>]*application/json[^>]*>(.*?)</script>', report)[1])
+            first, *_, last = zip(*data["samples"]["angles"])
+            for shown, row in ((first, self.rows[0]), (last, self.rows[-1])):
+                for x, y in zip(shown, self.angles(row)):
+                    self.assertAlmostEqual(x, y, places=5)
+
     def test_a_log_of_winches_starts_at_a_pose_in_them(self):
         shown = json.loads(self.taut("show", CASE, "--json"))
         lengths = [[cable["length_m"] for cable in waypoint["cables"]] for waypoint in shown["waypoints"]]

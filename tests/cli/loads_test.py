@@ -4,6 +4,7 @@
 
 Usage: loads_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
+import html
 import json
 import math
 import os
@@ -74,6 +75,32 @@ class Loads(unittest.TestCase):
             file.write(CRANE.replace("LOAD", load))
         return subprocess.run([TAUT, command[0], "crane.yaml", *command[1:]], cwd=self.folder.name, capture_output=True,
                               text=True, check=False, timeout=600)
+
+    def margins(self, out):
+        with open(os.path.join(self.folder.name, out, "certificate.json"), encoding="utf-8") as file:
+            return json.load(file)["margins"]
+
+    def test_an_ellipsoid_that_stands_in_the_way_of_provable_items_is_blamed(self):
+        case = os.path.join(self.folder.name, "around.yaml")
+        with open(os.path.join(CASES, "cranes", "portal-20t.yaml"), encoding="utf-8") as file:
+            text = re.sub(r"(?m)^expect:.*\n", "", file.read())
+        with open(case, "w", encoding="utf-8") as file:
+            file.write(text.replace("  items:", "  ellipsoid: around_items\n  items:"))
+        out = os.path.join(self.folder.name, "out")
+        said = command(TAUT, "plan", case, "--out", out, "--headroom", "5")
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        blame = "waypoint 0 of the query is proved: what stands in the way is the ellipsoid, not the items."
+        self.assertIn(blame, said.stdout)
+        self.assertIn(blame, command(TAUT, "report", os.path.join(out, "certificate.json"), "--text").stdout)
+        audited = command(TAUT, "plan", os.path.join(CASES, "cranes", "portal-20t.yaml"), "--out", out)
+        self.assertEqual(audited.returncode, 0)
+        audit = os.path.join(self.folder.name, "audit")
+        said = command(TAUT, "audit", case, os.path.join(out, "path.csv"), "--out", audit, "--headroom", "5", "--json")
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        as_items = json.loads(said.stdout)["as_items"]
+        self.assertEqual((as_items["verdict"], as_items["of_ellipsoid"]), ("proved", None))
+        with open(os.path.join(out, "certificate.json"), encoding="utf-8") as file:
+            self.assertEqual(as_items["margins"]["tension_N"], json.load(file)["margins"]["tension_N"])
 
     def test_a_load_is_shown_in_tonnes_and_kilonewtons(self):
         said = self.run_on(ITEMS, "show")
@@ -203,6 +230,35 @@ class Loads(unittest.TestCase):
         self.assertEqual(sorted(stated), ["ellipsoid", "point_m", "wrench"])
         case = os.path.join(self.folder.name, "crane.yaml")
         self.assertEqual(command(CHECK, certificate, case).returncode, 0)
+        # The report lists the items, as what the case says and nobody checks.
+        with open(os.path.join(self.folder.name, "out", "report.html"), encoding="utf-8") as file:
+            page = html.unescape(file.read())
+        note = "From the case, not checked: this ellipsoid was put around the items that follow."
+        self.assertIn("What the case puts the ellipsoid around; not checked", page)
+        text = command(TAUT, "report", certificate, "--text").stdout
+        for shown in (page, text):
+            self.assertLess(shown.index("differs from the nominal load in"), shown.index(note))
+            self.assertIn("11.76 to 12.24 t, centre of gravity within 50 mm of (0, 0, -1.2) m",
+                          shown[shown.index(note):])
+        reported = json.loads(command(TAUT, "report", certificate, "--json").stdout)["load"]
+        for key in ("mass_kg", "items", "extreme_wrenches", "nominal_wrench", "centre_of_gravity_m"):
+            self.assertEqual(reported["around_items"][key], load["around_items"][key], key)
+        # What the ellipsoid costs.
+        cost = r"With the items in place of the ellipsoid around them, this path is proved with a tension margin of " \
+               r"(\S+) kN in place of (\S+) kN, and the load's deviations may grow by the factor (\S+) " \
+               r"in place of (\S+)\."
+        for shown in (said.stdout, page, text):
+            items_kN, ellipsoid_kN, items_growth, ellipsoid_growth = map(float, re.search(cost, shown).groups())
+            self.assertGreater(items_kN, ellipsoid_kN)
+            self.assertGreater(items_growth, ellipsoid_growth)
+        as_items = json.loads(self.run_on(around, "plan", "--out", "out", "--json").stdout)["as_items"]
+        self.assertEqual((as_items["subject"], as_items["verdict"]), ("this path", "proved"))
+        plain = json.loads(self.run_on(ITEMS, "plan", "--out", "plain", "--json").stdout)
+        self.assertIsNone(plain["as_items"])
+        self.assertEqual(as_items["margins"]["tension_N"], self.margins("plain")["tension_N"])
+        self.assertEqual(as_items["of_ellipsoid"], self.margins("out"))
+        self.assertNotIn("With the items in place",
+                         command(TAUT, "report", certificate, "--text", "--max-seconds", "0").stdout)
         self.run_on(ITEMS, "show")  # the items themselves are another problem
         self.assertEqual(command(CHECK, certificate, case).returncode, 1)
 

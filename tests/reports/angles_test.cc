@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "kinematics/geometry.h"
 
@@ -58,6 +59,54 @@ TEST(Angles, OfTheExamplesAreWhatPeopleExpect) {
   EXPECT_EQ(degrees(AngleKind::kRollPitchYaw, 0, 100, 0), (Three{180, 80, 180}));
   EXPECT_EQ(degrees(AngleKind::kAxis, 270, 0, 0), (Three{-90, 0, 0}));
   EXPECT_EQ(customary_angles(AngleKind::kAxis, {-3, 0, 0}), (Three{-3, 0, 0}));
+}
+
+TEST(Angles, OfARotationGiveItBack) {
+  for (const AngleKind kind : {AngleKind::kTiltAndTorsion, AngleKind::kRollPitchYaw, AngleKind::kZyz}) {
+    Angles<double> model;
+    for (double a = -3; a < 3; a += 0.7) {
+      for (const double b : {-kPi / 2, -1.0, -1e-12, 0.0, 0.3, kPi / 2, 2.0, kPi}) {
+        const std::array<double, 3> given{a, b, 1 - a};
+        model.kind = kind;
+        const std::array<double, 3> found = angles_of(kind, rotation(model, given));
+        EXPECT_LT(difference(kind, given, found), 1e-9) << name(kind) << " " << a << " " << b;
+        EXPECT_EQ(found, customary_angles(kind, found));
+        model.kind = AngleKind::kTiltAndTorsion;
+        const std::array<double, 3> tilted = angles_of(AngleKind::kTiltAndTorsion, rotation(model, given));
+        const std::array<double, 3> again = angles_of(kind, model, tilted);
+        Angles<double> shown;
+        shown.kind = kind;
+        EXPECT_LT((rotation(shown, again) - rotation(model, given)).norm(), 1e-8);
+      }
+    }
+  }
+}
+
+TEST(Angles, OfAPathHaveNoJumps) {
+  for (const AngleKind kind : {AngleKind::kTiltAndTorsion, AngleKind::kRollPitchYaw, AngleKind::kZyz}) {
+    std::array<double, 3> last{0.2, 0.1, -0.4};
+    for (double t = 0; t < 20; t += 0.05) {  // the middle angle leaves its customary range, others turn on and on
+      const std::array<double, 3> given{0.2 + t, 0.1 + 0.2 * t, -0.4 - 2 * t};
+      const std::array<double, 3> shown = nearest_angles(kind, customary_angles(kind, given), last);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], given[c], 1e-9) << name(kind) << " " << t;
+      last = shown;
+    }
+  }
+}
+
+TEST(Angles, OfALawBetweenPosesAreTheCases) {
+  Certificate certificate;
+  certificate.illustration = {{"angles", "roll-pitch-yaw"}};
+  certificate.path.interpolation = Interpolation::kStraight;
+  EXPECT_EQ(shown_angles(certificate).kind, AngleKind::kTiltAndTorsion) << "the space's own";
+  certificate.path.interpolation = Interpolation::kGeodesic;
+  EXPECT_EQ(shown_angles(certificate).kind, AngleKind::kRollPitchYaw);
+  for (const nlohmann::json& other : {nlohmann::json("axis"), nlohmann::json("tilt"), nlohmann::json(3)}) {
+    certificate.illustration["angles"] = other;
+    EXPECT_EQ(shown_angles(certificate).kind, AngleKind::kTiltAndTorsion);
+  }
+  certificate.illustration = nullptr;
+  EXPECT_EQ(shown_angles(certificate).kind, AngleKind::kTiltAndTorsion);
 }
 
 TEST(Angles, ThatAreNoNumbersStay) {
