@@ -33,8 +33,8 @@ OutsideReason first_reason(const MapNode& leaf) {
   return {kind, static_cast<std::size_t>(margin.cable), is_most ? std::size_t{1} : 0};
 }
 
-/// Makes the certificate's tree of a map: reasons have the outside cells next to all that hangs together with one of two
-/// places.
+/// Makes the certificate's tree of a map: reasons have the outside cells next to all that hangs together with one of
+/// two places.
 class Wall {
  public:
   Wall(const Problem& problem, CellMap map, std::vector<MapBox> from, std::vector<MapBox> to)

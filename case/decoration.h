@@ -42,8 +42,8 @@ struct DecorationFiles {
   std::optional<MeshFile> frame, payload;
 };
 
-/// Reads the meshes. @throws InputError naming the place in the case, where a file can't be read, is no mesh, or is more
-/// than a picture can show
+/// Reads the meshes. @throws InputError naming the place in the case, where a file can't be read, is no mesh, or is
+/// more than a picture can show
 [[nodiscard]] Decoration read_meshes(const DecorationFiles& files);
 
 /// Whether a picture can show it: numbers within the bounds above, and indices that have a corner.

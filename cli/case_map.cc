@@ -152,7 +152,7 @@ void print_region(const CaseMap& made) {
   fmt::print("  reachable, proved  {:>9}  {}joined by motions of which every pose is feasible\n",
              percent_down(reachable), size_text(result, reachable, down));
   fmt::print("  open               {:>9}  {}neither is proved\n", percent_up(open), size_text(result, open, up));
-  fmt::print("  cut off, proved    {:>9}  {}outside, or behind it: no motion within the space leads there\n",
+  fmt::print("  cut off, proved    {:>9}  {}outside, or behind it: no motion of the coordinates leads there\n",
              percent_down(cut_off), size_text(result, cut_off, down));
   if (reachable == 0) fmt::print("  The start itself is not proved inside: see --cell and --undecided.\n");
 }

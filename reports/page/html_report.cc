@@ -93,7 +93,6 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   require_plain(options);
   const Summary summary(scene, options);
   const bool is_claimed = scene.recheck.result == Recheck::Result::kConfirmed;
-  const Problem& problem = scene.certificate.problem;
   // What a reader needs first comes first; then what the verdict is about; then how it was proved; then all digits.
   const Html results =
       move_section(scene) + cables_section(scene, summary) + plot_sections(scene) + headroom(scene) + stretches(scene);

@@ -11,8 +11,8 @@
 
 namespace taut {
 
-/// The object `decoration` of an illustration: for `frame` and `payload`, where they are, flat lists of `corners` [10 µm]
-/// and of `triangles`, three indices of corners each.
+/// The object `decoration` of an illustration: for `frame` and `payload`, where they are, flat lists of `corners`
+/// [10 µm] and of `triangles`, three indices of corners each.
 [[nodiscard]] nlohmann::json to_json(const Decoration& decoration);
 /// Reads it. A body that a case could not state is taken as not stated: anybody can alter an illustration.
 [[nodiscard]] Decoration decoration_from_json(const nlohmann::json& decoration);

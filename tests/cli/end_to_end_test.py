@@ -59,7 +59,7 @@ class EndToEnd(InFolder):
                 self.assertEqual(planned.returncode, EXIT[verdict], planned.stdout + planned.stderr)
                 # The load as it was understood comes first, on two lines.
                 word = {"proved": "PROVED", "refuted": "REFUTED - DO NOT RUN",
-                        "undecided": "(UNDECIDED - NO DECISION|NO PATH FOUND)"}[verdict]
+                        "undecided": "(UNDECIDED - NO DECISION|NO PATH FOUND)", "no path": "NO PATH EXISTS"}[verdict]
                 self.assertRegex(planned.stdout, rf"\ALoad: .*\n      .*\n{word}: ")
                 self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
                 paths = ["controller.csv", "path.csv"] if verdict == "proved" else []

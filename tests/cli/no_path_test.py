@@ -106,7 +106,7 @@ class NoPath(InFolder):
         self.assertRegex(words, r"the middle one at phi = \S+ rad \(± \S+ rad\), theta = ")
 
     def test_map_writes_the_certificate(self):
-        said = run(TAUT, "map", APART, "--undecided", "3%", "--out", self.path("map"))
+        said = run(TAUT, "map", APART, "--undecided", "1%", "--out", self.path("map"))
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertEqual(sorted(os.listdir(self.path("map"))), ["certificate.json", "map.svg"])
         checked = run(CHECK, self.path("map", "certificate.json"), APART, "--expect", "no path")
