@@ -7,14 +7,21 @@
 
 #include "base/sanitize.h"
 #include "map/topology.h"
+#include "problem/expression.h"
 #include "reports/page/first_page_style.h"
 #include "reports/page/markup.h"
 #include "reports/page/style.h"
+#include "reports/summary/load_statement.h"
+#include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
 
 using nlohmann::json;
+
+std::string rounded(const ExpressionText& constant) {
+  return with_minus_signs(fmt::format("{:.6g}", evaluate_constant<double>(constant)));
+}
 
 /// The certificate, and what is said of it. Words about the verdict are there only where there is a theorem.
 struct Content {
@@ -33,12 +40,12 @@ struct Content {
         "{} cells without a feasible pose part them.",
         from, from + 1, checked.theorem->counts().boxes);
   }
-  /// "phi = -2.3, theta = 1.6": SI, as the certificate has it.
+  /// "phi = -2.3, theta = 1.6": SI, rounded.
   [[nodiscard]] std::string waypoint(std::size_t n) const {
     std::string text;
     const auto& coordinates = problem.query.at(n);
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
-      text += (j == 0 ? "" : ", ") + problem.space.parameters[j].name + " = " + coordinates[j];
+      text += (j == 0 ? "" : ", ") + problem.space.parameters[j].name + " = " + rounded(coordinates[j]);
     }
     return text;
   }
@@ -47,8 +54,8 @@ struct Content {
     std::vector<std::string> lines;
     for (const Parameter& parameter : problem.space.parameters) {
       lines.push_back(parameter.kind == ParameterKind::kRange
-                          ? fmt::format("{} from {} to {}; the ends are walls", parameter.name, parameter.range_lower,
-                                        parameter.range_upper)
+                          ? fmt::format("{} from {} to {}; the ends are walls", parameter.name,
+                                        rounded(parameter.range_lower), rounded(parameter.range_upper))
                           : parameter.name + ": every value");
     }
     return lines;
@@ -84,13 +91,20 @@ std::size_t draw(const std::string& tree, std::size_t node, const MapBox& box, H
   return node;
 }
 
-Html mark(const MapSpace& space, const std::vector<ExpressionText>& waypoint, const std::string& name) {
+/// @param is_below  whether the name is below on the left, else above on the right: the two may be close
+Html mark(const MapSpace& space, const std::vector<ExpressionText>& waypoint, const std::string& name, bool is_below) {
   const MapBox at = place_of(space, waypoint).front();
   const double x = kWidth * 0.5 * (at.lower[0] + at.upper[0]), y = kHeight * (1 - 0.5 * (at.lower[1] + at.upper[1]));
   return html(
       "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\" fill=\"#a61b14\" stroke=\"#fff\"/><text x=\"{:.2f}\" "
-      "y=\"{:.2f}\" fill=\"currentColor\">{}</text>\n",
-      x, y, std::min(x + 8, kWidth - 40), std::max(y - 8, 14.0), name);
+      "y=\"{:.2f}\" text-anchor=\"{}\" fill=\"currentColor\">{}</text>\n",
+      x, y, is_below ? std::max(x - 8, 40.0) : std::min(x + 8, kWidth - 40),
+      is_below ? std::min(y + 18, kHeight - 4) : std::max(y - 8, 14.0), is_below ? "end" : "start", name);
+}
+
+/// "phi from −3.14159 to 3.14159"
+std::string extent(const MapAxis& axis) {
+  return fmt::format("{} from {} to {}", axis.name, rounded(axis.lower), rounded(axis.upper));
 }
 
 Html picture(const Content& content) {
@@ -100,15 +114,15 @@ Html picture(const Content& content) {
   if (space.size() != 2 || tree.size() > kMostNodes) return {};
   Html cells;
   draw(tree, 0, MapBox(), cells);
-  const Html marks = mark(space, content.problem.query[content.from], "start") +
-                     mark(space, content.problem.query[content.from + 1], "goal");
+  const Html marks = mark(space, content.problem.query[content.from], "start", true) +
+                     mark(space, content.problem.query[content.from + 1], "goal", false);
   return html(
       "<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Cells without a feasible pose\">\n<rect x=\"0\" "
       "y=\"0\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"currentColor\"/>\n{}{}</svg>\n<figcaption>Cells that "
       "are proved to hold no feasible pose: blue, tensions can't balance the load; orange, a cable's length is beyond "
-      "its limit. {} from left to right, {} upward. What is blank did not have to be decided. Rounded for the "
+      "its limit. {}, from left to right; {}, upward. What is blank did not have to be decided. Rounded for the "
       "picture.</figcaption></figure>\n",
-      kWidth, kHeight, kWidth, kHeight, cells, marks, space.axes[0].name, space.axes[1].name);
+      kWidth, kHeight, kWidth, kHeight, cells, marks, extent(space.axes[0]), extent(space.axes[1]));
 }
 
 /// Text that can't contain Markdown's markup, or HTML's.
@@ -121,11 +135,27 @@ std::string markdown(const std::string& text) {
   return result;
 }
 
-std::string list(const std::vector<std::string>& lines) {
+std::string joined(const std::vector<std::string>& lines, const char* between) {
   std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
+  for (const std::string& line : lines) text += (text.empty() ? "" : between) + line;
   return text;
 }
+
+/// "Every tension above 0.05 N and below 0.5 N; …": exactly.
+std::string limits_text(const RobotText& robot) {
+  const auto text = [](const char* what, const std::array<Limits, kCables>& limits, const char* unit) {
+    const bool is_one = std::ranges::all_of(
+        limits, [&](const Limits& x) { return x.lower == limits[0].lower && x.upper == limits[0].upper; });
+    if (!is_one) return fmt::format("the limits of each cable's {} are below", what);
+    return fmt::format("every {} above {} {} and below {} {}", what, limits[0].lower, unit, limits[0].upper, unit);
+  };
+  return text("tension", robot.tension_N, "N") + "; " + text("length", robot.length_m, "m");
+}
+
+constexpr const char* kNotSaid =
+    "Whether there is a way outside of this space or these ranges, for a lighter load, or for some other machine "
+    "within "
+    "the tolerances; and whether the numbers are those of the machine.";
 
 /// What there is to say, each under its title.
 std::vector<std::pair<std::string, std::string>> rows(const Content& content) {
@@ -134,9 +164,13 @@ std::vector<std::pair<std::string, std::string>> rows(const Content& content) {
       {"Case", content.problem.name},
       {"From", fmt::format("waypoint {}: {}", content.from, content.waypoint(content.from))},
       {"To", fmt::format("waypoint {}: {}", content.from + 1, content.waypoint(content.from + 1))},
-      {"Space", list(content.space())},
-      {"Numbers", "metres and radians, exact, as the certificate states them"},
-      {"Certificate", "SHA-256 " + content.checked.sha256}};
+      {"Space", joined(content.space(), "; ")},
+      {"Numbers", "of waypoints and space in metres and radians, rounded; below they are exact"}};
+  const LoadStatement load = load_statement(content.problem.load);
+  result.emplace_back("Load", with_minus_signs(joined(lines(load), " ")));
+  result.emplace_back("Limits", limits_text(content.problem.robot));
+  result.emplace_back("Not said", kNotSaid);
+  result.emplace_back("Certificate", "SHA-256 " + content.checked.sha256);
   if (content.is_proved()) result.emplace_back("Claim", certificate.at("claim").get<std::string>());
   result.emplace_back("Checked", content.checked.message);
   return result;
@@ -162,7 +196,8 @@ std::string no_path_page(const checker::CheckResult& checked, const ReportOption
       "<div class=\"masthead\"><p>Proof report for a cable-driven "
       "hexapod</p></div>\n<h1><bdi>{}</bdi></h1>\n{}{}{}<div "
       "class=\"band {}\"><p class=\"word\">{}</p><p class=\"headline\">{}</p></div>\n<dl class=\"scope\">\n{}</dl>\n{}"
-      "<h2>Machine, load and space, exact</h2>\n<pre>{}</pre>\n<h2>Check again</h2>\n<p><code>taut-check "
+      "<h2>Machine, load and space, exact</h2>\n<details><summary>as the certificate states "
+      "them</summary>\n<pre>{}</pre></details>\n<h2>Check again</h2>\n<p><code>taut-check "
       "certificate.json CASE --expect 'no path'</code></p>\n",
       content.problem.name, number, revision, date, content.is_proved() ? "refuted" : "unchecked", content.word(),
       content.headline(), table, content.is_proved() ? picture(content) : Html(),
