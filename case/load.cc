@@ -463,6 +463,7 @@ void ItemReader::read_wrench(const Map& item) {
   }
   ellipsoid_ = read_ellipsoid(*ellipsoid, units_);
   load_.ellipsoid = ellipsoid_->matrix;
+  load_.ellipsoid_name = name_;
   load_.wrench = wrench;
   for (std::size_t i = 0; i < 6; ++i) item.at("wrench").remember_as(fmt::format("load.wrench[{}]", i));
   ellipsoid->remember_as("load.ellipsoid");

@@ -77,12 +77,13 @@ std::string stated_load(const std::string& certificate) {
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", item.at("name").dump(-1, ' ', true), item_text(item));
   }
   if (load.contains("ellipsoid")) {
-    text += fmt::format("{}an ellipsoid around {} N and {} N m about {} m", text.empty() ? "" : "; and ",
+    const std::string name =
+        load.contains("ellipsoid_name") ? " " + load["ellipsoid_name"].dump(-1, ' ', true) + "," : "";
+    text += fmt::format("{}an ellipsoid{} around {} N and {} N m about {} m", text.empty() ? "" : "; and ", name,
                         vector(load.at("wrench")), vector(load["wrench"], 3), vector(load.at("point_m")));
   }
-  if (load.contains("items")) {
-    text += fmt::format("; under {} m/s^2. Names are not checked", vector(load.at("gravity_m_s2")));
-  }
+  if (load.contains("items")) text += fmt::format("; under {} m/s^2", vector(load.at("gravity_m_s2")));
+  if (load.contains("items") || load.contains("ellipsoid_name")) text += ". Names are not checked";
   return "load: " + text;
 }
 

@@ -201,22 +201,26 @@ void validate_item(const std::string& where, const LoadItem& item) {
              item.what);
 }
 
-void validate_names(const std::vector<LoadItem>& items) {
+void validate_name(const std::string& where, const std::string& name) {
+  const bool is_line = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 127; });
+  if (name.empty() || characters(name) > kMaxItemName || !is_line || valid_utf8_prefix(name) != name.size()) {
+    throw FieldError(where, "'" + excerpt(name) + "'",
+                     fmt::format("expected a name of 1 to {} characters on one line", kMaxItemName));
+  }
+}
+
+void validate_names(const std::vector<LoadItem>& items, const std::string& ellipsoid_name) {
   if (items.size() > kMaxLoadItems) {
     throw FieldError("load.items", fmt::format("{} items", items.size()),
                      fmt::format("expected at most {}; a box of forces counts as three, an acceleration as one or two "
                                  "for each weight",
                                  kMaxLoadItems));
   }
-  std::set<std::string> seen;
+  std::set<std::string> seen = {ellipsoid_name};
   for (std::size_t k = 0; k < items.size(); ++k) {
     const std::string& name = items[k].name;
     const std::string where = fmt::format("load.items[{}].name", k);
-    const bool is_line = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 127; });
-    if (name.empty() || characters(name) > kMaxItemName || !is_line || valid_utf8_prefix(name) != name.size()) {
-      throw FieldError(where, "'" + excerpt(name) + "'",
-                       fmt::format("expected a name of 1 to {} characters on one line", kMaxItemName));
-    }
+    validate_name(where, name);
     if (!seen.insert(name).second) {
       throw FieldError(where, "'" + excerpt(name) + "' twice", "expected a name of its own for each item");
     }
@@ -327,7 +331,7 @@ bool has_weight(const LoadText& load) {
 }
 
 void validate_items(const LoadText& load) {
-  validate_names(load.items);
+  validate_names(load.items, load.ellipsoid_name);
   const auto gravity = numbers_at("load.gravity", load.gravity_m_s2);
   for (const LoadItem& item : load.items) validate_item(fmt::format("load.items[{}]", item.name), item);
   if (has_weight(load) && gravity == std::array<Rational, 3>{}) {
@@ -352,6 +356,7 @@ void validate(const LoadText& load) {
     has_wrench |= decimal_at(fmt::format("load.wrench[{}]", i), load.wrench[i]).sign() != 0;
   }
   if (load.ellipsoid) validate_ellipsoid(*load.ellipsoid);
+  if (!load.ellipsoid_name.empty()) validate_name("load.ellipsoid_name", load.ellipsoid_name);
   if (load.items.empty() && !load.ellipsoid) {
     throw FieldError("load", "neither items nor an ellipsoid",
                      "expected 'items', the list of what the load consists of");
@@ -367,6 +372,7 @@ json to_json(const LoadText& load) {
   if (load.ellipsoid) {
     result["wrench"] = load.wrench;
     result["ellipsoid"] = *load.ellipsoid;
+    if (!load.ellipsoid_name.empty()) result["ellipsoid_name"] = load.ellipsoid_name;
   }
   if (load.items.empty()) return result;
   result["gravity_m_s2"] = load.gravity_m_s2;
@@ -378,13 +384,12 @@ json to_json(const LoadText& load) {
 LoadText load_from_json(const JsonCursor& value) {
   const bool has_items = value.contains("items");
   const bool has_ellipsoid = !has_items || value.contains("ellipsoid") || value.contains("wrench");
-  if (!has_items) {
-    value.expect_keys({"point_m", "wrench", "ellipsoid"});
-  } else if (has_ellipsoid) {
-    value.expect_keys({"point_m", "wrench", "ellipsoid", "gravity_m_s2", "items"});
-  } else {
-    value.expect_keys({"point_m", "gravity_m_s2", "items"});
-  }
+  std::vector<std::string> keys = {"point_m"};
+  if (has_items) keys.insert(keys.end(), {"gravity_m_s2", "items"});
+  if (has_ellipsoid) keys.insert(keys.end(), {"wrench", "ellipsoid"});
+  const bool has_name = has_ellipsoid && value.contains("ellipsoid_name");
+  if (has_name) keys.emplace_back("ellipsoid_name");
+  value.expect_keys(keys);
   LoadText load;
   load.point_m = read_numbers<3>(value.at("point_m"));
   if (has_ellipsoid) {
@@ -392,6 +397,7 @@ LoadText load_from_json(const JsonCursor& value) {
     EllipsoidText& ellipsoid = load.ellipsoid.emplace();
     const std::vector<JsonCursor> rows = value.at("ellipsoid").elements(6);
     for (std::size_t i = 0; i < 6; ++i) ellipsoid[i] = read_numbers<6>(rows[i]);
+    if (has_name) load.ellipsoid_name = value.at("ellipsoid_name").text();
   }
   if (!has_items) return load;
   load.gravity_m_s2 = read_numbers<3>(value.at("gravity_m_s2"));

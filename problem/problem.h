@@ -50,6 +50,7 @@ struct LoadText {
   std::array<DecimalText, 3> point_m;                               ///< p_m in P [m]
   std::array<DecimalText, 6> wrench{"0", "0", "0", "0", "0", "0"};  ///< w0: force [N], moment about P_m [N m], in W
   std::optional<EllipsoidText> ellipsoid;                           ///< if there is none, w0 is 0
+  std::string ellipsoid_name;                                       ///< as items have one; empty: none was stated
   RationalVector gravity_m_s2{"0", "0", "0"};                       ///< in W; of the items that are weights
   std::vector<LoadItem> items;
 };

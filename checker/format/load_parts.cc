@@ -59,6 +59,12 @@ void read_vectors(const Cursor& json, bool is_moment, LoadItem& item) {
                "exactly one of the keys 'ball', 'disc' and 'segment'");
 }
 
+void require_name(const Cursor& json, const std::string& name) {
+  const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };  // begins one
+  const auto length = static_cast<std::size_t>(std::ranges::count_if(name, is_character));
+  json.require(length > 0 && length <= kMaxNameLength, "1 to 100 characters");
+}
+
 void read_item(const Cursor& json, LoadItem& item, std::string& name) {
   const auto read_weight = [&](const Cursor& here) {
     Weight weight;
@@ -83,9 +89,7 @@ void read_item(const Cursor& json, LoadItem& item, std::string& name) {
               read_weight);
   json.require(json.has("force") + json.has("load_cases") + json.has("moment") + json.has("weight") == 1,
                "exactly one of the keys 'weight', 'force', 'moment' and 'load_cases'");
-  const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };  // begins one
-  const auto length = static_cast<std::size_t>(std::ranges::count_if(name, is_character));
-  json["name"].require(length > 0 && length <= kMaxNameLength, "1 to 100 characters");
+  require_name(json["name"], name);
 }
 
 }  // namespace
@@ -93,9 +97,10 @@ void read_item(const Cursor& json, LoadItem& item, std::string& name) {
 void read_load(const Cursor& json, Problem& problem) {
   const bool has_items = json.has("items");
   const bool has_ellipsoid = !has_items || json.has("ellipsoid") || json.has("wrench");
+  std::vector<std::string> names;
   const auto read_items = [&](const Cursor& items) {
     items.require(items.size() > 0 && items.size() <= kMaxItems, "1 to 64 items");
-    std::vector<std::string> names(items.size());
+    names.resize(items.size());
     problem.items.resize(items.size());
     items.elements([&](const Cursor& here, std::size_t i) {
       read_item(here, problem.items[i], names[i]);
@@ -110,9 +115,14 @@ void read_load(const Cursor& json, Problem& problem) {
       for (std::size_t j = 0; j < i; ++j) here.require(E[i][j] == E[j][i], "a symmetric matrix");
     }
   };
+  const auto read_name = [&](const Cursor& here) {
+    require_name(here, here.text());
+    here.require(std::ranges::find(names, here.text()) == names.end(), "a name that no item has");
+  };
   json.object("point_m", problem.load_point, has_items ? "gravity_m_s2" : nullptr, rational(problem.gravity),
               has_items ? "items" : nullptr, read_items, has_ellipsoid ? "ellipsoid" : nullptr, read_ellipsoid,
-              has_ellipsoid ? "wrench" : nullptr, problem.wrench);
+              has_ellipsoid ? "ellipsoid_name?" : nullptr, read_name, has_ellipsoid ? "wrench" : nullptr,
+              problem.wrench);
 }
 
 void require_no_tolerance_of_load(const Cursor& json, const ToleranceBounds& tolerances) {

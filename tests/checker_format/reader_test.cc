@@ -337,6 +337,14 @@ TEST(Reader, ReadsALoadOfItemsAndTheLoadsOfAWitness) {
   both["problem"]["load"]["ellipsoid"] = of_ellipsoid["load"]["ellipsoid"];
   both["problem"]["load"]["ellipsoid"][0][0] = "1/36";
   EXPECT_EQ(message(sealed(both)), "none");
+  both["problem"]["load"]["ellipsoid_name"] = "sway";
+  EXPECT_EQ(message(sealed(both)), "none");
+  expect_messages(
+      both, {{"/problem/load/ellipsoid_name", "wind", "problem.load.ellipsoid_name: expected a name that no item has"},
+             {"/problem/load/ellipsoid_name", "", "problem.load.ellipsoid_name: expected 1 to 100 characters"},
+             {"/problem/load/ellipsoid_name", std::string(101, 'x'),
+              "problem.load.ellipsoid_name: expected 1 to 100 characters"},
+             {"/problem/load/ellipsoid_name", 1, "problem.load.ellipsoid_name: expected a string"}});
 }
 
 TEST(Reader, NamesWhatIsWrongWithALoadOfItems) {
@@ -351,6 +359,7 @@ TEST(Reader, NamesWhatIsWrongWithALoadOfItems) {
        {"/problem/load/gravity_m_s2", kRemoved, "problem.load: expected the key 'gravity_m_s2'"},
        {"/problem/load/wrench", repeated(6, "0"), "problem.load: expected the key 'ellipsoid'"},
        {"/problem/load/ellipsoid", repeated(6, repeated(6, "1")), "problem.load: expected the key 'wrench'"},
+       {"/problem/load/ellipsoid_name", "sway", "problem.load: expected no key 'ellipsoid_name'"},
        {"/problem/load/items/0/name", "wind", "problem.load.items[2].name: expected a name that no other item has"},
        {"/problem/load/items/0/name", "", "problem.load.items[0].name: expected 1 to 100 characters"},
        {"/problem/load/items/0/name", std::string(101, 'x'), "problem.load.items[0].name: expected 1 to 100"},

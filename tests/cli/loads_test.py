@@ -207,6 +207,30 @@ class Loads(unittest.TestCase):
         self.assertRegex(lines[gravest + 1], r"^A load that breaks the limit there: 'platform' 8 t; 'payload' ")
         self.assertEqual(lines[gravest + 2], "Not proved:")
 
+    def test_an_item_with_an_ellipsoid_keeps_its_name(self):
+        sway = ITEMS.replace("name: wind, force: 6, direction: horizontal, at: [0, 0, -1]",
+                             "name: sway <b>, wrench: [0, 0, 0, 0, 0, 0], "
+                             "ellipsoid: {semi_axes: [6, 6, 1, 5, 5, 5]}")
+        self.assertIn("'sway <b>': differs from zero in the components of the force by up to (6, 6, 1) kN, each "
+                      "component of the moment by up to 5 kN·m;", self.run_on(sway, "show").stdout)
+        of_its_own = sway.replace("wrench: [0, 0, 0, 0, 0, 0]", "wrench: [0, 1, 0, 0, 0, 2]")
+        self.assertIn("'sway <b>': differs from a force of 1 kN along +y and a moment of 2 kN·m along +z in the "
+                      "components of the force", self.run_on(of_its_own, "show").stdout)
+        said = self.run_on(sway, "plan", "--out", "out")
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        certificate = os.path.join(self.folder.name, "out", "certificate.json")
+        with open(certificate, encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["problem"]["load"]["ellipsoid_name"], "sway <b>")
+        case = os.path.join(self.folder.name, "crane.yaml")
+        said = command(CHECK, certificate, case)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertIn('an ellipsoid "sway <b>", around', command(CHECK, certificate).stdout)
+        with open(os.path.join(self.folder.name, "out", "report.html"), encoding="utf-8") as file:
+            self.assertIn("sway &lt;b&gt;", file.read())
+        said = self.run_on(sway.replace("sway <b>", "payload"), "plan", "--out", "twice")
+        self.assertEqual(said.returncode, 3)
+        self.assertRegex(said.stderr, r"^taut: crane\.yaml:14:\d+: .*'payload' twice")
+
     def test_an_ellipsoid_around_items_takes_their_place(self):
         around = ITEMS.replace("  items:", "  ellipsoid: around_items\n  items:")
         said = self.run_on(around, "show").stdout
