@@ -10,24 +10,12 @@
 
 #include "map/subdivision.h"
 #include "tests/map/problems.h"
+#include "tests/map/random_map.h"
 
 namespace taut::testing {
 namespace {
 
-using Random = std::mt19937_64;
-
 constexpr std::array<MarginId, 4 * kCables> kMargins = all_margins();
-
-/// A point of a cell: a corner, on an edge, or anywhere.
-std::vector<double> random_point(Random& random, const Cell& cell, std::size_t axes) {
-  std::vector<double> t;
-  for (std::size_t k = 0; k < axes; ++k) {
-    const double share = std::uniform_real_distribution<double>(0, 1)(random);
-    const double inner = cell.lower(k) + share * (cell.upper(k) - cell.lower(k));
-    t.push_back(random() % 3 == 0 ? (random() % 2 == 0 ? cell.lower(k) : cell.upper(k)) : inner);
-  }
-  return t;
-}
 
 class CellOracle {
  public:

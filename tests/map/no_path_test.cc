@@ -12,11 +12,11 @@
 #include "kinematics/margin.h"
 #include "map/separation.h"
 #include "tests/map/problems.h"
+#include "tests/map/random_map.h"
 
 namespace taut::testing {
 namespace {
 
-using Random = std::mt19937_64;
 using checker::OutsideReason;
 
 Cell random_cell(Random& random, std::size_t axes) {
@@ -26,16 +26,6 @@ Cell random_cell(Random& random, std::size_t axes) {
     cell.k[k] = static_cast<std::uint32_t>(random() % (1U << cell.depth[k]));
   }
   return cell;
-}
-
-std::vector<double> random_point(Random& random, const Cell& cell, std::size_t axes) {
-  std::vector<double> t;
-  for (std::size_t k = 0; k < axes; ++k) {
-    const double share = std::uniform_real_distribution<double>(0, 1)(random);
-    const double inner = cell.lower(k) + share * (cell.upper(k) - cell.lower(k));
-    t.push_back(random() % 3 == 0 ? (random() % 2 == 0 ? cell.lower(k) : cell.upper(k)) : inner);
-  }
-  return t;
 }
 
 /// Whether the machine as typed holds all loads at a pose. In 200 bits.

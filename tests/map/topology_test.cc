@@ -160,26 +160,11 @@ TEST(MapTopology, FindsThePlaceOfAPose) {
 
 /// A map whose cells are given by a function of their middle.
 CellMap grid(const MapSpace& space, int depth, const std::function<CellKind(double, double)>& kind) {
-  CellMap map;
-  map.space = space;
-  map.nodes.emplace_back();
-  std::vector<std::pair<Cell, std::uint32_t>> open = {{Cell(), 0}};
-  while (!open.empty()) {
-    const auto [cell, node] = open.back();
-    open.pop_back();
+  return tree_of(space, [&](const Cell& cell) -> std::variant<CellKind, std::size_t> {
     const std::size_t axis = cell.depth[0] <= cell.depth[1] ? 0 : 1;
-    if (cell.depth[axis] == depth) {
-      map.nodes[node].kind = kind(cell.mid(0), cell.mid(1));
-      continue;
-    }
-    map.nodes[node].axis = static_cast<std::uint8_t>(axis);
-    map.nodes[node].child = static_cast<std::uint32_t>(map.nodes.size());
-    for (unsigned side = 0; side < 2; ++side) {
-      open.emplace_back(cell.half(axis, side), static_cast<std::uint32_t>(map.nodes.size()));
-      map.nodes.emplace_back();
-    }
-  }
-  return map;
+    if (cell.depth[axis] != depth) return axis;
+    return kind(cell.mid(0), cell.mid(1));
+  });
 }
 
 /// Two meridians that touch only on θ = 0, on θ = π, or across φ = ±π.
