@@ -193,7 +193,7 @@ class Separator {
     if (best.leaves.empty()) return;
     // The middle of the first stretch would do as well; this one is surely on it.
     const Cell& middle = cells_[best.leaves[best.leaves.size() / 2]];
-    Gap& gap = result_.gap.emplace();
+    OpenPlace& gap = result_.gap.emplace();
     gap.cells = best.leaves.size();
     for (std::size_t k = 0; k < result_.map.space.size(); ++k) {
       gap.at.push_back(middle.mid(k));

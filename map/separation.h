@@ -21,7 +21,7 @@ struct SeparationOptions {
 };
 
 /// Undecided cells that lie between the two places.
-struct Gap {
+struct OpenPlace {
   std::vector<double> at;          ///< its middle: t of each axis
   std::vector<double> half_width;  ///< of the cell in its middle, likewise
   std::size_t cells = 0;           ///< undecided ones, on a way that passes as few of them as any
@@ -35,9 +35,9 @@ struct Separation {
   };
   Answer answer = Answer::kOpen;
   CellMap map;
-  std::vector<bool> reached;  ///< by node: leaves that hang together with the first place and are not outside
-  std::optional<Gap> gap;     ///< where open
-  double open_share = 0;      ///< of the space's volume: the undecided cells that hang together with the first place
+  std::vector<bool> reached;     ///< by node: leaves that hang together with the first place and are not outside
+  std::optional<OpenPlace> gap;  ///< where open
+  double open_share = 0;         ///< of the space's volume: the undecided cells that hang together with the first place
 };
 
 /// By node: the leaves of a map that are not outside and hang together with a place.

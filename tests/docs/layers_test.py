@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""No include and no link runs up: every room uses only the rooms that docs/architecture.md allows it.
+"""No include and no link runs up: every room uses only the rooms that docs/architecture.md allows it; and no two files
+define types of one name, of which the linker would take one.
 
 Usage: layers_test.py SOURCE_DIR
 """
@@ -82,6 +83,21 @@ def product_files(endings):
                 yield os.path.relpath(os.path.join(folder, name), SOURCE)
 
 
+def types_of(text):
+    """The types that a file defines with external linkage, each with its namespace; but for those inside of others."""
+    result, namespaces = [], []
+    for line in text.splitlines():
+        opened = re.match(r"(?:inline )?namespace ([\w:]*) *\{", line)
+        if opened:
+            namespaces.append(opened.group(1))
+        elif line.startswith("}  // namespace") and namespaces:
+            namespaces.pop()
+        defined = re.match(r"(?:struct|class|enum class) (\w+) *(?:\{|:(?!:)|final)", line)
+        if defined and "" not in namespaces:
+            result.append("::".join([*namespaces, defined.group(1)]))
+    return result
+
+
 class Layers(unittest.TestCase):
     def test_rooms_use_lower_rooms_only(self):
         below = set()
@@ -107,6 +123,14 @@ class Layers(unittest.TestCase):
         links = [text_of(path) for path in files]
         self.assertGreater(sum(text.count("target_link_libraries") for text in links), 14)
         self.assertEqual([wrong for path, text in zip(files, links) for wrong in wrong_links(path, text)], [])
+
+    def test_no_type_is_defined_twice(self):
+        types = [name for path in product_files((".h", ".cc")) for name in types_of(text_of(path))]
+        self.assertGreater(len(types), 300)
+        self.assertEqual(sorted({name for name in types if types.count(name) > 1}), [])
+        text = "namespace taut {\nstruct A {\n};\nnamespace {\nstruct B {\n};\n}  // namespace\nclass C : A {\n};\n"
+        self.assertEqual(types_of(text + "struct C::D {\n};\n}  // namespace taut\nstruct E final\n"),
+                         ["taut::A", "taut::C", "E"])
 
     def test_what_is_not_allowed_is_found(self):
         def include(path, header):
