@@ -613,11 +613,8 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
     const taut::Case& about = the_case.content().the_case;
     const Decoration decoration = read_meshes(about.decoration);
     taut::Certificate certificate = prove_waypoints(about.problem, inner(path), options.max_bits, options.stop);
-    certificate.illustration = {{"kind", "proof"},
-                                {"units", to_json(about.units)},
-                                {"document_fields", to_json(about.document_fields)},
-                                {"decoration", to_json(decoration)}};
-    add_stated(certificate.illustration, about);
+    certificate.illustration = {{"kind", "proof"}};
+    add_stated(certificate.illustration, about, decoration);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
     return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
                                options.stop);
@@ -658,9 +655,8 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
     const auto progress = [&](std::size_t done) { relay.report({"auditing", done, source.segments()}); };
     const Audit audited = audit_path(
         source,
-        {options.max_bits, temporary_folder(), key ? &*key : nullptr, content.the_case.units,
-         content.the_case.document_fields, read_meshes(content.the_case.decoration), &content.the_case,
-         options.headroom_seconds},
+        {content.the_case, read_meshes(content.the_case.decoration), options.max_bits, temporary_folder(),
+         key ? &*key : nullptr, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
     return checked_certificate(std::move(text), options.max_check_seconds, relay.token());

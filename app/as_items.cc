@@ -8,14 +8,23 @@
 #include "certificate/elaborate.h"
 #include "certify/path_proof.h"
 #include "planner/time_budget.h"
+#include "reports/summary/illustration.h"
+#include "reports/summary/shown_bodies.h"
 
 namespace taut {
 
 void add_stated(nlohmann::json& illustration, const Case& the_case) {
+  illustration["units"] = to_json(the_case.units);
+  illustration["document_fields"] = to_json(the_case.document_fields);
   const LoadStatement load = load_statement(the_case);
   if (load.around_items) illustration["around_items"] = stated_json(*load.around_items);
   const AngleKind angles = the_case.problem.space.angles.kind;
   if (angles != AngleKind::kTiltAndTorsion && angles != AngleKind::kAxis) illustration["angles"] = name(angles);
+}
+
+void add_stated(nlohmann::json& illustration, const Case& the_case, const Decoration& decoration) {
+  add_stated(illustration, the_case);
+  illustration["decoration"] = to_json(decoration);
 }
 
 std::optional<AsItems> prove_as_items(const Case& the_case, const Problem& problem, const Path& path,

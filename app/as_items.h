@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case states that the problem of its certificate does not have: the items that an ellipsoid was put around, and
-// the angles of poses under a law that has none.
+// What a case states and a certificate's problem does not have: how results are shown, and the items that an ellipsoid
+// was put around.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,12 +13,16 @@
 
 namespace taut {
 
-/// Adds the keys `around_items` and `angles` to the illustration of a certificate, for its report.
+/// Adds to the illustration of a certificate, for its report: units, the fields of the document, the items that an
+/// ellipsoid was put around, and the angles of poses under a law that has none.
 void add_stated(nlohmann::json& illustration, const Case& the_case);
+/// The same, and the bodies of its pictures.
+/// @param decoration  what read_meshes() makes of the case's
+void add_stated(nlohmann::json& illustration, const Case& the_case, const Decoration& decoration);
 
 /// Proves or refutes a path with the items of the case in place of the ellipsoid around them; nothing for other cases.
-/// @param problem       what the path was proved of
 /// Margins are those that a certificate would state.
+/// @param problem       what the path was proved of
 /// @param of_ellipsoid  the margins of the certificate with the ellipsoid
 /// @param seconds       the budget
 [[nodiscard]] std::optional<AsItems> prove_as_items(const Case& the_case, const Problem& problem, const Path& path,

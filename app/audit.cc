@@ -302,11 +302,8 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
   ending.verdict = audit.verdict;
   ending.margins = audit.margins;
   ending.source = source.source();
-  ending.illustration = {{"kind", "audit"},
-                         {"units", to_json(options.units)},
-                         {"document_fields", to_json(options.document_fields)},
-                         {"decoration", to_json(options.decoration)}};
-  if (options.the_case != nullptr) add_stated(ending.illustration, *options.the_case);
+  ending.illustration = {{"kind", "audit"}};
+  add_stated(ending.illustration, options.the_case, options.decoration);
   if (source.counts_lines()) ending.illustration["lines"] = audit.lines.to_json();
   if (audit.verdict == Verdict::kRefuted) ending.witness = audit.witness;
   if (audit.verdict == Verdict::kUndecided && !audit.stretches.empty()) ending.undecided = open_part(audit);
@@ -315,10 +312,8 @@ Audit audit_path(PathSource& source, const AuditOptions& options, const WriteTex
     audit.headroom =
         find_headroom(source.problem(), source.whole_path(), audit.verdict,
                       audit.margins ? audit.margins->wrench_scale : "", options.headroom_progress, budget.token());
-    if (options.the_case != nullptr) {
-      audit.as_items = prove_as_items(*options.the_case, source.problem(), source.whole_path(), audit.margins,
-                                      options.headroom_seconds, stop);
-    }
+    audit.as_items = prove_as_items(options.the_case, source.problem(), source.whole_path(), audit.margins,
+                                    options.headroom_seconds, stop);
     audit.interrupted = stop.stop_requested();
     if (audit.interrupted) return audit;
     ending.illustration["headroom"] = to_json(*audit.headroom);

@@ -45,14 +45,12 @@ struct AuditRequest {
 [[nodiscard]] AuditRequest resolved(AuditRequest request, const Case& the_case, const std::string& case_path);
 
 struct AuditOptions {
-  long max_bits = 4096;              ///< the greatest precision of the prover
-  std::filesystem::path folder;      ///< for temporary files
-  const SigningKey* key = nullptr;   ///< null: the certificate is not signed
-  CaseUnits units{};                 ///< in which the report shows results
-  DocumentFields document_fields{};  ///< for the head of the report
-  Decoration decoration{};           ///< for its pictures
-  const Case* the_case = nullptr;    ///< whose angles and items in an ellipsoid the report shows; null: none
-  double headroom_seconds = 0;       ///< that find_headroom() may take; 0: it is not sought
+  const Case& the_case;             ///< what the report says of it, beside the problem
+  Decoration decoration{};          ///< for the report's pictures: what read_meshes() makes of the case's
+  long max_bits = 4096;             ///< the greatest precision of the prover
+  std::filesystem::path folder;     ///< for temporary files
+  const SigningKey* key = nullptr;  ///< null: the certificate is not signed
+  double headroom_seconds = 0;      ///< that find_headroom() may take; 0: it is not sought
   HeadroomProgress headroom_progress = {};
 };
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <map>
 
+#include "app/as_items.h"
 #include "base/input_error.h"
 #include "base/plural.h"
 #include "certificate/no_path.h"
@@ -194,9 +195,8 @@ NoPathAttempt seek_no_path(const Case& the_case, const SeparationOptions& option
       Wall wall(problem, found.map, place_of(*result.space, problem.query[from]),
                 place_of(*result.space, problem.query[from + 1]));
       NoPath no_path{from, wall.tree(), {}};
-      no_path.illustration = {{"kind", "no path"},
-                              {"units", to_json(the_case.units)},
-                              {"document_fields", to_json(the_case.document_fields)}};
+      no_path.illustration = {{"kind", "no path"}};
+      add_stated(no_path.illustration, the_case);
       if (!no_path.tree.empty()) {
         result.answer = NoPathAttempt::Answer::kApart;
         result.from = from;

@@ -100,10 +100,7 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
   Certificate certificate = elaborate(the_case.problem, plan.path, plan.proof);
   nlohmann::json& illustration = certificate.illustration;
   illustration = illustrate(the_case.problem, planner.atlas(), plan.statistics);
-  illustration["units"] = to_json(the_case.units);
-  illustration["document_fields"] = to_json(the_case.document_fields);
-  illustration["decoration"] = to_json(decoration);
-  add_stated(illustration, the_case);
+  add_stated(illustration, the_case, decoration);
   if (options.headroom_seconds > 0 && !stop.stop_requested()) {
     const DecimalText wrench_scale = certificate.margins ? certificate.margins->wrench_scale : "";
     result.headroom =
