@@ -239,14 +239,123 @@ ResultInputs inputs_of(const AuditArguments& arguments, const AuditRequest& requ
   return inputs;
 }
 
-/// controller.csv, where it is asked for and the path is proved.
-std::optional<NewFile> controller_file(const std::filesystem::path& out, const std::optional<ControllerStep>& step,
-                                       const PathSource& source, const checker::CheckResult& checked) {
-  if (!step || exit_code(checked) != kProvedExit) return std::nullopt;
-  NewFile file(out / "controller.csv");
-  file.write(controller_csv(source.problem(), source.whole_path(), *step, checked.sha256));
-  file.finish();
-  return file;
+/// The folder of the results, made if need be; none of them may take the place of what is read.
+std::filesystem::path folder_of(const AuditArguments& arguments, const AuditRequest& request,
+                                const ResultInputs& inputs) {
+  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+  std::filesystem::path out =
+      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(request.path.name), inputs);
+  for (const char* name : kResultFiles) {
+    for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
+      require_another(out / name, read);
+    }
+  }
+  return out;
+}
+
+/// What an audit writes: under temporary names until all of it is there.
+struct AuditFiles {
+  explicit AuditFiles(std::filesystem::path folder)
+      : out(std::move(folder)), certificate(out / "certificate.json"), csv(out / "path.csv") {}
+
+  void write_certificate(std::string_view text) {
+    digest.update(text);
+    size += text.size();
+    certificate.write(text);
+  }
+  void finish() {
+    certificate.finish();
+    csv.write(certificate_line(digest.hex()));
+    csv.finish();
+  }
+  /// controller.csv, where it is asked for and the path is proved.
+  void add_controller(const std::optional<ControllerStep>& step, const PathSource& source,
+                      const checker::CheckResult& checked) {
+    if (!step || exit_code(checked) != kProvedExit) return;
+    controller.emplace(out / "controller.csv");
+    controller->write(controller_csv(source.problem(), source.whole_path(), *step, checked.sha256));
+    controller->finish();
+  }
+  void add_report(const ReportContext& context, const std::string& date) {
+    report.emplace(out / "report.html");
+    report->write(html_report(context, {"", "", date}));
+    report->finish();
+  }
+  void publish(const ResultInputs& inputs) {
+    std::vector<NewFile*> files = {&certificate};
+    if (report) files.push_back(&*report);
+    if (controller) files.push_back(&*controller);
+    files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
+    std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
+    if (!report) remove_first.push_back(out / "report.html");  // of an earlier audit
+    rename_into_place(files, remove_first);
+  }
+  /// In the order of publish().
+  [[nodiscard]] std::vector<std::filesystem::path> names() const {
+    std::vector<std::filesystem::path> written = {out / "certificate.json"};
+    if (report) written.push_back(out / "report.html");
+    if (controller) written.push_back(out / "controller.csv");
+    written.push_back(out / "path.csv");
+    return written;
+  }
+
+  std::filesystem::path out;
+  NewFile certificate, csv;
+  std::optional<NewFile> report, controller;
+  Sha256 digest;  ///< of the certificate
+  std::uintmax_t size = 0;
+};
+
+/// Audits with a line of progress, into files that are not finished.
+Audit audit(const AuditArguments& arguments, const Case& the_case, const SigningKey* key, PathSource& source,
+            AuditFiles& files, const std::stop_token& stop) {
+  ProgressLine line(!arguments.json);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto progress = [&](std::size_t done) {
+    line.show([&] {
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+      return progress_text(done, source.segments(), spent.count());
+    });
+  };
+  const auto headroom_progress = [&](std::size_t done, std::size_t all) {
+    line.show([&] { return headroom_progress_text(done, all); });
+  };
+  return audit_path(
+      source,
+      {the_case, read_meshes(the_case.decoration), arguments.bits, files.out, key, arguments.headroom_seconds,
+       headroom_progress},
+      [&](std::string_view text) { files.write_certificate(text); },
+      [&](std::string_view text) { files.csv.write(text); }, progress, stop);
+}
+
+void print_result_json(const Audit& result, const Case& the_case, const PathSource& source,
+                       const checker::CheckResult& checked, const AuditFiles& files, const Stopwatch& stopwatch) {
+  const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
+  nlohmann::json object = summary(result, source, checked);
+  object["load"] = to_json(load_statement(the_case));
+  object["warnings"] = the_case.warnings;
+  object["out"] = files.out.string();
+  object["headroom"] = is_unchecked ? nlohmann::json() : headroom_json(result.headroom);
+  object["as_items"] = is_unchecked ? nlohmann::json() : to_json(result.as_items);
+  add_ending(object, stopwatch, exit_code(checked), files.names());
+  print_json(object);
+}
+
+void print_result(const Audit& result, const Case& the_case, const PathSource& source,
+                  const checker::CheckResult& checked, const std::optional<ReportContext>& context,
+                  const AuditFiles& files) {
+  print(result, the_case, source, checked, context);
+  if (checked.outcome != checker::Outcome::kUnchecked) {
+    if (result.as_items) print_wrapped(sentence(*result.as_items, DisplayUnits(the_case.units)));
+    print_headroom(result.headroom, source.problem(), the_case.units);
+  }
+  print_wrapped(taut::sentence(checked));
+  print_wrapped(fmt::format("Written to {}: path.csv, {}certificate.json{}", sanitize(files.out.string()),
+                            files.controller ? "controller.csv, " : "", files.report ? ", report.html" : ""));
+  if (!files.report) {
+    fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
+               sanitize((files.out / "certificate.json").string()));
+  }
 }
 
 }  // namespace
@@ -291,96 +400,31 @@ int run_audit(const AuditArguments& arguments) {
   std::fflush(stdout);
 
   const ResultInputs inputs = inputs_of(arguments, request);
-  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
-  const std::filesystem::path out =
-      make_result_folder(arguments.out, stem(arguments.case_path) + "-audit-" + stem(request.path.name), inputs);
-  for (const char* name : kResultFiles) {
-    for (const std::string& read : {request.path.name, arguments.case_path, arguments.key}) {
-      require_another(out / name, read);
-    }
-  }
+  const std::filesystem::path out = folder_of(arguments, request, inputs);
   const Interruption interruption;  // before there is a file that a signal could leave behind
-  Audit result;
-  NewFile certificate(out / "certificate.json");
-  NewFile csv(out / "path.csv");
-  Sha256 digest;  // of the certificate
-  std::uintmax_t size = 0;
-  {
-    ProgressLine line(!arguments.json);
-    const auto begin = std::chrono::steady_clock::now();
-    const auto progress = [&](std::size_t done) {
-      line.show([&] {
-        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-        return progress_text(done, source.segments(), spent.count());
-      });
-    };
-    result = audit_path(
-        source,
-        {arguments.bits, out, key ? &*key : nullptr, case_.units, case_.document_fields, read_meshes(case_.decoration),
-         &case_, arguments.headroom_seconds,
-         [&](std::size_t done, std::size_t all) { line.show([&] { return headroom_progress_text(done, all); }); }},
-        [&](std::string_view text) {
-          digest.update(text);
-          size += text.size();
-          certificate.write(text);
-        },
-        [&](std::string_view text) { csv.write(text); }, progress, interruption.token());
-  }
+  AuditFiles files(out);
+  const Audit result = audit(arguments, case_, key ? &*key : nullptr, source, files, interruption.token());
   if (result.interrupted) {
     return report_interruption("audit", "interrupted: nothing was written", arguments.json);
   }
-  certificate.finish();
-  csv.write(certificate_line(digest.hex()));
-  csv.finish();
-  const checker::CheckResult checked = size > kMostCheckedBytes ? too_long_to_check()
-                                                                : recheck(read_whole(certificate.temporary()),
-                                                                          arguments.max_seconds, interruption.token());
+  files.finish();
+  const checker::CheckResult checked =
+      files.size > kMostCheckedBytes
+          ? too_long_to_check()
+          : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds, interruption.token());
   require_confirmed(checked);
-  std::vector<NewFile*> files = {&certificate};
-  const std::filesystem::path report_path = out / "report.html";
-  std::optional<NewFile> report;
   std::optional<ReportContext> context;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {
     context.emplace(checked);
-    report.emplace(report_path);
-    report->write(html_report(*context, {"", "", date}));
-    report->finish();
-    files.push_back(&*report);
+    files.add_report(*context, date);
   }
-  std::optional<NewFile> controller = controller_file(out, step, source, checked);
-  if (controller) files.push_back(&*controller);
-  files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
-  std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
-  if (!report) remove_first.push_back(report_path);  // of an earlier audit
-  rename_into_place(files, remove_first);
+  files.add_controller(step, source, checked);
+  files.publish(inputs);
 
   if (arguments.json) {
-    nlohmann::json object = summary(result, source, checked);
-    object["load"] = to_json(load_statement(case_));
-    object["warnings"] = case_.warnings;
-    object["out"] = out.string();
-    object["headroom"] =
-        checked.outcome == checker::Outcome::kUnchecked ? nlohmann::json() : headroom_json(result.headroom);
-    object["as_items"] = checked.outcome == checker::Outcome::kUnchecked ? nlohmann::json() : to_json(result.as_items);
-    std::vector<std::filesystem::path> written = {out / "certificate.json"};
-    if (report) written.push_back(report_path);
-    if (controller) written.push_back(out / "controller.csv");
-    written.push_back(out / "path.csv");
-    add_ending(object, stopwatch, exit_code(checked), written);
-    print_json(object);
+    print_result_json(result, case_, source, checked, files, stopwatch);
   } else {
-    print(result, case_, source, checked, context);
-    if (checked.outcome != checker::Outcome::kUnchecked) {
-      if (result.as_items) print_wrapped(sentence(*result.as_items, DisplayUnits(case_.units)));
-      print_headroom(result.headroom, source.problem(), case_.units);
-    }
-    print_wrapped(sentence(checked));
-    print_wrapped(fmt::format("Written to {}: path.csv, {}certificate.json{}", sanitize(out.string()),
-                              controller ? "controller.csv, " : "", report ? ", report.html" : ""));
-    if (!report) {
-      fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
-                 sanitize((out / "certificate.json").string()));
-    }
+    print_result(result, case_, source, checked, context, files);
   }
   return exit_code(checked);
 }
