@@ -35,14 +35,12 @@ inline constexpr const char* kNoPathClaim =
     "No path exists from the first of the two stated waypoints of the query to the second: there is no continuous "
     "motion of the parameters within the space that leads from the one to the other, however fast and of whatever "
     "shape, of which every pose is feasible. A pose is feasible if every cable has d_lo,i < d_i < d_hi,i and, for "
-    "every "
-    "wrench w in K, some f with f_lo,i < f_i < f_hi,i for all six cables i = 1..6 has J f = w. The machine is exactly "
-    "as stated, without deviations. So no path between these waypoints is feasible for every machine, load and pose "
-    "within the tolerances, either; but some machine within them may have a path. The ends of ranges are walls. Values "
-    "of a parameter without a range are one if they differ by whole turns, and where the space states a flip, values "
-    "of "
-    "phi, theta and sigma that are one orientation are one. Robot, load, limits and space are the exact numbers of the "
-    "problem.";
+    "every wrench w in K, some f with f_lo,i < f_i < f_hi,i for all six cables i = 1..6 has J f = w. The machine is "
+    "exactly as stated, without deviations. So no path between these waypoints is feasible for every machine, load "
+    "and pose within the tolerances, either; but some machine within them may have a path. The ends of ranges are "
+    "walls. Values of a parameter without a range are one if they differ by whole turns, and where the space states a "
+    "flip, values of phi, theta and sigma that are one orientation are one. Robot, load, limits and space are the "
+    "exact numbers of the problem.";
 
 inline constexpr const char* kUndecidedClaim =
     "Nothing is claimed. The path was neither proved nor refuted; this does not mean that it is unsafe.";
