@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "problem/expression.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/scene.h"
 
 namespace taut {
@@ -21,7 +22,6 @@ const char* axis_kind_name(MapAxis::Kind kind) {
 }
 
 std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space, const DisplayUnits& units) {
-  constexpr double kDegrees = 57.295779513082320877;
   std::vector<ShownAxis> result;
   for (std::size_t k = 0; k < space.size(); ++k) {
     const MapAxis& axis = space.axes[k];
@@ -30,7 +30,7 @@ std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space, 
     if (si == "m") {
       result.push_back({axis.name, units.length.name(), units.length.approx(lower), units.length.approx(upper)});
     } else if (si == "rad" && units.in_degrees) {
-      result.push_back({axis.name, "deg", kDegrees * lower, kDegrees * upper});
+      result.push_back({axis.name, "deg", degrees(lower), degrees(upper)});
     } else {
       result.push_back({axis.name, si, lower, upper});
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reports/summary/cable_use.h"
+#include "reports/summary/numbers.h"
 
 namespace taut {
 
@@ -64,8 +65,8 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
   if (scene.certificate.path.segments() == 0 || scene.samples.empty() || found_no_path(scene.certificate)) return {};
   const RobotText& robot = scene.certificate.problem.robot;
   const Limits& limits = (plot.is_length ? robot.length_m : robot.tension_N)[plot.cable];
-  const double lower = ScalarTraits<double>::from_decimal(limits.lower);
-  const double upper = ScalarTraits<double>::from_decimal(limits.upper);
+  const double lower = nearest_double(limits.lower);
+  const double upper = nearest_double(limits.upper);
   const double beyond = kBeyond * (upper - lower);
   const Frame frame{lower - beyond, upper + beyond, std::max(scene.samples.back().position, 1e-300)};
   std::vector<std::pair<double, Range>> values;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "reports/page/table_sizes.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -22,8 +23,6 @@ struct MarginRow {
   const Margins* scale = nullptr;
 };
 
-double approximate(const DecimalText& margin) { return ScalarTraits<double>::from_decimal(margin); }
-
 MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t last) {
   MarginRow row{first, last};
   for (std::size_t k = first; k <= last; ++k) {
@@ -33,7 +32,7 @@ MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t 
     if (!segment.margins) continue;
     const Margins& margins = *segment.margins;
     const auto keep_least = [&](const Margins*& least, DecimalText Margins::*margin) {
-      if (least == nullptr || approximate(margins.*margin) < approximate(least->*margin)) least = &margins;
+      if (least == nullptr || nearest_double(margins.*margin) < nearest_double(least->*margin)) least = &margins;
     };
     keep_least(row.tension, &Margins::tension_N);
     keep_least(row.length, &Margins::length_m);
@@ -118,7 +117,7 @@ std::vector<MarginRow> least_segments(const ReportContext& scene) {
     if (certificate.segments[k].margins) all.push_back(k);
   }
   std::vector<double> scale(certificate.segments.size());
-  for (const std::size_t k : all) scale[k] = approximate(certificate.segments[k].margins->wrench_scale);
+  for (const std::size_t k : all) scale[k] = nearest_double(certificate.segments[k].margins->wrench_scale);
   const std::size_t count = std::min(kLeastShown, all.size());
   std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count), {},
                             [&](std::size_t k) { return scale[k]; });

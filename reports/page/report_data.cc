@@ -21,6 +21,7 @@
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/nearness.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/shown_bodies.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
@@ -136,8 +137,7 @@ void widen_to_the_whole_path(const ReportContext& scene, CableUse& use) {
   const MarginKind kind = witness.margin.kind;
   const bool is_length = kind == MarginKind::kLengthMin || kind == MarginKind::kLengthMax;
   widen((is_length ? use.length : use.tension)[static_cast<std::size_t>(witness.margin.cable)].range,
-        ScalarTraits<double>::from_decimal(witness.value_lower),
-        ScalarTraits<double>::from_decimal(witness.value_upper));
+        nearest_double(witness.value_lower), nearest_double(witness.value_upper));
 }
 
 /// What all of the path asks of the cables: proved, or else sampled; null where nothing is known.
@@ -322,7 +322,7 @@ json margins(const std::vector<CertificateSegment>& segments) {
       std::optional<double> least;
       for (std::size_t i = k; i < std::min(k + together, segments.size()); ++i) {
         if (!segments[i].margins) continue;
-        const double value = ScalarTraits<double>::from_decimal((*segments[i].margins).*margin);
+        const double value = nearest_double((*segments[i].margins).*margin);
         least = std::min(value, least.value_or(value));
       }
       list.push_back(least ? outward(*least, false) : json());

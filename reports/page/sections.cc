@@ -9,6 +9,7 @@
 #include "reports/summary/around_items.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
@@ -16,8 +17,6 @@
 namespace taut {
 
 namespace {
-
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// γ of segment k, where the path runs between poses.
 Html motion_between_poses(Interpolation law) {
@@ -149,7 +148,7 @@ int position_decimals(const RobotText& robot) {
   double size = 0;
   for (const auto* anchors : {&robot.base_anchors_m, &robot.platform_anchors_m}) {
     for (const auto& anchor : *anchors) {
-      for (const DecimalText& x : anchor) size = std::max(size, std::abs(ScalarTraits<double>::from_decimal(x)));
+      for (const DecimalText& x : anchor) size = std::max(size, std::abs(nearest_double(x)));
     }
   }
   constexpr int kDigits = 3;
@@ -177,7 +176,7 @@ Html pose_table(const ReportContext& scene, std::size_t step) {
     for (int c = 0; c < 3; ++c) rows.back().push_back(html("{}", length.fixed(pose.p_WP(c), decimals)));
     const auto angles = angles_of(kind, scene.sampler.model().angles, pose.angles);
     for (std::size_t c = 0; c < symbols.size(); ++c) {
-      rows.back().push_back(html("{:.1f}", angles[c] * kDegrees + 0.0));
+      rows.back().push_back(html("{:.1f}", degrees(angles[c]) + 0.0));
     }
   }
   return table(html("{}s: poses, rounded", what), columns, rows);

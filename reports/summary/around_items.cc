@@ -13,6 +13,7 @@
 #include "base/sanitize.h"
 #include "problem/decimal.h"
 #include "problem/scalar.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -124,11 +125,12 @@ std::string sentence(const AsItems& found, const DisplayUnits& units) {
                        found.verdict == Verdict::kRefuted ? "refuted, too" : "not proved, either");
   }
   constexpr int kDigits = 3;
-  const auto approx = [](const DecimalText& x) { return ScalarTraits<double>::from_decimal(x); };
   const auto tension = [&](const Margins& margins) {
-    return fmt::format("{} {}", units.force.down(approx(margins.tension_N), kDigits), units.force.name());
+    return fmt::format("{} {}", units.force.down(nearest_double(margins.tension_N), kDigits), units.force.name());
   };
-  const auto growth = [&](const Margins& margins) { return rounded_down(approx(margins.wrench_scale), kDigits); };
+  const auto growth = [&](const Margins& margins) {
+    return rounded_down(nearest_double(margins.wrench_scale), kDigits);
+  };
   if (found.margins && found.of_ellipsoid) {
     return fmt::format(
         "{}, {} is proved with a tension margin of {} in place of {}, and the load's deviations may grow by the factor "

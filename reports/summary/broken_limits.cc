@@ -11,13 +11,12 @@
 
 #include "certify/severity.h"
 #include "reports/summary/hints.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
-
-double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
 
 /// Whether both are about the same limit, and proved of poses of the same standing.
 bool is_same(const BrokenLimit& a, const BrokenLimit& b) {
@@ -52,7 +51,7 @@ BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness)
   }
   broken.margin = witness.margin;
   broken.limit = witness.limit;
-  broken.value = number(is_upper(witness.margin) ? witness.value_lower : witness.value_upper);
+  broken.value = nearest_double(is_upper(witness.margin) ? witness.value_lower : witness.value_upper);
   return broken;
 }
 
@@ -127,7 +126,7 @@ std::vector<BrokenLimit> sampled_limits(const ReportContext& scene) {
       if (!(beyond >= 0)) continue;
       const Limits& limits = limits_of(robot, margin);
       broken.limit = is_upper(margin) ? limits.upper : limits.lower;
-      broken.severity = beyond / (number(limits.upper) - number(limits.lower));
+      broken.severity = beyond / (nearest_double(limits.upper) - nearest_double(limits.lower));
       broken.position = broken.to = sample.position;
       add(all, std::move(broken));
     }
@@ -176,7 +175,8 @@ std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
   const DisplayUnit& unit = scene.illustration.units.of(length);
   const std::string limit = fmt::format("limit {} {}", unit.exact(broken.limit), unit.name());
   if (!broken.proof) {
-    return fmt::format("about {} {}; {}", sampled_text(broken.value, number(broken.limit), unit), unit.name(), limit);
+    return fmt::format("about {} {}; {}", sampled_text(broken.value, nearest_double(broken.limit), unit), unit.name(),
+                       limit);
   }
   if (is_all_but_singular(*broken.proof, scene.certificate.problem.robot)) {
     return fmt::format("{} a million times the greatest limit, next to a singular pose; {}",

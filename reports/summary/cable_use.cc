@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "reports/summary/hints.h"
+#include "reports/summary/numbers.h"
 
 namespace taut {
 
@@ -15,8 +16,8 @@ std::array<Use, kCables> empty_uses(const std::array<Limits, kCables>& limits) {
   std::array<Use, kCables> uses;
   for (std::size_t i = 0; i < kCables; ++i) {
     uses[i].range = {kFar, -kFar};
-    uses[i].lower_limit = ScalarTraits<double>::from_decimal(limits[i].lower);
-    uses[i].upper_limit = ScalarTraits<double>::from_decimal(limits[i].upper);
+    uses[i].lower_limit = nearest_double(limits[i].lower);
+    uses[i].upper_limit = nearest_double(limits[i].upper);
   }
   return uses;
 }

@@ -14,6 +14,7 @@
 #include "reports/summary/hints.h"
 #include "reports/summary/illustration.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/samples.h"
 #include "reports/summary/scene.h"
 #include "reports/summary/sentences.h"
@@ -22,8 +23,6 @@
 namespace taut {
 
 namespace {
-
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 std::string triple(const DisplayUnit& unit, const std::array<DecimalText, 3>& si) {
   return fmt::format("({}, {}, {})", unit.exact(si[0]), unit.exact(si[1]), unit.exact(si[2]));
@@ -151,7 +150,7 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Displ
                   about(length, waypoint.pose.p_WP(1)), about(length, waypoint.pose.p_WP(2)), length.name());
   const std::vector<std::string> names = pose_names(space.angles.kind);
   for (std::size_t c = 3; c < names.size(); ++c) {
-    text += fmt::format(", {} = {:.6g}°", names[c], waypoint.pose.angles[c - 3] * kDegrees + 0.0);
+    text += fmt::format(", {} = {:.6g}°", names[c], degrees(waypoint.pose.angles[c - 3]) + 0.0);
   }
   text += "\n";
   if (is_nearly_singular(summary.sampler.model(), s)) {

@@ -9,24 +9,16 @@
 
 #include "problem/decimal.h"
 #include "problem/scalar.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
 /// "kN·m" of "kN*m".
 std::string shown_name(std::string name) {
   const std::size_t product = name.find('*');
   return product == std::string::npos ? name : name.replace(product, 1, "·");
-}
-
-/// Numbers beyond the range of Decimal are refused; no physical quantity is that large or small.
-bool is_absurd(double x) {
-  constexpr double kLargest = 1e290;
-  const double size = std::abs(x);
-  return !(x == 0 || (size < kLargest && size > 1 / kLargest));
 }
 
 }  // namespace
@@ -65,7 +57,7 @@ DisplayUnits::DisplayUnits(const CaseUnits& units)
       in_degrees(units.angle.is_degree) {}
 
 std::string DisplayUnits::angle(double radians) const {
-  return in_degrees ? fmt::format("{:.4g} deg", radians * kDegrees) : fmt::format("{:.4g} rad", radians);
+  return in_degrees ? fmt::format("{:.4g} deg", degrees(radians)) : fmt::format("{:.4g} rad", radians);
 }
 
 nlohmann::json to_json(const CaseUnits& units) {

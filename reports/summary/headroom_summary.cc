@@ -13,6 +13,7 @@
 #include "problem/decimal.h"
 #include "problem/rational.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
@@ -326,7 +327,7 @@ std::vector<EachAlone> each_alone(const Headroom& headroom, const Problem& probl
     constexpr double kPercent = 100;
     constexpr double kNone = 1000;  // more than any axis shows
     if (found.stated != 0) {
-      const double share = ScalarTraits<double>::from_decimal(found.share);
+      const double share = nearest_double(found.share);
       alone.share = found.share == "0" ? "none" : percent_text(found.share);
       alone.used = share > 0 ? std::min(kPercent / share, kNone) : kNone;
     }

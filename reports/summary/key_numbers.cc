@@ -10,13 +10,12 @@
 #include <optional>
 
 #include "problem/decimal.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
 
 namespace {
-
-using Rational = boost::multiprecision::cpp_rational;
 
 constexpr int kDigits = 3;
 
@@ -27,8 +26,6 @@ Rational exact(double x) {
   return {std::isfinite(x) ? x : std::copysign(kLarge, x)};
 }
 Rational exact(const DecimalText& text) { return Decimal::parse(text).rational(); }
-
-enum class Rounding { kDown, kUp };
 
 /// The digits of x >= 0, on the side of x that `rounding` asks for.
 std::string digits_of(const Rational& x, int digits, Rounding rounding) {
@@ -275,12 +272,8 @@ KeyNumber growth_number(const ReportContext& scene) {
   const std::optional<TolerancesText>& tolerances = scene.certificate.problem.tolerances;
   std::string detail = "the whole set of loads, about the nominal one";
   if (tolerances) detail += ", with all tolerances as stated";
-  return {"growth",
-          "Load uncertainty could grow",
-          "× " + growth_text(scale),
-          detail,
-          growth_nearness(ScalarTraits<double>::from_decimal(scale)),
-          true};
+  return {"growth", "Load uncertainty could grow",          "× " + growth_text(scale),
+          detail,   growth_nearness(nearest_double(scale)), true};
 }
 
 /// What share of the uncertainties is provable, as the program says that sought it; nothing where that is of another
@@ -298,7 +291,7 @@ std::optional<KeyNumber> share_number(const ReportContext& scene) {
   }
   return KeyNumber{"growth", "Provable share of tolerances and loads",
                    is_none ? "none" : truncated((Decimal::parse(all.share) * Decimal::parse("100")).text(), 3) + " %",
-                   detail + "; not re-checked", growth_nearness(ScalarTraits<double>::from_decimal(all.share))};
+                   detail + "; not re-checked", growth_nearness(nearest_double(all.share))};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "kinematics/model.h"
 #include "problem/decimal.h"
 #include "problem/rational.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -23,8 +24,6 @@ constexpr double kStandardGravity = 9.80665;  ///< [m/s²]
 constexpr mpfr_prec_t kBits = 256;            // E may be so close to singular that fewer can't tell that it has a root
 
 // --- Numbers and units -------------------------------------------------------------------------------------------
-
-enum class Rounding { kDown, kUp };
 
 /// The number in a unit of 10^power, with `digits` digits, rounded in the direction unless that changes it by less than
 /// rounding errors.
@@ -418,11 +417,14 @@ LoadStatement load_statement(const LoadText& load) {
     without_items.items.clear();
     LoadStatement alone;
     add_wrenches(without_items, alone);
+    const bool is_around_zero = std::ranges::all_of(alone.nominal, [](double x) { return x == 0; });
     const std::string centre = load.items.empty() ? "the nominal load"
-                                                  : "its own centre " + vector_text(alone.nominal, 0) + " and " +
-                                                        vector_text(alone.nominal, 3);
+                               : is_around_zero
+                                   ? "zero"
+                                   : vector_text(alone.nominal, 0) + " and " + vector_text(alone.nominal, 3);
     result.items.emplace_back(
-        "ellipsoid", fmt::format("differs from {} in {}", centre, ellipsoid_text(alone, has_diagonal_ellipsoid(load))));
+        load.ellipsoid_name.empty() ? "ellipsoid" : load.ellipsoid_name,
+        fmt::format("differs from {} in {}", centre, ellipsoid_text(alone, has_diagonal_ellipsoid(load))));
   }
   return result;
 }

@@ -12,6 +12,7 @@
 #include "certificate/certificate_reader.h"
 #include "certify/severity.h"
 #include "problem/decimal.h"
+#include "reports/summary/numbers.h"
 
 namespace taut {
 
@@ -27,16 +28,6 @@ PathRanges ranges_of(const Certificate& certificate, const std::vector<std::vect
   if (count > kManyBoxes) options.most_halvings = 0;
   return path_ranges(Prover(certificate.problem), certificate.path, boxes, options);
 }
-
-using Rational = boost::multiprecision::cpp_rational;
-
-constexpr double kRounding = 1e-15;  ///< more than the conversion to binary64 and the subtraction of this err by
-
-double below(const Rational& x) {
-  const auto nearest = x.convert_to<double>();
-  return nearest - kRounding * std::abs(nearest);
-}
-double above(const Rational& x) { return -below(Rational(-x)); }
 
 /// Cuts off what the theorem's margin of this segment excludes; unless nothing is left, as where that margin is false.
 void cut(Range& range, const Limits& limits, const DecimalText& margin) {

@@ -14,16 +14,13 @@
 #include "reports/summary/explanations.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/scope.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
 
 namespace {
-
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
-double number(const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); }
 
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& items) {
@@ -45,14 +42,6 @@ const DecimalText& proved_value(const PathWitness& witness) {
 /// A tension or a length as it is printed, exactly, with its unit.
 std::string quantity(const DecimalText& value, bool length, const DisplayUnits& units) {
   return fmt::format("{} {}", units.of(length).exact(value), units.of(length).name());
-}
-
-using Rational = boost::multiprecision::cpp_rational;
-
-/// A number that is not above x, for x >= 0.
-double below(const Rational& x) {
-  constexpr double kBelow = 1 - 1e-15;  // of the nearest number
-  return x.convert_to<double>() * kBelow;
 }
 
 /// By how much a witness breaks its limit, at least.
@@ -108,7 +97,7 @@ std::vector<std::string> sampled_details(const ReportContext& scene) {
   const DecimalText& broken = worst->is_upper ? limits.upper : limits.lower;
   const std::string limit = quantity(broken, worst->is_length, units);
   const DisplayUnit& unit = units.of(worst->is_length);
-  const std::string value = fmt::format("{} {}", sampled_text(worst->value, number(broken), unit), unit.name());
+  const std::string value = fmt::format("{} {}", sampled_text(worst->value, nearest_double(broken), unit), unit.name());
   return {
       fmt::format("Of samples of the stated machine, in floating point, the worst is {}: there the {} of cable {} {} "
                   "{}{}. Its {} limit is {}.",
@@ -141,7 +130,7 @@ std::string singular_details(const ReportContext& scene, const PathWitness& witn
 /// By how much a limit is broken, where, and on which machine.
 std::string limit_details(const ReportContext& scene, const PathWitness& witness) {
   const double beyond = violation(witness);
-  const double limit = number(witness.limit);
+  const double limit = nearest_double(witness.limit);
   const DisplayUnit& unit = scene.illustration.units.of(is_length(witness));
   std::string by = "It is at the limit or beyond it, and the limit itself is excluded.";
   if (is_all_but_singular(witness, scene.certificate.problem.robot)) {
@@ -292,7 +281,7 @@ std::string move_text(const ReportContext& scene) {
   std::string text =
       fmt::format("{}, {}. The platform's origin travels {} and the platform turns {:.4g}°",
                   plural(path.segments(), "segment"), law_text(scene.certificate),
-                  distance_text(scene.travel.distance_m(segments)), scene.travel.turned_rad(segments) * kDegrees);
+                  distance_text(scene.travel.distance_m(segments)), degrees(scene.travel.turned_rad(segments)));
   const auto begin = scene.travel.time_s(0);
   const auto end = scene.travel.time_s(segments);
   if (begin && end) text += fmt::format(" in {:.6g} s", *end - *begin);
@@ -399,7 +388,7 @@ std::string violation_text(const PathWitness& witness, const RobotText& robot, c
 std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
   const bool up = !is_upper(witness);
   const DecimalText& value = proved_value(witness);
-  const double x = number(value);
+  const double x = nearest_double(value);
   const Decimal limit = Decimal::parse(witness.limit);
   for (const int digits : {3, 4, 6, 9, 12, 15}) {
     const std::string text = up ? rounded_up(x, digits) : rounded_down(x, digits);
@@ -414,8 +403,8 @@ std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
 bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
   if (witness.singular || is_length(witness)) return false;
   double greatest = 0;
-  for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, number(limits.upper));
-  return std::abs(number(proved_value(witness))) > kSingularTension * greatest;
+  for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, nearest_double(limits.upper));
+  return std::abs(nearest_double(proved_value(witness))) > kSingularTension * greatest;
 }
 
 std::string implied_scope(bool has_boxes) {

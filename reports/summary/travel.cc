@@ -7,6 +7,7 @@
 
 #include "kinematics/pose_conversion.h"
 #include "problem/scalar.h"
+#include "reports/summary/numbers.h"
 
 namespace taut {
 
@@ -38,7 +39,7 @@ Travel::Travel(const Sampler& sampler, const Path& path) {
     last = pose;
   }
   if (path.interpolation == Interpolation::kCubicBSpline) return;
-  for (const std::string& time : path.times) times_s_.push_back(ScalarTraits<double>::from_decimal(time));
+  for (const std::string& time : path.times) times_s_.push_back(nearest_double(time));
 }
 
 double Travel::at(const std::vector<double>& values, double position) const {

@@ -11,19 +11,11 @@
 #include "certify/arithmetic/big_float.h"
 #include "problem/decimal.h"
 #include "reports/summary/angles.h"
+#include "reports/summary/numbers.h"
 
 namespace taut {
 
 namespace {
-
-constexpr double kDegrees = 180 / 3.14159265358979323846;
-
-/// Numbers beyond the range of Decimal are refused; no physical quantity is that large or small.
-bool is_absurd(double x) {
-  constexpr double kLargest = 1e290;
-  const double size = std::abs(x);
-  return !(x == 0 || (size < kLargest && size > 1 / kLargest));
-}
 
 std::string rounded(double x, int digits, mpfr_rnd_t direction) {
   if (x == 0) return "0";
@@ -218,7 +210,7 @@ std::string pose_text(const ReportContext& scene, const Pose<double>& pose) {
   const std::vector<std::string> symbols = angle_symbols(kind);
   const auto angles = angles_of(kind, scene.sampler.model().angles, pose.angles);
   for (std::size_t c = 0; c < symbols.size(); ++c) {
-    result += fmt::format(", {} = {}°", symbols[c], text(angles[c] * kDegrees, 1e-3));
+    result += fmt::format(", {} = {}°", symbols[c], text(degrees(angles[c]), 1e-3));
   }
   return result;
 }
@@ -242,7 +234,7 @@ std::string travel_text(const ReportContext& scene, double position) {
     return fmt::format("{} into the move", distance_text(scene.travel.distance_m(position)));
   }
   if (!(scene.travel.turned_rad(segments) > kStill)) return "";
-  return fmt::format("after {:.3g}° of turning", scene.travel.turned_rad(position) * kDegrees);
+  return fmt::format("after {:.3g}° of turning", degrees(scene.travel.turned_rad(position)));
 }
 
 /// ", t = 3 s", if the path has times.
