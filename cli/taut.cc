@@ -112,7 +112,7 @@ Command add_command(CLI::App& app, const char* name, const char* help, void (*ad
 
 /// Errors without a code of their own get this one.
 template <class Arguments>
-std::function<int(const Arguments&)> with_code(ErrorCode code, int (*run)(const Arguments&)) {
+std::function<int(const Arguments&)> with_error_code(ErrorCode code, int (*run)(const Arguments&)) {
   return [=](const Arguments& arguments) { return with_error_code(code, [&] { return run(arguments); }); };
 }
 
@@ -132,7 +132,7 @@ std::vector<Command> add_commands(CLI::App& app) {
       add_command<AuditArguments>(app, "audit", "prove or refute a path that something else made", add_audit_options,
                                   proving(ErrorCode::kPath, run_audit)),
       add_command<RegressArguments>(app, "regress", "run every case of a folder against what it declares",
-                                    add_regress_options, with_code(ErrorCode::kRegress, run_regress)),
+                                    add_regress_options, with_error_code(ErrorCode::kRegress, run_regress)),
       add_command<InitArguments>(app, "init", "write a commented case to begin from, or a CASPR robot's",
                                  add_init_options, run_init),
   };
@@ -147,7 +147,7 @@ std::vector<Command> add_commands(CLI::App& app) {
       app, "sensitivity", "say what to change so that a path is proved, and what its margin depends on",
       add_sensitivity_options, proving(ErrorCode::kCase, run_sensitivity)));
   commands.push_back(add_command<ShowArguments>(app, "show", "print what a case was understood to say; draw the robot",
-                                                add_show_options, with_code(ErrorCode::kCase, run_show)));
+                                                add_show_options, with_error_code(ErrorCode::kCase, run_show)));
   commands.push_back(add_command<MapArguments>(app, "map",
                                                "prove which poses are feasible, of two or three free coordinates",
                                                add_map_options, proving(ErrorCode::kCase, run_map)));

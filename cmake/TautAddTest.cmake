@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # taut_add_test(<folder> <header> LABELS <label>… LIBS <target>… [PROGRAM <name>] [SHARDS <count>] [COST <seconds>]
-#   [TIMEOUT <seconds>])
+#   [TIMEOUT <seconds>] [TOGETHER])
 # compiles tests/<folder>/<header>_test.cc into the folder's test program, <folder>_test, and registers its tests as one
 # ctest entry, <folder>.<header>. SHARDS makes it so many entries that run in parallel: <folder>.<header>.1 and so on.
 # Files labelled laws are left out without TAUT_LAWS.
 #
 # Each file is an object library, so that it is compiled with the flags of what it links and of nothing else: the files
 # that compute intervals with taut_rounding, the others without. Most tests take longer to compile than to run, so they
-# are compiled with -O1; those of laws compute much and are optimized in full.
+# are compiled with -O1; those of laws compute much and are optimized in full. Files that are TOGETHER, which all link
+# the same, are one object library and compiled several at a time.
 function(taut_add_test folder name)
-  cmake_parse_arguments(ARG "" "PROGRAM;SHARDS;COST;TIMEOUT" "LABELS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "PROGRAM;SHARDS;COST;TIMEOUT" "LABELS;LIBS" ${ARGN})
   if(laws IN_LIST ARG_LABELS AND NOT TAUT_LAWS)
     return()
   endif()
@@ -17,7 +18,16 @@ function(taut_add_test folder name)
     set(ARG_PROGRAM ${folder}_test)
   endif()
   set(objects ${folder}_${name}_test)
-  add_library(${objects} OBJECT ${folder}/${name}_test.cc)
+  if(ARG_TOGETHER)
+    set(objects ${folder}_tests)
+  endif()
+  if(NOT TARGET ${objects})
+    add_library(${objects} OBJECT)
+    if(ARG_TOGETHER)
+      taut_unite(${objects})
+    endif()
+  endif()
+  target_sources(${objects} PRIVATE ${folder}/${name}_test.cc)
   target_link_libraries(${objects} PRIVATE taut_common ${ARG_LIBS} GTest::gtest GTest::gmock)
   target_compile_definitions(${objects} PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TAUT_CERTIFICATES="${TAUT_CERTIFICATES}")

@@ -11,12 +11,13 @@ stamp=$build/.built # as old as the start of the last good build; holds the path
 # Whether the programs exist and are newer than everything that they are made of. It takes a few milliseconds at every
 # start. Directories count too, so that an added or removed file is noticed.
 is_current() {
-  local built_from newer
+  local built_from newer room rooms=()
   [[ -x $build/cli/taut && -x $build/checker/taut-check && -r $stamp ]] || return
   read -r built_from <"$stamp" && [[ $built_from == "$root" ]] || return
-  newer=$(find "$root"/{base,problem,case,kinematics,path_io,atlas,certify,planner} \
-    "$root"/{checker,certificate,reports,app,api,cli,cmake,scripts} \
-    "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
+  for room in "$root"/*/CMakeLists.txt; do
+    [[ $room == "$root"/@(bench|tests)/* ]] || rooms+=("${room%/*}")
+  done
+  newer=$(find "${rooms[@]}" "$root"/{cmake,scripts} "$root"/CMake{Lists.txt,Presets.json} "$root/package-lock.json" \
     -newer "$stamp" -print -quit 2>/dev/null) || return
   [[ -z $newer ]]
 }

@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "certificate/certificate_reader.h"
 #include "tests/reports/sample_certificates.h"
 
 namespace taut {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 TEST(Samples, HitEveryWaypointAndBothEnds) {
   const Certificate certificate = read_certificate(sample::proved());
@@ -30,7 +29,9 @@ TEST(Samples, KeepToTheirBudgetOnALongPath) {
   EXPECT_EQ(samples.back().position, 4999);
 }
 
-TEST(Samples, AddHalfTurns) { EXPECT_EQ(resolved({{1.0, 2.0}, {-2, 0}}), (std::vector<double>{1.0 - 2 * kPi, 2.0})); }
+TEST(Samples, AddHalfTurns) {
+  EXPECT_EQ(resolved({{1.0, 2.0}, {-2, 0}}), (std::vector<double>{1.0 - 2 * std::numbers::pi, 2.0}));
+}
 
 TEST(Samples, TellHowFarAPoseIsInsideTheLimits) {
   const Certificate certificate = read_certificate(sample::proved());
