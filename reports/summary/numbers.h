@@ -23,9 +23,9 @@ enum class Rounding { kDown, kUp };
 
 /// A number that is not above x: further off than the conversion, and one subtraction of such numbers, err by.
 [[nodiscard]] inline double below(const Rational& x) {
-  constexpr double kRounding = 1e-15;
+  constexpr double kShare = 1e-15;
   const auto nearest = x.convert_to<double>();
-  return nearest - kRounding * std::abs(nearest);
+  return nearest - kShare * std::abs(nearest);
 }
 
 /// A number that is not below x.
