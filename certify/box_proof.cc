@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
+#include "certify/box_in_lanes.h"
 #include "certify/inverse_bound.h"
 #include "certify/motion/length_controlled_motion.h"
 #include "certify/row_forms.h"
@@ -34,11 +35,12 @@ ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
   return {make_model<MpInterval>(problem),
           make_motion_model<MpInterval>(problem),
           make_tolerance_model<MpInterval>(problem),
+          {},
           {}};
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
-  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt, {}};
+  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt, {}, {}};
   Model<Interval>& model = result.model;
   const bool is_diagonal = has_diagonal_ellipsoid(problem.load);
   const bool is_bounded = run_upward([&] {
@@ -48,7 +50,10 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
     result.tolerance = make_tolerance_model<Interval>(problem);
   });
   if (!is_bounded) throw InputError("robot, load: got a number beyond the range of binary64");
-  if (is_diagonal) return result;
+  if (is_diagonal) {
+    result.lanes = make_lanes_machine(model);
+    return result;
+  }
 
   // E may be so close to singular that binary64 can't tell that it has a root.
   constexpr mpfr_prec_t kEllipsoidPrecision = 256;
@@ -63,6 +68,7 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
       model.ellipsoid_root(i, j) = outward(fine.ellipsoid_root(i, j));
     }
   }
+  result.lanes = make_lanes_machine(model);
   return result;
 }
 
@@ -87,13 +93,19 @@ void add_length_margins(const Model<I>& model, BoxEnclosure<I>& box) {
 }
 
 template <class I>
-void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
+void set_tensions(BoxEnclosure<I>& box) {
   for (std::size_t i = 0; i < kCables; ++i) {
-    const int cable = static_cast<int>(i);
     box.low[i] = box.length[i] * (box.density[i] - box.below[i]);
     box.high[i] = box.length[i] * (box.density[i] + box.above[i]);
     box.low[i].tighten(box.offset);
     box.high[i].tighten(box.offset);
+  }
+}
+
+template <class I>
+void add_tension_margins(const Model<I>& model, BoxEnclosure<I>& box) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const int cable = static_cast<int>(i);
     box.margins.add({MarginKind::kTensionMin, cable}, box.low[i] - model.tension_lower[i]);
     box.margins.add({MarginKind::kTensionMax, cable}, -box.high[i] + model.tension_upper[i]);
   }
@@ -298,6 +310,45 @@ bool may_be_sharpened(const ProofModel<I>& problem, const BoxEnclosure<I>& box) 
 
 }  // namespace
 
+namespace {
+
+/// The rest of enclose_box, of a problem with neither items nor tolerances, for all cables at once.
+void enclose_in_lanes(const ProofModel<Interval>& problem, const MotionEnclosure<Interval>& motion, double radius,
+                      BoxEnclosure<Interval>& result) {
+  using lanes::Outcome;
+  const lanes::Machine& machine = *problem.lanes;
+  const lanes::BoxKernel<1>& kernel = lanes::kernels().box;
+  lanes::PoseForms<1> pose = lanes_pose<1>(motion.p_WP, motion.r_WP);
+  pose.radius[0] = radius;
+  lanes::Box<1> box;
+  if (kernel.enclose_geometry(machine, pose, box) != Outcome::kYes) {
+    Faults<Interval>::raise();
+    return;
+  }
+  for (std::size_t i = 0; i < kCables; ++i) set_from_lanes(box.length, i, result.length[i]);
+  add_length_margins(problem.model, result);
+  if (kernel.precondition(box) != Outcome::kYes || kernel.bound_inverse(box) != Outcome::kYes) return;
+  lanes::Ends wrench[6];
+  for (int j = 0; j < 6; ++j) wrench[j] = lanes_detail::ends(problem.model.wrench(j));
+  if (kernel.enclose_tensions(machine, wrench, box) != Outcome::kYes) {
+    Faults<Interval>::raise();
+    return;
+  }
+  constexpr unsigned kAllCables = (1U << kCables) - 1;
+  if (box.enclosed != kAllCables) return;  // the box is too wide
+  for (std::size_t i = 0; i < kCables; ++i) {
+    set_from_lanes(box.nominal, i, result.density[i]);
+    set_from_lanes(box.spread, i, result.below[i]);
+    result.above[i] = result.below[i];
+    set_from_lanes(box.low, i, result.low[i]);
+    set_from_lanes(box.high, i, result.high[i]);
+  }
+  result.regular = true;
+  add_tension_margins(problem.model, result);
+}
+
+}  // namespace
+
 template <class I>
 MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
                                       const I& offset) {
@@ -321,6 +372,12 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   const MotionEnclosure<I> motion = undisturbed_motion(problem, segment, s, offset);
   result.motion = motion.status;
   if (!motion.is_enclosed()) return result;
+  if constexpr (std::is_same_v<I, Interval>) {
+    if (problem.lanes && model.loads.empty() && !problem.tolerance) {
+      enclose_in_lanes(problem, motion, radius, result);
+      return result;
+    }
+  }
   const CableGeometry<SlopeForm<I>> geometry = cable_geometry(model, motion.p_WP, motion.r_WP);
   for (std::size_t i = 0; i < kCables; ++i) {
     result.length[i] = length(geometry.p_AB_W[i]);
@@ -338,6 +395,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
     result.above[i] = densities.above[i];
   }
   result.regular = true;
+  set_tensions(result);
   add_tension_margins(model, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "certify/arithmetic/dyadic.h"
@@ -27,13 +28,18 @@
 
 namespace taut {
 
+namespace lanes {
+struct Machine;
+}
+
 /// The problem ready for scalar I: constants enclosed, expressions compiled.
 template <class I>
 struct ProofModel {
   Model<I> model;
   MotionModel<I> motion;
   std::optional<ToleranceModel<I>> tolerance;
-  ItemRows item_rows;  ///< of model.loads; only for Interval
+  ItemRows item_rows;                           ///< of model.loads; only for Interval
+  std::shared_ptr<const lanes::Machine> lanes;  ///< the machine for box_in_lanes.h; only for Interval, else null
 };
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.

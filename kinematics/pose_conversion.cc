@@ -27,19 +27,23 @@ Lengths lengths_at(const Model<double>& model, const RigidPose& pose) {
   return Lengths(lengths.data());
 }
 
-/// ∂|d_i| by (p, rotation vector in W): rows (u_i ; R b_i × u_i).
-Matrix6<double> jacobian_of_lengths(const Model<double>& model, const RigidPose& pose) {
-  const Matrix3<double> r_WP = pose.q.toRotationMatrix();
+/// |d_i|, and their derivatives by (p, rotation vector in W): rows (u_i ; R b_i × u_i).
+struct LengthRates {
+  Lengths lengths;
   Matrix6<double> jacobian;
-  for (int i = 0; i < kCables; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const Vector3<double> arm = r_WP * model.p_PB[n];
-    const Vector3<double> d = pose.p + arm - model.p_WA[n];
-    const Vector3<double> direction = d / d.norm();
-    jacobian.row(i) << direction.transpose(), arm.cross(direction).transpose();
+
+  LengthRates(const Model<double>& model, const RigidPose& pose) {
+    const Matrix3<double> r_WP = pose.q.toRotationMatrix();
+    for (int i = 0; i < kCables; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const Vector3<double> arm = r_WP * model.p_PB[n];
+      const Vector3<double> d = pose.p + arm - model.p_WA[n];
+      lengths(i) = d.norm();
+      const Vector3<double> direction = d / lengths(i);
+      jacobian.row(i) << direction.transpose(), arm.cross(direction).transpose();
+    }
   }
-  return jacobian;
-}
+};
 
 /// Newton's method; nothing unless it converges to the last digits, and well from its second step on: then hardly to
 /// another pose than the one to which `pose` leads.
@@ -53,12 +57,13 @@ std::optional<RigidPose> newton(const Model<double>& model, const Lengths& targe
   double last_size = 0;
   RigidPose last_pose = pose;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Lengths residual = target - lengths_at(model, pose);
+    const LengthRates at(model, pose);
+    const Lengths residual = target - at.lengths;
     const double error = residual.cwiseAbs().maxCoeff() / target.maxCoeff();
     if (!std::isfinite(error)) return std::nullopt;
     if (error <= kExact) return pose;
     if (last_error <= kConverged && error > 0.5 * last_error) return error < last_error ? pose : last_pose;
-    const Vector6<double> step = Eigen::PartialPivLU<Matrix6<double>>(jacobian_of_lengths(model, pose)).solve(residual);
+    const Vector6<double> step = Eigen::PartialPivLU<Matrix6<double>>(at.jacobian).solve(residual);
     const Vector3<double> turn = step.tail<3>();
     const double angle = turn.norm();
     const double size = std::hypot(step.head<3>().norm() / model.characteristic_length, angle);
@@ -152,13 +157,14 @@ std::optional<RigidPose> pose_of_lengths(const Model<double>& model, const std::
   constexpr double kLeastStep = 0x1p-48;
   constexpr int kMostSteps = 10000;
   const Lengths target(lengths.data());
-  const Lengths from = lengths_at(model, start);
+  std::optional<Lengths> from;  // most ways are taken in one step, which does not ask for it
   RigidPose pose = start;
   double s = 0;
   double step = 1;
   for (int k = 0; k < kMostSteps && step >= kLeastStep; ++k) {
     const double next = std::min(1.0, s + step);
-    const auto found = newton(model, next < 1 ? Lengths(from + (target - from) * next) : target, pose);
+    if (next < 1 && !from) from = lengths_at(model, start);
+    const auto found = newton(model, next < 1 ? Lengths(*from + (target - *from) * next) : target, pose);
     if (!found) {
       step /= 2;
       continue;

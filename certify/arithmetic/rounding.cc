@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/lanes/kernel.h"
+
 namespace taut {
 namespace {
 
@@ -18,6 +20,11 @@ struct Probe {
 };
 
 double square_root(double x) { return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_set_sd(x), _mm_set_sd(x))); }
+
+/// `operation` as done by the vector instructions of a level.
+std::string in_lanes(lanes::Level level, const char* operation) {
+  return std::string(operation) + " (" + lanes::name(level) + ")";
+}
 
 }  // namespace
 
@@ -47,6 +54,19 @@ void rounding_self_test() {
     const __m128d packed = _mm_add_pd(_mm_set1_pd(p.one), _mm_set1_pd(p.tiny));
     expect(_mm_cvtsd_f64(packed) > 1.0, "packed 1 + 1e-17 rounded up exceeds 1");
   });
+  const lanes::Kernels& kernels = lanes::kernels();
+  const char* failed_lanes = nullptr;
+  const bool lanes_sound = run_upward([&] { failed_lanes = kernels.failed_rounding(); });
+  if (failed.empty() && failed_lanes != nullptr) failed = in_lanes(kernels.level, failed_lanes);
+  if (failed.empty() && !lanes_sound) failed = in_lanes(kernels.level, "sound operations raise no fault");
+  lanes::Row ones{}, zeros{}, quotients{};
+  for (double& x : ones.x) x = 1.0;
+  if (failed.empty() && run_upward([&] { kernels.divide(ones, zeros, quotients); })) {
+    failed = in_lanes(kernels.level, "division by zero raises a fault");
+  }
+  if (failed.empty() && run_upward([&] { kernels.divide(zeros, zeros, quotients); })) {
+    failed = in_lanes(kernels.level, "0 / 0 raises a fault");
+  }
   volatile double zero = 0.0;
   volatile double quotient = 0.0;
   if (failed.empty() && !sound) failed = "sound operations raise no fault";

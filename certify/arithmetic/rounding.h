@@ -6,8 +6,8 @@
 // switch, and restores the caller's mode. The processor's sticky flags tell afterwards whether any operation inside
 // was invalid, divided by zero or overflowed: Faults<Interval>. A proof that raised one is not a proof.
 //
-// Trusted: that SSE2 arithmetic obeys MXCSR (IEEE 754). rounding_self_test() checks it at start-up; under valgrind,
-// which ignores rounding modes, it fails.
+// Trusted: that vector arithmetic obeys MXCSR (IEEE 754). rounding_self_test() checks it at start-up, on SSE2 and on
+// the level that certify/lanes uses; under valgrind, which ignores rounding modes, it fails.
 #pragma once
 
 #ifdef __FAST_MATH__

@@ -78,9 +78,9 @@ class ParametricKrawczyk {
   [[nodiscard]] Square<I, K> times_a(const Square<I, K>& x) const {
     Square<I, K> result;
     for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) {
-        result[i][k] = a_[i][0] * x[0][k];
-        for (std::size_t l = 1; l < K; ++l) result[i][k] = result[i][k] + a_[i][l] * x[l][k];
+      for (std::size_t k = 0; k < K; ++k) result[i][k] = a_[i][0] * x[0][k];
+      for (std::size_t l = 1; l < K; ++l) {
+        for (std::size_t k = 0; k < K; ++k) result[i][k] = result[i][k] + a_[i][l] * x[l][k];
       }
     }
     return result;
@@ -123,7 +123,7 @@ class ParametricKrawczyk {
     const auto inverse = mid.inverse().eval();
     if (!inverse.allFinite()) return false;
     for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) a_[i][k] = I(inverse(static_cast<int>(i), static_cast<int>(k)));
+      for (std::size_t k = 0; k < K; ++k) a_[i][k] = Point(inverse(static_cast<int>(i), static_cast<int>(k)));
     }
     // Simplified Newton: each step gains the digits that the curvature over the tube leaves, or those of a binary64.
     constexpr int kMostSteps = 60;
@@ -207,9 +207,9 @@ class ParametricKrawczyk {
   const System& system_;
   const I& offset_;
   double radius_;
-  Square<I, K> a_;   ///< A, thin
-  Vector centre_;    ///< ŷ, thin
-  Vector residual_;  ///< A g(ŷ, m)
+  Square<Point, K> a_;  ///< A; its entries are exact numbers once chosen
+  Vector centre_;       ///< ŷ, thin
+  Vector residual_;     ///< A g(ŷ, m)
 };
 
 }  // namespace taut

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define TAUT_LANES_LEVEL 5
+#include "certify/lanes/kernel_body.h"
+#include "certify/lanes/levels.h"
+
+namespace taut::lanes {
+
+const Kernels kAvx512Kernels = {Level::kAvx512, box_kernel_of_level<1>(), failed_rounding, divide};
+
+}  // namespace taut::lanes

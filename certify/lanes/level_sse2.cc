@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define TAUT_LANES_LEVEL 2
+#include "certify/lanes/kernel_body.h"
+#include "certify/lanes/levels.h"
+
+namespace taut::lanes {
+
+const Kernels kSse2Kernels = {Level::kSse2, box_kernel_of_level<1>(), failed_rounding, divide};
+
+}  // namespace taut::lanes

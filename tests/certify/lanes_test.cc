@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernel of certify/lanes: equal to the templates that it stands in for, and the same bits on all levels.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "certify/box_in_lanes.h"
+#include "certify/box_proof.h"
+#include "certify/lanes/kernel.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using lanes::Level;
+
+constexpr Level kLevels[] = {Level::kSse2, Level::kAvx2, Level::kAvx512};
+
+/// A segment of random length somewhere in the parameters' ranges, and a box of it.
+struct RandomBox {
+  Waypoint from, to;
+  DyadicBox box;
+
+  explicit RandomBox(std::mt19937_64& random) {
+    const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+    const double reach = std::exp2(uniform(-30, 0));
+    for (const auto& [low, high] : {std::pair{-3.14, 3.14}, std::pair{0.0, 2.0}}) {
+      from.x.push_back(uniform(low, high));
+      to.x.push_back(from.x.back() + uniform(-reach, reach));
+    }
+    from.half_turns = to.half_turns = {0, 0};
+    const int depth = std::uniform_int_distribution<int>(0, 3)(random);
+    box = {std::uniform_int_distribution<int>(0, (1 << depth) - 1)(random), depth};
+  }
+};
+
+void expect_equal(const Interval& a, const Interval& b, const char* what) {
+  EXPECT_EQ(a.lower(), b.lower()) << what;
+  EXPECT_EQ(a.upper(), b.upper()) << what;
+}
+
+void expect_equal(const SlopeForm<Interval>& a, const SlopeForm<Interval>& b, const char* what) {
+  expect_equal(a.at_mid, b.at_mid, what);
+  expect_equal(a.slope, b.slope, what);
+  expect_equal(a.range, b.range, what);
+}
+
+/// @returns whether the box is regular
+bool expect_equal_boxes(const ProofModel<Interval>& with, const ProofModel<Interval>& without, const RandomBox& at) {
+  const Segment segment = Segment::straight(at.from, at.to);
+  BoxEnclosure<Interval> a, b;
+  const bool is_sound = run_upward([&] { a = enclose_box(with, segment, at.box); });
+  EXPECT_EQ(is_sound, run_upward([&] { b = enclose_box(without, segment, at.box); }));
+  if (!is_sound) return false;
+  EXPECT_EQ(a.regular, b.regular);
+  EXPECT_EQ(a.margins.size, b.margins.size);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    expect_equal(a.length[i], b.length[i], "length");
+    if (!a.regular || !b.regular) continue;
+    expect_equal(a.density[i], b.density[i], "density");
+    expect_equal(a.below[i], b.below[i], "below");
+    expect_equal(a.above[i], b.above[i], "above");
+    expect_equal(a.low[i], b.low[i], "low");
+    expect_equal(a.high[i], b.high[i], "high");
+  }
+  for (std::size_t n = 0; n < std::min(a.margins.size, b.margins.size); ++n) {
+    EXPECT_EQ(a.margins.entries[n].id, b.margins.entries[n].id);
+    expect_equal(a.margins.entries[n].value, b.margins.entries[n].value, "margin");
+  }
+  return a.regular;
+}
+
+void expect_equal_to_templates(const Problem& problem) {
+  const ProofModel<Interval> with = make_proof_model(problem);
+  ASSERT_NE(with.lanes, nullptr);
+  ProofModel<Interval> without = make_proof_model(problem);
+  without.lanes.reset();
+  std::mt19937_64 random(1);
+  constexpr int kBoxes = 3000;
+  int regular = 0;
+  for (int n = 0; n < kBoxes && !::testing::Test::HasFailure(); ++n) {
+    regular += expect_equal_boxes(with, without, RandomBox(random)) ? 1 : 0;
+  }
+  EXPECT_GT(regular, kBoxes / 4);
+  EXPECT_LT(regular, kBoxes);  // boxes that are too wide, too
+}
+
+/// On a dense ellipsoid, and with a load point that is not the platform's origin.
+Problem skewed(Problem problem) {
+  problem.load.point_m = {"0.01", "-0.02", "0.015"};
+  EllipsoidText& ellipsoid = problem.load.ellipsoid.value();
+  ellipsoid[0][1] = ellipsoid[1][0] = "2000";
+  ellipsoid[3][5] = ellipsoid[5][3] = "-300000";
+  return problem;
+}
+
+TEST(Lanes, GiveWhatTheTemplatesGive) {
+  expect_equal_to_templates(testing::robot1_slice());
+  expect_equal_to_templates(testing::robot2_sphere());
+}
+
+TEST(Lanes, GiveWhatTheTemplatesGiveOnADenseEllipsoidAboutAnyPoint) {
+  expect_equal_to_templates(skewed(testing::robot1_slice()));
+}
+
+// ---- Levels ---------------------------------------------------------------------------------------------------------
+
+/// Everything that a kernel says of a pose over a box, numbers of the six cables as bits.
+std::vector<std::uint64_t> bits_of(const lanes::BoxKernel<1>& kernel, const lanes::Machine& machine,
+                                   const lanes::PoseForms<1>& pose, const lanes::Ends (&wrench)[6], bool& is_sound) {
+  lanes::Box<1> box;
+  std::memset(&box, 0, sizeof box);
+  std::array<lanes::Outcome, 4> outcomes{};
+  is_sound = run_upward([&] {
+    outcomes[0] = kernel.enclose_geometry(machine, pose, box);
+    outcomes[1] = kernel.precondition(box);
+    if (outcomes[1] != lanes::Outcome::kYes) return;
+    outcomes[2] = kernel.bound_inverse(box);
+    if (outcomes[2] == lanes::Outcome::kYes) outcomes[3] = kernel.enclose_tensions(machine, wrench, box);
+  });
+  std::vector<std::uint64_t> result;
+  for (const lanes::Outcome outcome : outcomes) result.push_back(static_cast<std::uint64_t>(outcome));
+  result.push_back(box.enclosed);
+  const auto add = [&](const auto& what) {
+    const auto* row = reinterpret_cast<const lanes::Row*>(&what);
+    for (std::size_t n = 0; n < sizeof(what) / (sizeof(lanes::Row)); ++n) {
+      for (std::size_t i = 0; i < kCables; ++i) result.push_back(std::bit_cast<std::uint64_t>(row[n].x[i]));
+    }
+  };
+  add(box.length);
+  add(box.d_mid);
+  add(box.d_slope);
+  add(box.c);
+  add(box.a1);
+  if (outcomes[2] != lanes::Outcome::kYes) return result;
+  add(box.q0);
+  add(box.q);
+  add(box.w);
+  if (outcomes[3] != lanes::Outcome::kYes) return result;
+  add(box.nominal);
+  add(box.spread);
+  add(box.low);
+  add(box.high);
+  return result;
+}
+
+TEST(Lanes, AllLevelsOfTheProcessorGiveTheSameBits) {
+  const ProofModel<Interval> model = make_proof_model(skewed(testing::robot1_slice()));
+  lanes::Ends wrench[6];
+  for (int j = 0; j < 6; ++j) wrench[j] = lanes_detail::ends(model.model.wrench(j));
+  std::mt19937_64 random(2);
+  constexpr int kBoxes = 3000;
+  int sound = 0;
+  for (int n = 0; n < kBoxes; ++n) {
+    const RandomBox at(random);
+    const Segment segment = Segment::straight(at.from, at.to);
+    lanes::PoseForms<1> pose;
+    const bool is_enclosed = run_upward([&] {
+      const EnclosedBox<Interval> s = enclose<Interval>(at.box);
+      const double radius = at.box.radius();
+      const auto motion = undisturbed_motion(model, segment, s, Interval(-radius, radius));
+      pose = lanes_pose<1>(motion.p_WP, motion.r_WP);
+      pose.radius[0] = radius;
+    });
+    ASSERT_TRUE(is_enclosed);
+    bool is_first_sound = false;
+    const auto first = bits_of(lanes::kernels_of(Level::kSse2)->box, *model.lanes, pose, wrench, is_first_sound);
+    sound += is_first_sound ? 1 : 0;
+    for (const Level level : kLevels) {
+      const lanes::Kernels* const kernels = lanes::kernels_of(level);
+      if (kernels == nullptr) continue;
+      bool is_sound = false;
+      const auto bits = bits_of(kernels->box, *model.lanes, pose, wrench, is_sound);
+      ASSERT_EQ(is_sound, is_first_sound) << lanes::name(level) << ", box " << n;
+      if (!is_sound) continue;
+      ASSERT_EQ(bits, first) << lanes::name(level) << ", box " << n;
+    }
+  }
+  EXPECT_GT(sound, kBoxes / 2);
+}
+
+TEST(Lanes, TheSelfTestPassesRoundingUpwardAndFailsRoundingToNearest) {
+  for (const Level level : kLevels) {
+    const lanes::Kernels* const kernels = lanes::kernels_of(level);
+    if (kernels == nullptr) continue;
+    EXPECT_EQ(kernels->level, level);
+    const char* failed = "not run";
+    EXPECT_TRUE(run_upward([&] { failed = kernels->failed_rounding(); }));
+    EXPECT_EQ(failed, nullptr) << lanes::name(level);
+    EXPECT_NE(kernels->failed_rounding(), nullptr) << lanes::name(level);
+  }
+}
+
+TEST(Lanes, DivisionByZeroInAnyLaneIsAFault) {
+  for (const Level level : kLevels) {
+    const lanes::Kernels* const kernels = lanes::kernels_of(level);
+    if (kernels == nullptr) continue;
+    for (std::size_t lane = 0; lane <= kCables; ++lane) {
+      lanes::Row ones, divisors, quotients;
+      for (double& x : ones.x) x = 1.0;
+      divisors = ones;
+      if (lane < kCables) divisors.x[lane] = 0.0;
+      EXPECT_EQ(run_upward([&] { kernels->divide(ones, divisors, quotients); }), lane == kCables)
+          << lanes::name(level) << ", lane " << lane;
+    }
+  }
+}
+
+TEST(Lanes, AnAnchorOfUnknownSignIsLeftToTheTemplates) {
+  ProofModel<Interval> model = make_proof_model(testing::robot1_slice());
+  model.model.p_PB[2](1) = Interval(-1e-9, 2e-9);
+  EXPECT_EQ(make_lanes_machine(model.model), nullptr);
+}
+
+}  // namespace
+}  // namespace taut
