@@ -17,6 +17,8 @@ const WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"];
 const SECTIONS = ["assumptions", "inputs", "robot", "path", "recheck"];
 const SECTIONS_OF_THEOREMS = ["theorem", ...SECTIONS];
+/// Its report, that no path exists, has no script.
+const APART = "maps/robot1-sigma34-apart";
 let withWebgl;
 let withoutWebgl;
 
@@ -57,7 +59,7 @@ before(async () => {
   [withWebgl, withoutWebgl] = await Promise.all([launch(WEBGL), launch(NO_WEBGL)]);
   for (const name of ["robot1-slice-qs-qg", "robot2-sphere-q2-q3", "robot2-sphere-sigma-free-q2-q3",
     "robot2-free-q2-q3", "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
-    "tutorial/04-tolerances", "cranes/portal-20t"]) plan(name);
+    "tutorial/04-tolerances", "cranes/portal-20t", APART]) plan(name);
   audit("robot1-geodesic", inAudits("robot1-geodesic.tum"));
   audit("robot1-cable-lengths", inAudits("robot1-cable-lengths.csv"));
   audit("robot1-straight-qs-qg", inAudits("robot1-straight-qs-qg.csv"));
@@ -87,7 +89,7 @@ async function open(name, { browser = withWebgl, ...options } = {}) {
   });
   page.file = file;
   await page.goto(`file://${file}`);
-  if (options.javaScriptEnabled !== false) {
+  if (options.javaScriptEnabled !== false && name !== APART) {
     await page.waitForFunction(() => document.documentElement.classList.contains("drawn"), null, { timeout: 30_000 });
   }
   return page;
@@ -169,6 +171,35 @@ test("no path: words and the plane, nothing to play", async () => {
   assert.equal(await has(page, "section#theorem"), false);
   assert.equal(await has(page, ".controls"), false);
   assert.ok(await has(page, ".plane-figure svg"));
+  await close(page);
+});
+
+test("no path exists: the certificate's cells part start and goal, in the case's units, without a script", async () => {
+  const page = await open(APART);
+  for (const id of SECTIONS_OF_THEOREMS) assert.equal(await has(page, `section#${id}`), id !== "path", id);
+  assert.equal(await has(page, "script"), false);
+  assert.match(await page.textContent(".masthead"), /TAUT-/);
+  assert.match(await page.textContent(".band"), /NO PATH EXISTS.*coordinates within their ranges/s);
+  const scope = await page.textContent(".scope");
+  for (const words of ["−1.8413 rad", "pz = 350 mm", "above 0.05 N and below 0.5 N"]) {
+    assert.ok(scope.includes(words), words);
+  }
+  const found = await page.evaluate(() => {
+    const [start, goal] = [...document.querySelectorAll(".walls circle.place")].map((disc) =>
+      new DOMPoint(Number(disc.getAttribute("cx")), Number(disc.getAttribute("cy"))));
+    const isIn = (kind, at) => {
+      const path = document.querySelector(`.walls path.${kind}`);
+      const inverse = path.getCTM().inverse().multiply(document.querySelector(".walls svg").getCTM());
+      return path.isPointInFill(at.matrixTransform(inverse));
+    };
+    const names = [...document.querySelectorAll(".walls text.place")].map((text) => text.getBoundingClientRect());
+    const apart = names[0].right <= names[1].left || names[1].right <= names[0].left ||
+      names[0].bottom <= names[1].top || names[1].bottom <= names[0].top;
+    return [...[start, goal].flatMap((at) => ["from-start", "from-goal"].map((kind) => isIn(kind, at))), apart];
+  });
+  assert.deepEqual(found, [true, false, false, true, true]);
+  assert.equal(await page.locator(".ends .machine > svg").count(), 2);
+  await picture(page, "no-path-exists");
   await close(page);
 });
 
@@ -687,7 +718,7 @@ async function axe(page, options = {}) {
 
 const DESKTOP = { width: 1100, height: 900 };
 const PHONE = { width: 390, height: 844 };
-const KINDS = [...Object.keys(PAGES), "proved.html", "no_path.html", "unchecked.html", "hostile.html"];
+const KINDS = [...Object.keys(PAGES), APART, "proved.html", "no_path.html", "unchecked.html", "hostile.html"];
 
 test("axe notices what is wrong", async () => {
   writeFileSync(join(directory, "bad.html"), `<!DOCTYPE html><html class="drawn" lang="en"><title>x</title><main>
@@ -829,6 +860,7 @@ const PAPER = {
   "robot1-planned": { verdict: "PROVED", most: 10 },
   "undecided.html": { verdict: "NO DECISION", most: 9 },
   "tutorial/02-a-slack-start": { verdict: "DO NOT RUN", most: 7 },
+  [APART]: { verdict: "NO PATH EXISTS", most: 5 },
 };
 
 for (const [name, expected] of Object.entries(PAPER)) {
