@@ -14,6 +14,7 @@
 #include "base/plural.h"
 #include "certificate/no_path.h"
 #include "kinematics/margin.h"
+#include "reports/page/map_axis.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/illustration.h"
 
@@ -134,17 +135,6 @@ class Wall {
   std::map<std::uint32_t, std::string> proved_;  ///< parts of the tree, by node
 };
 
-/// A coordinate, or with `is_width` a part of its range, in the case's units.
-std::string shown(const Case& the_case, const MapSpace& space, std::size_t k, double t, bool is_width) {
-  const DisplayUnits units(the_case.units);
-  const MapAxis& axis = space.axes[k];
-  const double lower = evaluate_constant<double>(axis.lower), extent = evaluate_constant<double>(axis.upper) - lower;
-  const double value = is_width ? t * extent : lower + t * extent;
-  const auto& pose = the_case.problem.space.pose;
-  const bool is_length = std::find(pose.begin(), pose.begin() + 3, axis.name) != pose.begin() + 3;
-  return is_length ? fmt::format("{:.5g} {}", units.length.approx(value), units.length.name()) : units.angle(value);
-}
-
 }  // namespace
 
 std::string describe_open(const Case& the_case, const NoPathAttempt& attempt) {
@@ -160,10 +150,11 @@ std::string describe_open(const Case& the_case, const NoPathAttempt& attempt) {
   if (attempt.answer == Answer::kApart || !attempt.open) return tried + ".";
   const Separation& open = *attempt.open;
   std::string place;
-  for (std::size_t k = 0; open.gap && k < attempt.space->size(); ++k) {
-    place += fmt::format("{}{} = {} (± {})", k == 0 ? "" : ", ", attempt.space->axes[k].name,
-                         shown(the_case, *attempt.space, k, open.gap->at[k], false),
-                         shown(the_case, *attempt.space, k, open.gap->half_width[k], true));
+  const std::vector<ShownAxis> axes = shown_axes(the_case.problem.space, *attempt.space, DisplayUnits(the_case.units));
+  for (std::size_t k = 0; open.gap && k < axes.size(); ++k) {
+    const ShownAxis& axis = axes[k];
+    place += fmt::format("{}{} = {} (± {})", k == 0 ? "" : ", ", axis.name, value_text(axis, axis.at(open.gap->at[k])),
+                         value_text(axis, open.gap->half_width[k] * (axis.upper - axis.lower)));
   }
   return fmt::format(
       "{}, and did not show whether a path exists from waypoint {} of the query to {}: {:.3g} % of the "

@@ -87,7 +87,8 @@ std::string percent_down(double share_of_all) { return fmt::format("{:.2f} %", s
 std::string percent_up(double share_of_all) { return fmt::format("{:.2f} %", std::ceil(1e4 * share_of_all) / 100); }
 
 std::string axis_text(const ShownAxis& shown, const MapAxis& axis) {
-  const std::string range = fmt::format("{} from {:.5g} to {:.5g}", shown.title(), shown.lower, shown.upper);
+  const std::string range =
+      fmt::format("{} from {} to {}", shown.name, value_text(shown, shown.lower), value_text(shown, shown.upper));
   switch (axis.kind) {
     case MapAxis::Kind::kTurn: return range + ", a whole turn";
     case MapAxis::Kind::kTilt: return range + ", which is every tilt";

@@ -45,13 +45,15 @@ struct Said {
 /// Where a proof that no path exists was tried: what became of it.
 Said said_of_no_path(const Case& the_case, const NoPathAttempt& attempt, const checker::CheckResult& checked) {
   if (!checked.theorem) return {"UNCHECKED", fmt::format("{}. Nothing is claimed.", checked.message)};
-  return {"no path", fmt::format("no motion within the space leads from waypoint {} of the query to waypoint {} with "
-                                 "every pose of it feasible, {} without a feasible pose part them (proved).{}",
-                                 attempt.from, attempt.from + 1, plural(checked.counts.boxes, "cell"),
-                                 the_case.problem.tolerances
-                                     ? " That is about the machine exactly as typed; so no path is feasible for every "
-                                       "machine within the tolerances."
-                                     : "")};
+  return {"no path",
+          fmt::format("no motion of the coordinates within their ranges leads from waypoint {} of the query to "
+                      "waypoint {} with every pose of it feasible, {} without a feasible pose part them "
+                      "(proved).{}",
+                      attempt.from, attempt.from + 1, plural(checked.counts.boxes, "cell"),
+                      the_case.problem.tolerances
+                          ? " That is about the machine exactly as typed; so no path is feasible for every "
+                            "machine within the tolerances."
+                          : "")};
 }
 
 bool is_no_path(const PlannedCase& planned) {

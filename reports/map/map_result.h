@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "map/region.h"
-#include "reports/map/map_axis.h"
+#include "reports/page/map_axis.h"
 
 namespace taut {
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "map/outline.h"
+#include "reports/page/map_frame.h"
 #include "reports/page/markup.h"
 
 namespace taut {
@@ -51,19 +52,15 @@ constexpr const char* kPatterns = R"(<defs>
 /// Lengths in pixels need no more than hundredths.
 std::string pixels(double x) { return fmt::format("{:.6g}", std::round(100 * x) / 100); }
 
-/// Of the plot, along both axes.
-std::array<double, 2> scale_of(const MapResult& result) {
-  const double x = result.axes[0].upper - result.axes[0].lower;
-  const double y = result.axes[1].upper - result.axes[1].lower;
-  const double ratio = std::clamp(y / x, 0.3, 1.2);  // of unlike units, whatever fits a page
-  return {kWidth - kLeft - kRight, (kWidth - kLeft - kRight) * ratio};
+MapFrame frame_of(const MapResult& result) {
+  return {{result.axes[0], result.axes[1]}, {.left = kLeft, .top = kTop, .right = kRight, .width = kWidth}};
 }
-double height_of(const MapResult& result) { return std::ceil(kTop + scale_of(result)[1] + kBottom); }
+double height_of(const MapFrame& frame) { return std::ceil(kTop + frame.height() + kBottom); }
 
 class Drawing {
  public:
   Drawing(const MapResult& result, const MapOverlay& overlay)
-      : result_(result), overlay_(overlay), scale_(scale_of(result)), height_(height_of(result)) {
+      : result_(result), overlay_(overlay), frame_(frame_of(result)), height_(height_of(frame_)) {
     gather(Cell(), 0);
     for (const Cell& cell : overlay.both) cells_[kBothLook].push_back(cell);
   }
@@ -79,18 +76,19 @@ class Drawing {
     for (const Style& style : kStyles) out += area(style.name, style.fill, "#333", cells_[style.look]);
     out += area("cut-off", kCutOff, "none", cut_off_);
     out += area("singular", kSingular, kSingular, overlay_.singular);
-    out += path() + axes() + marks() + legend();
+    out += path() + frame_.axes().str() + frame_.marks(overlay_.marks).str() + legend();
     return out + "</svg>\n";
   }
 
  private:
-  [[nodiscard]] double x(double t) const { return kLeft + t * scale_[0]; }
-  [[nodiscard]] double y(double t) const { return kTop + (1 - t) * scale_[1]; }
+  [[nodiscard]] double x(double t) const { return frame_.x(t); }
+  [[nodiscard]] double y(double t) const { return frame_.y(t); }
 
   /// Leaves by look; parts that are too small to be seen apart as one undecided cell.
   void gather(const Cell& cell, std::uint32_t node) {
     const MapNode& here = result_.map.nodes[node];
-    const bool is_small = 2 * cell.radius(0) * scale_[0] < kLeastPart && 2 * cell.radius(1) * scale_[1] < kLeastPart;
+    const bool is_small =
+        2 * cell.radius(0) * frame_.width() < kLeastPart && 2 * cell.radius(1) * frame_.height() < kLeastPart;
     if (here.axis != MapNode::kLeaf && !is_small) {
       for (unsigned side = 0; side < 2; ++side) gather(cell.half(here.axis, side), here.child + side);
       return;
@@ -141,40 +139,6 @@ class Drawing {
         path);
   }
 
-  [[nodiscard]] std::string axes() const {
-    std::string out = fmt::format(
-        "<rect x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" fill=\"none\" stroke=\"#222\"/>\n", x(0),
-        y(1), scale_[0], scale_[1]);
-    constexpr int kTicks = 4;
-    for (int n = 0; n <= kTicks; ++n) {
-      const double t = static_cast<double>(n) / kTicks;
-      const auto value = [&](const ShownAxis& axis) { return fmt::format("{:.4g}", axis.at(t)); };
-      out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"middle\">{}</text>\n", x(t), y(0) + 20,
-                         value(result_.axes[0]));
-      out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"end\">{}</text>\n", x(0) - 6, y(t) + 5,
-                         value(result_.axes[1]));
-    }
-    out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"middle\">{}</text>\n", x(0.5), y(0) + 40,
-                       escape(result_.axes[0].title()));
-    out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\">{}</text>\n", x(0), y(1) - 10, escape(result_.axes[1].title()));
-    return out;
-  }
-
-  [[nodiscard]] std::string marks() const {
-    std::string out;
-    for (const MapOverlay::Mark& mark : overlay_.marks) {
-      const bool is_right = mark.t[0] > 0.9;
-      out += fmt::format(
-          "<circle cx=\"{:.6g}\" cy=\"{:.6g}\" r=\"5\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"2\"/>\n",
-          x(mark.t[0]), y(mark.t[1]));
-      out += fmt::format(
-          "<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"{}\" stroke=\"#fff\" stroke-width=\"3\" "
-          "paint-order=\"stroke\">{}</text>\n",
-          x(mark.t[0]) + (is_right ? -9 : 9), y(mark.t[1]) - 7, is_right ? "end" : "start", escape(mark.name));
-    }
-    return out;
-  }
-
   [[nodiscard]] std::string legend() const {
     std::string out;
     double left = kLeft;
@@ -203,7 +167,7 @@ class Drawing {
 
   const MapResult& result_;
   const MapOverlay& overlay_;
-  std::array<double, 2> scale_;
+  MapFrame frame_;
   double height_;
   std::array<std::vector<Cell>, kLooks> cells_;
   std::vector<Cell> cut_off_;  ///< inside
@@ -212,7 +176,7 @@ class Drawing {
 }  // namespace
 
 std::array<int, 2> map_picture_size(const MapResult& result) {
-  return {static_cast<int>(kWidth), static_cast<int>(height_of(result))};
+  return {static_cast<int>(kWidth), static_cast<int>(height_of(frame_of(result)))};
 }
 
 std::string map_svg(const MapResult& result, const MapOverlay& overlay) { return Drawing(result, overlay).draw(); }

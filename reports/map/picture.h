@@ -8,20 +8,16 @@
 
 #include "map/subdivision.h"
 #include "reports/map/map_result.h"
+#include "reports/page/map_frame.h"
 
 namespace taut {
 
 /// What is drawn on top of a map.
 struct MapOverlay {
-  /// A pose, with its place t.
-  struct Mark {
-    std::string name;
-    std::array<double, 2> t;
-  };
   std::vector<Cell> singular;                            ///< cells that enclose det J = 0
   std::vector<Cell> both;                                ///< where a length and the tensions are beyond limits
   std::vector<std::vector<std::array<double, 2>>> path;  ///< lines in t
-  std::vector<Mark> marks;
+  std::vector<MapMark> marks;
 };
 
 /// Cells are drawn exactly, in one colour and hatching for each thing that is proved of them, and outlined along their

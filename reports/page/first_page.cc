@@ -21,14 +21,6 @@ Html or_blank(const std::string& text) {
   return text.empty() ? html("<span class=\"blank\"></span>") : html("<bdi>{}</bdi>", text);
 }
 
-Html masthead(const Summary& s) {
-  return html(
-      "<div class=\"masthead\"><p>Motion proof report for a cable-driven hexapod · appendix to a lift plan</p>\n<dl>"
-      "<div><dt>Document</dt><dd>{}</dd></div><div><dt>Rev</dt><dd>{}</dd></div><div><dt>Date</dt><dd>{}</dd></div>"
-      "</dl></div>\n",
-      or_blank(s.document), or_blank(s.revision), or_blank(s.date));
-}
-
 /// What the verdict is about, before the verdict.
 Html scope(const ReportContext& scene, const Summary& s) {
   Html rows;
@@ -44,20 +36,7 @@ Html scope(const ReportContext& scene, const Summary& s) {
                           "compares it",
                           file, scene.certificate.source->sha256));
   }
-  Html load = s.load_name.empty() ? Html() : html("<bdi>{}</bdi>. ", s.load_name);
-  load += html("{}", with_minus_signs(s.load.total));
-  if (s.load.items.empty()) load += html(" {}", with_minus_signs(s.load.spread));
-  for (const auto& [name, words] : s.load.items) {
-    load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
-  }
-  if (s.load.around_items) {
-    load += html("<br><span class=\"note\">{}", kItemsNotChecked);
-    for (const auto& [name, words] : s.load.around_items->items) {
-      load += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
-    }
-    load += html("</span>");
-  }
-  row("Load", load);
+  row("Load", load_words(s.load_name, s.load));
   for (const Statement& statement : s.statements) {
     const std::string_view key = statement.key;
     if (key == "limits" || key == "tolerances") row(statement.title, html("{}", with_minus_signs(statement.text)));
@@ -66,13 +45,6 @@ Html scope(const ReportContext& scene, const Summary& s) {
 }
 
 // ---- The verdict.
-
-Html icon(const std::string& verdict) {
-  const char* const path = verdict == "proved"    ? "M4 13l5.5 5.5L20 6.5"
-                           : verdict == "refuted" ? "M5 5l14 14M19 5L5 19"
-                                                  : "M12 4v10M12 18.5v1";
-  return html("<svg class=\"icon\" viewBox=\"0 0 24 24\" aria-hidden=\"true\"><path d=\"{}\"/></svg>", path);
-}
 
 /// What stands beside the verdict: the second program, the machine, collisions.
 Html checks(const ReportContext& scene) {
@@ -88,7 +60,7 @@ Html checks(const ReportContext& scene) {
 
 Html band(const ReportContext& scene, const Summary& s) {
   return html("<div class=\"band {}\"><p class=\"word\">{}{}</p><p class=\"headline\">{}</p>{}</div>\n", s.verdict,
-              icon(s.verdict), s.word, with_minus_signs(s.headline), checks(scene));
+              verdict_icon(s.verdict), s.word, with_minus_signs(s.headline), checks(scene));
 }
 
 Html tiles(const Summary& s) {
@@ -337,16 +309,47 @@ Html picture(const ReportContext& scene, const Summary& s) {
 
 }  // namespace
 
+Html masthead(const std::string& document, const std::string& revision, const std::string& date) {
+  return html(
+      "<div class=\"masthead\"><p>Motion proof report for a cable-driven hexapod · appendix to a lift plan</p>\n<dl>"
+      "<div><dt>Document</dt><dd>{}</dd></div><div><dt>Rev</dt><dd>{}</dd></div><div><dt>Date</dt><dd>{}</dd></div>"
+      "</dl></div>\n",
+      or_blank(document), or_blank(revision), or_blank(date));
+}
+
+Html title_note() {
+  return html("<p class=\"note unverified\">Title and names are text of the case, which nothing checks.</p>\n");
+}
+
+Html load_words(const std::string& load_name, const LoadStatement& load) {
+  Html text = load_name.empty() ? Html() : html("<bdi>{}</bdi>. ", load_name);
+  text += html("{}", with_minus_signs(load.total));
+  if (load.items.empty()) text += html(" {}", with_minus_signs(load.spread));
+  for (const auto& [name, words] : load.items) {
+    text += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
+  }
+  if (!load.around_items) return text;
+  text += html("<br><span class=\"note\">{}", kItemsNotChecked);
+  for (const auto& [name, words] : load.around_items->items) {
+    text += html(" <bdi>{}</bdi>: {}.", quoted_name(name), with_minus_signs(words));
+  }
+  return text + html("</span>");
+}
+
+Html verdict_icon(const std::string& verdict) {
+  const char* const path = verdict == "proved"    ? "M4 13l5.5 5.5L20 6.5"
+                           : verdict == "refuted" ? "M5 5l14 14M19 5L5 19"
+                                                  : "M12 4v10M12 18.5v1";
+  return html("<svg class=\"icon\" viewBox=\"0 0 24 24\" aria-hidden=\"true\"><path d=\"{}\"/></svg>", path);
+}
+
 Html first_page(const ReportContext& scene, const Summary& s) {
-  const Html title = html(
-      "<h1><bdi>{}</bdi></h1>\n<p class=\"note unverified\">Title and names are text of the case, which nothing "
-      "checks.</p>\n",
-      s.title);
+  const Html title = html("<h1><bdi>{}</bdi></h1>\n", s.title) + title_note();
   const bool is_proved = s.verdict == "proved";
   const Html beside = is_proved ? cables(scene, s) + cables_note(scene, s) : broken(scene) + details(s);
   return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\">{}<div>{}</div></div>\n{}{}</header>\n",
-              s.verdict, masthead(s), title, scope(scene, s), band(scene, s), tiles(s), picture(scene, s), beside,
-              not_covered(s), declaration(s));
+              s.verdict, masthead(s.document, s.revision, s.date), title, scope(scene, s), band(scene, s), tiles(s),
+              picture(scene, s), beside, not_covered(s), declaration(s));
 }
 
 Html verdict_section(const Summary& s) {

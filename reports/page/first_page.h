@@ -11,6 +11,15 @@ namespace taut {
 /// to sign. A move that is not proved has what stands against it in place of the six cables.
 [[nodiscard]] Html first_page(const ReportContext& scene, const Summary& summary);
 
+/// The line above the title: what the document is, its number, revision and date, or lines to write on.
+[[nodiscard]] Html masthead(const std::string& document, const std::string& revision, const std::string& date);
+/// What stands below a title: that nothing checks it.
+[[nodiscard]] Html title_note();
+/// The load in words, with its items.
+[[nodiscard]] Html load_words(const std::string& load_name, const LoadStatement& load);
+/// A tick of "proved", a cross of "refuted", else an exclamation mark.
+[[nodiscard]] Html verdict_icon(const std::string& verdict);
+
 /// What the first page says briefly, in full: motion, proof and re-check.
 [[nodiscard]] Html verdict_section(const Summary& summary);
 

@@ -8,17 +8,14 @@
 #include "base/sanitize.h"
 #include "reports/page/appendix.h"
 #include "reports/page/assurance_drawing.h"
+#include "reports/page/document.h"
 #include "reports/page/first_page.h"
-#include "reports/page/first_page_style.h"
-#include "reports/page/machine_style.h"
 #include "reports/page/margins.h"
 #include "reports/page/no_path_page.h"
 #include "reports/page/plane.h"
 #include "reports/page/plot_sections.h"
 #include "reports/page/sections.h"
 #include "reports/page/sticky_bar.h"
-#include "reports/page/style.h"
-#include "reports/page/typeface.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -64,29 +61,6 @@ void require_plain(const ReportOptions& options) {
   require(options.date, "date");
 }
 
-/// The text as a string of a style sheet, which none of its characters can end.
-std::string css_string(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_plain =
-        byte >= 0x80 || (byte >= 0x20 && byte != 0x7f && std::string_view("\"\\<>&").find(c) == std::string_view::npos);
-    result += is_plain ? std::string(1, c) : fmt::format("\\{:x} ", byte);
-  }
-  return result + "\"";
-}
-
-/// The style sheet's part for head and foot of the printed pages: case, verdict and document; date and page.
-std::string running_head(const Summary& summary) {
-  const std::string revision = summary.revision.empty() ? "" : " · revision " + summary.revision;
-  return fmt::format(
-      "@media print {{ @page {{ @top-left {{ content: {}; }} @top-right {{ content: {}; }} "
-      "@bottom-left {{ content: {}; }} "
-      "@bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }} }}\n",
-      css_string(excerpt(summary.title)),
-      css_string(fmt::format("{} · {}{}", summary.word, summary.document, revision)), css_string(summary.date));
-}
-
 }  // namespace
 
 std::string html_report(const ReportContext& scene, const ReportOptions& options) {
@@ -104,17 +78,15 @@ std::string html_report(const ReportContext& scene, const ReportOptions& options
   const Html body = first_page(scene, summary) + results + inputs_in_words + proof +
                     html("<div class=\"appendix\" id=\"appendix\">\n{}</div>\n", exact) +
                     assurance_section(scene, summary) + lift_plan_section(scene, summary);
-  const Html title = html("Motion report: {}", summary.verdict);
-  // An empty icon keeps browsers from asking a server for one.
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}{}{}{}{}{}{}</style>\n</head>\n<body>\n{}<main>\n{}</main>\n{}</"
-      "body>\n</"
-      "html>\n",
-      content_security_policy(), title.str(), page_typeface(), kStyle, kFirstPageStyle, kMachineStyle, kStickyBarStyle,
-      kAssuranceStyle, running_head(summary), contents(scene).str(), body.str(), page_scripts(scene));
+  return html_document({.window_title = "Motion report: " + summary.verdict,
+                        .title = summary.title,
+                        .word = summary.word,
+                        .document = summary.document,
+                        .revision = summary.revision,
+                        .date = summary.date,
+                        .policy = content_security_policy(),
+                        .more_style = std::string(kStickyBarStyle) + kAssuranceStyle},
+                       fmt::format("{}<main>\n{}</main>\n{}", contents(scene).str(), body.str(), page_scripts(scene)));
 }
 
 std::string html_report(const checker::CheckResult& checked, const ReportOptions& options) {
@@ -124,17 +96,17 @@ std::string html_report(const checker::CheckResult& checked, const ReportOptions
 }
 std::string text_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  if (is_about_no_path(checked)) return no_path_text(checked, false);
+  if (is_about_no_path(checked)) return no_path_text(checked, options, false);
   return to_text(Summary(ReportContext(checked), options));
 }
 std::string markdown_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  if (is_about_no_path(checked)) return no_path_text(checked, true);
+  if (is_about_no_path(checked)) return no_path_text(checked, options, true);
   return to_markdown(Summary(ReportContext(checked), options));
 }
 nlohmann::json json_summary(const checker::CheckResult& checked, const ReportOptions& options) {
   require_plain(options);
-  if (is_about_no_path(checked)) return no_path_json(checked);
+  if (is_about_no_path(checked)) return no_path_json(checked, options);
   return to_json(Summary(ReportContext(checked), options));
 }
 

@@ -17,7 +17,8 @@ namespace taut {
 /// coordinates. @pre is_about_no_path(), and the checker rejected nothing
 [[nodiscard]] std::string no_path_page(const checker::CheckResult& checked, const ReportOptions& options);
 /// The same in lines of plain text; in Markdown these are a list.
-[[nodiscard]] std::string no_path_text(const checker::CheckResult& checked, bool is_markdown);
-[[nodiscard]] nlohmann::json no_path_json(const checker::CheckResult& checked);
+[[nodiscard]] std::string no_path_text(const checker::CheckResult& checked, const ReportOptions& options,
+                                       bool is_markdown);
+[[nodiscard]] nlohmann::json no_path_json(const checker::CheckResult& checked, const ReportOptions& options);
 
 }  // namespace taut

@@ -82,16 +82,17 @@ Span window(const ReportContext& scene, std::size_t j) {
   return {path.lower - margin, path.upper + margin};
 }
 
-/// The fields over a window with so many cells.
-PlaneGrid sampled(const Sampler& sampler, const std::array<Span, 2>& window, int columns, int rows) {
+/// The fields over a window with so many cells; without `sampler` they are empty.
+PlaneGrid sampled(const Sampler* sampler, const std::array<Span, 2>& window, int columns, int rows) {
   PlaneGrid grid{window, columns, rows, {}, {}, {}};
+  if (sampler == nullptr) return grid;
   const auto& [x, y] = window;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double u = x.lower + x.length() * (column + 0.5) / columns;
       const double v = y.upper - y.length() * (row + 0.5) / rows;
-      const Statics<double> s = statics(sampler.model(), sampler.pose({u, v}));
-      const Reserves left = reserves(sampler.model(), s);
+      const Statics<double> s = statics(sampler->model(), sampler->pose({u, v}));
+      const Reserves left = reserves(sampler->model(), s);
       grid.tension.push_back(std::max(-1.0, left.tension));  // next to a singular pose it grows without bound
       grid.length.push_back(left.length);
       grid.determinant.push_back(s.regular ? s.determinant : 0);
@@ -177,7 +178,7 @@ std::string contour_text(const std::vector<double>& field, int columns) {
   return text;
 }
 
-std::optional<Plane> sample_plane(const ReportContext& scene) {
+std::optional<Plane> sample_plane(const ReportContext& scene, bool has_fields) {
   if (!is_plane(scene.certificate.problem.space)) return std::nullopt;
   const SpaceText& space = scene.certificate.problem.space;
   const std::array<Span, 2> shown = {window(scene, 0), window(scene, 1)};
@@ -186,9 +187,10 @@ std::optional<Plane> sample_plane(const ReportContext& scene) {
   if (!has_width(x) || !has_width(y)) return std::nullopt;
   const double ratio = unit(space, 0) == unit(space, 1) ? std::clamp(y.length() / x.length(), 0.3, 1.0) : 0.6;
   Plane plane;
-  plane.grid = sampled(scene.sampler, shown, kColumns, static_cast<int>(std::round(kColumns * ratio)));
+  const Sampler* const sampler = has_fields ? &scene.sampler : nullptr;
+  plane.grid = sampled(sampler, shown, kColumns, static_cast<int>(std::round(kColumns * ratio)));
   if (const auto part = found_no_path(scene.certificate) ? std::nullopt : detail_window(scene, shown)) {
-    plane.detail = sampled(scene.sampler, *part, kDetailColumns, static_cast<int>(std::round(kDetailColumns * ratio)));
+    plane.detail = sampled(sampler, *part, kDetailColumns, static_cast<int>(std::round(kDetailColumns * ratio)));
   }
   for (const Illustration::Chart& chart : scene.illustration.charts) {
     for (const Image& image : images(space)) {

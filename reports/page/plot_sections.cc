@@ -93,10 +93,18 @@ Html margins_along(const ReportContext& scene) {
                      unscripted() + place("margins"));
 }
 
+/// Of a space of three coordinates: where all of its poses are shown.
+Html slices_text(const ReportContext& scene) {
+  const SpaceText& space = scene.certificate.problem.space;
+  if (space.parameters.size() != 3 || !space.constraints.empty()) return {};
+  return html(
+      " A proved map of all poses of this space, slice by slice, is drawn by <code>taut map CASE --out FOLDER</code>.");
+}
+
 Html poses(const ReportContext& scene) {
   return section("pose", "Pose along the path",
-                 html("<p>Position p of the platform’s origin in the world; {}. Floating-point samples.</p>\n",
-                      rotation_formula(shown_angles(scene.certificate))) +
+                 html("<p>Position p of the platform’s origin in the world; {}. Floating-point samples.{}</p>\n",
+                      rotation_formula(shown_angles(scene.certificate)), slices_text(scene)) +
                      unscripted() + place("pose"));
 }
 
@@ -106,11 +114,9 @@ Html plane(const ReportContext& scene) {
   for (const auto& [key, value] : scene.illustration.stats)
     stats += html("{}{}: {}", stats.empty() ? Html() : html(" · "), key, value);
   return section(
-      "plane", "The plane of the two parameters",
-      html("<p>C is the set of wrench-feasible poses. Its borders and the line det J = 0 are drawn between samples on "
-           "a grid, in floating point, and can miss what is smaller than the grid; the atlas is where the planner "
-           "looked: neither proves anything. Periodic parameters are drawn unwrapped, so that the path is one "
-           "line.{}</p>\n",
+      "plane", "Where the platform may go",
+      html("<p>The plane of the two parameters. C is the set of wrench-feasible poses. The atlas is where the planner "
+           "looked; it proves nothing. Periodic parameters are drawn unwrapped, so that the path is one line.{}</p>\n",
            scene.certificate.problem.space.flip ? " (φ, θ) and (φ + π, −θ) are the same pose." : "") +
           unscripted() + place("plane") +
           (stats.empty() ? Html()

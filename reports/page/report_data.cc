@@ -15,7 +15,9 @@
 #include "problem/rational.h"
 #include "problem/scalar.h"
 #include "reports/page/machine_view.h"
+#include "reports/page/map_frame.h"
 #include "reports/page/plane.h"
+#include "reports/page/plane_map.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/cable_use.h"
 #include "reports/summary/headroom_summary.h"
@@ -448,15 +450,36 @@ json tolerances(const ReportContext& scene) {
   return result;
 }
 
-json grid(const PlaneGrid& grid) {
-  json window = json::array();
-  for (const Span& span : grid.window) window.push_back(numbers(std::array{span.lower, span.upper}));
-  return {{"window", window},
-          {"columns", grid.columns},
-          {"rows", grid.rows},
-          {"tension", contour_text(grid.tension, grid.columns)},
-          {"length", contour_text(grid.length, grid.columns)},
-          {"det_J", contour_text(grid.determinant, grid.columns)}};
+json spans(const std::array<Span, 2>& window) {
+  json result = json::array();
+  for (const Span& span : window) result.push_back(numbers(std::array{span.lower, span.upper}));
+  return result;
+}
+
+/// A proved map, or null.
+json map(const std::optional<PlaneMap>& map) {
+  if (!map) return nullptr;
+  json areas = json::object();
+  for (const PlaneMap::Area& area : map->areas) areas[area.kind] = area.path;
+  const auto share = [&](CellKind kind) { return map->share.at(static_cast<std::size_t>(kind)); };
+  return {{"window", spans(map->window)},
+          {"turns", map->turns},
+          {"flip", map->flip ? json(*map->flip) : json()},
+          {"units", kAreaUnits},
+          {"areas", areas},
+          {"cells", map->cells},
+          {"inside", number(share(CellKind::kInside))},
+          {"undecided", number(share(CellKind::kUndecided))}};
+}
+
+/// A part of the plane: with a proved map, or else with fields on a grid.
+json grid(const PlaneGrid& grid, const std::optional<PlaneMap>& of) {
+  json result = {{"window", spans(grid.window)}, {"columns", grid.columns}, {"rows", grid.rows}, {"map", map(of)}};
+  if (of) return result;
+  result["tension"] = contour_text(grid.tension, grid.columns);
+  result["length"] = contour_text(grid.length, grid.columns);
+  result["det_J"] = contour_text(grid.determinant, grid.columns);
+  return result;
 }
 
 /// Name, unit and the factor that brings parameter j into the unit in which it is shown.
@@ -471,8 +494,10 @@ json plane_axis(const ReportContext& scene, std::size_t j) {
 }
 
 json plane(const ReportContext& scene) {
-  const std::optional<Plane> plane = sample_plane(scene);
+  const std::optional<PlaneMap> map = plane_map(scene);
+  const std::optional<Plane> plane = sample_plane(scene, !map);
   if (!plane) return nullptr;
+  const std::optional<PlaneMap> part = map && plane->detail ? plane_map(scene, plane->detail->window) : std::nullopt;
   // For thousands of points in a picture four digits suffice and keep the page small.
   const auto drawn = [&](double x) { return std::isfinite(x) ? json(shortened(x, 4)) : json(); };
   json charts = json::array();
@@ -487,9 +512,12 @@ json plane(const ReportContext& scene) {
   if (scene.certificate.path.waypoints.size() <= kMostBins) {
     for (const Waypoint& waypoint : scene.certificate.path.waypoints) waypoints.push_back(numbers(resolved(waypoint)));
   }
-  return {{"axes", {plane_axis(scene, 0), plane_axis(scene, 1)}},    {"grid", grid(plane->grid)},
-          {"detail", plane->detail ? grid(*plane->detail) : json()}, {"charts", charts},
-          {"all_charts", scene.illustration.charts.size()},          {"waypoints", waypoints}};
+  return {{"axes", {plane_axis(scene, 0), plane_axis(scene, 1)}},
+          {"grid", grid(plane->grid, map)},
+          {"detail", plane->detail ? grid(*plane->detail, part ? part : map) : json()},
+          {"charts", charts},
+          {"all_charts", scene.illustration.charts.size()},
+          {"waypoints", waypoints}};
 }
 
 }  // namespace

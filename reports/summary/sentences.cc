@@ -248,11 +248,6 @@ std::string range_text(const std::array<Limits, kCables>& limits, bool length, c
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
-  return fmt::format("Every tension {}; every cable length {}.", range_text(robot.tension_N, false, units),
-                     range_text(robot.length_m, true, units));
-}
-
 std::string largest(const std::array<DecimalText, kCables>& metres, const DisplayUnits& units) {
   const auto largest = std::ranges::max_element(
       metres, [](const DecimalText& a, const DecimalText& b) { return Decimal::parse(a) < Decimal::parse(b); });
@@ -260,6 +255,11 @@ std::string largest(const std::array<DecimalText, kCables>& metres, const Displa
 }
 
 }  // namespace
+
+std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
+  return fmt::format("Every tension {}; every cable length {}.", range_text(robot.tension_N, false, units),
+                     range_text(robot.length_m, true, units));
+}
 
 std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m, const DecimalText& wrench_scale,
                          const DisplayUnits& units) {

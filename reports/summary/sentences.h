@@ -52,6 +52,8 @@ struct Statement {
 /// The verdict's scope: motion, loads, limits, tolerances, assumptions, what is not covered, versions, and the check.
 [[nodiscard]] std::vector<Statement> statements(const ReportContext& scene);
 
+/// "Every tension above 0.05 N and below 0.5 N; every cable length …": exactly.
+[[nodiscard]] std::string limits_text(const RobotText& robot, const DisplayUnits& units);
 /// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
 [[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances, const DisplayUnits& units);
 /// "Proved margins: tension 3.4 N, length 2.4 m, wrench_scale 5.3.": exactly, in these units.

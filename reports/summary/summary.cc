@@ -36,23 +36,6 @@ std::vector<Row> cable_rows(const std::vector<CableLine>& cables) {
   return rows;
 }
 
-/// Markdown that shows `text` and is no markup of its own: what could be is escaped. On one line.
-std::string markdown(const std::string& text) {
-  const std::string plain = sanitize(text);
-  std::string result;
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    const std::string_view rest = std::string_view(plain).substr(i);
-    const char c = plain[i];
-    if (c == '<' || c == '>' || c == '&' || rest.starts_with("://") || rest.starts_with("www.")) {
-      result += fmt::format("&#{};", static_cast<int>(c));
-    } else {
-      if (std::string_view(R"(\`*_[]|#~$!)").find(c) != std::string_view::npos) result += '\\';
-      result += c;
-    }
-  }
-  return result;
-}
-
 const char* name(Recheck::Result result) {
   switch (result) {
     case Recheck::Result::kUnchecked: break;
@@ -163,6 +146,22 @@ std::string document_number(const std::string& footer_sha256) {
 std::string verdict_in_full(const Summary& s) {
   if (s.verdict == "refuted") return "REFUTED - " + s.word;
   return s.word == "NO DECISION" ? "UNDECIDED - " + s.word : s.word;
+}
+
+std::string markdown(const std::string& text) {
+  const std::string plain = sanitize(text);
+  std::string result;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const std::string_view rest = std::string_view(plain).substr(i);
+    const char c = plain[i];
+    if (c == '<' || c == '>' || c == '&' || rest.starts_with("://") || rest.starts_with("www.")) {
+      result += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      if (std::string_view(R"(\`*_[]|#~$!)").find(c) != std::string_view::npos) result += '\\';
+      result += c;
+    }
+  }
+  return result;
 }
 
 std::string to_text(const Summary& s) {

@@ -54,6 +54,9 @@ struct Summary {
 /// "NO PATH FOUND" or "UNCHECKED".
 [[nodiscard]] std::string verdict_in_full(const Summary& summary);
 
+/// Markdown that shows a text, on one line, and is no markup of its own: what could be is escaped.
+[[nodiscard]] std::string markdown(const std::string& text);
+
 /// Lines of plain text, the verdict first, without control characters, for logs.
 [[nodiscard]] std::string to_text(const Summary& summary);
 /// GitHub's Markdown. Text from the certificate is escaped, so that it can't contain markup.

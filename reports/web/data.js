@@ -29,8 +29,10 @@
 //   cables      of the whole path, or null: is_proved (else sampled), tension and length: ranges (six pairs), nearness
 //               (six words, as nearness.h has them), order (the cables' indices, the nearest to its limits first)
 //   plane       of two parameters, or null: axes (name, unit, factor to it), grid and detail (or null) with window,
-//               columns, rows, and three fields as contour_text() packs them: tension, length, det_J; charts,
-//               all_charts, waypoints
+//               columns, rows, map (or null), and without a map three fields as contour_text() packs them: tension,
+//               length, det_J; charts, all_charts, waypoints. A map (plane_map.h) has its window, turns, flip (or
+//               null), areas by kind (paths of SVG in whole units, of which `units` are as long as an axis), cells,
+//               and of the window the shares inside and undecided
 
 export function readData() {
   const data = JSON.parse(document.getElementById("data").textContent);

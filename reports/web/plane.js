@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plane of two parameters: where the limits are kept, the line det J = 0, the atlas, the path. The borders are
-// contours between samples on a grid.
+// The plane of two parameters: where the limits are kept, the line det J = 0, the atlas, the path. Behind them is a
+// proved map, or, where there is none, contours between samples on a grid.
 import * as Plot from "@observablehq/plot";
 import { clipped, outOfLimits, readField } from "./contours.js";
 import { between, locate } from "./data.js";
@@ -12,6 +12,17 @@ const KINDS = [
   ["tension", "a tension out of limits"],
   ["length", "a length out of limits"],
   ["both", "both out of limits"],
+];
+/// Of a proved map, in the order in which they are drawn.
+const AREAS = [
+  ["inside", "inside: all limits kept (proved)"],
+  ["tension", "a tension out of limits (proved)"],
+  ["unbalanced", "some load can't be balanced (proved)"],
+  ["length", "a length out of limits (proved)"],
+  ["both", "tensions and lengths out of limits (proved)"],
+  ["undecided", "undecided"],
+  ["cut_off", "inside, but no motion from the start leads there (proved)"],
+  ["singular", "encloses det J = 0"],
 ];
 const MARGINS = { marginLeft: 58, marginRight: 16, marginTop: 12, marginBottom: 40 };
 const WIDE = 900;
@@ -46,6 +57,7 @@ function piece({ position, parameters }, from, to) {
 
 /// A grid of the data with its fields, and what they say of a cell: an index of KINDS.
 function readGrid(grid) {
+  if (grid.map) return grid;
   const tension = readField(grid.tension);
   const length = readField(grid.length);
   const determinant = readField(grid.det_J);
@@ -72,6 +84,40 @@ function hatching() {
 }
 
 let clips = 0;
+
+/// The copies of a map that reach into a window: turns of periodic parameters, and (φ + π, −θ) for (φ, θ).
+function images(map, window) {
+  const turn = 2 * Math.PI;
+  const turns = map.turns.map((isTurn) => (isTurn ? [-3, -2, -1, 0, 1, 2, 3] : [0]));
+  const all = turns[0].flatMap((i) => turns[1].flatMap((j) => {
+    const straight = { sign: [1, 1], offset: [i * turn, j * turn] };
+    if (!map.flip) return [straight];
+    const [phi, theta] = map.flip;
+    const flipped = { sign: [1, 1], offset: [...straight.offset] };
+    flipped.sign[theta] = -1;
+    flipped.offset[phi] += Math.PI;
+    return [straight, flipped];
+  }));
+  return all.filter(({ sign, offset }) => [0, 1].every((k) => {
+    const ends = map.window[k].map((x) => sign[k] * x + offset[k]);
+    const least = 1e-9 * (window[k][1] - window[k][0]);
+    return Math.min(...ends) < window[k][1] - least && Math.max(...ends) > window[k][0] + least;
+  }));
+}
+
+/// Stripes for areas that are drawn in units of a map, which `scale` brings to pixels.
+function mapPatterns(prefix, scale) {
+  const stripes = (kind, angle, ...parts) => svg("pattern", {
+    id: `${prefix}-${kind}`, width: 8, height: 8, patternUnits: "userSpaceOnUse",
+    patternTransform: `scale(${1 / scale[0]} ${1 / scale[1]}) rotate(${angle})`,
+  }, ...parts);
+  const all = { width: 8, height: 8 };
+  const stripe = (height) => svg("rect", { width: 8, height, y: 3, class: "stripe" });
+  return svg("defs", {},
+    stripes("unbalanced", 0, svg("rect", { ...all, class: "tension" }), stripe(0.8)),
+    stripes("both", 45, svg("rect", { ...all, class: "tension" }), svg("rect", { ...all, width: 4, class: "length" })),
+    stripes("cut_off", 45, stripe(1.3)));
+}
 
 /// One map: the plane in the window of a grid. Of a detail, the path's ends are labelled there and not on the whole.
 class PlaneMap {
@@ -115,8 +161,48 @@ class PlaneMap {
     const inFrame = svg("g", { class: "in-frame", "clip-path": `url(#${id})` });
     const group = svg("g", { class: "plane" },
       svg("defs", {}, svg("clipPath", { id }, svg("rect", frame))), hatching(), inFrame);
+    const kinds = AREAS.map(([kind]) => kind);
+    const determinant = grid.map ? undefined : this.drawFields(inFrame, frame);
+    if (grid.map) this.drawAreas(inFrame, kinds.slice(0, -1));
+    const charts = data.plane.charts.map((corners) => {
+      const points = corners.flatMap((_, k) => (k % 2 ? [] : [[corners[k], corners[k + 1]]]));
+      return polyline(clipped(points, grid.window).map((p) => this.place(p)), "Z");
+    });
+    inFrame.append(svg("path", { class: "chart", d: charts.join("") }));
+    if (grid.map) this.drawAreas(inFrame, kinds.slice(-1));
+    else inFrame.append(svg("path", { class: "singular", d: determinant }));
+    if (this.detail) this.drawDetailFrame(inFrame);
+    if (hasPathIn(data)) this.drawPath(inFrame, group);
+    else this.drawEnds(group, data.plane.waypoints[0], data.plane.waypoints.at(-1));
+    return group;
+  }
+
+  /// Some kinds of areas of the proved map.
+  drawAreas(parent, kinds) {
+    const { map, window } = this.grid;
+    for (const { sign, offset } of images(map, window)) {
+      const corner = (end) => this.place([0, 1].map((k) => sign[k] * map.window[k][end] + offset[k]));
+      const [x0, y0] = corner(0);
+      const [x1, y1] = corner(1);
+      const scale = [(x1 - x0) / map.units, (y1 - y0) / map.units];
+      const prefix = `plane-map-${++clips}`;
+      const group = svg("g", { transform: `matrix(${scale[0]} 0 0 ${scale[1]} ${x0} ${y0})` },
+        mapPatterns(prefix, scale));
+      for (const kind of kinds) {
+        if (!map.areas[kind]) continue;
+        const path = svg("path", { class: `area ${kind}-area`, "data-kind": kind, d: map.areas[kind] });
+        if (["unbalanced", "both", "cut_off"].includes(kind)) path.style.fill = `url(#${prefix}-${kind})`;
+        group.append(path);
+      }
+      parent.append(group);
+    }
+  }
+
+  /// What was sampled on a grid. Returns the contour of det J.
+  drawFields(inFrame, frame) {
+    const { grid } = this;
     const toPixels = ([c, r]) =>
-      [x0 + (c / grid.columns) * (x1 - x0), y0 + (r / grid.rows) * (y1 - y0)];
+      [frame.x + (c / grid.columns) * frame.width, frame.y + (r / grid.rows) * frame.height];
     const region = (field) =>
       outOfLimits(field, grid.columns, grid.rows).map((ring) => polyline(ring.map(toPixels), "Z")).join("");
     const tension = region(grid.tension);
@@ -126,16 +212,7 @@ class PlaneMap {
       svg("path", { class: "length", d: length }));
     if (both) inFrame.append(svg("path", { class: "hatched", d: both }));
     inFrame.append(svg("path", { class: "border", d: tension + length }));
-    const charts = data.plane.charts.map((corners) => {
-      const points = corners.flatMap((_, k) => (k % 2 ? [] : [[corners[k], corners[k + 1]]]));
-      return polyline(clipped(points, grid.window).map((p) => this.place(p)), "Z");
-    });
-    inFrame.append(svg("path", { class: "chart", d: charts.join("") }),
-      svg("path", { class: "singular", d: region(grid.determinant) }));
-    if (this.detail) this.drawDetailFrame(inFrame);
-    if (hasPathIn(data)) this.drawPath(inFrame, group);
-    else this.drawEnds(group, data.plane.waypoints[0], data.plane.waypoints.at(-1));
-    return group;
+    return region(grid.determinant);
   }
 
   drawDetailFrame(parent) {
@@ -197,7 +274,9 @@ class PlaneMap {
       const space = unit && unit !== "°" ? " " : "";
       return `${symbol(name)} = ${fixed(lower + share * (upper - lower), decimalsFor(upper - lower))}${space}${unit}`;
     });
-    return `${x}, ${y}: ${KINDS[grid.kind(cell)][1]}`;
+    if (!grid.map) return `${x}, ${y}: ${KINDS[grid.kind(cell)][1]}`;
+    const kind = AREAS.find(([name]) => name === event.target.dataset?.kind);
+    return kind ? `${x}, ${y}: ${kind[1]}` : `${x}, ${y}`;
   }
 
   /// The position of the path next to the pointer, if it is near.
@@ -227,13 +306,37 @@ function hasPathIn(data) {
   return data.is_found && data.samples.position.length > 0;
 }
 
-/// The legend: what is there, and nothing else.
-function legendKeys(data, grids) {
-  const { plane, samples, stretches, witness } = data;
+/// Of proved maps: the kinds of areas that there are.
+function areaKeys(grids) {
+  return AREAS.flatMap(([kind, words]) =>
+    (grids.some(({ map }) => map.areas[kind]) ? [key(`fill key-area ${kind}-area`, words)] : []));
+}
+
+/// Of sampled fields.
+function fieldKeys(grids) {
   const isThere = (kind) => grids.some((grid) => grid.counts[kind] > 0);
   const keys = KINDS.flatMap(([kind, words], k) => (isThere(k) ? [key(`fill ${kind}`, words)] : []));
   const isSingular = grids.some(({ determinant }) => determinant.some((x) => x > 0) && determinant.some((x) => x <= 0));
-  if (isSingular) keys.push(key("singular", "det J = 0"));
+  return isSingular ? [...keys, key("singular", "det J = 0")] : keys;
+}
+
+/// What the colours are, and what they are not.
+function sourceNote({ map }) {
+  if (!map) {
+    return "Borders and the line det J = 0 are drawn between samples on a grid, in floating point: they prove " +
+      "nothing, and can miss what is smaller than the grid.";
+  }
+  const percent = (share) => `${(100 * share).toFixed(1)} %`;
+  return `The colours are a map that this program has proved in interval arithmetic, in ${map.cells} cells: ` +
+    `${percent(map.inside)} of the space is inside, ${percent(1 - map.inside - map.undecided)} outside, ` +
+    `${percent(map.undecided)} undecided. No certificate states the map, so that taut-check has not confirmed it. ` +
+    "Shares are of the parameters; red encloses det J = 0, but where lengths are out of limits.";
+}
+
+/// The legend: what is there, and nothing else.
+function legendKeys(data, grids) {
+  const { plane, samples, stretches, witness } = data;
+  const keys = grids[0].map ? areaKeys(grids) : fieldKeys(grids);
   if (hasPathIn(data) && samples.position.length > 1) keys.push(key("path", "path, S to G"));
   else if (hasPathIn(data)) keys.push(element("span", { class: "key" }, "S: the pose"));
   else if (plane.waypoints.length > 0) keys.push(element("span", { class: "key" }, "S, G: what was asked for"));
@@ -253,11 +356,12 @@ export function planeFigure(data, cursor) {
   const grid = readGrid(plane.grid);
   const detail = plane.detail ? readGrid(plane.detail) : undefined;
   const grids = detail ? [grid, detail] : [grid];
-  const share = (100 * grid.counts[0]) / grid.tension.length;
+  const share = grid.map ? 100 * grid.map.inside : (100 * grid.counts[0]) / grid.tension.length;
   const [x, y] = plane.axes.map(({ name }) => symbol(name));
   const holder = element("div", {
     class: detail ? "maps with-detail" : "maps", role: "img",
-    "aria-label": `The plane of ${x} and ${y}: at ${text(share, 2)} % of the sampled places all limits are kept` +
+    "aria-label": `The plane of ${x} and ${y}: ${grid.map ? "in" : "at"} ${text(share, 2)} % of ` +
+      `${grid.map ? "the space all limits are kept, which is proved" : "the sampled places all limits are kept"}` +
       `${hasPath ? "; the path leads through it from S to G" : ""}.`,
   });
   const readout = element("span", { class: "readout" }, "");
@@ -284,5 +388,6 @@ export function planeFigure(data, cursor) {
   narrow.addEventListener("change", draw);
   if (hasPath) cursor.onMove(show);
   return element("figure", { class: "plane-figure" }, holder,
-    element("figcaption", {}, element("span", { class: "legend" }, ...legendKeys(data, grids)), readout));
+    element("figcaption", {}, element("span", { class: "legend" }, ...legendKeys(data, grids)), readout,
+      element("p", { class: "note source" }, sourceNote(grid))));
 }

@@ -26,14 +26,15 @@ REFUTED = os.path.join(CASES, "tutorial", "02-a-slack-start.yaml")
 
 
 class Json(InFolder):
-    def printed(self, *command, code):
+    def printed(self, *command, code, form=None):
+        """Holds what a command prints to the schema of that command, or of another form of its output."""
         said = run(*command, "--json")
         self.assertEqual(said.returncode, code, said.stdout + said.stderr)
         document = json.loads(said.stdout)
-        name = "failure" if "error" in document else document["command"]
+        name = "failure" if "error" in document else form or document["command"]
         faults = jsonschema.Draft202012Validator({"$ref": f"#/$defs/{name}"}, resolver=RESOLVER).iter_errors(document)
         self.assertEqual([f"{list(fault.absolute_path)}: {fault.message[:300]}" for fault in faults], [])
-        if name not in ("report", "show"):
+        if document["command"] not in ("report", "show"):
             self.assertEqual(document["exit_code"], code)
         return document
 
@@ -91,6 +92,18 @@ class Json(InFolder):
         checked = self.printed(CHECK, certificate, ROBOT1, code=0)
         self.assertEqual(checked["verdict"], "proved")
         self.printed(CHECK, self.write("no.json", "{"), code=3)
+
+    def test_no_path(self):
+        case = os.path.join(CASES, "maps", "robot1-sigma34-apart.yaml")
+        planned = self.printed(TAUT, "plan", case, "--out", self.path("out"), code=1)
+        self.assertEqual(planned["no_path"]["answer"], "apart")
+        report = self.printed(TAUT, "report", self.path("out", "certificate.json"), code=0, form="report_of_no_path")
+        self.assertEqual((report["verdict"], report["waypoints"], report["machine"]),
+                         ("no path", [0, 1], "Robot 1 (reconstructed)"))
+        self.assertEqual(report["cells"], planned["boxes"])
+        unchecked = self.printed(TAUT, "report", self.path("out", "certificate.json"), "--max-seconds", "0", code=2,
+                                 form="report_of_no_path")
+        self.assertEqual((unchecked["verdict"], unchecked["claim"], unchecked["cells"]), ("unchecked", None, None))
 
     def test_regressions(self):
         os.mkdir(self.path("cases"))

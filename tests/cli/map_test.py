@@ -54,7 +54,7 @@ class Map(InFolder):
     def test_text_restates_the_load_and_says_what_is_proved(self):
         said = run(TAUT, "map", ROBOT1, "--undecided", "5 %")
         self.assertEqual((said.returncode, said.stderr), (0, ""))
-        for expected in ("Load: ", "phi [rad] from -3.1416 to 3.1416, a whole turn", "which is every tilt",
+        for expected in ("Load: ", "phi from -3.1416 rad to 3.1416 rad, a whole turn", "which is every tilt",
                          "inside, proved", "outside, proved", "undecided", "from waypoint 0 to 1 of the query: joined"):
             self.assertIn(expected, said.stdout)
 

@@ -73,10 +73,14 @@ class NoPath(InFolder):
         out = self.path("out")
         said = run(TAUT, "plan", APART, "--out", out)
         self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
-        self.assertIn("NO PATH EXISTS: no motion within the space leads from waypoint 0", " ".join(said.stdout.split()))
+        self.assertIn("NO PATH EXISTS: no motion of the coordinates within their ranges leads from waypoint 0 of the "
+                      "query to waypoint 1", " ".join(said.stdout.split()))
         self.assertEqual(sorted(os.listdir(out)), ["certificate.json", "report.html"])
         page = text_of(os.path.join(out, "report.html"))
-        for expected in ("NO PATH EXISTS", "There is no continuous motion".lower(), "<svg", "waypoint 0: phi ="):
+        for expected in ("NO PATH EXISTS", "There is no continuous motion".lower(), "From one part of a slice to another",
+                         "Robot 1 (reconstructed)", "phi = −1.8413 rad, theta = 1.3422 rad", "every tilt",
+                         "pz = 350 mm, sigma = 0.5934 rad", "Every tension above 0.05 N and below 0.5 N",
+                         'class="wall-tension"', 'class="from-start"', 'class="from-goal"', ">goal</text>"):
             self.assertIn(expected, page)
         self.assertNotIn("<script", page)
         checked = run(CHECK, os.path.join(out, "certificate.json"), APART, "--expect", "no path")
@@ -84,6 +88,16 @@ class NoPath(InFolder):
         self.assertIn("no path exists from waypoint 0 of the query to waypoint 1", checked.stdout)
         report = run(TAUT, "report", os.path.join(out, "certificate.json"), "--text")
         self.assertTrue(report.stdout.startswith("NO PATH EXISTS: "), report.stdout + report.stderr)
+        self.assertIn("Title: From one part of a slice to another, Robot 1", report.stdout)
+
+    def test_what_was_not_checked_is_not_drawn(self):
+        file = self.write("certificate.json", json.dumps(self.certificate, sort_keys=True))
+        said = run(TAUT, "report", file, "--max-seconds", "0", "--out", self.path("page.html"))
+        self.assertEqual(said.returncode, 2, said.stdout + said.stderr)
+        page = text_of(self.path("page.html"))
+        self.assertIn("UNCHECKED", page)
+        for claimed in ("NO PATH EXISTS", 'class="wall-tension"', "What is claimed"):
+            self.assertNotIn(claimed, page)
 
     def test_json(self):
         said = run(TAUT, "plan", APART, "--out", self.path("out"), "--json")

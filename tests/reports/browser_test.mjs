@@ -17,6 +17,8 @@ const WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"];
 const SECTIONS = ["assumptions", "inputs", "robot", "path", "recheck"];
 const SECTIONS_OF_THEOREMS = ["theorem", ...SECTIONS];
+/// Its report, that no path exists, has no script.
+const APART = "maps/robot1-sigma34-apart";
 let withWebgl;
 let withoutWebgl;
 
@@ -57,7 +59,7 @@ before(async () => {
   [withWebgl, withoutWebgl] = await Promise.all([launch(WEBGL), launch(NO_WEBGL)]);
   for (const name of ["robot1-slice-qs-qg", "robot2-sphere-q2-q3", "robot2-sphere-sigma-free-q2-q3",
     "robot2-free-q2-q3", "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
-    "tutorial/04-tolerances", "cranes/portal-20t"]) plan(name);
+    "tutorial/04-tolerances", "cranes/portal-20t", APART]) plan(name);
   audit("robot1-geodesic", inAudits("robot1-geodesic.tum"));
   audit("robot1-cable-lengths", inAudits("robot1-cable-lengths.csv"));
   audit("robot1-straight-qs-qg", inAudits("robot1-straight-qs-qg.csv"));
@@ -87,7 +89,7 @@ async function open(name, { browser = withWebgl, ...options } = {}) {
   });
   page.file = file;
   await page.goto(`file://${file}`);
-  if (options.javaScriptEnabled !== false) {
+  if (options.javaScriptEnabled !== false && name !== APART) {
     await page.waitForFunction(() => document.documentElement.classList.contains("drawn"), null, { timeout: 30_000 });
   }
   return page;
@@ -172,6 +174,34 @@ test("no path: words and the plane, nothing to play", async () => {
   await close(page);
 });
 
+test("no path exists: the certificate's cells part start and goal, in the case's units, without a script", async () => {
+  const page = await open(APART);
+  for (const id of SECTIONS_OF_THEOREMS) assert.equal(await has(page, `section#${id}`), id !== "path", id);
+  assert.equal(await has(page, "script"), false);
+  assert.match(await page.textContent(".masthead"), /TAUT-/);
+  assert.match(await page.textContent(".band"), /NO PATH EXISTS.*coordinates within their ranges/s);
+  const scope = await page.textContent(".scope");
+  for (const words of ["−1.8413 rad", "pz = 350 mm", "above 0.05 N and below 0.5 N"]) {
+    assert.ok(scope.includes(words), words);
+  }
+  const found = await page.evaluate(() => {
+    const [start, goal] = [...document.querySelectorAll(".walls circle.place")].map((disc) =>
+      new DOMPoint(Number(disc.getAttribute("cx")), Number(disc.getAttribute("cy"))).matrixTransform(disc.getCTM()));
+    const isIn = (kind, at) => {
+      const path = document.querySelector(`.walls path.${kind}`);
+      return path.isPointInFill(at.matrixTransform(path.getCTM().inverse()));
+    };
+    const names = [...document.querySelectorAll(".walls text.place")].map((text) => text.getBoundingClientRect());
+    const apart = names[0].right <= names[1].left || names[1].right <= names[0].left ||
+      names[0].bottom <= names[1].top || names[1].bottom <= names[0].top;
+    return [...[start, goal].flatMap((at) => ["from-start", "from-goal"].map((kind) => isIn(kind, at))), apart];
+  });
+  assert.deepEqual(found, [true, false, false, true, true]);
+  assert.equal(await page.locator(".ends .machine > svg").count(), 2);
+  await picture(page, "no-path-exists");
+  await close(page);
+});
+
 /// In the page: the kinds of the plane's cells, from the signs in its data: 0 inside, 1 tension out, 2 length out, 3
 /// both.
 const cellKinds = () => {
@@ -182,7 +212,72 @@ const cellKinds = () => {
   return { ...grid, kinds: tension.map((out, k) => Number(out) + 2 * Number(length[k])) };
 };
 
+/// The values of a grid of a case's map (docs/maps.md), made as the page makes its map.
+function gridOf(name, size) {
+  const file = join(directory, "grid.npy");
+  run("map", join(cases, `${name}.yaml`), "--cell", String(1 / 2048), "--cells", "60000", "--grid", file,
+    "--grid-size", String(size));
+  const bytes = readFileSync(file);
+  return [...bytes.subarray(10 + bytes.readUInt16LE(8))];
+}
+
 for (const name of ["robot2-sphere-q2-q3", "robot1-slice-qs-qg"]) {
+  test(`${name}: behind the path is the map that taut map proves, and its legend has what is there`, async () => {
+    const size = 64;
+    const page = await open(name);
+    const seen = await page.evaluate((size) => {
+      const { map } = JSON.parse(document.getElementById("data").textContent).plane.grid;
+      const paths = Object.fromEntries([...document.querySelectorAll(".plane-figure svg .area")].map((path) =>
+        [path.dataset.kind, path]));
+      const kinds = [];
+      for (let i = 0; i < size; ++i) {
+        for (let j = 0; j < size; ++j) {
+          const at = new DOMPoint(((i + 0.5) * map.units) / size, ((j + 0.5) * map.units) / size);
+          kinds.push(Object.keys(paths).filter((kind) => paths[kind].isPointInFill(at)));
+        }
+      }
+      const disc = document.querySelector(".plane-figure .start circle");
+      const start = new DOMPoint(Number(disc.getAttribute("cx")), Number(disc.getAttribute("cy")))
+        .matrixTransform(disc.getCTM());
+      const isInside = [...document.querySelectorAll('.plane-figure svg .area[data-kind="inside"]')].some((path) =>
+        path.isPointInFill(start.matrixTransform(path.getCTM().inverse())));
+      return { kinds, isInside, all: Object.keys(map.areas), legend: document.querySelector(".plane-figure .legend")
+        .textContent, note: document.querySelector(".plane-figure .source").textContent };
+    }, size);
+    const checked = Array(6).fill(0);
+    gridOf(name, size).forEach((value, k) => {
+      const kinds = seen.kinds[k];
+      const isOutside = ["tension", "length", "unbalanced"].some((kind) => kinds.includes(kind));
+      ++checked[value];
+      if (value === 2) assert.ok(isOutside && !kinds.includes("inside"), `${k}: ${kinds}`);
+      if ([1, 3, 5].includes(value)) assert.ok(kinds.includes("inside") && !isOutside, `${k}: ${kinds}`);
+      if ([3, 5].includes(value)) assert.equal(kinds.includes("cut_off"), value === 5, `${k}: ${kinds}`);
+    });
+    assert.ok(checked[2] > 300 && checked[3] > 100, String(checked));
+    assert.ok(seen.isInside, "the path starts inside");
+    const words = { inside: "inside: all limits kept", tension: "a tension out", length: "a length out",
+      unbalanced: "can't be balanced", undecided: "undecided", both: "tensions and lengths", cut_off: "no motion from",
+      singular: "encloses det J = 0" };
+    for (const [kind, text] of Object.entries(words)) {
+      assert.equal(seen.legend.includes(text), seen.all.includes(kind), kind);
+    }
+    assert.ok(seen.legend.includes("charts of the atlas"));
+    assert.match(seen.note, /taut-check has not confirmed it/);
+    assert.equal(/witness|violated|left open|enlarged/.test(seen.legend), false);
+    await close(page);
+  });
+}
+
+test("the plane says what is proved under the pointer", async () => {
+  const page = await open("robot1-slice-qs-qg");
+  await page.locator(".plane-figure").scrollIntoViewIfNeeded();
+  const box = await page.locator(".plane-figure .start circle").boundingBox();
+  await page.mouse.move(box.x + box.width / 2 + 14, box.y + box.height / 2 + 30);
+  assert.match(await page.textContent(".plane-figure .readout"), /φ = .*inside: all limits kept \(proved\)/);
+  await close(page);
+});
+
+for (const name of ["unchecked.html"]) {
   test(`${name}: the plane's contours agree with the samples, and its legend with the plane`, async () => {
     const page = await open(name);
     const { checked, wrong, present, isHatched } = await page.evaluate(({ rows, columns, kinds }) => {
@@ -215,7 +310,7 @@ for (const name of ["robot2-sphere-q2-q3", "robot1-slice-qs-qg"]) {
     words.forEach((text, kind) => assert.equal(legend.includes(text), present.includes(kind), text));
     assert.equal(isHatched, present.includes(3));
     assert.ok(legend.includes("charts of the atlas"));
-    assert.equal(/witness|violated|left open|enlarged/.test(legend), false);
+    assert.equal(/witness|violated|left open/.test(legend), false);
     await close(page);
   });
 }
@@ -687,7 +782,7 @@ async function axe(page, options = {}) {
 
 const DESKTOP = { width: 1100, height: 900 };
 const PHONE = { width: 390, height: 844 };
-const KINDS = [...Object.keys(PAGES), "proved.html", "no_path.html", "unchecked.html", "hostile.html"];
+const KINDS = [...Object.keys(PAGES), APART, "proved.html", "no_path.html", "unchecked.html", "hostile.html"];
 
 test("axe notices what is wrong", async () => {
   writeFileSync(join(directory, "bad.html"), `<!DOCTYPE html><html class="drawn" lang="en"><title>x</title><main>
@@ -829,6 +924,7 @@ const PAPER = {
   "robot1-planned": { verdict: "PROVED", most: 10 },
   "undecided.html": { verdict: "NO DECISION", most: 9 },
   "tutorial/02-a-slack-start": { verdict: "DO NOT RUN", most: 7 },
+  [APART]: { verdict: "NO PATH EXISTS", most: 5 },
 };
 
 for (const [name, expected] of Object.entries(PAPER)) {

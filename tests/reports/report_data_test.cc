@@ -9,8 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "reports/page/plane.h"
+#include "reports/page/plane_map.h"
 #include "reports/summary/cable_use.h"
 #include "tests/reports/sample_certificates.h"
 
@@ -291,6 +293,51 @@ TEST(Plane, KeepsTheLimitsAtThePathsPoses) {
   EXPECT_TRUE(std::ranges::any_of(grid.determinant, [](double x) { return x > 0; }));
   EXPECT_TRUE(std::ranges::any_of(grid.determinant, [](double x) { return x < 0; }));
   EXPECT_FALSE(plane.charts.empty());
+}
+
+TEST(Plane, HasAProvedMapThatAgreesWithSamples) {
+  const ReportContext scene = sample::scene(sample::proved());
+  const PlaneMap map = plane_map(scene).value();
+  const auto share = [&](CellKind kind) { return map.share.at(static_cast<std::size_t>(kind)); };
+  EXPECT_NEAR(std::accumulate(map.share.begin(), map.share.end(), 0.0), 1, 1e-12);
+  EXPECT_LT(share(CellKind::kUndecided), 0.02);
+  EXPECT_GT(map.cells, 1000U);
+  ASSERT_TRUE(map.flip);
+  EXPECT_EQ(map.turns, (std::array<bool, 2>{true, true}));
+  constexpr int kSide = 120;
+  int inside = 0;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const auto at = [&](std::size_t k, int n) {
+      return map.window[k].lower + map.window[k].length() * (n + 0.5) / kSide;
+    };
+    const Statics<double> s = statics(scene.sampler.model(), scene.sampler.pose({at(0, i % kSide), at(1, i / kSide)}));
+    const Reserves left = reserves(scene.sampler.model(), s);
+    inside += left.tension > 0 && left.length > 0 ? 1 : 0;
+  }
+  const double sampled = static_cast<double>(inside) / (kSide * kSide);
+  EXPECT_GT(sampled, share(CellKind::kInside) - 0.01);
+  EXPECT_LT(sampled, share(CellKind::kInside) + share(CellKind::kUndecided) + 0.01);
+}
+
+TEST(Plane, HasAMapOfItsEnlargedPartWithTheSameColours) {
+  const ReportContext scene = sample::scene(sample::proved());
+  const Plane plane = sample_plane(scene, false).value();
+  ASSERT_TRUE(plane.detail);
+  EXPECT_TRUE(plane.grid.tension.empty() && plane.detail->tension.empty());
+  const PlaneMap part = plane_map(scene, plane.detail->window).value();
+  EXPECT_EQ(part.window[0].lower, plane.detail->window[0].lower);
+  EXPECT_EQ(part.turns, (std::array<bool, 2>{false, false}));
+  EXPECT_GT(part.share.at(static_cast<std::size_t>(CellKind::kInside)), 0) << "the path is in it";
+}
+
+TEST(ReportData, HasTheProvedMapOrElseSamples) {
+  const json proved = report_data(sample::scene(sample::proved()))["plane"]["grid"];
+  EXPECT_FALSE(proved["map"]["areas"]["inside"].get<std::string>().empty());
+  EXPECT_FALSE(proved.contains("tension")) << "not both";
+  EXPECT_LT(proved.dump().size(), 150'000U) << "bytes on the page";
+  const json unchecked = report_data(sample::unchecked(sample::proved()))["plane"]["grid"];
+  EXPECT_TRUE(unchecked["map"].is_null());
+  EXPECT_TRUE(unchecked.contains("tension"));
 }
 
 TEST(Plane, EnlargesAPathThatIsSmallInTheWindow) {

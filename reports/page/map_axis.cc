@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reports/map/map_axis.h"
+#include "reports/page/map_axis.h"
 
 #include <fmt/format.h>
 
@@ -28,14 +28,19 @@ std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space, 
     const double lower = evaluate_constant<double>(axis.lower), upper = evaluate_constant<double>(axis.upper);
     const std::string si = unit(text, k);
     if (si == "m") {
-      result.push_back({axis.name, units.length.name(), units.length.approx(lower), units.length.approx(upper)});
+      result.push_back({axis.name, units.length.name(), units.length.approx(lower), units.length.approx(upper),
+                        units.length.approx(1)});
     } else if (si == "rad" && units.in_degrees) {
-      result.push_back({axis.name, "deg", degrees(lower), degrees(upper)});
+      result.push_back({axis.name, "deg", degrees(lower), degrees(upper), degrees(1)});
     } else {
-      result.push_back({axis.name, si, lower, upper});
+      result.push_back({axis.name, si, lower, upper, 1});
     }
   }
   return result;
+}
+
+std::string value_text(const ShownAxis& axis, double value) {
+  return fmt::format("{:.5g}{}{}", value + 0.0, axis.unit.empty() ? "" : " ", axis.unit);
 }
 
 std::string volume_unit(const std::vector<ShownAxis>& axes) {

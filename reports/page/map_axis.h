@@ -15,11 +15,15 @@ struct ShownAxis {
   std::string name;
   std::string unit;  ///< "rad", "deg", "mm"; empty where the case does not tell what the coordinate is
   double lower = 0, upper = 1;
+  double per_si = 1;  ///< the unit's values per SI's
 
   /// The value at t, rounded.
   [[nodiscard]] double at(double t) const { return lower + t * (upper - lower); }
   [[nodiscard]] std::string title() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
+
+/// "-105.5 deg", "350 mm": a value in the axis' unit, rounded.
+[[nodiscard]] std::string value_text(const ShownAxis& axis, double value);
 
 /// "range", "turn" or "tilt".
 [[nodiscard]] const char* axis_kind_name(MapAxis::Kind kind);
