@@ -42,7 +42,7 @@ struct Angles {
 };
 /// @pre the axis is not 0
 template <class S>
-[[nodiscard]] Angles<S> make_angles(const AnglesText& angles);
+[[nodiscard]] Angles<S> make_angles(const AnglesText& text);
 
 template <class S>
 struct Model {
