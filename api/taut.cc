@@ -6,6 +6,7 @@
 #include <mpfr.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
 #include <exception>
@@ -28,6 +29,7 @@
 #include "certify/arithmetic/rounding.h"
 #include "certify/undecided.h"
 #include "checker/check.h"
+#include "checker/format/no_path.h"
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "kinematics/pose_conversion.h"
@@ -73,6 +75,7 @@ struct Certificate::Content {
   checker::CheckResult checked;  ///< of this text
   taut::Certificate stated;      ///< without segments
   std::size_t boxes = 0;
+  std::optional<std::size_t> no_path_from;  ///< of a certificate that no path exists, which has no path
   std::optional<Theorem> theorem;
 };
 
@@ -273,15 +276,54 @@ std::array<std::array<double, 2>, 6> outer(const std::array<Limits, kCables>& li
   return result;
 }
 
+bool is_no_path(const nlohmann::json& certificate) {
+  return certificate.is_object() && certificate.value("format", nlohmann::json()) == checker::kNoPathFormat;
+}
+
+/// Reads a certificate that no path exists into one without a path. @pre the checker has found its form right
+void read_no_path(const nlohmann::json& certificate, Certificate::Content& content) {
+  content.stated.problem = problem_from_json(certificate.at("problem"));
+  content.stated.illustration = certificate.at("illustration");
+  content.no_path_from = certificate.at("waypoints").at(0).get<std::size_t>();
+  const auto& tree = certificate.at("map").at("tree").get_ref<const std::string&>();
+  const auto is_reason = [](char node) { return (node < '0' || node > '2') && node != checker::kOpenLeaf; };
+  content.boxes = static_cast<std::size_t>(std::ranges::count_if(tree, is_reason));
+}
+
 /// A certificate that the checker has read.
 Certificate certificate_of(std::string text, checker::CheckResult checked) {
-  taut::Certificate stated = read_certificate(*checked.certificate);
-  const std::size_t boxes = count_boxes(stated);
-  stated.segments = {};  // nobody asks for them, and they are long
-  std::optional<Theorem> theorem;
-  if (checked.theorem) theorem = TheoremMaker::make(*checked.theorem);
-  return Certificate(std::make_shared<const Certificate::Content>(
-      Certificate::Content{std::move(text), std::move(checked), std::move(stated), boxes, std::move(theorem)}));
+  Certificate::Content content;
+  if (is_no_path(*checked.certificate)) {
+    read_no_path(*checked.certificate, content);
+  } else {
+    content.stated = read_certificate(*checked.certificate);
+    content.boxes = count_boxes(content.stated);
+    content.stated.segments = {};  // nobody asks for them, and they are long
+  }
+  if (checked.theorem) content.theorem = TheoremMaker::make(*checked.theorem);
+  content.text = std::move(text);
+  content.checked = std::move(checked);
+  return Certificate(std::make_shared<const Certificate::Content>(std::move(content)));
+}
+
+/// A certificate whose form is right, and of which nothing was proved.
+checker::CheckResult unchecked(const std::string& text, const std::string& name) {
+  checker::CheckResult result;
+  nlohmann::json certificate = parse_certificate(text, name);
+  if (is_no_path(certificate)) {
+    checker::CheckOptions options;
+    options.max_seconds = 0;
+    result = checker::check(text, options);
+    if (result.outcome != checker::Outcome::kUnchecked) {
+      throw taut::InputError(fmt::format("got {}, expected a certificate", result.message));
+    }
+  } else {
+    result.certificate = std::make_shared<const nlohmann::json>(std::move(certificate));
+    result.sha256 = checker::sha256(text);
+  }
+  result.outcome = checker::Outcome::kUnchecked;
+  result.message = "it was loaded";
+  return result;
 }
 
 /// A certificate that was just made, once the checker has confirmed it.
@@ -417,14 +459,8 @@ Certificate Certificate::load(const std::string& file) {
 
 Certificate Certificate::parse(const std::string& text, const std::string& name) {
   return within(ErrorCode::kCertificate, [&] {
-    return taut::with_error_code(ErrorCode::kCertificate, name, [&] {
-      checker::CheckResult unchecked;
-      unchecked.outcome = checker::Outcome::kUnchecked;
-      unchecked.message = "it was loaded";
-      unchecked.certificate = std::make_shared<const nlohmann::json>(parse_certificate(text, name));
-      unchecked.sha256 = checker::sha256(text);
-      return certificate_of(text, std::move(unchecked));
-    });
+    return taut::with_error_code(ErrorCode::kCertificate, name,
+                                 [&] { return certificate_of(text, unchecked(text, name)); });
   });
 }
 
@@ -438,6 +474,7 @@ std::optional<Theorem> Certificate::theorem() const { return content_->theorem; 
 
 Verdict Certificate::verdict() const {
   if (content_->theorem) return content_->theorem->verdict();
+  if (content_->no_path_from) return Verdict::kUnchecked;
   return content_->stated.verdict == taut::Verdict::kUndecided ? Verdict::kUndecided : Verdict::kUnchecked;
 }
 
@@ -498,6 +535,8 @@ const std::string& Certificate::reason() const {
   return content_->stated.undecided ? content_->stated.undecided->reason : none;
 }
 
+std::optional<std::size_t> Certificate::no_path_from() const { return content_->no_path_from; }
+
 std::string Certificate::reason_code() const { return code_of(reason()); }
 
 std::string Certificate::headroom() const {
@@ -517,6 +556,9 @@ Path Certificate::path() const {
 
 std::string Certificate::path_csv() const {
   return within(ErrorCode::kCertificate, [&] {
+    if (content_->no_path_from) {
+      throw taut::InputError("path_csv: got a certificate that no path exists, expected one of a path");
+    }
     return taut::path_csv(content_->stated.problem, content_->stated.path, content_->checked.sha256);
   });
 }
@@ -539,8 +581,9 @@ std::size_t Certificate::boxes() const { return content_->boxes; }
 
 std::vector<Sample> Certificate::samples(std::size_t about) const {
   return within(ErrorCode::kCertificate, [&] {
-    const Sampler sampler(content_->stated.problem);
     std::vector<Sample> result;
+    if (content_->stated.path.waypoints.empty()) return result;
+    const Sampler sampler(content_->stated.problem);
     for (const PathSample& sample : sampler.along(content_->stated.path, about)) {
       Sample& copy = result.emplace_back();
       copy.position = sample.position;
@@ -581,6 +624,7 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
     require_seconds(options.budget_seconds, "budget_seconds");
     require_seconds(options.max_check_seconds, "max_check_seconds");
     require_seconds(options.headroom_seconds, "headroom_seconds");
+    require_seconds(options.no_path_seconds, "no_path_seconds");
     if (options.budget_seconds > 0) {
       planned.planner.max_seconds = options.budget_seconds;
       planned.planner.has_budget = true;
@@ -595,7 +639,8 @@ Certificate plan(const Case& the_case, const PlanOptions& options) {
                                  {.grow = options.grow,
                                   .key = key ? &*key : nullptr,
                                   .max_seconds = options.max_check_seconds,
-                                  .headroom_seconds = options.headroom_seconds},
+                                  .headroom_seconds = options.headroom_seconds,
+                                  .no_path_seconds = options.no_path_seconds},
                                  progress, relay.token());
     if (!options.save_atlas.empty() && planner.atlas().size() > 0) {
       write_whole({{options.save_atlas, planner.atlas_bytes()}});

@@ -301,6 +301,7 @@ void add_certificate(py::module_& module) {
       .def_property_readonly("stretches", [](const taut::Certificate& c) { return stretch_list(c.stretches()); })
       .def_property_readonly("reason", &taut::Certificate::reason)
       .def_property_readonly("reason_code", &taut::Certificate::reason_code)
+      .def_property_readonly("no_path_from", &taut::Certificate::no_path_from)
       .def_property_readonly("path", [](const taut::Certificate& c) { return path_tuple(c.path()); })
       .def_property_readonly("path_csv", &taut::Certificate::path_csv)
       .def("controller_csv", &taut::Certificate::controller_csv, py::call_guard<py::gil_scoped_release>())
@@ -316,14 +317,14 @@ void add_plan_and_prove(py::module_& module) {
       "plan",
       [](const taut::Case& the_case, double budget_seconds, const std::string& atlas, const std::string& save_atlas,
          bool grow, const std::string& signing_key, double max_check_seconds, double headroom_seconds,
-         const py::object& progress) {
+         double no_path_seconds, const py::object& progress) {
         return run(progress, [&](const std::stop_token& stop, const taut::ProgressCallback& callback) {
           return taut::plan(the_case, {budget_seconds, atlas, save_atlas, grow, signing_key, callback, stop,
-                                       max_check_seconds, headroom_seconds});
+                                       max_check_seconds, headroom_seconds, no_path_seconds});
         });
       },
       "case"_a, "budget_seconds"_a, "atlas"_a, "save_atlas"_a, "grow"_a, "signing_key"_a, "max_check_seconds"_a,
-      "headroom_seconds"_a, "progress"_a);
+      "headroom_seconds"_a, "no_path_seconds"_a, "progress"_a);
 
   module.def(
       "prove",

@@ -174,7 +174,7 @@ enum class Verdict {
   kRefuted,    ///< it does not, and that is proved
   kUndecided,  ///< nothing is claimed; that does not mean that the path is unsafe
   kUnchecked,  ///< the independent checker was not asked, or not given the time: nothing is known of what is claimed
-  kNoPath      ///< no motion at all leads from one waypoint of a query to the next; of theorems that check() makes
+  kNoPath      ///< no motion at all leads from one waypoint of a query to the next
 };
 
 /// Proved lower bounds, rounded down.
@@ -267,6 +267,9 @@ class TAUT_EXPORT Certificate {
   [[nodiscard]] std::vector<Stretch> stretches() const;  ///< of an audit that is not proved; none of an unchecked one
   [[nodiscard]] const std::string& reason() const;       ///< only if undecided
   [[nodiscard]] std::string reason_code() const;         ///< "U5": `taut explain` has more about it; may be empty
+  /// Of a certificate that no path exists: the waypoint of the query from which no motion leads to the next. Such a
+  /// certificate has no path, no segments and no samples.
+  [[nodiscard]] std::optional<std::size_t> no_path_from() const;
   /// What stands in the way of a proof, or how far it reaches: JSON (docs/sensitivity.md), or empty where that was not
   /// sought. The program that wrote the certificate says so; it is no part of the claim, and nothing checks it.
   [[nodiscard]] std::string headroom() const;
@@ -281,7 +284,7 @@ class TAUT_EXPORT Certificate {
   /// 200,000 rows.
   [[nodiscard]] std::string controller_csv(double step_m = 0.01) const;
   [[nodiscard]] std::size_t segments() const;
-  [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof
+  [[nodiscard]] std::size_t boxes() const;  ///< pieces of the proof; of no path, cells without a feasible pose
 
   /// About so many poses along the path, in order, with both ends.
   [[nodiscard]] std::vector<Sample> samples(std::size_t about = 200) const;
@@ -311,6 +314,9 @@ inline constexpr double kCheckSeconds = 300;
 /// The budget for finding what stands in the way of a proof, or how far it reaches, if nobody says [s].
 inline constexpr double kHeadroomSeconds = 30;
 
+/// The budget for proving that no path exists, where the search found none, if nobody says [s].
+inline constexpr double kNoPathSeconds = 10;
+
 struct PlanOptions {
   double budget_seconds = 0;    ///< for planning and proving; 0: the case's own
   std::string atlas;            ///< begin with the charts of this file (docs/atlas-file.md); empty: with none
@@ -322,9 +328,11 @@ struct PlanOptions {
   std::stop_token stop = {};
   double max_check_seconds = kCheckSeconds;    ///< that the checker may take before the certificate is unchecked
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares; 0: they are not sought
+  double no_path_seconds = kNoPathSeconds;     ///< for proving that no path exists; 0: that is not tried
 };
 
-/// Plans through the case's query and proves the path: `taut plan`. A case without a path that is found is undecided.
+/// Plans through the case's query and proves the path: `taut plan`. Where the search finds no path, it tries to prove
+/// that none exists (kNoPath); where that is not proved either, the case is undecided.
 /// @throws InputError, also where the case has no query.
 [[nodiscard]] TAUT_EXPORT Certificate plan(const Case& the_case, const PlanOptions& options = {});
 

@@ -43,6 +43,8 @@ FileName = Union[str, "os.PathLike[str]"]
 CHECK_SECONDS = 300.0
 #: Default time limit for finding what stands in the way of a proof, or how far it reaches [s].
 HEADROOM_SECONDS = 30.0
+#: Default time limit for proving that no path exists, where the search found none [s].
+NO_PATH_SECONDS = 10.0
 
 
 # --- Cases and paths --------------------------------------------------------------------------------------------------
@@ -258,7 +260,8 @@ class Certificate:
 
     @property
     def verdict(self) -> str:
-        """The theorem's verdict, "proved" or "refuted"; without a theorem "undecided" (not unsafe) or "unchecked"."""
+        """The theorem's verdict, "proved", "refuted" or "no path"; without one "undecided" (not unsafe) or "unchecked".
+        """
         return self._certificate.verdict
 
     @property
@@ -289,6 +292,14 @@ class Certificate:
     def reason_code(self) -> str:
         """The code of the reason, such as "U5", which `taut explain` explains; may be empty."""
         return self._certificate.reason_code
+
+    @property
+    def no_path_from(self) -> Optional[int]:
+        """Of a certificate that no path exists: the waypoint of the query from which no motion leads to the next.
+
+        Such a certificate has no path, no segments and no samples.
+        """
+        return self._certificate.no_path_from
 
     @property
     def headroom(self) -> Optional[dict[str, Any]]:
@@ -323,7 +334,7 @@ class Certificate:
 
     @property
     def boxes(self) -> int:
-        """Number of boxes of the proof."""
+        """Number of boxes of the proof; if no path exists, of cells without a feasible pose."""
         return self._certificate.boxes
 
     def samples(self, about: int = 200) -> Samples:
@@ -342,8 +353,10 @@ class Certificate:
 def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] = None,
          save_atlas: Optional[FileName] = None, grow: bool = False, signing_key: str = "",
          max_check_seconds: float = CHECK_SECONDS, headroom_seconds: float = HEADROOM_SECONDS,
-         progress: Optional[Progress] = None) -> Certificate:
+         no_path_seconds: float = NO_PATH_SECONDS, progress: Optional[Progress] = None) -> Certificate:
     """Plans through the case's query and proves the path: `taut plan`.
+
+    Where the search finds no path, it tries to prove that none exists: then the verdict is "no path".
 
     :param budget_seconds: time limit for planning and proving; 0: the case's own
     :param atlas: file with charts to begin with (docs/atlas-file.md)
@@ -352,9 +365,10 @@ def plan(case: Case, *, budget_seconds: float = 0.0, atlas: Optional[FileName] =
     :param signing_key: PEM of an Ed25519 private key that signs the certificate
     :param max_check_seconds: time limit of the checker, after which the certificate is unchecked
     :param headroom_seconds: time limit for Certificate.headroom; 0: it is not sought
+    :param no_path_seconds: time limit for proving that no path exists; 0: that is not tried
     """
     return Certificate._of(_taut.plan(case._case, budget_seconds, _file(atlas), _file(save_atlas), grow, signing_key,
-                                      max_check_seconds, headroom_seconds, progress))
+                                      max_check_seconds, headroom_seconds, no_path_seconds, progress))
 
 
 def prove(case: Case, waypoints: Union[ArrayLike, Path], *, interpolation: Optional[str] = None,

@@ -15,7 +15,8 @@ namespace taut {
 /// The part of the style sheet that is for it.
 inline constexpr const char* kNoPathStyle = R"css(
 :root {
-  --from-start: #d8eadb; --from-goal: #f3e6c8; --wall-tension: #2a6ab0; --wall-unbalanced: #6b4aa3; --wall-length: #c56a00;
+  --from-start: #d8eadb; --from-goal: #f3e6c8;
+  --wall-tension: #2a6ab0; --wall-unbalanced: #6b4aa3; --wall-length: #c56a00;
 }
 @media screen and (prefers-color-scheme: dark) {
   :root {

@@ -52,7 +52,7 @@ struct Plane {
 [[nodiscard]] std::string contour_text(const std::vector<double>& field, int columns);
 
 /// The plane of a report; nothing if there is none, or if its window would have no finite size.
-/// @param has_fields  whether the fields are sampled: a proved map (plane_map.h) stands in for them; else they are empty
+/// @param has_fields  whether the fields are sampled; else they are empty, and a proved map (plane_map.h) stands in
 [[nodiscard]] std::optional<Plane> sample_plane(const ReportContext& scene, bool has_fields = true);
 
 }  // namespace taut

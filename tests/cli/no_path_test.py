@@ -77,7 +77,7 @@ class NoPath(InFolder):
                       "query to waypoint 1", " ".join(said.stdout.split()))
         self.assertEqual(sorted(os.listdir(out)), ["certificate.json", "report.html"])
         page = text_of(os.path.join(out, "report.html"))
-        for expected in ("NO PATH EXISTS", "There is no continuous motion".lower(), "From one part of a slice to another",
+        for expected in ("NO PATH EXISTS", "there is no continuous motion", "From one part of a slice to another",
                          "Robot 1 (reconstructed)", "phi = −1.8413 rad, theta = 1.3422 rad", "every tilt",
                          "pz = 350 mm, sigma = 0.5934 rad", "Every tension above 0.05 N and below 0.5 N",
                          'class="wall-tension"', 'class="from-start"', 'class="from-goal"', ">goal</text>"):

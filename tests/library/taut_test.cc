@@ -156,6 +156,61 @@ TEST(Plan, KeepsAndUsesAtlases) {
   EXPECT_EQ(rows(taut::plan(robot, options)), rows(first));
 }
 
+/// Two poses between which there is no path.
+taut::Case apart() { return taut::Case::load(kCases + "maps/robot1-sigma34-apart.yaml"); }
+
+TEST(Plan, ProvesThatNoPathExists) {
+  const Certificate planned = taut::plan(apart());
+  EXPECT_EQ(planned.verdict(), Verdict::kNoPath);
+  EXPECT_EQ(planned.no_path_from(), 0U);
+  EXPECT_EQ(planned.text(), certificate_of_command("plan " + kCases + "maps/robot1-sigma34-apart.yaml"));
+  ASSERT_TRUE(planned.theorem());
+  EXPECT_THAT(planned.theorem()->claim(), testing::StartsWith("No path exists from the first"));
+  EXPECT_FALSE(planned.theorem()->margins() || planned.theorem()->witness());
+  EXPECT_EQ(planned.boxes(), taut::check(planned).boxes);
+  EXPECT_GT(planned.boxes(), 100U);
+  EXPECT_EQ(planned.segments(), 0U);
+  EXPECT_TRUE(planned.path().waypoints.empty() && planned.samples().empty() && planned.stretches().empty());
+  EXPECT_EQ(planned.document_fields(), apart().document_fields());
+  EXPECT_THROW((void)planned.path_csv(), taut::InputError);
+  EXPECT_THROW((void)planned.controller_csv(), taut::InputError);
+  EXPECT_FALSE(taut::plan(taut::Case::load(kRobot1)).no_path_from());
+}
+
+TEST(Plan, NeedNotTryToProveThatNoPathExists) {
+  taut::PlanOptions options;
+  options.no_path_seconds = 0;
+  const Certificate planned = taut::plan(apart(), options);
+  EXPECT_EQ(planned.verdict(), Verdict::kUndecided);
+  EXPECT_FALSE(planned.no_path_from());
+  options.no_path_seconds = -1;
+  EXPECT_THROW((void)taut::plan(apart(), options), taut::InputError);
+}
+
+TEST(Certificate, ThatNoPathExistsIsLoadedUncheckedAndReported) {
+  const Certificate planned = taut::plan(apart());
+  const Certificate loaded = Certificate::parse(planned.text());
+  EXPECT_EQ(loaded.verdict(), Verdict::kUnchecked);
+  EXPECT_EQ(loaded.no_path_from(), 0U);
+  EXPECT_EQ(loaded.case_name(), "robot1-sigma34-apart");
+  EXPECT_EQ(loaded.boxes(), planned.boxes());
+  const taut::CheckResult checked = taut::check(loaded, {apart(), {}, {}, {}});
+  ASSERT_TRUE(checked.theorem) << checked.message;
+  EXPECT_EQ(checked.theorem->verdict(), Verdict::kNoPath);
+  taut::ReportOptions options;
+  EXPECT_THAT(taut::report(loaded, options), HasSubstr("NO PATH EXISTS"));
+  options.max_check_seconds = 0;
+  EXPECT_THAT(taut::report(loaded, options), AllOf(HasSubstr("UNCHECKED"), Not(HasSubstr("NO PATH EXISTS"))));
+
+  std::string altered = planned.text();
+  altered.replace(altered.find("\"waypoints\": ["), 15, "\"waypoints\":[ ");
+  EXPECT_EQ(Certificate::parse(altered).boxes(), planned.boxes()) << "white space is no part of the content";
+  std::string other = planned.text();
+  const std::size_t letter = other.find_first_of("abcdefghijkl", other.find("\"tree\":") + 9);
+  other[letter] = other[letter] == 'a' ? 'b' : 'a';
+  EXPECT_THROW((void)Certificate::parse(other), taut::InputError);
+}
+
 TEST(Plan, OfACaseWithoutAQueryIsAnInputError) {
   try {
     static_cast<void>(taut::plan(taut::Case::load(kBridging)));
@@ -447,7 +502,7 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::Certificate), 16U);
   EXPECT_EQ(sizeof(taut::Theorem), 16U);
   EXPECT_EQ(sizeof(taut::Progress), 24U);
-  EXPECT_EQ(sizeof(taut::PlanOptions), 168U);
+  EXPECT_EQ(sizeof(taut::PlanOptions), 176U);
   EXPECT_EQ(sizeof(taut::ProveOptions), 56U);
   EXPECT_EQ(sizeof(taut::AuditOptions), 104U);
   EXPECT_EQ(sizeof(taut::SensitivityOptions), 56U);

@@ -330,6 +330,28 @@ class Audits(unittest.TestCase):
             taut.audit(self.case)  # which names no path
 
 
+class NoPath(unittest.TestCase):
+    def test_is_proved_saved_loaded_checked_and_reported(self):
+        case = taut.Case.load(os.path.join(CASES, "maps", "robot1-sigma34-apart.yaml"))
+        planned = taut.plan(case)
+        self.assertEqual((planned.verdict, planned.theorem.verdict, planned.no_path_from), ("no path", "no path", 0))
+        self.assertIn("No path exists", planned.theorem.claim)
+        self.assertEqual((planned.segments, len(planned.path.waypoints), planned.headroom), (0, 0, None))
+        self.assertGreater(planned.boxes, 100)
+        self.assertEqual(planned.samples().p_m.shape, (0, 3))
+        with self.assertRaisesRegex(taut.InputError, "no path exists"):
+            planned.path_csv
+        loaded = pickle.loads(pickle.dumps(planned))
+        self.assertEqual((loaded.verdict, loaded.no_path_from, loaded.text), ("unchecked", 0, planned.text))
+        self.assertEqual(taut.check(loaded, case).theorem.verdict, "no path")
+        self.assertIn("NO PATH EXISTS", taut.report(loaded, format="text"))
+
+    def test_need_not_be_tried(self):
+        case = taut.Case.load(os.path.join(CASES, "maps", "robot1-sigma34-apart.yaml"))
+        planned = taut.plan(case, no_path_seconds=0)
+        self.assertEqual((planned.verdict, planned.no_path_from), ("undecided", None))
+
+
 class Sensitivities(unittest.TestCase):
     def test_are_those_of_the_command(self):
         for case, arguments, path in ((ROBOT1, [], None), (BRIDGING, [], None),
