@@ -19,6 +19,8 @@ class HalvingRule {
   /// The axis that the verdict proposes, if it may be halved; else the widest that may. Nothing for a cell that is
   /// decided, as small as it may get, or limited by tolerances.
   [[nodiscard]] std::optional<std::size_t> axis(const Cell& cell, const CellVerdict& verdict) const;
+  /// How many halvings make the least cells.
+  [[nodiscard]] int most_halvings() const;
 
  private:
   std::size_t axes_;

@@ -262,9 +262,12 @@ std::size_t TreeExtent::cells(std::size_t level) const {
 }
 
 MapParts::MapParts(const Problem& problem, const MapSpace& space, double least_width)
-    : space_(space), rule_(space, least_width), proof_(make_cell_proof(problem, space)) {
+    : space_(space),
+      rule_(space, least_width),
+      halvings_(std::clamp(rule_.most_halvings() / 2, kLeastHalvings, kMostHalvings)),
+      proof_(make_cell_proof(problem, space)) {
   const std::string nothing = not_judged(0);
-  top_ = Refinement(TreeReader(nothing, space_, rule_), *proof_, rule_, kPartHalvings).run({});
+  top_ = Refinement(TreeReader(nothing, space_, rule_), *proof_, rule_, halvings_).run({});
   walk_whole(TreeReader(top_, space_, rule_), {}, [&](const Cell& cell, const TreeNode& node) {
     if (node.kind == kNotJudgedKind) {
       cells_.push_back({cell, node.proved});

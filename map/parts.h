@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A map in parts that are divided apart from each other, in other processes or on other machines.
 //
-// The space is divided as far as kPartHalvings; each cell that is still open then is a part. What is proved of a cell
-// depends on the cell alone, and whether it may be halved, too (HalvingRule). So parts make the same map, bit for bit,
-// whoever divides them, and in whatever order.
+// The space is halved a number of times that depends on the least width alone; each cell that is still open then is a
+// part. What is proved of a cell depends on the cell alone, and whether it may be halved, too (HalvingRule). So parts
+// make the same map, bit for bit, whoever divides them, and in whatever order.
 //
 // The tree of a part is told in preorder, lower halves first, one byte a node:
 //   bits 0 to 2   0 to 4: a leaf of that CellKind; 5: undecided because of tolerances; 6: not judged; 7: halved
@@ -51,13 +51,15 @@ struct TreeExtent {
 
 class MapParts {
  public:
-  /// Cells that were halved so often are the parts.
-  static constexpr int kPartHalvings = 12;
+  /// Cells are made parts by no fewer halvings, and by no more: there are 4096 parts at most.
+  static constexpr int kLeastHalvings = 6, kMostHalvings = 12;
 
   /// Divides the space into parts. @throws InputError as make_cell_proof().
   MapParts(const Problem& problem, const MapSpace& space, double least_width);
 
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  /// By how many halvings of the space parts are made: half of those that make the least cells.
+  [[nodiscard]] int halvings() const { return halvings_; }
   [[nodiscard]] const Cell& cell(std::size_t part) const { return cells_.at(part).cell; }
   /// What is known without the parts, which count as complete here.
   [[nodiscard]] const TreeExtent& top() const { return top_extent_; }
@@ -91,6 +93,7 @@ class MapParts {
 
   MapSpace space_;
   HalvingRule rule_;
+  int halvings_;
   std::unique_ptr<CellProof> proof_;
   std::string top_;  ///< the tree of the whole: its leaves that are not judged are the parts, in order
   std::vector<Part> cells_;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -146,6 +147,10 @@ HalvingRule::HalvingRule(const MapSpace& space, double least_width) : axes_(spac
     const double halvings = std::floor(std::log2(1 / least_width));
     deepest_.at(k) = static_cast<int>(std::clamp(halvings, 0.0, double{kMaxCellDepth}));
   }
+}
+
+int HalvingRule::most_halvings() const {
+  return std::min(std::accumulate(deepest_.begin(), deepest_.end(), 0), kMaxCellHalvings);
 }
 
 std::optional<std::size_t> HalvingRule::axis(const Cell& cell, const CellVerdict& verdict) const {

@@ -38,7 +38,7 @@ TEST(MapParts, MakeTheMapOfTheWholeWhateverStepsTheyAreDividedIn) {
   const MapParts parts(problem, space, kWidth);
   ASSERT_GT(parts.size(), 50U);
   const std::vector<std::string> trees = trees_of(parts, 60, 1);
-  EXPECT_EQ(trees, trees_of(parts, MapParts::kPartHalvings, 1));
+  EXPECT_EQ(trees, trees_of(parts, parts.halvings(), 1));
   EXPECT_EQ(trees, trees_of(parts, 14, 3));
   for (const double undecided : {0.0, 0.03, 0.2, 0.9}) {
     const SubdivisionOptions options{.least_width = kWidth, .undecided_share = undecided};
@@ -82,9 +82,9 @@ TEST(MapParts, KnowHowFarTheyAreEnough) {
 TEST(MapParts, OfASpaceThatIsDecidedBeforeAreNone) {
   const Problem problem = robot1_slice();
   const MapSpace space = make_map_space(problem.space);
-  const MapParts parts(problem, space, 1.0 / 32);
+  const MapParts parts(problem, space, 1.0 / 4);
   EXPECT_EQ(parts.size(), 0U);
-  const SubdivisionOptions options{.least_width = 1.0 / 32, .undecided_share = 0};
+  const SubdivisionOptions options{.least_width = 1.0 / 4, .undecided_share = 0};
   EXPECT_TRUE(are_same(subdivide(problem, space, options), parts.assemble({}, options)));
 }
 
