@@ -265,6 +265,62 @@ class UnderMpi(Parts):
         self.assertEqual(said.stderr.count("none.yaml: could not read"), 1)
 
 
+class Regress(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.cases = self.path("cases")
+        os.makedirs(self.cases)
+        for name in ("robot1-slice-qs1-qg", "robot1-slice-qs2-qg", "robot2-sphere-q1-q2"):
+            shutil.copy(os.path.join(CASES, name + ".yaml"), self.cases)
+
+    def found(self, *arguments, code=0, command=(), **options):
+        said = run(*command, TAUT, "regress", self.cases, *arguments, "--json", **options)
+        self.assertEqual(said.returncode, code, said.stdout + said.stderr)
+        found = json.loads(said.stdout)
+        for entry in found["cases"]:
+            del entry["elapsed_seconds"]
+        del found["elapsed_seconds"]
+        return found
+
+    def test_shards_make_the_result_of_one_process(self):
+        one = self.found()
+        parts = self.path("parts")
+        self.assertEqual([entry["case"] for entry in self.found("--shard", "1/2", "--parts", parts)["cases"]],
+                         ["robot1-slice-qs1-qg.yaml", "robot2-sphere-q1-q2.yaml"])
+        said = run(TAUT, "regress", self.cases, "--merge", "--parts", parts)
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("000001.taut-part: got no such file, and 1 of 3 parts missing", said.stderr)
+        self.found("--shard", "2/2", "--parts", parts)
+        self.assertEqual(self.found("--merge", "--parts", parts), one)
+        # What is finished is not run again.
+        before = os.stat(os.path.join(parts, "000000.taut-part")).st_mtime_ns
+        self.assertEqual(self.found("--parts", parts), one)
+        self.assertEqual(os.stat(os.path.join(parts, "000000.taut-part")).st_mtime_ns, before)
+        # Another case is other work.
+        with open(os.path.join(self.cases, "robot2-sphere-q1-q2.yaml"), "a", encoding="utf-8") as file:
+            file.write("# changed\n")
+        said = run(TAUT, "regress", self.cases, "--merge", "--parts", parts)
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("got a part of other work, of which 'cases_sha256' is", said.stderr)
+
+    def test_the_exit_code_of_all_is_that_of_the_merge(self):
+        parts = self.path("parts")
+        with open(os.path.join(self.cases, "robot1-slice-qs2-qg.yaml"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(self.cases, "robot1-slice-qs2-qg.yaml"), "w", encoding="utf-8") as file:
+            file.write(re.sub(r"^expect:.*", "expect: refuted", text, flags=re.M))
+        self.found("--shard", "1/2", "--parts", parts)
+        self.found("--shard", "2/2", "--parts", parts, code=1)
+        self.assertEqual(self.found("--merge", "--parts", parts, code=1)["as_declared"], 2)
+        said = run(TAUT, "regress", self.cases, "--shard", "1/2", "--parts", parts, "--junit", self.path("x.xml"))
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("--junit: got a file for a shard, expected it with --merge", said.stderr)
+
+    @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed (openmpi-bin)")
+    def test_ranks_make_the_result_of_one_process(self):
+        self.assertEqual(self.found(command=("mpirun", "-n", "2"), env=dict(os.environ, **MPI)), self.found())
+
+
 def children(pid):
     with open(f"/proc/{pid}/task/{pid}/children", encoding="ascii") as file:
         return [int(child) for child in file.read().split()]
