@@ -50,9 +50,9 @@ MappedCase::MappedCase(const std::string& case_path, const std::string& from) {
   start = std::move(typed);
 }
 
-CaseMap::CaseMap(const MappedCase& mapped, const SubdivisionOptions& options)
-    : map_(subdivide(mapped.the_case.problem, mapped.space, options)),
-      seconds_(stopwatch_.seconds()),
+CaseMap::CaseMap(const MappedCase& mapped, CellMap map, double seconds)
+    : map_(std::move(map)),
+      seconds_(seconds),
       topology_(map_),
       result_{mapped.the_case.problem, map_, topology_, {}, {}, {}, {}, {}} {
   const Case& the_case = mapped.the_case;

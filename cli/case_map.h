@@ -36,13 +36,14 @@ class CaseMap {
  public:
   using Connection = MapTopology::Connection;
 
-  CaseMap(const MappedCase& mapped, const SubdivisionOptions& options);
+  /// @param seconds  that the map took
+  CaseMap(const MappedCase& mapped, CellMap map, double seconds);
   CaseMap(const CaseMap&) = delete;  // the result refers to the map
   CaseMap& operator=(const CaseMap&) = delete;
   ~CaseMap() = default;
 
   [[nodiscard]] const MapResult& result() const { return result_; }
-  [[nodiscard]] double seconds() const { return seconds_; }  ///< to subdivide
+  [[nodiscard]] double seconds() const { return seconds_; }  ///< that the map took
   /// Of the query's waypoints.
   [[nodiscard]] const std::vector<std::vector<MapBox>>& places() const { return places_; }
   /// From each waypoint to the next.
@@ -51,7 +52,6 @@ class CaseMap {
   [[nodiscard]] const std::vector<MapBox>& start() const { return start_; }
 
  private:
-  Stopwatch stopwatch_;
   CellMap map_;
   double seconds_;
   MapTopology topology_;

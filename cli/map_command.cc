@@ -14,10 +14,12 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/plural.h"
 #include "base/sanitize.h"
 #include "cli/case_map.h"
 #include "cli/console.h"
 #include "cli/map_files.h"
+#include "cli/map_parts.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
 #include "reports/summary/load_statement.h"
@@ -71,6 +73,114 @@ void require_memory(std::size_t cells) {
                   *available / kGigabyte));
 }
 
+/// @throws InputError for options that a map in parts has no use for.
+void require_options_of_parts(const MapArguments& arguments, const SubdivisionOptions& options) {
+  if (std::isfinite(options.seconds)) {
+    throw InputError(ErrorCode::kUse,
+                     "--budget: got a number of seconds for a map in parts, expected none, because "
+                     "what they suffice for differs from run to run");
+  }
+  if (!arguments.parts.shard.empty() && !arguments.undecided.empty()) {
+    throw InputError(ErrorCode::kUse,
+                     "--undecided: got a share for a shard, expected it with --merge, because a shard "
+                     "does not know what others leave undecided: its cells are halved to --cell");
+  }
+}
+
+SubdivisionOptions options_of(const MapArguments& arguments, const MappedCase& mapped, bool is_parted) {
+  SubdivisionOptions options;
+  options.undecided_share = mapped.space.size() == 2 ? 0.01 : 0.1;
+  if (arguments.parts.merge) options.undecided_share = 0;
+  if (!arguments.undecided.empty()) options.undecided_share = share_of(arguments.undecided);
+  options.least_width = arguments.least_width;
+  options.most_cells = arguments.most_cells;
+  options.seconds = arguments.seconds;
+  if (is_parted) require_options_of_parts(arguments, options);
+  return options;
+}
+
+/// Makes one shard of the parts, and no map.
+int run_shard(const MapArguments& arguments, const MappedCase& mapped, const SubdivisionOptions& options,
+              const Shard& shard, const Stopwatch& stopwatch) {
+  PartedMap parts(mapped, options, arguments.parts.folder);
+  const auto made = parts.make_shard(shard);
+  if (!made) return report_interruption("map", "interrupted: finished parts are kept", arguments.json);
+  if (arguments.json) {
+    nlohmann::json document = {{"command", "map"},
+                               {"name", mapped.the_case.problem.name},
+                               {"shard", arguments.parts.shard},
+                               {"parts", parts.size()},
+                               {"parts_of_shard", made->parts},
+                               {"computed", made->computed},
+                               {"warnings", mapped.the_case.warnings}};
+    add_ending(document, stopwatch, kProvedExit, {});
+    print_json(document);
+  } else {
+    fmt::print("Shard {}: {} of {} in {}, {} of them computed now, in {:.2f} s.\n", sanitize(arguments.parts.shard),
+               made->parts, plural(parts.size(), "part"), sanitize(arguments.parts.folder), made->computed,
+               stopwatch.seconds());
+  }
+  return kProvedExit;
+}
+
+/// @returns nothing where it was interrupted.
+std::optional<CellMap> make_map(const MapArguments& arguments, const MappedCase& mapped,
+                                const SubdivisionOptions& options, std::unique_ptr<Ranks>& ranks) {
+  if (!ranks && !arguments.parts.any()) {
+    CellMap map = subdivide(mapped.the_case.problem, mapped.space, options);
+    if (map.end == CellMap::End::kStopped) return std::nullopt;
+    return map;
+  }
+  PartedMap parts(mapped, options, arguments.parts.folder);
+  return arguments.parts.merge ? std::optional(parts.merge()) : parts.make(ranks.get());
+}
+
+/// What `taut map` does, and rank 0 under mpirun.
+int run_first(const MapArguments& arguments, std::unique_ptr<Ranks>& ranks) {
+  const Stopwatch stopwatch;
+  const MappedCase mapped(arguments.case_path, arguments.from);
+  const Case& the_case = mapped.the_case;
+  const MapFiles files(arguments, mapped);
+  const Interruption interruption;
+  SubdivisionOptions options = options_of(arguments, mapped, ranks || arguments.parts.any());
+  options.stop = interruption.token();
+  require_memory(arguments.most_cells);
+  announce(the_case, arguments.json);
+  if (const auto shard = shard_of(arguments.parts)) return run_shard(arguments, mapped, options, *shard, stopwatch);
+  const Stopwatch map_stopwatch;
+  std::optional<CellMap> map = make_map(arguments, mapped, options, ranks);
+  ranks.reset();  // the others go while this one finishes
+  if (!map) return report_interruption("map", "interrupted", arguments.json);
+  const CaseMap made(mapped, std::move(*map), map_stopwatch.seconds());
+  const auto written = files.write(made, interruption.token());
+  if (!written) return report_interruption("map", "interrupted", arguments.json);
+  if (arguments.json) {
+    nlohmann::json document = to_json(the_case, made);
+    document["load"] = to_json(load_statement(the_case));
+    add_ending(document, stopwatch, kProvedExit, *written);
+    print_json(document);
+  } else {
+    print(the_case, made);
+    for (const std::filesystem::path& file : *written) fmt::print("Written: {}\n", sanitize(file.string()));
+  }
+  return kProvedExit;
+}
+
+/// What other ranks do: they compute, print nothing and write nothing.
+int serve(const MapArguments& arguments, Ranks& ranks) {
+  const Interruption interruption;
+  try {
+    const MappedCase mapped(arguments.case_path, arguments.from);
+    const SubdivisionOptions options = options_of(arguments, mapped, true);
+    const PartedMap parts(mapped, options, "");
+    ranks.serve(
+        parts.digest(), [&](const Task& task) { return parts.run(task); }, interruption.token());
+  } catch (const InputError& error) {
+    ranks.fail(error.what());
+  }
+  return kProvedExit;
+}
+
 }  // namespace
 
 void add_map_options(CLI::App& command, MapArguments& arguments) {
@@ -101,40 +211,17 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
   command.add_option("--grid-size", arguments.grid_size,
                      "boxes of the grid along each coordinate, such as 1024 or 720,360 (default: 1024 of two "
                      "coordinates, 128 of three)");
+  add_parts_options(command, arguments.parts);
   command.add_flag("--json", arguments.json, "print the result as JSON");
 }
 
 int run_map(const MapArguments& arguments) {
-  const Stopwatch stopwatch;
-  const MappedCase mapped(arguments.case_path, arguments.from);
-  const Case& the_case = mapped.the_case;
-  const MapFiles files(arguments, mapped);
-  const Interruption interruption;
-  SubdivisionOptions options;
-  options.undecided_share = mapped.space.size() == 2 ? 0.01 : 0.1;
-  if (!arguments.undecided.empty()) options.undecided_share = share_of(arguments.undecided);
-  options.least_width = arguments.least_width;
-  options.most_cells = arguments.most_cells;
-  options.seconds = arguments.seconds;
-  options.stop = interruption.token();
-  require_memory(arguments.most_cells);
-  announce(the_case, arguments.json);
-  const CaseMap made(mapped, options);
-  if (made.result().map.end == CellMap::End::kStopped) {
-    return report_interruption("map", "interrupted", arguments.json);
-  }
-  const auto written = files.write(made, interruption.token());
-  if (!written) return report_interruption("map", "interrupted", arguments.json);
-  if (arguments.json) {
-    nlohmann::json document = to_json(the_case, made);
-    document["load"] = to_json(load_statement(the_case));
-    add_ending(document, stopwatch, kProvedExit, *written);
-    print_json(document);
-  } else {
-    print(the_case, made);
-    for (const std::filesystem::path& file : *written) fmt::print("Written: {}\n", sanitize(file.string()));
-  }
-  return kProvedExit;
+  std::unique_ptr<Ranks> ranks = join_ranks(arguments.parts);
+  if (!ranks) return run_first(arguments, ranks);
+  if (!ranks->is_first()) return serve(arguments, *ranks);
+  const int code = run_first(arguments, ranks);
+  say_exit_code(code);
+  return code;
 }
 
 }  // namespace taut

@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "cli/parts_options.h"
+
 namespace taut {
 
 struct MapArguments {
@@ -23,6 +25,7 @@ struct MapArguments {
   std::string grid;       ///< file.npy, or empty
   std::string grid_size;  ///< "1024" or "720,360"; empty: 1024 of two coordinates, 128 of three
   bool json = false;
+  PartsArguments parts;
 };
 
 void add_map_options(CLI::App& command, MapArguments& arguments);

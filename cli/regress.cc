@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
 #include <system_error>
-#include <thread>
 
 #include "base/files.h"
 #include "base/input_error.h"
@@ -31,30 +28,6 @@ using nlohmann::json;
 
 constexpr const char* kBaselineFormat = "taut-baseline";
 constexpr int kBaselineVersion = 1;
-
-/// A folder that is gone with its object, unless the user wants to keep it.
-class ResultFolder {
- public:
-  explicit ResultFolder(const fs::path& wanted) : is_kept_(!wanted.empty()) {
-    if (is_kept_) {
-      make_directories(wanted);
-      path_ = wanted;
-      return;
-    }
-    path_ = make_temporary_folder("taut-regress");
-  }
-  ~ResultFolder() {
-    std::error_code ignored;
-    if (!is_kept_) fs::remove_all(path_, ignored);
-  }
-  ResultFolder(const ResultFolder&) = delete;
-  ResultFolder& operator=(const ResultFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  bool is_kept_;
-  fs::path path_;
-};
 
 const char* name(Expectation expectation) {
   switch (expectation) {
@@ -252,42 +225,35 @@ std::vector<fs::path> find_cases(const fs::path& folder) {
   return result;
 }
 
-std::vector<RegressedCase> regress(const fs::path& folder, const std::vector<fs::path>& files,
-                                   const RegressOptions& options, const std::function<void(std::size_t)>& done,
-                                   const std::stop_token& stop) {
-  const ResultFolder out(options.out);
-  std::vector<RegressedCase> results(files.size());
-  std::vector<char> has_ended(files.size(), 0);
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::size_t count = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size() && !stop.stop_requested(); i = next++) {
-      RegressedCase& result = results[i];
-      const fs::path seen = files[i].lexically_relative(folder);
-      result.name = (seen.empty() || seen == "." ? files[i].filename() : seen).string();
-      try {
-        run(files[i], out.path() / fs::path(result.name).replace_extension(), options, stop, result);
-      } catch (const std::exception& error) {
-        result.error = error.what();
-      }
-      if (stop.stop_requested()) return;  // this one may have been cut short
-      has_ended[i] = 1;
-      const std::lock_guard lock(mutex);
-      done(++count);
-    }
-  };
-  {
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    const std::size_t jobs = std::min(options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : cores, files.size());
-    std::vector<std::jthread> threads;
-    for (std::size_t k = 0; k < jobs; ++k) threads.emplace_back(work);
+CaseResults::CaseResults(const fs::path& wanted) : is_kept_(!wanted.empty()) {
+  if (is_kept_) {
+    make_directories(wanted);
+    path_ = wanted;
+    return;
   }
-  std::vector<RegressedCase> ended;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (has_ended[i] != 0) ended.push_back(std::move(results[i]));
+  path_ = make_temporary_folder("taut-regress");
+}
+
+CaseResults::~CaseResults() {
+  std::error_code ignored;
+  if (!is_kept_) fs::remove_all(path_, ignored);
+}
+
+std::string case_name(const fs::path& folder, const fs::path& file) {
+  const fs::path seen = file.lexically_relative(folder);
+  return (seen.empty() || seen == "." ? file.filename() : seen).string();
+}
+
+RegressedCase regress_case(const std::string& name, const fs::path& file, const RegressOptions& options,
+                           const fs::path& results, const std::stop_token& stop) {
+  RegressedCase result;
+  result.name = name;
+  try {
+    run(file, results / fs::path(name).replace_extension(), options, stop, result);
+  } catch (const std::exception& error) {
+    result.error = error.what();
   }
-  return ended;
+  return result;
 }
 
 std::vector<std::string> compare(const Baseline& baseline, std::vector<RegressedCase>& cases) {

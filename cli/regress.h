@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -52,13 +51,29 @@ struct Baseline {
 /// *.yaml in `folder` and all below it, sorted; the file itself where it is one. @throws InputError if there is none.
 [[nodiscard]] std::vector<std::filesystem::path> find_cases(const std::filesystem::path& folder);
 
-/// @param done  called after each case, from any thread but one at a time, with how many are done
-/// @returns the cases in the order of `files`; only those that ended where `stop` was requested.
-[[nodiscard]] std::vector<RegressedCase> regress(const std::filesystem::path& folder,
-                                                 const std::vector<std::filesystem::path>& files,
-                                                 const RegressOptions& options,
-                                                 const std::function<void(std::size_t)>& done,
-                                                 const std::stop_token& stop);
+/// A folder that is gone with its object, unless the user wants to keep it.
+class CaseResults {
+ public:
+  /// @param wanted  to keep; empty: a temporary one. @throws InputError
+  explicit CaseResults(const std::filesystem::path& wanted);
+  ~CaseResults();
+  CaseResults(const CaseResults&) = delete;
+  CaseResults& operator=(const CaseResults&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  bool is_kept_;
+  std::filesystem::path path_;
+};
+
+/// The name of a case: its file, seen from the folder.
+[[nodiscard]] std::string case_name(const std::filesystem::path& folder, const std::filesystem::path& file);
+
+/// Runs a case; where `stop` is requested, it is cut short. Thread-safe.
+/// @param results  folder of all cases' results
+[[nodiscard]] RegressedCase regress_case(const std::string& name, const std::filesystem::path& file,
+                                         const RegressOptions& options, const std::filesystem::path& results,
+                                         const std::stop_token& stop);
 
 /// Adds to each case's differences what is worse than in the baseline.
 /// @returns cases of the baseline that are no more.

@@ -13,6 +13,7 @@
 #include "cli/console.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
+#include "cli/regress_parts.h"
 
 namespace taut {
 namespace {
@@ -111,6 +112,90 @@ void print(const RegressResult& result, const Stopwatch& stopwatch) {
   for (const FileContent& file : result.written) fmt::print("Written: {}\n", sanitize(file.path.string()));
 }
 
+RegressOptions options_of(const RegressArguments& arguments) {
+  RegressOptions options = arguments.options;
+  options.out = arguments.out;
+  if (arguments.budget > 0) options.budget = arguments.budget;
+  return options;
+}
+
+/// A shard is held to nothing but what its cases declare.
+void require_whole(const RegressArguments& arguments) {
+  if (arguments.parts.shard.empty() || (arguments.junit.empty() && arguments.baseline.empty())) return;
+  throw InputError(ErrorCode::kUse, fmt::format("{}: got a file for a shard, expected it with --merge, which knows all "
+                                                "cases",
+                                                arguments.junit.empty() ? "--baseline" : "--junit"));
+}
+
+std::vector<RegressedCase> cases_of(const RegressArguments& arguments, RegressParts& parts, const Shard& shard,
+                                    std::size_t most, Ranks* ranks, const std::stop_token& stop) {
+  if (arguments.parts.merge) return parts.merge();
+  ProgressLine line(!arguments.json);
+  return parts.make(
+      shard, ranks, [&](std::size_t count) { line.show([&] { return fmt::format("{} of {} cases", count, most); }); },
+      stop);
+}
+
+/// What `taut regress` does, and rank 0 under mpirun.
+int run_first(const RegressArguments& arguments, std::unique_ptr<Ranks>& ranks) {
+  const Stopwatch stopwatch;
+  const std::vector<std::filesystem::path> files = find_cases(arguments.folder);
+  require_whole(arguments);
+  require_outputs(arguments);
+  std::optional<Baseline> baseline;
+  if (!arguments.baseline.empty() && !arguments.update) {
+    baseline = read_baseline(arguments.baseline);
+    baseline->tolerance = arguments.tolerance;
+  }
+  const RegressOptions options = options_of(arguments);
+  const Shard shard = shard_of(arguments.parts).value_or(Shard());
+  std::size_t most = 0;
+  for (std::size_t n = 0; n < files.size(); ++n) most += shard.has(n) ? 1 : 0;
+
+  const Interruption interruption;
+  RegressResult result;
+  result.has_baseline = baseline.has_value();
+  RegressParts parts(arguments.folder, files, options, arguments.parts.folder);
+  result.cases = cases_of(arguments, parts, shard, most, ranks.get(), interruption.token());
+  ranks.reset();  // the others go while this one finishes
+  if (result.cases.size() < most) {
+    return report_interruption(
+        "regress", fmt::format("interrupted after {} of {} cases: nothing was written", result.cases.size(), most),
+        arguments.json);
+  }
+  if (baseline) result.gone = compare(*baseline, result.cases);
+
+  if (!arguments.junit.empty()) {
+    result.written.push_back(
+        {arguments.junit, junit_text("taut regress " + arguments.folder, result.cases, result.gone)});
+  }
+  if (arguments.update) result.written.push_back({arguments.baseline, baseline_text(result.cases)});
+  write_whole(result.written);
+
+  if (arguments.json) {
+    print_as_json(result, stopwatch);
+  } else {
+    print(result, stopwatch);
+  }
+  return result.code();
+}
+
+/// What other ranks do: they run cases, and print nothing.
+int serve(const RegressArguments& arguments, Ranks& ranks) {
+  const Interruption interruption;
+  try {
+    const RegressOptions options = options_of(arguments);
+    const RegressParts parts(arguments.folder, find_cases(arguments.folder), options, "");
+    const CaseResults results(options.out);
+    ranks.serve(
+        parts.digest(), [&](const Task& task) { return parts.run(task.part, results.path(), interruption.token()); },
+        interruption.token());
+  } catch (const InputError& error) {
+    ranks.fail(error.what());
+  }
+  return kProvedExit;
+}
+
 }  // namespace
 
 void add_regress_options(CLI::App& command, RegressArguments& arguments) {
@@ -130,53 +215,17 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments) {
       ->check(positive_number());
   command.add_flag("--check", arguments.options.check, "have each certificate proved again by taut-check");
   command.add_option("--out", arguments.out, "keep the results here, a folder a case (default: thrown away)");
+  add_parts_options(command, arguments.parts);
   command.add_flag("--json", arguments.json, "print the results as JSON");
 }
 
 int run_regress(const RegressArguments& arguments) {
-  const Stopwatch stopwatch;
-  const std::vector<std::filesystem::path> files = find_cases(arguments.folder);
-  require_outputs(arguments);
-  std::optional<Baseline> baseline;
-  if (!arguments.baseline.empty() && !arguments.update) {
-    baseline = read_baseline(arguments.baseline);
-    baseline->tolerance = arguments.tolerance;
-  }
-  RegressOptions options = arguments.options;
-  options.out = arguments.out;
-  if (arguments.budget > 0) options.budget = arguments.budget;
-
-  const Interruption interruption;
-  RegressResult result;
-  result.has_baseline = baseline.has_value();
-  {
-    ProgressLine line(!arguments.json);
-    result.cases = regress(
-        arguments.folder, files, options,
-        [&](std::size_t count) { line.show([&] { return fmt::format("{} of {} cases", count, files.size()); }); },
-        interruption.token());
-  }
-  if (result.cases.size() < files.size()) {
-    return report_interruption(
-        "regress",
-        fmt::format("interrupted after {} of {} cases: nothing was written", result.cases.size(), files.size()),
-        arguments.json);
-  }
-  if (baseline) result.gone = compare(*baseline, result.cases);
-
-  if (!arguments.junit.empty()) {
-    result.written.push_back(
-        {arguments.junit, junit_text("taut regress " + arguments.folder, result.cases, result.gone)});
-  }
-  if (arguments.update) result.written.push_back({arguments.baseline, baseline_text(result.cases)});
-  write_whole(result.written);
-
-  if (arguments.json) {
-    print_as_json(result, stopwatch);
-  } else {
-    print(result, stopwatch);
-  }
-  return result.code();
+  std::unique_ptr<Ranks> ranks = join_ranks(arguments.parts);
+  if (!ranks) return run_first(arguments, ranks);
+  if (!ranks->is_first()) return serve(arguments, *ranks);
+  const int code = run_first(arguments, ranks);
+  say_exit_code(code);
+  return code;
 }
 
 }  // namespace taut

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/parts_options.h"
 #include "cli/regress.h"
 
 namespace taut {
@@ -19,6 +20,7 @@ struct RegressArguments {
   std::string out;
   double budget = 0;  ///< 0: each case's own
   bool json = false;
+  PartsArguments parts;
 };
 
 void add_regress_options(CLI::App& command, RegressArguments& arguments);

@@ -8,8 +8,12 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <stdexcept>
+
+#include "map/known_verdicts.h"
 
 namespace taut {
 namespace {
@@ -19,20 +23,35 @@ struct Pending {
   Cell cell;
   std::uint32_t node = 0;
   std::uint32_t proved = 0;  ///< of a cell that contains it
+  std::uint32_t known = 0;   ///< its node in KnownVerdicts
 };
+
+CellVerdict known_verdict(const KnownVerdicts& known, std::uint32_t number) {
+  const MapNode& node = known.nodes.at(number);
+  if (node.axis == KnownVerdicts::kNotJudged) throw std::logic_error("a map of known verdicts: one is not known");
+  CellVerdict result;
+  result.kind = node.kind;
+  result.reason = node.reason;
+  result.regular = node.regular;
+  result.is_tolerance = node.axis == KnownVerdicts::kTolerance;
+  if (node.axis < kMaxMapAxes) result.axis = node.axis;
+  return result;
+}
 
 class Subdivision {
  public:
-  Subdivision(const Problem& problem, const MapSpace& space, const SubdivisionOptions& options)
-      : options_(options), proof_(make_cell_proof(problem, space)), pending_(kMaxCellHalvings + 1) {
+  /// Cells are judged by `proof`, or as `known` says. Refers to its arguments.
+  Subdivision(const CellProof* proof, const KnownVerdicts* known, const MapSpace& space,
+              const SubdivisionOptions& options)
+      : options_(options),
+        proof_(proof),
+        known_(known),
+        rule_(space, options.least_width),
+        pending_(kMaxCellHalvings + 1) {
     map_.space = space;
     map_.nodes.emplace_back();
     map_.share[0] = 1;
     pending_[0].push_back({});
-    for (std::size_t k = 0; k < space.size(); ++k) {
-      const double halvings = std::floor(std::log2(1 / options.least_width));
-      deepest_[k] = static_cast<int>(std::clamp(halvings, 0.0, double{kMaxCellDepth}));
-    }
   }
 
   CellMap run() {
@@ -74,7 +93,8 @@ class Subdivision {
     verdicts_.resize(batch.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.size(), kGrain), [&](const auto& range) {
       for (std::size_t n = range.begin(); n < range.end(); ++n) {
-        verdicts_[n] = proof_->judge(batch[n].cell, batch[n].proved);
+        verdicts_[n] =
+            known_ != nullptr ? known_verdict(*known_, batch[n].known) : proof_->judge(batch[n].cell, batch[n].proved);
       }
     });
     map_.judged += batch.size();
@@ -92,46 +112,65 @@ class Subdivision {
       map_.share[static_cast<std::size_t>(verdict.kind)] += volume;
       return;
     }
-    const std::optional<std::size_t> axis = axis_to_halve(pending.cell, verdict.axis);
-    if (!axis || verdict.is_tolerance) {
+    const std::optional<std::size_t> axis = rule_.axis(pending.cell, verdict);
+    if (!axis) {
       if (verdict.is_tolerance) map_.tolerance_share += pending.cell.volume();
       return;
     }
     const auto child = static_cast<std::uint32_t>(map_.nodes.size());
+    const std::uint32_t known = known_ != nullptr ? known_->nodes[pending.known].child : 0;
     node.child = child;
     node.axis = static_cast<std::uint8_t>(*axis);
     map_.nodes.emplace_back();
     map_.nodes.emplace_back();
     for (unsigned side = 0; side < 2; ++side) {
       const Cell half = pending.cell.half(*axis, side);
-      pending_[static_cast<std::size_t>(half.halvings())].push_back({half, child + side, verdict.proved});
+      pending_[static_cast<std::size_t>(half.halvings())].push_back(
+          {half, child + side, verdict.proved, known_ != nullptr ? known + side : 0});
     }
-  }
-
-  /// The one that is proposed, if it may be halved; else the widest that may.
-  [[nodiscard]] std::optional<std::size_t> axis_to_halve(const Cell& cell, std::size_t proposed) const {
-    if (cell.halvings() >= kMaxCellHalvings) return std::nullopt;
-    if (cell.depth[proposed] < deepest_[proposed]) return proposed;
-    std::optional<std::size_t> widest;
-    for (std::size_t k = 0; k < map_.space.size(); ++k) {
-      if (cell.depth[k] < deepest_[k] && (!widest || cell.depth[k] < cell.depth[*widest])) widest = k;
-    }
-    return widest;
   }
 
   const SubdivisionOptions& options_;
   Clock::time_point begin_ = Clock::now();
-  std::unique_ptr<CellProof> proof_;
+  const CellProof* proof_;
+  const KnownVerdicts* known_;
+  HalvingRule rule_;
   CellMap map_;
-  std::array<int, kMaxMapAxes> deepest_{};
   std::vector<std::vector<Pending>> pending_;  ///< by the number of halvings: the largest first
   std::vector<CellVerdict> verdicts_;
 };
 
 }  // namespace
 
+HalvingRule::HalvingRule(const MapSpace& space, double least_width) : axes_(space.size()) {
+  for (std::size_t k = 0; k < axes_; ++k) {
+    const double halvings = std::floor(std::log2(1 / least_width));
+    deepest_.at(k) = static_cast<int>(std::clamp(halvings, 0.0, double{kMaxCellDepth}));
+  }
+}
+
+int HalvingRule::most_halvings() const {
+  return std::min(std::accumulate(deepest_.begin(), deepest_.end(), 0), kMaxCellHalvings);
+}
+
+std::optional<std::size_t> HalvingRule::axis(const Cell& cell, const CellVerdict& verdict) const {
+  if (verdict.kind != CellKind::kUndecided || verdict.is_tolerance) return std::nullopt;
+  if (cell.halvings() >= kMaxCellHalvings) return std::nullopt;
+  if (cell.depth.at(verdict.axis) < deepest_.at(verdict.axis)) return verdict.axis;
+  std::optional<std::size_t> widest;
+  for (std::size_t k = 0; k < axes_; ++k) {
+    if (cell.depth[k] < deepest_[k] && (!widest || cell.depth[k] < cell.depth[*widest])) widest = k;
+  }
+  return widest;
+}
+
 CellMap subdivide(const Problem& problem, const MapSpace& space, const SubdivisionOptions& options) {
-  return Subdivision(problem, space, options).run();
+  const std::unique_ptr<CellProof> proof = make_cell_proof(problem, space);
+  return Subdivision(proof.get(), nullptr, space, options).run();
+}
+
+CellMap subdivide(const KnownVerdicts& known, const MapSpace& space, const SubdivisionOptions& options) {
+  return Subdivision(nullptr, &known, space, options).run();
 }
 
 }  // namespace taut

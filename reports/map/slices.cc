@@ -63,7 +63,7 @@ std::string script_json(const nlohmann::json& document) {
   return text;
 }
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kSlicesStyle = R"css(
 body { font: 16px/1.45 sans-serif; margin: 1.5rem auto; max-width: 60rem; padding: 0 1rem; color: #1a1a1a; }
 h1 { font-size: 1.4rem; margin: 0 0 .3rem; }
 canvas { width: 100%; border: 1px solid #222; display: block; }
@@ -257,7 +257,7 @@ Poses whose names are in parentheses are in other slices.</p>
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'\"><meta name=\"viewport\" content=\"width=device-width, "
          "initial-scale=1\"><title>" +
-         escape(result.title) + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + body +
+         escape(result.title) + "</title>\n<style>" + kSlicesStyle + "</style></head>\n<body>\n" + body +
          "<script type=\"application/json\" id=\"data\">" + script_json(data) + "</script>\n<script>" + kScript +
          "</script>\n</body></html>\n";
 }

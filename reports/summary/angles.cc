@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "kinematics/geometry.h"
 
 namespace taut {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Within (−π, π].
-double wrapped(double angle) { return angle - 2 * kPi * std::ceil((angle - kPi) / (2 * kPi)); }
+double wrapped(double angle) { return angle - 2 * pi * std::ceil((angle - pi) / (2 * pi)); }
 
 }  // namespace
 
@@ -23,13 +24,13 @@ std::array<double, 3> customary_angles(AngleKind kind, const std::array<double, 
   b = wrapped(b);
   switch (kind) {
     case AngleKind::kTiltAndTorsion:  // Rz(φ + π) Ry(−θ) Rz(σ − φ − π) is Rz(φ) Ry(θ) Rz(σ − φ)
-      if (b < 0) a += kPi, b = -b;
+      if (b < 0) a += pi, b = -b;
       break;
     case AngleKind::kZyz:
-      if (b < 0) a += kPi, b = -b, c += kPi;
+      if (b < 0) a += pi, b = -b, c += pi;
       break;
     case AngleKind::kRollPitchYaw:  // Rz(y + π) Ry(π − p) Rx(r + π) is Rz(y) Ry(p) Rx(r)
-      if (std::abs(b) > kPi / 2) a += kPi, b = (b < 0 ? -kPi : kPi) - b, c += kPi;
+      if (std::abs(b) > pi / 2) a += pi, b = (b < 0 ? -pi : pi) - b, c += pi;
       break;
     case AngleKind::kAxis: break;
   }
@@ -41,11 +42,11 @@ namespace {
 /// The other form of an orientation: each angle that is not wrapped may take it.
 std::array<double, 3> flipped(AngleKind kind, const std::array<double, 3>& x) {
   switch (kind) {
-    case AngleKind::kTiltAndTorsion: return {x[0] + kPi, -x[1], x[2]};
-    case AngleKind::kRollPitchYaw: return {x[0] + kPi, kPi - x[1], x[2] + kPi};
+    case AngleKind::kTiltAndTorsion: return {x[0] + pi, -x[1], x[2]};
+    case AngleKind::kRollPitchYaw: return {x[0] + pi, pi - x[1], x[2] + pi};
     default: break;
   }
-  return {x[0] + kPi, -x[1], x[2] + kPi};
+  return {x[0] + pi, -x[1], x[2] + pi};
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ std::array<double, 3> nearest_angles(AngleKind kind, const std::array<double, 3>
   for (std::array<double, 3> x : {angles, flipped(kind, angles)}) {
     double apart = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      x[c] += 2 * kPi * std::round((previous[c] - x[c]) / (2 * kPi));
+      x[c] += 2 * pi * std::round((previous[c] - x[c]) / (2 * pi));
       apart += std::abs(x[c] - previous[c]);
     }
     if (apart < least) least = apart, best = x;

@@ -2,6 +2,7 @@
 taut_add_test(map map_space LABELS unit LIBS taut::case taut::map)
 taut_add_test(map cell_proof LABELS unit LIBS taut::case taut::map fmt::fmt COST 30)
 taut_add_test(map subdivision LABELS unit LIBS taut::case taut::map TBB::tbb)
+taut_add_test(map parts LABELS unit LIBS taut::case taut::map)
 taut_add_test(map no_path LABELS unit LIBS taut::case taut::map taut::certificate fmt::fmt COST 20)
 taut_add_test(map topology LABELS unit LIBS taut::case taut::map)
 taut_add_test(map outline LABELS unit LIBS taut::case taut::map)
