@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/input_error.h"
 #include "certify/gravest.h"
@@ -157,19 +158,46 @@ std::optional<PathWitness> refute_waypoint(const Prover& prover, const Waypoint&
   return refute_pose(prover, prover.segment(waypoint, waypoint), index, undecided, stop);
 }
 
+namespace {
+
+/// The binary64 nearest to every number of an interval, −0 as 0; not-a-number where there is none, or it is not finite.
+double common_binary64(const MpInterval& value) {
+  const double low = value.lower().to_double(MPFR_RNDN);
+  const double high = value.upper().to_double(MPFR_RNDN);
+  return low == high && std::isfinite(low) ? low + 0.0 : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// nearest_binary64() of several expressions. What they have in common is evaluated once; sines and cosines are often.
+std::vector<double> nearest_binary64s(const std::vector<ExpressionText>& expressions) {
+  constexpr mpfr_prec_t kBits = 128;  // enough, but for expressions that are all but a tie
+  std::size_t length = 0;             // at least the number of operations
+  for (const ExpressionText& expression : expressions) length += expression.size();
+  const PrecisionScope precision(kBits);
+  Faults<MpInterval>::clear();
+  std::vector<MpInterval> values(expressions.size(), MpInterval(0.0));
+  const bool are_few = length <= ExpressionTape::kMaxInstructions;
+  if (are_few) Evaluator<MpInterval>(ExpressionTape(expressions, {}, {})).evaluate({}, values);
+  const bool are_known = are_few && !Faults<MpInterval>::raised();
+  std::vector<double> nearest;
+  for (std::size_t i = 0; i < expressions.size(); ++i) {
+    const double value = are_known ? common_binary64(values[i]) : std::numeric_limits<double>::quiet_NaN();
+    nearest.push_back(std::isfinite(value) ? value : nearest_binary64(expressions[i]));
+  }
+  return nearest;
+}
+
+}  // namespace
+
 double nearest_binary64(const ExpressionText& expression) {
-  const bool is_plain = !expression.empty() && expression.find_first_not_of("0123456789.-") == std::string::npos &&
-                        expression.find('-', 1) == std::string::npos;
-  if (is_plain) return ScalarTraits<double>::from_decimal(expression) + 0.0;  // −0 to 0
+  if (is_plain_decimal(expression)) return ScalarTraits<double>::from_decimal(expression) + 0.0;  // −0 to 0
   constexpr mpfr_prec_t kMostBits = 4096;
   for (mpfr_prec_t bits = 128; bits <= kMostBits; bits *= 2) {
     const PrecisionScope precision(bits);
     Faults<MpInterval>::clear();
-    const MpInterval value = evaluate_constant<MpInterval>(expression);
+    const auto value = evaluate_constant<MpInterval>(expression);
     if (Faults<MpInterval>::raised()) break;
-    const double low = value.lower().to_double(MPFR_RNDN);
-    const double high = value.upper().to_double(MPFR_RNDN);
-    if (low == high && std::isfinite(low)) return low + 0.0;  // −0 to 0
+    const double nearest = common_binary64(value);
+    if (std::isfinite(nearest)) return nearest;
   }
   throw InputError(fmt::format("query: got '{}', expected a finite number", expression));
 }
@@ -180,10 +208,8 @@ std::vector<Waypoint> query_waypoints(const Problem& problem) {
   if (!problem.space.constraints.empty()) constraints.emplace(problem);
   for (const auto& typed : problem.query) {
     Waypoint waypoint;
-    for (const ExpressionText& expression : typed) {
-      waypoint.x.push_back(nearest_binary64(expression));
-      waypoint.half_turns.push_back(0);
-    }
+    waypoint.x = nearest_binary64s(typed);
+    waypoint.half_turns.assign(waypoint.x.size(), 0);
     if (constraints) waypoint.normals = constraints->normals(waypoint);
     waypoints.push_back(std::move(waypoint));
   }

@@ -51,6 +51,19 @@ bool is_identifier(const std::string& name) {
          std::all_of(name.begin(), name.end(), [&](unsigned char c) { return is_letter(c) || is_digit(c); });
 }
 
+bool is_plain_decimal(const ExpressionText& expression) {
+  const std::size_t sign = expression.starts_with('-') ? 1 : 0;
+  const auto is_digit = [](unsigned char c) { return c >= '0' && c <= '9'; };
+  if (expression.size() == sign || expression.size() > Decimal::kMaxDigits) return false;
+  if (!is_digit(static_cast<unsigned char>(expression[sign])) ||
+      !is_digit(static_cast<unsigned char>(expression.back()))) {
+    return false;
+  }
+  const auto begin = expression.begin() + static_cast<std::ptrdiff_t>(sign);
+  return std::count(begin, expression.end(), '.') <= 1 &&
+         std::all_of(begin, expression.end(), [&](unsigned char c) { return is_digit(c) || c == '.'; });
+}
+
 TapeBuilder::TapeBuilder(const std::vector<std::string>& parameters,
                          const std::map<std::string, DecimalText>& constants)
     : parameters_(parameters), constants_(constants) {

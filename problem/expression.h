@@ -87,6 +87,9 @@ class Evaluator {
   std::vector<S> constants_;
 };
 
+/// Whether the expression is a decimal without an exponent, such as "-0.3"; that is what ScalarTraits read.
+[[nodiscard]] bool is_plain_decimal(const ExpressionText& expression);
+
 /// Value of a constant expression (no parameters) in scalar S.
 template <class S>
 [[nodiscard]] S evaluate_constant(const ExpressionText& expression);

@@ -56,6 +56,7 @@ void Evaluator<S>::evaluate(std::span<const S> parameters, std::span<S> values) 
 
 template <class S>
 S evaluate_constant(const ExpressionText& expression) {
+  if (is_plain_decimal(expression)) return S(ScalarTraits<S>::from_decimal(expression));
   std::array<S, 1> value = {S(0.0)};
   Evaluator<S>(ExpressionTape({expression}, {}, {})).evaluate({}, value);
   return value[0];

@@ -115,6 +115,20 @@ TEST(Search, StraightToTheGoalNeedsNoChartsWhereNothingIsInTheWay) {
 }
 
 // Walking round a wall, x = 0 for |y| <= 0.5, the goal comes into sight beyond its end.
+TEST(Search, AGreedyPathStatesTheCostOfItsEdgeToTheGoal) {
+  const testing::FlatSpace plane(2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
+  for (const bool is_clear : {true, false}) {  // straight from the start, or from a chart on the way
+    Atlas atlas(plane, options(0.1, 0.1));
+    SearchProblem query = problem(coordinates({-0.8, -0.7}), coordinates({0.8, 0.6}));
+    query.heuristic = [](const Coordinates& a, const Coordinates& b) { return 0.5 * euclidean(a, b); };
+    query.straight_to_goal = true;
+    query.edge_ok = [&](const Coordinates& a, const Coordinates& b) { return is_clear || (b - a).norm() < 0.5; };
+    const SearchResult result = search(atlas, query, {.weight = kGreedy});
+    expect_sound(result, query, plane);
+    EXPECT_EQ(result.path.size() == 2, is_clear);
+  }
+}
+
 TEST(Search, StraightToTheGoalShortensTheWayRoundAWall) {
   const testing::FlatSpace plane(2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
   const auto crosses = [](const Coordinates& a, const Coordinates& b) {

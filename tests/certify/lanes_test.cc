@@ -127,7 +127,8 @@ std::vector<std::uint64_t> bits_of(const lanes::BoxKernel<1>& kernel, const lane
   result.push_back(box.enclosed);
   const auto add = [&](const auto& what) {
     const auto* row = reinterpret_cast<const lanes::Row*>(&what);
-    for (std::size_t n = 0; n < sizeof(what) / (sizeof(lanes::Row)); ++n) {
+    const std::size_t bytes = sizeof(what);
+    for (std::size_t n = 0; n < bytes / sizeof(lanes::Row); ++n) {
       for (std::size_t i = 0; i < kCables; ++i) result.push_back(std::bit_cast<std::uint64_t>(row[n].x[i]));
     }
   };

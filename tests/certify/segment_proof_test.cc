@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "certify/path_proof.h"
 #include "certify/prover.h"
 #include "tests/oracle/oracle_at_origin.h"
 #include "tests/support/robots.h"
@@ -25,6 +26,33 @@ void expect_cover(const std::vector<DyadicBox>& boxes) {
   for (std::size_t k = 1; k < boxes.size(); ++k) EXPECT_EQ(boxes[k - 1].upper(), boxes[k].lower());
 }
 
+TEST(QueryWaypoints, AreTheNearestBinary64OfEachExpression) {
+  Problem problem = robot1_slice();
+  std::string many = "0";  // with another expression, too many operations for one tape
+  for (int k = 1; k <= 30; ++k) many += " + sin(" + std::to_string(k) + ")/7";
+  problem.query = {{"cos(0.75)*pi/180", "sin(0.75)*pi/180 + 0.1"},
+                   {"1 + 1.110223024625156540423631668090820312500e-16", "-0.0"},
+                   {many, "1/3"}};
+  const std::vector<Waypoint> waypoints = query_waypoints(problem);
+  ASSERT_EQ(waypoints.size(), problem.query.size());
+  for (std::size_t k = 0; k < waypoints.size(); ++k) {
+    for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(waypoints[k].x[j], nearest_binary64(problem.query[k][j])) << k << j;
+    EXPECT_EQ(waypoints[k].half_turns, std::vector<int>(2, 0));
+  }
+  EXPECT_FALSE(std::signbit(waypoints[1].x[1]));
+}
+
+TEST(QueryWaypoints, NameTheExpressionThatIsNoNumber) {
+  Problem problem = robot1_slice();
+  problem.query = {{"cos(1)", "1/(2 - 2)"}};
+  try {
+    (void)query_waypoints(problem);
+    FAIL() << "1/(2 - 2) is no number";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("1/(2 - 2)"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Prover, ProvesAShortSegmentAndCoversItWithBoxes) {
   const Prover prover(robot1_slice());
   const SegmentProof proof = prover.prove(kStart, kNearStart);
@@ -39,6 +67,21 @@ TEST(Prover, ProvesASegmentOfLengthZero) {
   const SegmentProof proof = Prover(robot1_slice()).prove(kStart, kStart);
   EXPECT_EQ(proof.verdict, Verdict::kProved);
   EXPECT_EQ(proof.boxes.size(), 1u);
+}
+
+TEST(Prover, LearnsFromAProvedBoxHowLargeTheNextMayBe) {
+  const Prover prover(robot1_slice());
+  int judged = 0;
+  int by_halving = 0;
+  for (int k = 1; k <= 6; ++k) {
+    const SegmentProof proof = prover.prove(kStart, at({-2.3 + 0.05 * k, 1.6 - 0.1 * k}));
+    if (proof.verdict != Verdict::kProved) continue;
+    expect_cover(proof.boxes);
+    judged += proof.boxes_judged;
+    by_halving += 2 * static_cast<int>(proof.boxes.size()) - 1;
+  }
+  ASSERT_GT(by_halving, 10);
+  EXPECT_LT(judged, by_halving);
 }
 
 TEST(Prover, ProvesTheSameBothWays) {

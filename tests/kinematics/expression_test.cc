@@ -28,6 +28,17 @@ double value_at(const std::string& text, double x, double y) {
 
 double value_of(const std::string& text) { return evaluate_constant<double>(text); }
 
+TEST(Expression, KnowsAPlainDecimal) {
+  for (const char* plain : {"0", "-0", "12", "-0.3", "007", "1.50"}) {
+    EXPECT_TRUE(is_plain_decimal(plain)) << plain;
+    EXPECT_EQ(value_of(plain), value_of("(" + std::string(plain) + ")")) << plain;
+  }
+  for (const char* other : {"", "-", ".5", "5.", "1.2.3", "--1", "1e3", "+1", "1-2", " 1", "pi"}) {
+    EXPECT_FALSE(is_plain_decimal(other)) << other;
+  }
+  EXPECT_FALSE(is_plain_decimal(std::string(2000, '1')));
+}
+
 TEST(Expression, BindsAsUsual) {
   EXPECT_EQ(value_of("1+2*3"), 7);
   EXPECT_EQ(value_of("(1+2)*3"), 9);
