@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/json_cursor.h"
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
 #include "reports/summary/summary.h"
@@ -38,7 +39,9 @@ ReportContext scene_of(const checker::CheckResult& checked) {
                                 waypoint(certificate.problem.query.at(from + 1))};
   certificate.undecided = OpenPart{"no path", std::nullopt};
   certificate.illustration = stated.at("illustration");
-  certificate.generator = {stated.at("generator").value("name", ""), stated.at("generator").value("version", "")};
+  const JsonCursor generator(stated.at("generator"), "generator");
+  const auto text = [&](const char* key) { return generator.contains(key) ? generator.at(key).text() : std::string(); };
+  certificate.generator = {text("name"), text("version")};
   certificate.problem_sha256 = stated.at("problem_sha256").get<std::string>();
   certificate.footer_sha256 = stated.at("footer").at("sha256").get<std::string>();
   return {std::move(certificate),

@@ -93,7 +93,7 @@ class EndToEnd(InFolder):
         report = text_of(self.path(case, "report.html"))
         self.assertIn("Constraints", report)
         self.assertIn("(1000*py) + 130*sin(theta)*sin(phi) = 0", report)
-        self.assertNotIn("The plane of the two parameters", report)
+        self.assertNotIn("Where the platform may go", report)
 
     def test_a_waypoint_off_the_constraints_is_bad_input(self):
         good = text_of(os.path.join(CASES, "robot2-implicit-position-on-sphere.yaml"))

@@ -99,6 +99,23 @@ class NoPath(InFolder):
         for claimed in ("NO PATH EXISTS", 'class="wall-tension"', "What is claimed"):
             self.assertNotIn(claimed, page)
 
+    def test_a_report_of_free_text_that_is_none(self):
+        def odd(c):
+            c["generator"] = {"name": 7}
+
+        def hostile(c):
+            c["generator"] = {"name": "<script>alert(1)</script>"}
+            c["illustration"] = ["<b>", {"units": 3}]
+        file = self.write("odd.json", json.dumps(self.changed(odd), sort_keys=True))
+        said = run(TAUT, "report", file, "--out", self.path("page.html"))
+        self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
+        self.assertIn("generator.name", said.stderr)
+        file = self.write("hostile.json", json.dumps(self.changed(hostile), sort_keys=True))
+        said = run(TAUT, "report", file, "--out", self.path("page.html"))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        self.assertIn("&lt;script&gt;alert(1)", text_of(self.path("page.html")))
+        self.assertNotIn("<script", text_of(self.path("page.html")))
+
     def test_json(self):
         said = run(TAUT, "plan", APART, "--out", self.path("out"), "--json")
         self.assertEqual(said.returncode, 1)
