@@ -27,8 +27,6 @@
 // Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--undecided] [--surveys N]
 // [--kernels N] [--decades N] [--multiprecision N] [--threads N] [--budget SECONDS]
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -40,10 +38,21 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <sstream>
+#include <stop_token>
+#include <string>
+#include <thread>
 #include <utility>
 
+#include "base/input_error.h"
+#include "base/sha256.h"
 #include "certificate/elaborate.h"
+#include "shards/dealing.h"
+#include "shards/part_files.h"
+#include "shards/ranks.h"
 #include "tests/soundness/trial.h"
 
 namespace taut::campaign {
@@ -210,6 +219,48 @@ struct Tally {
   Count kernel_asked{0};                        ///< boxes with a violation inside that the checker's kernel was given
   Count kernel_proofs{0}, kernel_confirmed{0};  ///< proofs that it was given, and those for which it found boxes
 };
+
+/// Calls visit(count) for all of them, always in the same order.
+template <class Visit>
+void for_each_count(Tally& tally, const Visit& visit) {
+  for (Decades& table : tally.decades) {
+    for (auto* counts : {&table.violated, &table.violated_refuted, &table.clear, &table.clear_decided}) {
+      for (Count& count : *counts) visit(count);
+    }
+  }
+  for (auto& of_law : tally.counts) {
+    for (Counts& c : of_law) {
+      for (Count* count : {&c.trials, &c.skipped, &c.proved, &c.refuted, &c.undecided, &c.boxes, &c.multiprecision}) {
+        visit(*count);
+      }
+    }
+  }
+  for (auto& of_angles : tally.angles) {
+    for (Count& count : of_angles) visit(count);
+  }
+  for (Count* count : {&tally.wrong, &tally.looked_at, &tally.violated_elsewhere, &tally.crossing,
+                       &tally.crossing_refuted, &tally.surveyed, &tally.margins, &tally.margins_exact,
+                       &tally.margins_compared, &tally.kernel_asked, &tally.kernel_proofs, &tally.kernel_confirmed}) {
+    visit(*count);
+  }
+}
+static_assert(sizeof(Tally) == sizeof(Count) * (6 * 4 * kDecades + 7 * kLaws * kToleranceKinds + 3 * 4 + 12),
+              "for_each_count() visits all that a Tally has");
+
+std::string text_of(Tally& tally) {
+  std::string text;
+  for_each_count(tally, [&](Count& count) { text += fmt::format("{} ", count.load()); });
+  return text;
+}
+
+void add(Tally& tally, const std::string& text) {
+  std::istringstream numbers(text);
+  for_each_count(tally, [&](Count& count) {
+    long more = 0;
+    if (!(numbers >> more)) throw InputError("a part of a campaign: got " + text + ", expected all counts");
+    count += more;
+  });
+}
 
 // ---- A trial --------------------------------------------------------------------------------------------------------
 
@@ -865,22 +916,86 @@ void print_counts(const Tally& tally) {
   }
 }
 
-int run(const Options& options, double budget) {
+/// Seeds that are judged together, on one thread.
+constexpr long kPart = 256;
+
+/// What determines all counts.
+nlohmann::json work_of(const Options& options) {
+  const auto number = [](const auto& value) { return value ? static_cast<int>(*value) : -1; };
+  return {{"command", "soundness"},
+          {"taut", TAUT_VERSION},
+          {"count", options.count},
+          {"seed", options.seed},
+          {"law", number(options.law)},
+          {"tolerances", number(options.tolerances)},
+          {"loads", number(options.loads)},
+          {"surveys", options.surveys},
+          {"kernels", options.kernels},
+          {"decades", options.decades},
+          {"multiprecision", options.multiprecision}};
+}
+
+std::string run_part(const Options& options, const Task& task) {
+  const PrecisionScope precision(oracle::kBits);
+  Tally tally;
+  const long first = kPart * static_cast<long>(task.part);
+  for (long k = first; k < std::min(options.count, first + kPart); ++k) {
+    Judge(options.seed + static_cast<std::uint64_t>(k), options, tally).run();
+  }
+  return text_of(tally);
+}
+
+/// How a campaign is run.
+struct Campaign {
+  double budget = 0;  ///< seconds; 0: all seeds
+  std::size_t threads = 1;
+  std::string parts;  ///< folder of files that keep what is judged, or empty
+  std::optional<Shard> shard;
+  Ranks* ranks = nullptr;  ///< that share in it
+};
+
+/// @returns how many segments were judged.
+long judge_all(const Options& options, const Campaign& campaign, Tally& tally) {
+  const long count = (options.count + kPart - 1) / kPart;
+  std::optional<PartFiles> files;
+  if (!campaign.parts.empty()) files.emplace(campaign.parts, work_of(options), static_cast<std::size_t>(count));
+  long done = 0;
+  const auto take = [&](std::size_t part, const std::string& text) {
+    add(tally, text);
+    done += std::min(kPart, options.count - kPart * static_cast<long>(part));
+  };
+  std::vector<Task> tasks;
+  for (std::size_t part = 0; part < static_cast<std::size_t>(count); ++part) {
+    if (campaign.shard && !campaign.shard->has(part)) continue;
+    if (const auto known = files ? files->read(part) : std::nullopt) {
+      take(part, *known);
+    } else {
+      tasks.push_back({part, ""});
+    }
+  }
+  std::stop_source is_over;
+  const auto start = std::chrono::steady_clock::now();
+  const TaskDone keep = [&](std::size_t task, const std::string& text) {
+    if (files) files->write(tasks[task].part, text);
+    take(tasks[task].part, text);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (campaign.budget > 0 && seconds > campaign.budget) is_over.request_stop();
+  };
+  const RunTask run_task = [&](const Task& task) { return run_part(options, task); };
+  if (campaign.ranks != nullptr) {
+    campaign.ranks->deal(sha256(work_of(options)), tasks, run_task, keep, is_over.get_token());
+  } else {
+    deal_to_threads(tasks, campaign.threads, run_task, keep, is_over.get_token());
+  }
+  return done;
+}
+
+int run(const Options& options, const Campaign& campaign) {
   rounding_self_test();
-  const long chunk = budget > 0 ? 512 : 65536;  // each ends on one thread
   Tally tally;
   const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  long done = 0;
-  while (done < options.count && (budget <= 0 || seconds() < budget)) {
-    const long end = std::min(options.count, done + chunk);
-    tbb::parallel_for(done, end, [&](long k) {
-      const PrecisionScope precision(oracle::kBits);
-      Judge(options.seed + static_cast<std::uint64_t>(k), options, tally).run();
-    });
-    done = end;
-  }
-  const double elapsed = seconds();
+  const long done = judge_all(options, campaign, tally);
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   print_counts(tally);
   const std::array<double, 4> share = {
@@ -929,8 +1044,9 @@ int main(int argc, char** argv) {
   CLI::App app("Proves random segments with hidden violations, and holds every verdict to a 200-bit oracle.",
                "soundness");
   Options options;
-  double budget = 0;
+  Campaign campaign;
   std::size_t threads = 0;
+  std::string shard;
   std::optional<std::size_t> law, tolerances, loads;
   app.add_option("COUNT", options.count, "segments");
   app.add_option("SEED", options.seed, "of the first; each has its own, one more");
@@ -952,17 +1068,33 @@ int main(int argc, char** argv) {
                  "boxes in MPFR after which a segment is left undecided (10000, which can take half a minute)")
       ->check(CLI::PositiveNumber);
   app.add_option("--threads", threads, "0: all");
-  app.add_option("--budget", budget, "stop after so many seconds");
+  app.add_option("--budget", campaign.budget, "stop after so many seconds");
+  CLI::Option* const parts =
+      app.add_option("--parts", campaign.parts, "folder that keeps what is judged; what is there is not judged again");
+  app.add_option("--shard", shard, "only shard k of m, as k/m")->needs(parts);
   CLI11_PARSE(app, argc, argv);
   if (law) options.law = static_cast<Law>(*law);
   if (tolerances) options.tolerances = static_cast<ToleranceKind>(*tolerances);
   if (loads) options.loads = static_cast<LoadKind>(*loads);
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency()));
-  return run(options, budget);
+  if (!shard.empty()) campaign.shard = read_shard(shard);
+  campaign.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  const auto ranks = Ranks::join([](const std::string& message) { fmt::print(stderr, "soundness: {}\n", message); });
+  if (ranks && !ranks->is_first()) {
+    ranks->serve(sha256(work_of(options)), [&](const Task& task) { return run_part(options, task); }, {});
+    return 0;
+  }
+  campaign.ranks = ranks.get();
+  return run(options, campaign);
 }
 
 }  // namespace
 }  // namespace taut::campaign
 
-int main(int argc, char** argv) { return taut::campaign::main(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return taut::campaign::main(argc, argv);
+  } catch (const taut::InputError& error) {
+    fmt::print(stderr, "soundness: {}\n", error.what());
+    return 3;
+  }
+}

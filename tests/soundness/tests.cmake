@@ -2,7 +2,7 @@
 find_package(CLI11 REQUIRED)
 add_executable(soundness soundness/soundness.cc soundness/trial.cc)
 target_link_libraries(soundness
-  PRIVATE taut_common taut_case taut_certificate taut_certify CLI11::CLI11 fmt::fmt TBB::tbb)
+  PRIVATE taut_common taut_case taut_certificate taut_certify taut_shards CLI11::CLI11 fmt::fmt)
 target_compile_definitions(soundness PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 add_test(NAME soundness.campaign COMMAND soundness 3000)
 set_tests_properties(soundness.campaign PROPERTIES LABELS "laws" TIMEOUT 300)
