@@ -132,9 +132,10 @@ bool SegmentWalk::is_likely_too_wide(const Task& task) const {
 
 void SegmentWalk::learn(const Task& task, const BoxVerdict& verdict) {
   constexpr double kOrder = 1.5;  // strain grows about like this power of the width: between 1, of slopes, and 2
-  constexpr double kLeast = 1e-9;
+  constexpr double kLeast = 1e-9, kGreatest = 1e9;
   const bool is_proved = verdict.kind == BoxVerdict::Kind::kProved && task.rung == 0 && task.continuation_steps == 1;
-  const double doublings = is_proved ? -std::log2(std::max(verdict.strain, kLeast)) / kOrder : task.box.depth;
+  const double doublings =
+      is_proved ? -std::log2(std::clamp(verdict.strain, kLeast, kGreatest)) / kOrder : task.box.depth;
   likely_depth_ = task.box.depth - static_cast<int>(doublings);
 }
 
