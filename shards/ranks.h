@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processes that mpirun started, on one machine or many. Rank 0 deals tasks, also to itself, and takes the results; each
-// rank computes one task at a time. A rank that dies, or is not heard of for kMostSilence, gets no more tasks, and those
-// that it had are dealt again.
+// Processes that mpirun started, on one machine or many. Rank 0 deals tasks, also to itself, and takes the results;
+// each rank computes one task at a time. A rank that dies, or is not heard of for kMostSilence, gets no more tasks, and
+// those that it had are dealt again.
 //
 // MPI is a module, libtaut_mpi.so, which is loaded by join(): taut runs without it.
 #pragma once
