@@ -87,7 +87,8 @@ def table(sizes, cells, rate, seed):
     total = sum(times)
     print(f"{len(times)} parts, {cells:.3g} cells at {rate:,.0f} a second and rank: {seconds(total)} s of one rank. "
           f"The largest part is {100 * max(times) / total:.2f} % of all, {seconds(max(times))} s.\n")
-    print("| ranks | ideal, s | largest first, s | in order, s | static, s | largest first, % | static, % | 5 % die, s |")
+    print("| ranks | ideal, s | largest first, s | in order, s | static, s | largest first, % | static, % | "
+          "5 % die, s |")
     print("|---|---|---|---|---|---|---|---|")
     for ranks in RANKS:
         ideal = total / ranks
