@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/input_error.h"
+#include "base/sanitize.h"
 #include "base/sha256.h"
 #include "case/case_file.h"
 #include "cli/parts_options.h"
@@ -30,7 +31,7 @@ std::string file_digest(const std::filesystem::path& file) {
 
 /// The digests of a case and of the path that it has audited.
 json case_digest(const std::string& name, const std::filesystem::path& file) {
-  json digest = {name, file_digest(file)};
+  json digest = {sanitize(name), file_digest(file)};  // a name need not be text
   try {
     const Case declared = load_case(file.string());
     if (declared.audit) digest.push_back(file_digest(file.parent_path() / declared.audit->file));
@@ -45,21 +46,17 @@ std::string part_text(const RegressedCase& regressed) {
   if (regressed.measurement) {
     measurement = {{"verdict", regressed.measurement->verdict}, {"quantities", regressed.measurement->quantities}};
   }
-  return json{{"name", regressed.name},
-              {"measurement", measurement},
-              {"expected", regressed.expected},
-              {"has_budget", regressed.has_budget},
-              {"differences", regressed.differences},
-              {"error", regressed.error},
-              {"is_bad_input", regressed.is_bad_input},
+  return json{{"measurement", measurement},         {"expected", regressed.expected},
+              {"has_budget", regressed.has_budget}, {"differences", regressed.differences},
+              {"error", regressed.error},           {"is_bad_input", regressed.is_bad_input},
               {"seconds", regressed.seconds}}
              .dump(-1, ' ', true, json::error_handler_t::replace) +
          "\n";
 }
 
+/// All but the name.
 RegressedCase read_part(const json& part) {
   RegressedCase result;
-  result.name = part.at("name");
   if (const json& measurement = part.at("measurement"); !measurement.is_null()) {
     result.measurement = Measurement{measurement.at("verdict"), measurement.at("quantities")};
   }
@@ -100,7 +97,9 @@ std::string RegressParts::run(std::size_t number, const std::filesystem::path& r
 
 RegressedCase RegressParts::read(std::size_t number, const std::string& text) const {
   try {
-    return read_part(json::parse(text));
+    RegressedCase result = read_part(json::parse(text));
+    result.name = names_.at(number);
+    return result;
   } catch (const json::exception& error) {
     throw InputError(ErrorCode::kFile, fmt::format("{}: got {}, expected the result of a case",
                                                    parts_ ? parts_->file(number).string() : "part", error.what()));
