@@ -2,7 +2,6 @@
 #include "certify/segment_walk.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -117,26 +116,9 @@ SegmentSurvey SegmentWalk::run() {
   while (!open_.empty() && !is_over_) {
     const Task task = std::move(open_.back());
     open_.pop_back();
-    if (is_likely_too_wide(task)) {
-      split(task, task.rung);
-    } else {
-      take(task, examine(task));
-    }
+    take(task, examine(task));
   }
   return std::move(survey_);
-}
-
-bool SegmentWalk::is_likely_too_wide(const Task& task) const {
-  return task.box.depth < likely_depth_ && task.rung == 0 && task.continuation_steps == 1 && !task.is_hopeless;
-}
-
-void SegmentWalk::learn(const Task& task, const BoxVerdict& verdict) {
-  constexpr double kOrder = 1.5;  // strain grows about like this power of the width: between 1, of slopes, and 2
-  constexpr double kLeast = 1e-9, kGreatest = 1e9;
-  const bool is_proved = verdict.kind == BoxVerdict::Kind::kProved && task.rung == 0 && task.continuation_steps == 1;
-  const double doublings =
-      is_proved ? -std::log2(std::clamp(verdict.strain, kLeast, kGreatest)) / kOrder : task.box.depth;
-  likely_depth_ = task.box.depth - static_cast<int>(doublings);
 }
 
 std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
@@ -159,7 +141,6 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
   ++survey_.boxes_judged;
   if (task.rung > 0) ++survey_.boxes_multiprecision;
   const BoxVerdict verdict = ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps);
-  learn(task, verdict);
   switch (verdict.kind) {
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};

@@ -5,9 +5,6 @@
 // climbs the ladder of precisions (precision_ladder.h). Before it climbs, a box looks for the point where the margin is
 // least, by secants: that point may refute, or show that no rung can tell. There are three verdicts, and "undecided" is
 // not "unsafe".
-//
-// How much of its margins a proved box lost (BoxVerdict::strain) tells how large the next one may be, as the error of a
-// step does in the integration of differential equations. Larger boxes are split without being judged.
 #pragma once
 
 #include <stop_token>
@@ -78,9 +75,6 @@ class SegmentWalk {
   void take_given_up(const Task& task, Step step);
   void report(const Task& task, SurveyedBox::Kind kind, Step step);
   void split(const Task& task, std::size_t rung);
-  [[nodiscard]] bool is_likely_too_wide(const Task& task) const;
-  /// Sets likely_depth_ from a proved box; after any other, nothing is known of the next.
-  void learn(const Task& task, const BoxVerdict& verdict);
 
   const Prover& prover_;
   const PrecisionLadder& ladder_;
@@ -92,7 +86,6 @@ class SegmentWalk {
   SegmentSurvey survey_;
   std::vector<Task> open_ = {Task{}};
   bool is_over_ = false;
-  int likely_depth_ = 0;  ///< of the largest box that is likely to be proved next; 0 where nothing is known
   BoxVerdict last_verdict_;
   bool motion_given_up_ = false;  ///< somewhere on the segment, with all means
   int singular_open_ = 0;         ///< boxes next to singular poses, or with an undefined pose, that all means left open

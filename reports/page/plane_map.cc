@@ -12,7 +12,8 @@
 namespace taut {
 namespace {
 
-constexpr double kLeastWidth = 1.0 / 512;  ///< of a cell: about a dot of the picture
+constexpr double kLeastWidth = 1.0 / 1024;   ///< of a cell: about a dot of the picture
+constexpr double kOverlayWidth = 1.0 / 512;  ///< of those on top of these
 
 SubdivisionOptions options_of(std::size_t most_cells) {
   SubdivisionOptions options;
@@ -46,8 +47,8 @@ PlaneMap drawn(const Problem& problem, const CellMap& map) {
     if (!of.empty()) result.areas.push_back({kind, area_path(of)});
   };
   for (std::size_t kind = 0; kind < kCellKinds; ++kind) add(kNames.at(kind), cells.at(kind));
-  add("both", cells_beyond_both(problem, map, kLeastWidth));
-  add("singular", singular_cells(problem, map, kLeastWidth));
+  add("both", cells_beyond_both(problem, map, kOverlayWidth));
+  add("singular", singular_cells(problem, map, kOverlayWidth));
   for (std::size_t k = 0; k < 2; ++k) {
     const MapAxis& axis = map.space.axes[k];
     result.window.at(k) = {evaluate_constant<double>(axis.lower), evaluate_constant<double>(axis.upper)};
@@ -74,7 +75,7 @@ std::optional<PlaneMap> if_mapped(const ReportContext& scene, const Make& make) 
 }  // namespace
 
 std::optional<PlaneMap> plane_map(const ReportContext& scene) {
-  constexpr std::size_t kMostCells = 30'000;
+  constexpr std::size_t kMostCells = 60'000;
   return if_mapped(scene, [&](const Problem& problem) {
     const CellMap map = subdivide(problem, make_map_space(problem.space), options_of(kMostCells));
     PlaneMap result = drawn(problem, map);

@@ -69,21 +69,6 @@ TEST(Prover, ProvesASegmentOfLengthZero) {
   EXPECT_EQ(proof.boxes.size(), 1u);
 }
 
-TEST(Prover, LearnsFromAProvedBoxHowLargeTheNextMayBe) {
-  const Prover prover(robot1_slice());
-  int judged = 0;
-  int by_halving = 0;
-  for (int k = 1; k <= 6; ++k) {
-    const SegmentProof proof = prover.prove(kStart, at({-2.3 + 0.05 * k, 1.6 - 0.1 * k}));
-    if (proof.verdict != Verdict::kProved) continue;
-    expect_cover(proof.boxes);
-    judged += proof.boxes_judged;
-    by_halving += 2 * static_cast<int>(proof.boxes.size()) - 1;
-  }
-  ASSERT_GT(by_halving, 10);
-  EXPECT_LT(judged, by_halving);
-}
-
 TEST(Prover, ProvesTheSameBothWays) {
   const Prover prover(robot1_slice());
   EXPECT_EQ(prover.prove(kNearStart, kStart).verdict, Verdict::kProved);

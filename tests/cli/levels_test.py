@@ -4,6 +4,7 @@
 
 Usage: levels_test.py TAUT TAUT_CHECK SOURCE_DIR
 """
+import json
 import os
 
 from command_line import ROBOT1, TAUT, InFolder, main, run
@@ -37,10 +38,15 @@ class Levels(InFolder):
 
     def test_maps_are_the_same(self):
         first, *others = levels()
-        told = run_with(first, "map", ROBOT1, "--undecided", "5 %", "--json")
-        self.assertEqual(told.returncode, 0, told.stderr)
+
+        def said_of_map(level):
+            told = run_with(level, "map", ROBOT1, "--undecided", "5 %", "--json")
+            self.assertEqual(told.returncode, 0, told.stderr)
+            return {key: value for key, value in json.loads(told.stdout).items() if not key.endswith("_seconds")}
+
+        known = said_of_map(first)
         for level in others:
-            self.assertEqual(run_with(level, "map", ROBOT1, "--undecided", "5 %", "--json").stdout, told.stdout, level)
+            self.assertEqual(said_of_map(level), known, level)
 
     def test_other_values_are_refused(self):
         said = run_with("mmx", "map", ROBOT1)
