@@ -29,7 +29,7 @@ struct PlaneMap {
   std::size_t cells = 0;
 };
 
-/// The map of the whole space, to cells of 1/1024 of its axes or so many that a page can hold them; nothing where
+/// The map of the whole space, to cells of 1/512 of its axes or so many that a page can hold them; nothing where
 /// the space has no map (map_space.h). The same for the same problem.
 [[nodiscard]] std::optional<PlaneMap> plane_map(const ReportContext& scene);
 /// The same of a part of the plane, in finer cells and without "cut_off".

@@ -215,7 +215,7 @@ const cellKinds = () => {
 /// The values of a grid of a case's map (docs/maps.md), made as the page makes its map.
 function gridOf(name, size) {
   const file = join(directory, "grid.npy");
-  run("map", join(cases, `${name}.yaml`), "--cell", String(1 / 1024), "--cells", "60000", "--grid", file,
+  run("map", join(cases, `${name}.yaml`), "--cell", String(1 / 512), "--cells", "60000", "--grid", file,
     "--grid-size", String(size));
   const bytes = readFileSync(file);
   return [...bytes.subarray(10 + bytes.readUInt16LE(8))];
