@@ -12,7 +12,7 @@
 namespace taut {
 namespace {
 
-constexpr double kLeastWidth = 1.0 / 512;   ///< of a cell: about a dot of the picture
+constexpr double kLeastWidth = 1.0 / 512;    ///< of a cell: about a dot of the picture
 constexpr double kOverlayWidth = 1.0 / 256;  ///< of those on top of these
 
 SubdivisionOptions options_of(std::size_t most_cells) {
