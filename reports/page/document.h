@@ -16,7 +16,7 @@ struct DocumentHead {
   std::string more_style;  ///< beyond that of every report
 };
 
-/// A complete HTML document, UTF-8. @param body  what is in <body>
+/// A complete HTML document, UTF-8. @param body  what is in the body element
 [[nodiscard]] std::string html_document(const DocumentHead& head, const std::string& body);
 
 }  // namespace taut
