@@ -511,21 +511,27 @@ json to_json(const Problem& problem) {
   } else if (angles.kind != AngleKind::kTiltAndTorsion) {
     space["angles"] = name(angles.kind);
   }
-  return {{"name", problem.name},
-          {"robot",
-           {{"base_anchors_m", problem.robot.base_anchors_m},
-            {"platform_anchors_m", problem.robot.platform_anchors_m},
-            {"tension_N", limits_to_json(problem.robot.tension_N)},
-            {"length_m", limits_to_json(problem.robot.length_m)}}},
-          {"load", to_json(problem.load)},
-          {"tolerances", problem.tolerances ? tolerances_to_json(*problem.tolerances) : json()},
-          {"space", std::move(space)},
-          {"query", {{"waypoints", problem.query}}}};
+  json result = {{"name", problem.name},
+                 {"robot",
+                  {{"base_anchors_m", problem.robot.base_anchors_m},
+                   {"platform_anchors_m", problem.robot.platform_anchors_m},
+                   {"tension_N", limits_to_json(problem.robot.tension_N)},
+                   {"length_m", limits_to_json(problem.robot.length_m)}}},
+                 {"load", to_json(problem.load)},
+                 {"tolerances", problem.tolerances ? tolerances_to_json(*problem.tolerances) : json()},
+                 {"space", std::move(space)},
+                 {"query", {{"waypoints", problem.query}}}};
+  if (problem.bodies) result["bodies"] = to_json(*problem.bodies);
+  return result;
 }
 
 Problem problem_from_json(const json& value) {
   const auto member = [&](const char* key) -> JsonCursor { return {value[key], key}; };
-  JsonCursor(value, "problem").expect_keys({"name", "robot", "load", "tolerances", "space", "query"});
+  const JsonCursor whole(value, "problem");
+  const bool has_bodies = whole.contains("bodies");
+  std::vector<std::string> keys = {"name", "robot", "load", "tolerances", "space", "query"};
+  if (has_bodies) keys.emplace_back("bodies");
+  whole.expect_keys(keys);
   Problem problem;
   read(member("name"), problem.name);
   const JsonCursor robot = member("robot");
@@ -543,6 +549,7 @@ Problem problem_from_json(const json& value) {
     std::vector<ExpressionText>& values = problem.query.emplace_back();
     for (const JsonCursor& entry : waypoint.elements()) read(entry, values.emplace_back());
   }
+  if (has_bodies) problem.bodies = bodies_from_json(member("bodies"));
   validate(problem);
   return problem;
 }
@@ -555,6 +562,7 @@ void validate(const Problem& problem) {
     if (!problem.load.items.empty()) validate_no_tolerance_of_the_load(*problem.tolerances);
   }
   validate_space(problem.space);
+  if (problem.bodies) validate(*problem.bodies);
   validate_query(problem);
 }
 

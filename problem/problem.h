@@ -16,16 +16,11 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "problem/bodies.h"
 #include "problem/loads.h"
+#include "problem/text.h"
 
 namespace taut {
-
-inline constexpr int kCables = 6;
-
-/// A decimal literal such as "-0.0210" or "1e-4": exactly that rational number.
-using DecimalText = std::string;
-/// An expression in the grammar of docs/certificate-format.md.
-using ExpressionText = std::string;
 
 /// An open interval of admissible values; lower < upper.
 struct Limits {
@@ -127,6 +122,8 @@ struct Problem {
   /// Waypoints of the query: one constant expression for each parameter (SI). There are none in an audit of a path from
   /// elsewhere.
   std::vector<std::vector<ExpressionText>> query;
+  /// What may not touch, if anything is said of that.
+  std::optional<BodiesText> bodies;
 };
 
 /// What a message may add where `word` is a coordinate of other angles than `chosen`: "which is understood with
@@ -144,7 +141,8 @@ struct Problem {
 /// Checks all that the types above promise: decimals, 0 <= lower < upper, six different cables, a load with items or
 /// with an E that is symmetric and positive definite (exactly), no tolerances of the load beside items, expressions
 /// that parse, poses that by their form agree after a turn of a periodic parameter, a correct `flip`, tolerances >= 0,
-/// and either no waypoints or at least two, with one finite value for each parameter, within its range up to rounding.
+/// bodies (problem/bodies.h), and either no waypoints or at least two, with one finite value for each parameter, within
+/// its range up to rounding.
 /// @throws FieldError
 void validate(const Problem& problem);
 

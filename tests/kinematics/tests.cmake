@@ -4,6 +4,7 @@ taut_add_test(kinematics decimal LABELS unit LIBS taut::problem ${RAPIDCHECK_LIB
 taut_add_test(kinematics expression LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics rational LABELS unit LIBS taut::problem ${RAPIDCHECK_LIBRARY})
 taut_add_test(kinematics problem LABELS unit LIBS taut::case)
+taut_add_test(kinematics bodies LABELS unit LIBS taut::case)
 taut_add_test(base sanitize LABELS unit LIBS taut::base)
 taut_add_test(base labels LABELS unit LIBS taut::base)
 taut_add_test(base nearest LABELS unit LIBS taut::base)
