@@ -36,11 +36,12 @@ ProofModel<MpInterval> make_mp_proof_model(const Problem& problem) {
           make_motion_model<MpInterval>(problem),
           make_tolerance_model<MpInterval>(problem),
           {},
-          {}};
+          {},
+          problem.bodies ? std::optional(make_body_model<MpInterval>(problem)) : std::nullopt};
 }
 
 ProofModel<Interval> make_proof_model(const Problem& problem) {
-  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt, {}, {}};
+  ProofModel<Interval> result{{}, make_motion_model<Interval>(problem), std::nullopt, {}, {}, {}};
   Model<Interval>& model = result.model;
   const bool is_diagonal = has_diagonal_ellipsoid(problem.load);
   const bool is_bounded = run_upward([&] {
@@ -48,6 +49,7 @@ ProofModel<Interval> make_proof_model(const Problem& problem) {
     result.item_rows = ItemRows(model.loads);
     if (is_diagonal) set_ellipsoid(problem.load, model);
     result.tolerance = make_tolerance_model<Interval>(problem);
+    if (problem.bodies) result.bodies = make_body_model<Interval>(problem);
   });
   if (!is_bounded) throw InputError("robot, load: got a number beyond the range of binary64");
   if (is_diagonal) {
@@ -372,6 +374,7 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   const MotionEnclosure<I> motion = undisturbed_motion(problem, segment, s, offset);
   result.motion = motion.status;
   if (!motion.is_enclosed()) return result;
+  if (problem.bodies) result.pose = motion;
   if constexpr (std::is_same_v<I, Interval>) {
     if (problem.lanes && model.loads.empty() && !problem.tolerance) {
       enclose_in_lanes(problem, motion, radius, result);
@@ -468,12 +471,48 @@ I disturbed_reach(const I& undisturbed, std::size_t cable, std::size_t side, con
   return undisturbed + ProofScalarTraits<I>::symmetric(UpperOf<I>(0.5) * (low + high));
 }
 
+/// Everything is known of the box that pairs of bodies need.
+template <class I>
+BodiesBox<I> bodies_box(const ProofModel<I>& problem, const BoxEnclosure<I>& box) {
+  const bool deviates = box.disturbance.has_value();
+  return {*problem.bodies,
+          problem.model,
+          box.pose->p_WP,
+          box.pose->r_WP,
+          box.length,
+          box.offset,
+          deviates ? &*problem.tolerance : nullptr,
+          deviates ? &*box.disturbance : nullptr};
+}
+
+/// Of a box on which all else is proved.
+template <class I>
+void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure, const PairDirections& directions,
+                  BoxVerdict& verdict) {
+  const BodiesBox<I> box = bodies_box(problem, enclosure);
+  const BodyGaps<I> gaps(box);
+  if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
+  for (std::size_t n = 0; n < directions.size(); ++n) {
+    const GapBound<I> bound = gaps.along(problem.bodies->pairs[n], directions[n]);
+    const double lower = lower_bound(bound.disturbed);
+    verdict.clearance_m = std::min(verdict.clearance_m, lower);
+    if (lower > 0) continue;
+    verdict.kind = BoxVerdict::Kind::kNear;
+    using AtMid = BoxVerdict::NearPair::AtMid;
+    const double lost = lower_bound(bound.value.range) - lower;  // to deviations
+    const double at_mid = lower_bound(bound.value.at_mid);
+    verdict.near.push_back({n, at_mid - lost > 0 ? AtMid::kApart
+                               : at_mid > 0      ? AtMid::kApartUndisturbed
+                                                 : AtMid::kUnknown});
+  }
+}
+
 /// More than this is not claimed of the factor by which K may grow.
 constexpr double kMostGrowth = 1e6;
 
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
-                 int continuation_steps) {
+                 int continuation_steps, const PairDirections* directions) {
   using Kind = BoxVerdict::Kind;
   using Status = typename MotionEnclosure<I>::Status;
   const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, continuation_steps);
@@ -547,25 +586,68 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     verdict.kind = within_tolerance || !all_positive_undisturbed ? Kind::kSplit : Kind::kTolerance;
   }
   if (verdict.kind != Kind::kRefuted && verdict.kind != Kind::kProved) verdict.worst = weakest(problem, enclosure);
+  verdict.clearance_m = std::numeric_limits<double>::infinity();
+  if (verdict.kind == Kind::kProved && directions != nullptr && problem.bodies) {
+    judge_bodies(problem, enclosure, *directions, verdict);
+  }
   return verdict;
 }
 
 }  // namespace
 
 BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance, int continuation_steps) {
+                     double clearance, int continuation_steps, const PairDirections* directions) {
   BoxVerdict verdict;
-  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, continuation_steps); }))
+  if (!run_upward([&] { verdict = judge(problem, segment, box, clearance, continuation_steps, directions); }))
     verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
 }
 
 BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                     double clearance, int continuation_steps) {
+                     double clearance, int continuation_steps, const PairDirections* directions) {
   Faults<MpInterval>::clear();
-  BoxVerdict verdict = judge(problem, segment, box, clearance, continuation_steps);
+  BoxVerdict verdict = judge(problem, segment, box, clearance, continuation_steps, directions);
   if (Faults<MpInterval>::raised()) verdict.kind = BoxVerdict::Kind::kFault;
   return verdict;
+}
+
+namespace {
+
+template <class I>
+Contact contact(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& dyadic, std::size_t pair,
+                const PointPair& points) {
+  const double radius = dyadic.radius();
+  BoxEnclosure<I> box;
+  box.offset = I(-radius, radius);
+  box.pose = undisturbed_motion(problem, segment, enclose<I>(dyadic), box.offset);
+  if (box.pose->status != MotionEnclosure<I>::Status::kKnown) return Contact::kUnknown;
+  const CableGeometry<SlopeForm<I>> geometry = cable_geometry(problem.model, box.pose->p_WP, box.pose->r_WP);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    box.length[i] = length(geometry.p_AB_W[i]);
+    box.length[i].tighten(box.offset);
+  }
+  const BodiesBox<I> bodies = bodies_box(problem, box);
+  const BodyGaps<I> gaps(bodies);
+  const CheckedPair<I>& checked = problem.bodies->pairs.at(pair);
+  if (!gaps.have_cables_length()) return Contact::kUnknown;
+  if (certainly_nonpositive(gaps.distance(checked, points, false))) return Contact::kThroughout;
+  return certainly_nonpositive(gaps.distance(checked, points, true)) ? Contact::kAtMid : Contact::kUnknown;
+}
+
+}  // namespace
+
+Contact judge_contact(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
+                      std::size_t pair, const PointPair& points) {
+  Contact result = Contact::kUnknown;
+  if (!run_upward([&] { result = contact(problem, segment, box, pair, points); })) return Contact::kUnknown;
+  return result;
+}
+
+Contact judge_contact(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
+                      std::size_t pair, const PointPair& points) {
+  Faults<MpInterval>::clear();
+  const Contact result = contact(problem, segment, box, pair, points);
+  return Faults<MpInterval>::raised() ? Contact::kUnknown : result;
 }
 
 bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box) {

@@ -13,11 +13,13 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "certify/arithmetic/dyadic.h"
 #include "certify/arithmetic/interval.h"
 #include "certify/arithmetic/mp_interval.h"
 #include "certify/arithmetic/slope_form.h"
+#include "certify/bodies/body_gaps.h"
 #include "certify/loads/item_rows.h"
 #include "certify/motion/length_controlled_motion.h"
 #include "certify/motion/motion.h"
@@ -40,6 +42,7 @@ struct ProofModel {
   std::optional<ToleranceModel<I>> tolerance;
   ItemRows item_rows;                           ///< of model.loads; only for Interval
   std::shared_ptr<const lanes::Machine> lanes;  ///< the machine for box_in_lanes.h; only for Interval, else null
+  std::optional<BodyModel<I>> bodies;           ///< where the problem has any
 };
 
 /// At working_precision(). @throws InputError where E can't be proved positive definite.
@@ -87,6 +90,7 @@ struct BoxEnclosure {
   std::array<SlopeForm<I>, kCables> low, high;     ///< the least and the greatest tension over K [N]
   I offset;                                        ///< contains t − m for all t in T
   MarginList<I> margins;                           ///< those of lengths, and where regular those of tensions
+  std::optional<MotionEnclosure<I>> pose;          ///< only where the problem has bodies
   /// What deviations may change: only where the problem has tolerances, the undisturbed margins are positive on all of
   /// T, and for every deviation the commanded pose is proved to exist, and J to be non-singular.
   std::optional<DeviationBounds<I>> disturbance;
@@ -111,6 +115,7 @@ struct BoxVerdict {
     kNoMotion,      ///< the motion is only implied, and was not proved to exist on all of T
     kSpansKnot,     ///< T reaches across an inner pose of the reference, and nothing was tried
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
+    kNear,          ///< as kProved, but some pairs of bodies are not shown to be apart along the given directions
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
@@ -120,15 +125,40 @@ struct BoxVerdict {
   double tension_N = 0;  ///< proved lower bounds over the box; only if kProved
   double length_m = 0;
   double wrench_scale = 0;
+  double clearance_m = 0;  ///< of all pairs, beyond their clearances; infinite where there are none
+  struct NearPair {
+    enum class AtMid {
+      kApart,             ///< the direction does show it at the midpoint
+      kApartUndisturbed,  ///< it does for the machine as typed; deviations may change as much
+      kUnknown,
+    };
+    std::size_t pair = 0;
+    AtMid at_mid = AtMid::kUnknown;
+  };
+  std::vector<NearPair> near;  ///< only if kNear; none: the free ends of a cable may meet
 };
 
 /// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins
 /// have to exceed c times half the range between the limits (in floating point; what is proved remains that they are
 /// positive).
+/// @param directions  one for each pair of bodies; null: nothing is asked of bodies
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0, int continuation_steps = 1);
+                                   double clearance = 0, int continuation_steps = 1,
+                                   const PairDirections* directions = nullptr);
 [[nodiscard]] BoxVerdict judge_box(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
-                                   double clearance = 0, int continuation_steps = 1);
+                                   double clearance = 0, int continuation_steps = 1,
+                                   const PairDirections* directions = nullptr);
+
+/// Where two points of a pair of bodies are too near, on the undisturbed machine.
+enum class Contact {
+  kUnknown,
+  kAtMid,       ///< certainly at the box's midpoint
+  kThroughout,  ///< certainly on all of the box
+};
+[[nodiscard]] Contact judge_contact(const ProofModel<Interval>& problem, const Segment& segment, const DyadicBox& box,
+                                    std::size_t pair, const PointPair& points);
+[[nodiscard]] Contact judge_contact(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box,
+                                    std::size_t pair, const PointPair& points);
 
 /// Whether on all of the box exactly one motion is proved to exist, with its parameters in their ranges.
 [[nodiscard]] bool is_motion_known(const ProofModel<MpInterval>& problem, const Segment& segment, const DyadicBox& box);

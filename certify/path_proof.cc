@@ -35,9 +35,15 @@ const DecimalText& limit_text(const Problem& problem, MarginId margin) {
 
 PathWitness make_witness(const Prover& prover, const Segment& segment, const SegmentWitness& found,
                          const PathPoint& at) {
-  const auto& [singular, margin, box, deviation] = found;
   PathWitness witness;
   witness.at = at;
+  if (found.contact) {
+    witness.contact = found.contact;
+    return witness;
+  }
+  const MarginId margin = found.margin;
+  const DyadicBox& box = found.box;
+  const auto& deviation = found.deviation;
   witness.margin = margin;
   witness.limit = limit_text(prover.problem(), margin);
   witness.deviation = deviation;

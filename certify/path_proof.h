@@ -24,6 +24,7 @@ struct PathWitness {
   PathPoint at;
   bool singular = false;
   PathPoint to;                                          ///< the second point; only if singular
+  std::optional<PairContact> contact = {};               ///< only if bodies are too near; then nothing below is set
   MarginId margin;                                       ///< unless singular
   DecimalText value_lower, value_upper;                  ///< enclosure of f0 − v, f0 + v or d [N, m]; unless singular
   DecimalText limit;                                     ///< the limit it violates; unless singular

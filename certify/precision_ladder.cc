@@ -33,10 +33,17 @@ const ProofModel<MpInterval>& PrecisionLadder::multiprecision(std::size_t rung) 
 }
 
 BoxVerdict PrecisionLadder::judge(std::size_t rung, const Segment& segment, const DyadicBox& box, double clearance,
-                                  int continuation_steps) const {
-  if (rung == 0) return judge_box(fast_, segment, box, clearance, continuation_steps);
+                                  int continuation_steps, const PairDirections* directions) const {
+  if (rung == 0) return judge_box(fast_, segment, box, clearance, continuation_steps, directions);
   const PrecisionScope precision(bits(rung));
-  return judge_box(multiprecision(rung), segment, box, clearance, continuation_steps);
+  return judge_box(multiprecision(rung), segment, box, clearance, continuation_steps, directions);
+}
+
+Contact PrecisionLadder::judge_contact(std::size_t rung, const Segment& segment, const DyadicBox& box, std::size_t pair,
+                                       const PointPair& points) const {
+  if (rung == 0) return taut::judge_contact(fast_, segment, box, pair, points);
+  const PrecisionScope precision(bits(rung));
+  return taut::judge_contact(multiprecision(rung), segment, box, pair, points);
 }
 
 }  // namespace taut

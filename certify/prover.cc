@@ -18,6 +18,7 @@ namespace taut {
 Prover::Prover(const Problem& problem, ProofOptions options)
     : problem_(problem), options_(options), ladder_(problem, options.max_bits) {
   if (!problem.space.constraints.empty()) constraints_.emplace(problem);
+  if (problem.bodies) bodies_.emplace(problem);
 }
 
 const PoseSampler& Prover::sampler() const {
@@ -143,7 +144,8 @@ namespace {
 /// The survey of a segment that is not admissible; `range_violation` as Prover's.
 SegmentSurvey open_survey(Interpolation law, const std::string& range_violation) {
   SegmentSurvey survey;
-  survey.tension_N = survey.length_m = survey.wrench_scale = std::numeric_limits<double>::infinity();
+  survey.tension_N = survey.length_m = survey.wrench_scale = survey.clearance_m =
+      std::numeric_limits<double>::infinity();
   const Reason reason =
       has_poses(law) ? Reason(Undecided::kNoMotion) : Reason(Undecided::kWaypointRange, range_violation);
   survey.boxes.push_back({{}, SurveyedBox::Kind::kOpen, {}, reason});
@@ -156,12 +158,14 @@ SegmentProof to_proof(SegmentSurvey survey) {
   proof.tension_N = survey.tension_N;
   proof.length_m = survey.length_m;
   proof.wrench_scale = survey.wrench_scale;
+  proof.clearance_m = survey.clearance_m;
   proof.boxes_judged = survey.boxes_judged;
   proof.boxes_multiprecision = survey.boxes_multiprecision;
   proof.verdict = Verdict::kProved;
   for (SurveyedBox& box : survey.boxes) {
     if (box.kind == SurveyedBox::Kind::kProved) {
       proof.boxes.push_back(std::move(box.box));
+      if (box.directions) proof.directions.push_back(std::move(box.directions));
     } else if (box.witness) {
       proof.verdict = Verdict::kRefuted;
       proof.witness = std::move(box.witness);

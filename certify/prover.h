@@ -9,6 +9,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "certify/bodies/nearest.h"
 #include "certify/precision_ladder.h"
 #include "certify/segment_proof.h"
 #include "kinematics/constraint_functions.h"
@@ -49,7 +50,8 @@ class Prover {
 
   /// Claim (docs/certificate-format.md): for every s in [0, 1] the motion γ(s) exists (segment.h), its parameters stay
   /// in their closed ranges, and for every wrench in K at γ(s), J is non-singular and all tensions and lengths are
-  /// strictly inside their limits. With a clearance (judge_box) the proof also fails, as undecided, where the segment
+  /// strictly inside their limits; and all checked pairs of bodies are farther apart than their clearances. With a
+  /// `clearance` from limits (judge_box) the proof also fails, as undecided, where the segment
   /// comes closer to a limit than that. A proof that `stop` cuts short is undecided, "interrupted".
   /// Thread-safe; restores the caller's rounding mode.
   [[nodiscard]] SegmentProof prove(const Segment& segment, double clearance = 0,
@@ -91,6 +93,8 @@ class Prover {
   [[nodiscard]] const ProofModel<Interval>& model() const { return ladder_.binary64(); }
   /// The problem in floating point, for guesses; made when it is first needed.
   [[nodiscard]] const PoseSampler& sampler() const;
+  /// Its bodies, likewise; null where it has none.
+  [[nodiscard]] const BodySampler* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
 
  private:
   Problem problem_;
@@ -99,6 +103,7 @@ class Prover {
   PrecisionLadder ladder_;
   mutable std::once_flag sampler_made_;
   mutable std::optional<PoseSampler> sampler_;
+  std::optional<BodySampler> bodies_;
 };
 
 }  // namespace taut

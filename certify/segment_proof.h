@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certify/arithmetic/dyadic.h"
+#include "certify/bodies/body_gaps.h"
 #include "certify/tolerance/deviation.h"
 #include "certify/undecided.h"
 #include "kinematics/margin.h"
@@ -15,13 +16,20 @@ namespace taut {
 
 enum class Verdict { kProved, kRefuted, kUndecided };
 
-/// What refutes a segment, itself proved: a margin that is not positive at the midpoint of `box`, or det D of opposite
-/// signs at its two ends.
+/// Two points of a pair of bodies that are not farther apart than its clearance.
+struct PairContact {
+  std::size_t pair = 0;  ///< in the order of pairs() of problem/bodies.h
+  PointPair points;
+};
+
+/// What refutes a segment, itself proved: a margin that is not positive at the midpoint of `box`, bodies that are too
+/// near there, or det D of opposite signs at its two ends.
 struct SegmentWitness {
   bool singular = false;
-  MarginId margin;  ///< unless singular
+  MarginId margin;  ///< unless singular, or bodies are too near
   DyadicBox box;
   std::shared_ptr<const Deviation> deviation = nullptr;  ///< of the machine whose margin it is; null: undisturbed
+  std::optional<PairContact> contact = {};
 };
 
 struct SegmentProof {
@@ -30,10 +38,12 @@ struct SegmentProof {
   double tension_N = 0;          ///< proved lower bounds along the segment; only if proved
   double length_m = 0;
   double wrench_scale = 0;
-  std::optional<SegmentWitness> witness;  ///< only if refuted
-  DyadicBox open_box;                     ///< only if undecided: the smallest box left
-  Reason reason;                          ///< only if undecided
-  int boxes_judged = 0;                   ///< including those that were split
+  double clearance_m = 0;  ///< of all pairs of bodies, beyond their clearances; infinite where there are none
+  std::vector<std::shared_ptr<const PairDirections>> directions;  ///< of each box, where the problem has bodies
+  std::optional<SegmentWitness> witness;                          ///< only if refuted
+  DyadicBox open_box;                                             ///< only if undecided: the smallest box left
+  Reason reason;                                                  ///< only if undecided
+  int boxes_judged = 0;                                           ///< including those that were split
   int boxes_multiprecision = 0;
 };
 
@@ -50,7 +60,8 @@ struct SurveyedBox {
   Kind kind = Kind::kOpen;
   /// Within `box`; unless kProved or kOpen. Where the box is kViolated, the midpoint of any box within it will do.
   std::optional<SegmentWitness> witness;
-  Reason reason;  ///< only if kOpen
+  Reason reason;                                               ///< only if kOpen
+  std::shared_ptr<const PairDirections> directions = nullptr;  ///< only if kProved, where the problem has bodies
 };
 
 struct SegmentSurvey {
@@ -58,6 +69,7 @@ struct SegmentSurvey {
   double tension_N = 0;            ///< proved lower bounds over the boxes that are proved; infinite where none is
   double length_m = 0;
   double wrench_scale = 0;
+  double clearance_m = 0;
   int boxes_judged = 0;
   int boxes_multiprecision = 0;
 };

@@ -109,7 +109,19 @@ SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double cl
       extent_(extent),
       stop_(stop),
       deviations_(prover, segment) {
-  survey_.tension_N = survey_.length_m = survey_.wrench_scale = std::numeric_limits<double>::infinity();
+  survey_.tension_N = survey_.length_m = survey_.wrench_scale = survey_.clearance_m =
+      std::numeric_limits<double>::infinity();
+  if (prover.bodies() == nullptr) return;
+  constexpr Direction kUp{false, {0, 0, 1}};
+  constexpr Direction kUpInPlatform{true, {0, 0, 1}};
+  PairDirections any;
+  for (const auto& pair : prover.bodies()->bodies().pairs) {
+    any.push_back(pair.kind == PairClass::kCablesPlatform ? kUpInPlatform : kUp);
+  }
+  directions_ = std::make_shared<const PairDirections>(std::move(any));
+  BoxVerdict all;
+  for (std::size_t n = 0; n < directions_->size(); ++n) all.near.push_back({n, {}});
+  (void)redirect(all, 0.5);
 }
 
 SegmentSurvey SegmentWalk::run() {
@@ -140,8 +152,10 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
   if (stop_.stop_requested()) return {Step::Kind::kStop, {}, {}, Undecided::kInterrupted};
   ++survey_.boxes_judged;
   if (task.rung > 0) ++survey_.boxes_multiprecision;
-  const BoxVerdict verdict = ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps);
+  const BoxVerdict verdict =
+      ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps, directions_.get());
   switch (verdict.kind) {
+    case Kind::kNear: return examine_bodies(task, verdict);
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};
     case Kind::kTooClose: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kClearance};
@@ -220,6 +234,131 @@ SegmentWalk::Step SegmentWalk::examine_singular(const Task& task, const BoxVerdi
   return give_up;
 }
 
+// ---- Bodies ---------------------------------------------------------------------------------------------------------
+
+SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict& verdict) {
+  constexpr int kMostRedirections = 2;
+  const bool may_split = task.box.depth < ladder_.deepest(task.rung);
+  if (verdict.near.empty()) {
+    if (task.box.depth < prover_.options().tolerance_depth) return {Step::Kind::kSplit, verdict};
+    return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
+  }
+  const double s = task.box.mid().approx();
+  if (task.redirections < kMostRedirections && redirect(verdict, s)) return {Step::Kind::kRedirect, verdict};
+
+  const auto gap_of = [&](const BoxVerdict::NearPair& near) { return gap(near.pair, s); };
+  const BoxVerdict::NearPair nearest = *std::ranges::min_element(verdict.near, {}, gap_of);
+  if (auto refuted = refute_contact(task, verdict, nearest.pair)) return *std::move(refuted);
+
+  using AtMid = BoxVerdict::NearPair::AtMid;
+  const Step give_up{Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " " + pair_name(nearest.pair)}};
+  switch (nearest.at_mid) {
+    case AtMid::kApart:
+      if (may_split) return {Step::Kind::kSplit, verdict};
+      break;
+    case AtMid::kApartUndisturbed:
+      if (task.box.depth < prover_.options().tolerance_depth) return {Step::Kind::kSplit, verdict};
+      return give_up;
+    case AtMid::kUnknown: break;
+  }
+  if (may_climb(task) && task.rung < kSingularRung) return {Step::Kind::kClimb, verdict};
+  return give_up;
+}
+
+/// Takes the directions along which the near pairs are farthest apart at s. @returns whether any is another one.
+bool SegmentWalk::redirect(const BoxVerdict& verdict, double s) {
+  const PoseSampler& sampler = prover_.sampler();
+  const RigidPose pose = sampler.rigid_pose(segment_, s);
+  PairDirections turned = *directions_;
+  for (const auto& near : verdict.near) {
+    const auto direction = prover_.bodies()->direction(sampler.model(), pose, near.pair);
+    if (direction) turned[near.pair] = *direction;
+  }
+  if (turned == *directions_) return false;
+  directions_ = std::make_shared<const PairDirections>(std::move(turned));
+  return true;
+}
+
+double SegmentWalk::gap(std::size_t pair, double s) const {
+  const PoseSampler& sampler = prover_.sampler();
+  return prover_.bodies()->gap(sampler.model(), sampler.rigid_pose(segment_, s), pair);
+}
+
+/// Where in a box a pair comes nearest, as floating point finds it: from samples, then by golden sections.
+double SegmentWalk::nearest_place(std::size_t pair, const DyadicBox& box) const {
+  constexpr int kSamples = 8;
+  constexpr int kSections = 40;
+  constexpr double kGolden = 0.6180339887498949;
+  const double begin = box.lower().approx(), width = box.upper().approx() - begin;
+  const auto place = [&](double share) { return begin + share * width; };
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= kSamples; ++k) {
+    const double found = gap(pair, place(static_cast<double>(k) / kSamples));
+    if (found < least) {
+      least = found;
+      best = k;
+    }
+  }
+  double low = place(static_cast<double>(std::max(best - 1, 0)) / kSamples);
+  double high = place(static_cast<double>(std::min(best + 1, kSamples)) / kSamples);
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = gap(pair, left), at_right = gap(pair, right);
+  for (int k = 0; k < kSections; ++k) {
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      left = high - kGolden * (high - low);
+      at_left = gap(pair, left);
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      right = low + kGolden * (high - low);
+      at_right = gap(pair, right);
+    }
+  }
+  return at_left < at_right ? left : right;
+}
+
+/// A pair that bisection would find to be too near only at the onset of contact, where nothing can be refuted, is
+/// refuted where it is nearest.
+std::optional<SegmentWalk::Step> SegmentWalk::refute_contact(const Task& task, const BoxVerdict& verdict,
+                                                             std::size_t pair) {
+  constexpr int kEvery = 4;   // halvings between two searches, each of which takes some fifty distances
+  constexpr int kPlace = 44;  // halvings to a place
+  const PoseSampler& sampler = prover_.sampler();
+  const auto judge = [&](const DyadicBox& box) -> std::optional<Step> {
+    const RigidPose pose = sampler.rigid_pose(segment_, box.mid().approx());
+    const PointPair points = prover_.bodies()->nearest(sampler.model(), pose, pair);
+    for (std::size_t rung = 0; rung <= std::min(ladder_.last(), kSingularRung); ++rung) {
+      const Contact contact = ladder_.judge_contact(rung, segment_, box, pair, points);
+      if (contact == Contact::kUnknown) continue;
+      Step step{Step::Kind::kRefuted, verdict, SegmentWitness{}};
+      step.witness->box = box;
+      step.witness->contact = PairContact{pair, points};
+      step.verdict.throughout = contact == Contact::kThroughout;
+      return step;
+    }
+    return std::nullopt;
+  };
+  if (gap(pair, task.box.mid().approx()) <= 0) {
+    if (auto step = judge(task.box)) return step;
+  }
+  if (task.box.depth % kEvery != 0 || task.box.depth + 1 >= kPlace) return std::nullopt;
+  const double s = nearest_place(pair, task.box);
+  if (gap(pair, s) > 0) return std::nullopt;
+  return judge(box_around(BigFloat(s), task.box, kPlace));
+}
+
+std::string SegmentWalk::pair_name(std::size_t pair) const {
+  const BodiesText& bodies = *prover_.problem().bodies;
+  return name(bodies, pairs(bodies).at(pair));
+}
+
+// ---- Singular poses -------------------------------------------------------------------------------------------------
+
 bool SegmentWalk::is_singular_between_ends(const DyadicBox& box) const {
   for (std::size_t rung = 1; rung <= ladder_.last(); ++rung) {
     const PrecisionScope precision(ladder_.bits(rung));
@@ -282,7 +421,9 @@ SegmentWalk::Step SegmentWalk::locate_minimum(const Task& task, MarginId margin)
 // ---- Doing it -------------------------------------------------------------------------------------------------------
 
 void SegmentWalk::report(const Task& task, SurveyedBox::Kind kind, Step step) {
-  survey_.boxes.push_back({task.box, kind, std::move(step.witness), std::move(step.reason)});
+  const bool is_proved = kind == SurveyedBox::Kind::kProved;
+  survey_.boxes.push_back(
+      {task.box, kind, std::move(step.witness), std::move(step.reason), is_proved ? directions_ : nullptr});
   last_verdict_ = step.verdict;
   if (extent_ == Extent::kToFirstFailure && kind != SurveyedBox::Kind::kProved) is_over_ = true;
 }
@@ -317,6 +458,7 @@ void SegmentWalk::take(const Task& task, Step step) {
       survey_.tension_N = std::min(survey_.tension_N, step.verdict.tension_N);
       survey_.length_m = std::min(survey_.length_m, step.verdict.length_m);
       survey_.wrench_scale = std::min(survey_.wrench_scale, step.verdict.wrench_scale);
+      survey_.clearance_m = std::min(survey_.clearance_m, step.verdict.clearance_m);
       report(task, Kind::kProved, std::move(step));
       break;
     case Step::Kind::kRefuted: take_refuted(task, std::move(step)); break;
@@ -325,6 +467,10 @@ void SegmentWalk::take(const Task& task, Step step) {
     case Step::Kind::kRefine:
       open_.push_back(task);
       open_.back().continuation_steps *= kMoreSteps;
+      break;
+    case Step::Kind::kRedirect:
+      open_.push_back(task);
+      ++open_.back().redirections;
       break;
     case Step::Kind::kGiveUp: take_given_up(task, std::move(step)); break;
     case Step::Kind::kStop: report(task, Kind::kOpen, std::move(step)); break;

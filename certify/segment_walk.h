@@ -7,7 +7,10 @@
 // not "unsafe".
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "certify/deviation_search.h"
@@ -41,17 +44,19 @@ class SegmentWalk {
     std::size_t rung = 0;        ///< of the ladder; 0: binary64
     bool is_hopeless = false;    ///< no higher rung is worth trying
     int continuation_steps = 1;  ///< of deviations (tolerance.h)
+    int redirections = 0;        ///< how often it was judged again with other directions of pairs
   };
   /// What to do with a box.
   struct Step {
     enum class Kind {
       kProved,
-      kRefuted,  ///< by `witness`
-      kSplit,    ///< into halves, on the same rung
-      kClimb,    ///< judge the same box on the next rung
-      kRefine,   ///< judge the same box again, with more continuation steps
-      kGiveUp,   ///< leave this box open, for `reason`
-      kStop,     ///< leave all the rest open, for `reason`
+      kRefuted,   ///< by `witness`
+      kSplit,     ///< into halves, on the same rung
+      kClimb,     ///< judge the same box on the next rung
+      kRefine,    ///< judge the same box again, with more continuation steps
+      kRedirect,  ///< judge the same box again, with other directions of pairs of bodies
+      kGiveUp,    ///< leave this box open, for `reason`
+      kStop,      ///< leave all the rest open, for `reason`
     };
     Kind kind;
     BoxVerdict verdict = {};
@@ -64,6 +69,12 @@ class SegmentWalk {
   [[nodiscard]] Step examine_deviations(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_motion(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_singular(const Task& task, const BoxVerdict& verdict);
+  [[nodiscard]] Step examine_bodies(const Task& task, const BoxVerdict& verdict);
+  [[nodiscard]] bool redirect(const BoxVerdict& verdict, double s);
+  [[nodiscard]] std::optional<Step> refute_contact(const Task& task, const BoxVerdict& verdict, std::size_t pair);
+  [[nodiscard]] std::string pair_name(std::size_t pair) const;
+  [[nodiscard]] double gap(std::size_t pair, double s) const;
+  [[nodiscard]] double nearest_place(std::size_t pair, const DyadicBox& box) const;
   [[nodiscard]] Step locate_minimum(const Task& task, MarginId margin);
   [[nodiscard]] bool is_proved_inside(const Task& task);
   [[nodiscard]] bool is_singular_between_ends(const DyadicBox& box) const;
@@ -83,6 +94,7 @@ class SegmentWalk {
   Extent extent_;
   const std::stop_token& stop_;
   DeviationSearch deviations_;
+  std::shared_ptr<const PairDirections> directions_;  ///< along which pairs were apart last; null: no bodies
   SegmentSurvey survey_;
   std::vector<Task> open_ = {Task{}};
   bool is_over_ = false;

@@ -30,8 +30,9 @@ enum class Undecided {
   kTimeBudget,
   kOutsideManifold,
   kKernel,
+  kBodies,
 };
-inline constexpr std::size_t kUndecidedReasons = 17;
+inline constexpr std::size_t kUndecidedReasons = 18;
 
 /// The words for a reason, which may be followed by a place: "bisection depth reached at". `at_pose` has words for a
 /// single pose, or is null.

@@ -68,7 +68,8 @@ template <class Upper>
 struct Change {
   std::array<std::array<Upper, 3>, kCables> d, reach, arm;
   std::array<Upper, 3> load_point;
-  Upper turn;       ///< the angle by which the platform turns; only where loads are items
+  Upper position;   ///< of the platform's origin
+  Upper turn;       ///< the angle by which the platform turns
   Square<Upper> s;  ///< |S − I|
 
   /// Calls visit(ours, a's, b's) for each number.
@@ -83,6 +84,7 @@ struct Change {
       for (std::size_t k = 0; k < kCables; ++k) visit(s[i][k], a.s[i][k], b.s[i][k]);
     }
     for (std::size_t k = 0; k < 3; ++k) visit(load_point[k], a.load_point[k], b.load_point[k]);
+    visit(position, a.position, b.position);
     visit(turn, a.turn, b.turn);
   }
 };
@@ -276,10 +278,16 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
   }
   errors.y = taut::upper_product(q, origin.c_magnitude);
   std::array<std::array<Upper, 3>, kCables> moment;
-  Upper spin(0.0);  // >= |Ω_c|
+  Upper spin(0.0);   // >= |Ω_c|
+  Upper drift(0.0);  // >= |ṗ_c|
   for (std::size_t r = 0; r < kCables; ++r) {
     for (std::size_t n = 0; n < 3; ++n) moment[r][n] = origin.c_magnitude[r][3 + n] + errors.y[r][3 + n];
-    if (origin.length_controlled) spin += origin.pull[r] * norm_above<I>(moment[r]);
+    if (!origin.length_controlled) continue;
+    const Upper moment_size = norm_above<I>(moment[r]);
+    std::array<Upper, 3> force;
+    for (std::size_t n = 0; n < 3; ++n) force[n] = origin.c_magnitude[r][n] + errors.y[r][n];
+    spin += origin.pull[r] * moment_size;
+    drift += origin.pull[r] * (norm_above<I>(force) + moment_size * origin.load_point_size);
   }
   errors.h = product_errors(origin.h, q, moment, guess.arm);
   errors.twist = product_errors(origin.twist, q, moment, guess.d);
@@ -307,7 +315,8 @@ Change<UpperOf<I>> rates(const Origin<I>& origin, const ToleranceModel<I>& toler
     }
   }
   rate.load_point.fill((turn + spin) * origin.load_point_size + tolerance.load_point);
-  rate.turn = origin.has_items ? turn + spin : Upper(0.0);
+  rate.position = drift + tolerance.position;
+  rate.turn = turn + spin;
 
   Square<Upper> b;
   Square<Upper> s = guess.s;
@@ -537,6 +546,9 @@ class States {
     return x;
   }
 
+  /// How far things have moved at the end of the last part, at most.
+  [[nodiscard]] const Change<Upper>& reached() const { return reached_; }
+
  private:
   const UndisturbedBox<I>& box_;
   const Origin<I>& origin_;
@@ -710,6 +722,8 @@ std::optional<DeviationBounds<I>> disturbance(const UndisturbedBox<I>& box, cons
     if (origin.has_items) result.reach = reach_above(origin, *x);  // the last X holds all states
   }
   if (box.length_controlled) result.length = farthest;
+  result.position = states.reached().position;
+  result.turn = states.reached().turn;
   return result;
 }
 

@@ -53,6 +53,9 @@ struct DeviationBounds {
   /// How far K moves tensions of deviating machines below (side 0) and above (side 1) their nominal ones [N]; only
   /// where loads are items.
   std::optional<std::array<std::array<Upper, 2>, kCables>> reach;
+  /// Of the platform's pose: a point x of it moves by no more than position + turn |x|.
+  Upper position{};  ///< of its origin [m]
+  Upper turn{};      ///< the angle between its orientations [rad]
 };
 
 /// What (t) needs to know of a box, undisturbed.

@@ -150,6 +150,16 @@ Explanation explained(Undecided reason) {
           "lengths, a violation to which the motion could not be followed from the path's beginning.",
           "Keep the path a little further from limits and singular poses there, or make the tolerances smaller.",
           "open: the checker's kernel does not confirm what was found [U17].");
+    case Undecided::kBodies:
+      return entry(
+          "Bodies were not proved to stay apart",
+          "Two bodies come so near to their clearance that no proof of either verdict was found, a deviation within "
+          "the tolerances may bring them nearer, or a cable may be shorter than its free ends.",
+          "A path that just touches a clearance; tolerances that use up what is free; cables that meet at an anchor "
+          "with free ends that are too short.",
+          "Keep the path further from the bodies named, state a smaller clearance, smaller tolerances, or longer free "
+          "ends.",
+          "open: bodies were not proved to stay apart: cable 1 / cable 2 [U18].");
   }
   return {};
 }

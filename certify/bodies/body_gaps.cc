@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/bodies/body_gaps.h"
+
+#include <stdexcept>
+
+namespace taut {
+namespace {
+
+template <class I>
+UpperOf<I> above(const I& x) {
+  return UpperOf<I>(magnitude(x));
+}
+
+template <class I>
+UpperOf<I> norm_above(const Vector3<I>& x) {
+  const UpperOf<I> a = above(x(0)), b = above(x(1)), c = above(x(2));
+  return ProofScalarTraits<I>::root(a * a + b * b + c * c);
+}
+
+template <class I>
+SlopeForm<I> lesser(const SlopeForm<I>& a, const SlopeForm<I>& b) {
+  return -larger(-a, -b);
+}
+
+template <class I>
+I lesser(const I& a, const I& b) {
+  return -larger(-a, -b);
+}
+
+/// The constant x·y.
+template <class I>
+I dot(const std::array<I, 3>& x, const Vector3<I>& y) {
+  return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
+}
+
+template <class I>
+SlopeForm<I> dot(const std::array<SlopeForm<I>, 3>& x, const Vector3<I>& y) {
+  return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
+}
+
+}  // namespace
+
+template <class I>
+BodyGaps<I>::BodyGaps(const BodiesBox<I>& box) : box_(box) {
+  if (box.tolerance != nullptr) {
+    position_ = box.deviations->position;
+    turn_ = box.deviations->turn;
+    base_ = box.tolerance->base_anchor;
+    platform_ = box.tolerance->platform_anchor;
+  }
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto& free = box.bodies.cable_free[i];
+    // A deviating cable may be longer by this, so that its free ends are smaller shares of it.
+    I change(0.0);
+    if (box.tolerance != nullptr) change = I(ProofScalarTraits<I>::to_double(box.deviations->length[i]));
+    if (!certainly_positive(box.length[i].range - change - free[0] - free[1])) have_length_ = false;
+    const Form longest = box.length[i] + change;
+    for (std::size_t end = 0; end < 2; ++end) {
+      cut_[i].share[end] = Form(0.0);
+      if (!box.bodies.is_cut[i][end]) continue;
+      if (!certainly_positive(longest.range)) {
+        have_length_ = false;
+        continue;
+      }
+      cut_[i].share[end] = reciprocal(longest) * free[end];
+      cut_[i].share[end].tighten(box.offset);
+    }
+  }
+}
+
+template <class I>
+typename BodyGaps<I>::Turned BodyGaps<I>::turned(const std::array<I, 3>& u, bool in_platform) const {
+  Turned result;
+  result.u = u;
+  for (int k = 0; k < 3; ++k) {
+    const auto entry = [&](int i) { return in_platform ? box_.r_WP(k, i) : box_.r_WP(i, k); };
+    result.other[static_cast<std::size_t>(k)] = entry(0) * u[0] + entry(1) * u[1] + entry(2) * u[2];
+  }
+  if (in_platform) {
+    result.of_origin = result.other[0] * box_.p_WP(0) + result.other[1] * box_.p_WP(1) + result.other[2] * box_.p_WP(2);
+  } else {
+    result.of_origin = box_.p_WP(0) * u[0] + box_.p_WP(1) * u[1] + box_.p_WP(2) * u[2];
+  }
+  return result;
+}
+
+/// How far deviations move the ends of a cable, base and platform, in the axes chosen. What two cables with a common
+/// anchor share is counted at their other ends.
+template <class I>
+std::array<UpperOf<I>, 2> BodyGaps<I>::end_shifts(const CheckedPair<I>& pair, std::size_t i, bool in_platform) const {
+  if (box_.tolerance == nullptr) return {Upper(0.0), Upper(0.0)};
+  const Upper reach = norm_above(box_.model.p_PB[i]);
+  if (in_platform) {
+    const Upper lever = above(box_.length[i].range) + reach;  // |a_i − p|
+    const Upper base = base_[i] + position_ + turn_ * lever;
+    if (pair.shares_platform) return {base + platform_[i], Upper(0.0)};
+    return {base, platform_[i]};
+  }
+  const Upper platform = position_ + turn_ * reach + platform_[i];
+  if (pair.shares_base) return {Upper(0.0), platform + base_[i]};
+  return {base_[i], platform};
+}
+
+template <class I>
+std::array<typename BodyGaps<I>::Projection, 2> BodyGaps<I>::cable(std::size_t i, const Turned& u, bool in_platform,
+                                                                   const std::array<Upper, 2>& shifts) const {
+  const Vector3<I>& a = box_.model.p_WA[i];
+  const Vector3<I>& b = box_.model.p_PB[i];
+  const Form base = in_platform ? dot(u.other, a) - u.of_origin : Form(dot(u.u, a));
+  const Form platform = in_platform ? Form(dot(u.u, b)) : u.of_origin + dot(u.other, b);
+  const Form along = platform - base;
+  std::array<Projection, 2> ends{Projection{base, shifts[0]}, Projection{platform, shifts[1]}};
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!box_.bodies.is_cut[i][end]) continue;
+    const Form& share = cut_[i].share[end];
+    ends[end].at = end == 0 ? base + share * along : platform - share * along;
+    // (1 − λ) of the one end's shift and λ of the other's.
+    ends[end].shift = above(I(I(1.0) - share.range)) * shifts[end] + above(share.range) * shifts[1 - end];
+  }
+  return ends;
+}
+
+template <class I>
+std::vector<typename BodyGaps<I>::Projection> BodyGaps<I>::platform_points(const ConvexBody<I>& body,
+                                                                           const Turned& u) const {
+  std::vector<Projection> result;
+  result.reserve(body.points.size());
+  for (const Vector3<I>& x : body.points) {
+    Upper shift(0.0);
+    if (box_.tolerance != nullptr) shift = position_ + turn_ * norm_above(x);
+    result.push_back({u.of_origin + dot(u.other, x), shift});
+  }
+  return result;
+}
+
+template <class I>
+std::vector<typename BodyGaps<I>::Projection> BodyGaps<I>::first(const CheckedPair<I>& pair, const Turned& u,
+                                                                 bool in_platform) const {
+  if (pair.kind == PairClass::kPlatformObstacles) return platform_points(box_.bodies.platform[pair.first], u);
+  const auto ends = cable(pair.first, u, in_platform, end_shifts(pair, pair.first, in_platform));
+  return {ends[0], ends[1]};
+}
+
+template <class I>
+GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& direction) const {
+  const bool is_of_obstacle = pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
+  const auto* half = is_of_obstacle ? std::get_if<HalfSpace<I>>(&box_.bodies.obstacles[pair.second]) : nullptr;
+  const bool in_platform = !is_of_obstacle && direction.in_platform;
+  if (pair.kind == PairClass::kCablesPlatform && !in_platform) {
+    throw std::logic_error("a cable and the platform are compared in the platform's axes");
+  }
+  std::array<I, 3> u;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = half != nullptr ? half->normal(static_cast<int>(k)) : I(static_cast<double>(direction.u[k]));
+  }
+  const Turned turned_u = turned(u, in_platform);
+  const I norm = euclidean_norm(u[0], u[1], u[2]);
+  const I inverse_norm = reciprocal(norm);
+
+  // The second body: constants, or two ends of a cable that move with the platform, too.
+  std::vector<Projection> second;
+  I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
+                                                       : box_.bodies.cable_radius[pair.first];
+  if (half != nullptr) {
+    second.push_back({Form(half->offset), Upper(0.0)});
+  } else if (pair.kind == PairClass::kCablesCables) {
+    const auto ends = cable(pair.second, turned_u, in_platform, end_shifts(pair, pair.second, in_platform));
+    second.assign(ends.begin(), ends.end());
+    radii = radii + box_.bodies.cable_radius[pair.second];
+  } else {
+    const ConvexBody<I>& body = is_of_obstacle ? std::get<ConvexBody<I>>(box_.bodies.obstacles[pair.second])
+                                               : box_.bodies.platform[pair.second];
+    std::optional<I> farthest;
+    for (const Vector3<I>& x : body.points) {
+      const I at = dot(turned_u.u, x);
+      farthest = farthest ? larger(*farthest, at) : at;
+    }
+    second.push_back({Form(farthest.value()), Upper(0.0)});
+    radii = radii + body.radius;
+  }
+
+  std::optional<GapBound<I>> result;
+  for (const Projection& a : first(pair, turned_u, in_platform)) {
+    for (const Projection& b : second) {
+      Form value = (a.at - b.at) * inverse_norm - radii - pair.clearance;
+      value.tighten(box_.offset);
+      const I disturbed = value.range + ProofScalarTraits<I>::symmetric(a.shift + b.shift);
+      result = result ? GapBound<I>{lesser(result->value, value), lesser(result->disturbed, disturbed)}
+                      : GapBound<I>{value, disturbed};
+    }
+  }
+  return result.value();
+}
+
+/// The points of a body over T, in W; of a cable the ends of its checked part.
+template <class I>
+std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pair, bool is_first) const {
+  const auto of_platform = [&](const Vector3<I>& x) {
+    Vector3<Form> y;
+    for (int k = 0; k < 3; ++k) {
+      y(k) = box_.p_WP(k) + box_.r_WP(k, 0) * x(0) + box_.r_WP(k, 1) * x(1) + box_.r_WP(k, 2) * x(2);
+    }
+    return y;
+  };
+  std::vector<Vector3<Form>> result;
+  const std::size_t n = is_first ? pair.first : pair.second;
+  const bool is_cable = is_first ? pair.kind != PairClass::kPlatformObstacles : pair.kind == PairClass::kCablesCables;
+  if (is_cable) {
+    const Vector3<Form> end = of_platform(box_.model.p_PB[n]);
+    std::array<Vector3<Form>, 2> ends;
+    for (int k = 0; k < 3; ++k) {
+      const Form base(box_.model.p_WA[n](k));
+      const Form along = end(k) - base;
+      for (std::size_t side = 0; side < 2; ++side) {
+        Form share(0.0);  // of the undisturbed cable
+        if (box_.bodies.is_cut[n][side]) share = reciprocal(box_.length[n]) * box_.bodies.cable_free[n][side];
+        ends[side](k) = side == 0 ? base + share * along : end(k) - share * along;
+      }
+    }
+    return {ends[0], ends[1]};
+  }
+  if (is_first || pair.kind == PairClass::kCablesPlatform) {
+    for (const Vector3<I>& x : box_.bodies.platform[n].points) result.push_back(of_platform(x));
+  } else {
+    for (const Vector3<I>& x : std::get<ConvexBody<I>>(box_.bodies.obstacles[n]).points) {
+      result.push_back({Form(x(0)), Form(x(1)), Form(x(2))});
+    }
+  }
+  return result;
+}
+
+template <class I>
+I BodyGaps<I>::distance(const CheckedPair<I>& pair, const PointPair& shares, bool only_at_mid) const {
+  const auto mean = [&](bool is_first) {
+    const std::vector<Vector3<Form>> all = points(pair, is_first);
+    const std::vector<std::int64_t>& weights = is_first ? shares.first : shares.second;
+    if (weights.size() != all.size()) throw std::logic_error("shares of other points");
+    Vector3<Form> sum(Form(0.0), Form(0.0), Form(0.0));
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      if (weights[n] == 0) continue;
+      const I weight(static_cast<double>(weights[n]) / static_cast<double>(PointPair::kWhole));  // exact
+      for (int k = 0; k < 3; ++k) sum(k) = sum(k) + all[n](k) * weight;
+    }
+    return sum;
+  };
+  const auto known = [&](Form& x) {
+    x.tighten(box_.offset);
+    return only_at_mid ? x.at_mid : x.range;
+  };
+  const Vector3<Form> a = mean(true);
+  I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
+                                                       : box_.bodies.cable_radius[pair.first];
+  const bool is_of_obstacle = pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
+  if (is_of_obstacle) {
+    if (const auto* half = std::get_if<HalfSpace<I>>(&box_.bodies.obstacles[pair.second])) {
+      const Vector3<I>& n = half->normal;
+      Form height = a(0) * n(0) + a(1) * n(1) + a(2) * n(2) - half->offset;
+      return known(height) / euclidean_norm(n(0), n(1), n(2)) - radii - pair.clearance;
+    }
+    radii = radii + std::get<ConvexBody<I>>(box_.bodies.obstacles[pair.second]).radius;
+  } else {
+    radii = radii + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
+                                                           : box_.bodies.platform[pair.second].radius);
+  }
+  const Vector3<Form> b = mean(false);
+  Vector3<Form> apart;
+  for (int k = 0; k < 3; ++k) apart(k) = a(k) - b(k);
+  return euclidean_norm(known(apart(0)), known(apart(1)), known(apart(2))) - radii - pair.clearance;
+}
+
+template class BodyGaps<Interval>;
+template class BodyGaps<MpInterval>;
+
+}  // namespace taut

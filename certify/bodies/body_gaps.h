@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether two bodies stay apart over a box of a segment: the gap along a given direction, and the distance of two
+// given points.
+//
+// For every vector u and all points a_k, b_l and radii of two bodies,
+//   gap ‖u‖ >= min_k (u·a_k(t) − r_k ‖u‖) − max_l (u·b_l(t) + r_l ‖u‖).
+// Each u·a_k is a centred form over the box. Any direction will do; a good one is proposed by floating point. In the
+// axes of the world
+//   u·(p + R x) = u·p + (Rᵀu)·x,   the ends of cable i: u·a_i and u·p + (Rᵀu)·b_i,
+// and in those of the platform its points stand still and the ends of cable i are (R u)·(a_i − p) and u·b_i. A cable's
+// points at the shares λ of its length lie between them. Proofs: docs/theory.md, "Bodies".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "certify/arithmetic/neumann.h"
+#include "certify/arithmetic/slope_form.h"
+#include "certify/tolerance/tolerance.h"
+#include "kinematics/bodies.h"
+
+namespace taut {
+
+/// A vector along which two bodies are to be shown apart; it points from the second to the first.
+struct Direction {
+  static constexpr int kLargest = 32767;  ///< of its components; certificates hold no larger ones
+  bool in_platform = false;               ///< in the axes of P, else of W
+  std::array<int, 3> u{};                 ///< not all 0, but where the second body is a half-space: not used
+  bool operator==(const Direction&) const = default;
+};
+
+/// One for each pair of a BodyModel, in its order.
+using PairDirections = std::vector<Direction>;
+
+/// A point of each of two bodies, as shares of its points: multiples of 1/kWhole that sum to kWhole. Of a cable, the
+/// points are the two ends of its checked part; of a half-space there are none: its nearest point is meant.
+struct PointPair {
+  static constexpr std::int64_t kWhole = std::int64_t{1} << 30;
+  std::vector<std::int64_t> first, second;
+};
+
+/// Where everything is over a box T with midpoint m, of the undisturbed machine but for `deviations`.
+template <class I>
+struct BodiesBox {
+  const BodyModel<I>& bodies;
+  const Model<I>& model;
+  const Vector3<SlopeForm<I>>& p_WP;
+  const Matrix3<SlopeForm<I>>& r_WP;
+  const std::array<SlopeForm<I>, kCables>& length;  ///< |d_i|
+  const I& offset;                                  ///< contains t − m for all t in T
+  const ToleranceModel<I>* tolerance = nullptr;     ///< null: no deviations; else all of its, with their bounds on T:
+  const DeviationBounds<I>* deviations = nullptr;
+};
+
+/// A lower bound of how much farther than its clearance a pair is apart [m].
+template <class I>
+struct GapBound {
+  SlopeForm<I> value;  ///< of the undisturbed machine
+  I disturbed;         ///< over all of T, for every deviation
+};
+
+/// Evaluates pairs over one box. For Interval: only under run_upward(). Void if a fault was raised.
+template <class I>
+class BodyGaps {
+ public:
+  using Upper = UpperOf<I>;
+
+  explicit BodyGaps(const BodiesBox<I>& box);
+
+  /// Whether every cable is certainly longer than both its free ends, on T, for every deviation: what follows is void
+  /// for cables else.
+  [[nodiscard]] bool have_cables_length() const { return have_length_; }
+
+  /// Claim: for every t in T and every deviation the bodies of the pair are farther apart than its clearance by at
+  /// least `disturbed`.
+  [[nodiscard]] GapBound<I> along(const CheckedPair<I>& pair, const Direction& direction) const;
+
+  /// Contains how much farther than the pair's clearance two of its bodies' points are apart, on the undisturbed
+  /// machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not apart by more than its
+  /// clearance there. @pre as many shares as either body has points
+  [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& points, bool only_at_mid) const;
+
+ private:
+  using Form = SlopeForm<I>;
+  /// A point of a body projected on a direction, and by how much deviations may move it.
+  struct Projection {
+    Form at;
+    Upper shift;
+  };
+  /// PairDirections are turned into the other axes once.
+  struct Turned {
+    std::array<I, 3> u;         ///< in its own axes
+    std::array<Form, 3> other;  ///< in the other ones
+    Form of_origin;             ///< u·p, in W; (R u)·p in P
+  };
+  /// The shares λ of a cable's length at which its checked part begins and ends: λ_0 and 1 − λ_1.
+  struct Cut {
+    std::array<Form, 2> share;
+  };
+
+  [[nodiscard]] Turned turned(const std::array<I, 3>& u, bool in_platform) const;
+  [[nodiscard]] std::array<Projection, 2> cable(std::size_t i, const Turned& u, bool in_platform,
+                                                const std::array<Upper, 2>& shifts) const;
+  [[nodiscard]] std::vector<Projection> platform_points(const ConvexBody<I>& body, const Turned& u) const;
+  [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t cable, bool in_platform) const;
+  [[nodiscard]] std::vector<Projection> first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
+  [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first) const;
+
+  const BodiesBox<I>& box_;
+  Upper position_{}, turn_{};                       ///< of the platform, by deviations
+  std::array<Upper, kCables> base_{}, platform_{};  ///< tolerances of anchors
+  std::array<Cut, kCables> cut_;
+  bool have_length_ = true;
+};
+
+extern template class BodyGaps<Interval>;
+extern template class BodyGaps<MpInterval>;
+
+}  // namespace taut

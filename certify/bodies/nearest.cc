@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/bodies/nearest.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace taut {
+namespace {
+
+using Point = Vector3<double>;
+
+/// A vertex a_i − b_j of the difference of two hulls.
+struct Vertex {
+  Point at;
+  std::size_t first = 0, second = 0;
+};
+
+std::size_t farthest(std::span<const Point> points, const Point& along) {
+  const auto height = [&](const Point& x) { return x.dot(along); };
+  return static_cast<std::size_t>(std::ranges::max_element(points, {}, height) - points.begin());
+}
+
+/// The point of the hull of up to four vertices that is nearest to the origin, as shares of these.
+struct OnSimplex {
+  Point at{0, 0, 0};
+  std::array<double, 4> shares{};
+  double squared = std::numeric_limits<double>::infinity();
+};
+
+/// The nearest point of the affine hull of some of the vertices; not if it is outside of their hull.
+std::optional<OnSimplex> nearest_on_face(std::span<const Vertex> vertices, unsigned members) {
+  std::array<std::size_t, 4> index{};
+  int n = 0;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if ((members >> k & 1U) != 0) index[static_cast<std::size_t>(n++)] = k;
+  }
+  const Point& origin = vertices[index[0]].at;
+  Eigen::Matrix<double, 3, 3> edges = Eigen::Matrix<double, 3, 3>::Zero();
+  for (int k = 1; k < n; ++k) edges.col(k - 1) = vertices[index[static_cast<std::size_t>(k)]].at - origin;
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  if (n > 1) {
+    const auto used = edges.leftCols(n - 1);
+    const Eigen::MatrixXd gram = used.transpose() * used;
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(gram);
+    if (!lu.isInvertible()) return std::nullopt;  // a lower face has the same points
+    along.head(n - 1) = lu.solve(-(used.transpose() * origin));
+  }
+  OnSimplex result;
+  double rest = 1;
+  for (int k = 1; k < n; ++k) {
+    const double share = along(k - 1);
+    if (!(share >= 0)) return std::nullopt;
+    result.shares[index[static_cast<std::size_t>(k)]] = share;
+    rest -= share;
+  }
+  if (!(rest >= 0)) return std::nullopt;
+  result.shares[index[0]] = rest;
+  result.at = origin + edges * along;
+  result.squared = result.at.squaredNorm();
+  return result;
+}
+
+OnSimplex nearest_on_simplex(std::span<const Vertex> vertices) {
+  OnSimplex best;
+  for (unsigned members = 1; members < 1U << vertices.size(); ++members) {
+    const auto candidate = nearest_on_face(vertices, members);
+    if (candidate && candidate->squared < best.squared) best = *candidate;
+  }
+  return best;
+}
+
+}  // namespace
+
+NearestPoints nearest_points(std::span<const Point> first, std::span<const Point> second) {
+  constexpr int kMostSteps = 100;
+  constexpr double kEnough = 1e-14;  // of the squared distance
+  std::vector<Vertex> simplex{{first[0] - second[0], 0, 0}};
+  OnSimplex nearest = nearest_on_simplex(simplex);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Point down = -nearest.at;
+    const std::size_t i = farthest(first, down);
+    const std::size_t j = farthest(second, -down);
+    const Vertex next{first[i] - second[j], i, j};
+    const bool is_known = std::ranges::any_of(simplex, [&](const Vertex& v) { return v.first == i && v.second == j; });
+    if (is_known || nearest.squared - next.at.dot(nearest.at) <= kEnough * nearest.squared) break;
+    std::vector<Vertex> kept;
+    for (std::size_t k = 0; k < simplex.size(); ++k) {
+      if (nearest.shares[k] > 0) kept.push_back(simplex[k]);
+    }
+    if (kept.size() == 4) break;  // the origin is inside
+    kept.push_back(next);
+    const OnSimplex closer = nearest_on_simplex(kept);
+    if (!(closer.squared < nearest.squared)) break;
+    simplex = std::move(kept);
+    nearest = closer;
+  }
+  NearestPoints result{std::sqrt(nearest.squared), nearest.at, std::vector<double>(first.size()),
+                       std::vector<double>(second.size())};
+  for (std::size_t k = 0; k < simplex.size(); ++k) {
+    result.first[simplex[k].first] += nearest.shares[k];
+    result.second[simplex[k].second] += nearest.shares[k];
+  }
+  return result;
+}
+
+// ---- Pairs of a problem ---------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The two ends of a cable's checked part, in W.
+std::vector<Point> cable_ends(const BodyModel<double>& bodies, const Model<double>& model, const RigidPose& pose,
+                              std::size_t i) {
+  const Point a = model.p_WA[i];
+  const Point b = pose.p + pose.q.toRotationMatrix() * model.p_PB[i];
+  const Point along = (b - a).normalized();
+  return {a + bodies.cable_free[i][0] * along, b - bodies.cable_free[i][1] * along};
+}
+
+std::vector<Point> carried(const ConvexBody<double>& body, const RigidPose& pose) {
+  const Matrix3<double> r = pose.q.toRotationMatrix();
+  std::vector<Point> points;
+  points.reserve(body.points.size());
+  for (const Point& x : body.points) points.emplace_back(pose.p + r * x);
+  return points;
+}
+
+/// As multiples of 1/kWhole that sum to kWhole.
+std::vector<std::int64_t> rounded_shares(const std::vector<double>& shares) {
+  std::vector<std::int64_t> result;
+  for (const double share : shares) {
+    result.push_back(std::llround(std::clamp(share, 0.0, 1.0) * static_cast<double>(PointPair::kWhole)));
+  }
+  const std::int64_t sum = std::accumulate(result.begin(), result.end(), std::int64_t{0});
+  *std::ranges::max_element(result) += PointPair::kWhole - sum;
+  return result;
+}
+
+Direction rounded_direction(const Point& along, bool in_platform) {
+  const Point scaled = along * (Direction::kLargest / along.cwiseAbs().maxCoeff());
+  Direction result{in_platform, {}};
+  int divisor = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int x = static_cast<int>(std::lround(scaled(k)));
+    result.u[static_cast<std::size_t>(k)] = x;
+    divisor = std::gcd(divisor, x);
+  }
+  for (int& x : result.u) x /= divisor;
+  return result;
+}
+
+}  // namespace
+
+/// Of a half-space no shares, and `apart` along its normal, whose height it is.
+struct BodySampler::Found {
+  NearestPoints nearest;
+  double needed = 0;  ///< radii and clearance
+  bool is_half_space = false;
+};
+
+BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  const bool is_of_platform = pair.kind == PairClass::kPlatformObstacles;
+  const std::vector<Point> first =
+      is_of_platform ? carried(bodies_.platform[pair.first], pose) : cable_ends(bodies_, model, pose, pair.first);
+  Found found;
+  found.needed =
+      pair.clearance + (is_of_platform ? bodies_.platform[pair.first].radius : bodies_.cable_radius[pair.first]);
+  std::vector<Point> second;
+  switch (pair.kind) {
+    case PairClass::kCablesCables:
+      second = cable_ends(bodies_, model, pose, pair.second);
+      found.needed += bodies_.cable_radius[pair.second];
+      break;
+    case PairClass::kCablesPlatform:
+      second = carried(bodies_.platform[pair.second], pose);
+      found.needed += bodies_.platform[pair.second].radius;
+      break;
+    case PairClass::kPlatformObstacles:
+    case PairClass::kCablesObstacles: {
+      const Obstacle<double>& obstacle = bodies_.obstacles[pair.second];
+      if (const auto* half = std::get_if<HalfSpace<double>>(&obstacle)) {
+        const Point normal = half->normal.normalized();
+        const std::size_t lowest = farthest(first, -normal);
+        found.is_half_space = true;
+        found.nearest.distance = first[lowest].dot(normal) - half->offset / half->normal.norm();
+        found.nearest.apart = normal;
+        found.nearest.first.assign(first.size(), 0.0);
+        found.nearest.first[lowest] = 1;
+        return found;
+      }
+      const auto& body = std::get<ConvexBody<double>>(obstacle);
+      second = body.points;
+      found.needed += body.radius;
+    }
+  }
+  found.nearest = nearest_points(first, second);
+  return found;
+}
+
+double BodySampler::gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
+  const Found found = find(model, pose, pair);
+  return found.nearest.distance - found.needed;
+}
+
+std::optional<Direction> BodySampler::direction(const Model<double>& model, const RigidPose& pose,
+                                                std::size_t n) const {
+  const Found found = find(model, pose, n);
+  if (found.is_half_space) return Direction{};
+  const CheckedPair<double>& pair = bodies_.pairs[n];
+  // Two cables on one point of the platform are best seen from it; where deviations matter little, W is as good.
+  const bool in_platform =
+      pair.kind == PairClass::kCablesPlatform || (pair.kind == PairClass::kCablesCables && pair.shares_platform);
+  if (!(found.nearest.distance > 0)) return std::nullopt;
+  Point along = found.nearest.apart;
+  if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
+  return rounded_direction(along, in_platform);
+}
+
+PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
+  const Found found = find(model, pose, pair);
+  PointPair points{rounded_shares(found.nearest.first), {}};
+  if (!found.is_half_space) points.second = rounded_shares(found.nearest.second);
+  return points;
+}
+
+}  // namespace taut

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where two bodies come nearest, in floating point: what proposes directions and points. Nothing here is proved.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "certify/bodies/body_gaps.h"
+#include "kinematics/bodies.h"
+#include "kinematics/pose_sampler.h"
+
+namespace taut {
+
+/// Nearest points of the convex hulls of two sets of points (Gilbert, Johnson and Keerthi's algorithm).
+struct NearestPoints {
+  double distance = 0;                ///< 0 where the hulls meet
+  Vector3<double> apart{0, 0, 0};     ///< from the second's nearest point to the first's
+  std::vector<double> first, second;  ///< shares of the points, nonnegative, summing to 1
+};
+[[nodiscard]] NearestPoints nearest_points(std::span<const Vector3<double>> first,
+                                           std::span<const Vector3<double>> second);
+
+/// The bodies of a problem in doubles.
+class BodySampler {
+ public:
+  explicit BodySampler(const Problem& problem) : bodies_(make_body_model<double>(problem)) {}
+
+  [[nodiscard]] const BodyModel<double>& bodies() const { return bodies_; }
+  /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance.
+  [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  /// Along which a pair is farthest apart at a pose; nothing where hulls meet.
+  [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose,
+                                                   std::size_t pair) const;
+  /// Its nearest points there.
+  [[nodiscard]] PointPair nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+
+ private:
+  struct Found;
+  [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+
+  BodyModel<double> bodies_;
+};
+
+}  // namespace taut

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies of bodies.h.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+
+#include "kinematics/geometry.h"
+#include "problem/decimal.h"
+#include "problem/problem.h"
+
+namespace taut {
+
+namespace bodies_detail {
+
+template <class S>
+Vector3<S> vector(const std::array<DecimalText, 3>& x) {
+  return {ScalarTraits<S>::from_decimal(x[0]), ScalarTraits<S>::from_decimal(x[1]),
+          ScalarTraits<S>::from_decimal(x[2])};
+}
+
+/// at + Rz(yaw) Ry(pitch) Rx(roll) x for each point x of a hull.
+template <class S>
+ConvexBody<S> placed(const BodyText& body, const HullText& hull) {
+  const Vector3<S> at = vector<S>(body.at_m);
+  const bool is_turned = std::ranges::any_of(body.rotation_rad, [](const ExpressionText& x) { return x != "0"; });
+  Matrix3<S> r;
+  if (is_turned) {
+    r = rotation_zyx<S>(evaluate_constant<S>(body.rotation_rad[2]), evaluate_constant<S>(body.rotation_rad[1]),
+                        evaluate_constant<S>(body.rotation_rad[0]));
+  }
+  ConvexBody<S> result;
+  result.radius = ScalarTraits<S>::from_decimal(hull.radius_m);
+  for (const auto& point : hull.points_m) {
+    const Vector3<S> x = vector<S>(point);
+    Vector3<S> placed = at;
+    for (int i = 0; i < 3; ++i) {
+      placed(i) = placed(i) + (is_turned ? S(r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2)) : x(i));
+    }
+    result.points.push_back(placed);
+  }
+  return result;
+}
+
+template <class S>
+Obstacle<S> obstacle(const BodyText& body) {
+  if (const auto* hull = std::get_if<HullText>(&body.shape)) return placed<S>(body, *hull);
+  if (const auto* half = std::get_if<HalfSpaceText>(&body.shape)) {
+    const Vector3<S> normal = vector<S>(half->normal);
+    const Vector3<S> at = vector<S>(body.at_m);
+    return HalfSpace<S>{normal, normal(0) * at(0) + normal(1) * at(1) + normal(2) * at(2)};
+  }
+  throw std::logic_error("a body that is neither a hull nor a half-space");
+}
+
+inline bool is_same(const DecimalText& a, const DecimalText& b) { return Decimal::parse(a) == Decimal::parse(b); }
+
+inline bool is_same(const std::array<DecimalText, 3>& a, const std::array<DecimalText, 3>& b) {
+  return is_same(a[0], b[0]) && is_same(a[1], b[1]) && is_same(a[2], b[2]);
+}
+
+}  // namespace bodies_detail
+
+template <class S>
+BodyModel<S> make_body_model(const Problem& problem) {
+  using namespace bodies_detail;
+  const BodiesText& text = *problem.bodies;
+  BodyModel<S> model;
+  for (const BodyText& body : text.platform) {
+    const auto* hull = std::get_if<HullText>(&body.shape);
+    if (hull == nullptr) throw std::logic_error("a platform body that is no hull");
+    model.platform.push_back(placed<S>(body, *hull));
+  }
+  for (const BodyText& body : text.obstacles) model.obstacles.push_back(obstacle<S>(body));
+  for (std::size_t i = 0; i < kCables; ++i) {
+    model.cable_radius[i] = ScalarTraits<S>::from_decimal(text.cables.diameter_m[i]) * S(0.5);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const DecimalText& free = text.cables.free_ends_m[i][end];
+      model.cable_free[i][end] = ScalarTraits<S>::from_decimal(free);
+      model.is_cut[i][end] = Decimal::parse(free).sign() != 0;
+    }
+  }
+  const auto is_one = [&](const auto& anchors, const std::array<DecimalText, kCables>* tolerances, std::size_t i,
+                          std::size_t j) {
+    return is_same(anchors[i], anchors[j]) && (tolerances == nullptr || is_same((*tolerances)[i], (*tolerances)[j]));
+  };
+  const TolerancesText* tolerances = problem.tolerances ? &*problem.tolerances : nullptr;
+  for (const BodyPair& pair : pairs(text)) {
+    CheckedPair<S> checked{pair.kind, pair.first, pair.second, ScalarTraits<S>::from_decimal(pair.clearance_m)};
+    if (pair.kind == PairClass::kCablesCables) {
+      const auto* base = tolerances != nullptr ? &tolerances->base_anchor_m : nullptr;
+      const auto* platform = tolerances != nullptr ? &tolerances->platform_anchor_m : nullptr;
+      checked.shares_base = is_one(problem.robot.base_anchors_m, base, pair.first, pair.second);
+      checked.shares_platform = is_one(problem.robot.platform_anchors_m, platform, pair.first, pair.second);
+    }
+    model.pairs.push_back(std::move(checked));
+  }
+  return model;
+}
+
+}  // namespace taut

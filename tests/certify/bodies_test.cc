@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "certify/bodies/body_gaps.h"
+#include "certify/bodies/nearest.h"
+#include "certify/prover.h"
+#include "tests/support/robots.h"
+
+namespace taut {
+namespace {
+
+using testing::at;
+using Point = Vector3<double>;
+
+// ---- Distances of boxes, segments and points by another route: the least over all pairs of features ----------------
+
+using Triangle = std::array<Point, 3>;
+
+/// From a point to a triangle: to its plane, where the foot is inside, else to its edges.
+double distance_to_segment(const Point& x, const Point& a, const Point& b) {
+  const Point along = b - a;
+  const double length = along.squaredNorm();
+  const double t = length > 0 ? std::clamp((x - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (x - a - t * along).norm();
+}
+
+double distance_to_triangle(const Point& x, const Triangle& t) {
+  const Point normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  double least = std::numeric_limits<double>::infinity();
+  bool inside = normal.norm() > 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point& a = t[k];
+    const Point& b = t[(k + 1) % 3];
+    least = std::min(least, distance_to_segment(x, a, b));
+    inside = inside && (b - a).cross(x - a).dot(normal) >= 0;
+  }
+  return inside ? std::min(least, std::abs((x - t[0]).dot(normal.normalized()))) : least;
+}
+
+double distance_of_segments(const Point& a, const Point& b, const Point& c, const Point& d) {
+  double least = std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                           distance_to_segment(d, a, b)});
+  const Point u = b - a, v = d - c, n = u.cross(v);
+  if (n.squaredNorm() <= 1e-24 * u.squaredNorm() * v.squaredNorm()) return least;
+  const Point w = c - a;
+  const double s = w.cross(v).dot(n) / n.squaredNorm(), t = w.cross(u).dot(n) / n.squaredNorm();
+  if (s >= 0 && s <= 1 && t >= 0 && t <= 1) least = std::min(least, std::abs(w.dot(n.normalized())));
+  return least;
+}
+
+/// A point, a segment, or a box's surface.
+struct Features {
+  std::vector<Point> points;
+  std::vector<std::array<Point, 2>> edges;
+  std::vector<Triangle> faces;
+};
+
+Features features(const std::vector<Point>& points) {
+  Features result{points, {}, {}};
+  if (points.size() == 2) result.edges.push_back({points[0], points[1]});
+  if (points.size() == 8) {  // corner k has the signs of k's bits
+    for (unsigned k = 0; k < 8; ++k) {
+      for (const unsigned bit : {1U, 2U, 4U}) {
+        if ((k & bit) == 0) result.edges.push_back({points[k], points[k | bit]});
+      }
+    }
+    for (const auto& [fixed, u, v] : {std::array{1U, 2U, 4U}, std::array{2U, 1U, 4U}, std::array{4U, 1U, 2U}}) {
+      for (const unsigned side : {0U, fixed}) {
+        result.faces.push_back({points[side], points[side | u], points[side | u | v]});
+        result.faces.push_back({points[side], points[side | v], points[side | u | v]});
+      }
+    }
+  }
+  return result;
+}
+
+/// Of two hulls that do not meet.
+double distance_of_hulls(const std::vector<Point>& first, const std::vector<Point>& second) {
+  const Features a = features(first), b = features(second);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Point& x : a.points) {
+    for (const Point& y : b.points) least = std::min(least, (x - y).norm());
+    for (const auto& [y, z] : b.edges) least = std::min(least, distance_to_segment(x, y, z));
+    for (const Triangle& t : b.faces) least = std::min(least, distance_to_triangle(x, t));
+  }
+  for (const Point& y : b.points) {
+    for (const auto& [x, z] : a.edges) least = std::min(least, distance_to_segment(y, x, z));
+    for (const Triangle& t : a.faces) least = std::min(least, distance_to_triangle(y, t));
+  }
+  for (const auto& [x, y] : a.edges) {
+    for (const auto& [z, w] : b.edges) least = std::min(least, distance_of_segments(x, y, z, w));
+  }
+  return least;
+}
+
+// ---- A machine with bodies ------------------------------------------------------------------------------------------
+
+std::string text(double x) { return fmt::format("{}", x); }
+
+PointText text(const Point& x) { return {text(x(0)), text(x(1)), text(x(2))}; }
+
+BodyText box_body(const std::string& name, const Point& size, const Point& place) {
+  HullText hull;
+  for (unsigned k = 0; k < 8; ++k) {
+    const auto side = [&](unsigned bit, int axis) { return ((k & bit) != 0 ? 0.5 : -0.5) * size(axis); };
+    hull.points_m.push_back(text(Point(side(1, 0), side(2, 1), side(4, 2))));
+  }
+  BodyText body{.name = name, .shape = hull};
+  body.at_m = text(place);
+  return body;
+}
+
+BodyText capsule(const std::string& name, const Point& from, const Point& to, double radius) {
+  return {.name = name, .shape = HullText{{text(from), text(to)}, text(radius)}};
+}
+
+/// The crane of the design, without load items: six free coordinates.
+Problem crane() {
+  Problem problem = testing::free_flying(testing::robot1_slice());
+  problem.query.clear();
+  const std::array<Point, kCables> base{Point(15, 10, 15),  Point(15, 10, 15), Point(-15, 10, 15),
+                                        Point(-15, 10, 15), Point(0, -10, 15), Point(0, -10, 15)};
+  const std::array<Point, 3> corners{Point(0, 1.5, 0), Point(1.3, -0.75, 0), Point(-1.3, -0.75, 0)};
+  const std::array<std::size_t, kCables> corner{0, 1, 0, 2, 1, 2};
+  for (std::size_t i = 0; i < kCables; ++i) {
+    problem.robot.base_anchors_m[i] = text(base[i]);
+    problem.robot.platform_anchors_m[i] = text(corners[corner[i]]);
+    problem.robot.tension_N[i] = {"2000", "160000"};
+    problem.robot.length_m[i] = {"3", "35"};
+  }
+  problem.load = LoadText{};
+  problem.load.point_m = {"0", "0", "-0.5"};
+  problem.load.wrench = {"0", "0", "-150000", "0", "0", "0"};
+  EllipsoidText e;
+  for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t k = 0; k < 6; ++k) e[j][k] = j != k ? "0" : j < 3 ? "1e-6" : "1e-6";
+  }
+  problem.load.ellipsoid = e;
+  BodiesText bodies;
+  bodies.platform = {box_body("container", {2.4, 6.1, 2.6}, {0, 0, -2.2})};
+  bodies.obstacles = {box_body("stack", {2.4, 6.1, 2.6}, {0, 1, 1.3}), capsule("post", {7, 5, 0}, {7, 5, 6}, 0.15)};
+  bodies.obstacles[0].rotation_rad = {"0", "0", "(10)*pi/180"};
+  BodyText floor{.name = "floor", .shape = HalfSpaceText{{"0", "0", "1"}}};
+  bodies.obstacles.push_back(floor);
+  bodies.cables.diameter_m.fill("0.028");
+  bodies.cables.free_ends_m.fill({"0.5", "0.4"});
+  bodies.clearance_m = {"0.2", "0.2", "0.02", "0.01"};
+  problem.bodies = bodies;
+  validate(problem);
+  return problem;
+}
+
+/// Bodies in W at a pose, of one machine.
+struct Placed {
+  std::vector<Point> points;
+  double radius = 0;
+};
+
+struct DeviatingMachine {
+  Model<double> model;
+  Point p;
+  Matrix3<double> r;
+};
+
+std::vector<Point> in_world(const DeviatingMachine& machine, const ConvexBody<double>& body) {
+  std::vector<Point> points;
+  for (const Point& x : body.points) points.emplace_back(machine.p + machine.r * x);
+  return points;
+}
+
+Placed cable(const DeviatingMachine& machine, const BodyModel<double>& bodies, std::size_t i) {
+  const Point a = machine.model.p_WA[i], b = machine.p + machine.r * machine.model.p_PB[i];
+  const Point u = (b - a).normalized();
+  return {{a + bodies.cable_free[i][0] * u, b - bodies.cable_free[i][1] * u}, bodies.cable_radius[i]};
+}
+
+/// How much farther than its clearance a pair is apart.
+double true_gap(const DeviatingMachine& machine, const BodyModel<double>& bodies, const CheckedPair<double>& pair) {
+  const bool is_first_platform = pair.kind == PairClass::kPlatformObstacles;
+  const Placed first = is_first_platform
+                           ? Placed{in_world(machine, bodies.platform[pair.first]), bodies.platform[pair.first].radius}
+                           : cable(machine, bodies, pair.first);
+  Placed second;
+  if (pair.kind == PairClass::kCablesCables) {
+    second = cable(machine, bodies, pair.second);
+  } else if (pair.kind == PairClass::kCablesPlatform) {
+    second = {in_world(machine, bodies.platform[pair.second]), bodies.platform[pair.second].radius};
+  } else if (const auto* half = std::get_if<HalfSpace<double>>(&bodies.obstacles[pair.second])) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point& x : first.points) least = std::min(least, (half->normal.dot(x) - half->offset));
+    return least / half->normal.norm() - first.radius - pair.clearance;
+  } else {
+    const auto& body = std::get<ConvexBody<double>>(bodies.obstacles[pair.second]);
+    second = {body.points, body.radius};
+  }
+  return distance_of_hulls(first.points, second.points) - first.radius - second.radius - pair.clearance;
+}
+
+TEST(NearestPoints, AgreeWithTheLeastDistanceOfFeatures) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&](double size) {
+    return Point(size * coordinate(random), size * coordinate(random), size * coordinate(random));
+  };
+  int apart = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const auto body = [&](std::size_t kind) {
+      std::vector<Point> points;
+      const Point centre = point(3), half = point(1).cwiseAbs();
+      const Eigen::Quaterniond turn =
+          Eigen::Quaterniond(coordinate(random), coordinate(random), coordinate(random), 1.5).normalized();
+      if (kind == 0) return std::vector<Point>{centre};
+      if (kind == 1) return std::vector<Point>{centre, centre + point(2)};
+      for (unsigned k = 0; k < 8; ++k) {
+        const Point corner((k & 1U) != 0 ? half(0) : -half(0), (k & 2U) != 0 ? half(1) : -half(1),
+                           (k & 4U) != 0 ? half(2) : -half(2));
+        points.emplace_back(centre + turn * corner);
+      }
+      return points;
+    };
+    const std::vector<Point> first = body(random() % 3), second = body(random() % 3);
+    const NearestPoints found = nearest_points(first, second);
+    const double truth = distance_of_hulls(first, second);
+    if (found.distance < 1e-9) continue;  // the features' distance is of surfaces
+    ++apart;
+    EXPECT_NEAR(found.distance, truth, 1e-9) << trial;
+    Point a = Point::Zero(), b = Point::Zero();
+    for (std::size_t k = 0; k < first.size(); ++k) a += found.first[k] * first[k];
+    for (std::size_t k = 0; k < second.size(); ++k) b += found.second[k] * second[k];
+    EXPECT_NEAR((a - b).norm(), truth, 1e-9) << trial;
+    EXPECT_NEAR((found.apart - (a - b)).norm(), 0, 1e-9) << trial;
+  }
+  EXPECT_GT(apart, 2000);
+}
+
+std::vector<double> random_pose(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  return {8 * unit(random), 5 * unit(random),   6.5 + 3 * unit(random),
+          3 * unit(random), 0.2 * unit(random), 0.3 * unit(random)};
+}
+
+/// A machine within the tolerances at s, anchors that are typed as one point staying one.
+DeviatingMachine deviating(const Problem& problem, const PoseSampler& sampler, const Segment& segment, double s,
+                           std::mt19937& random, bool deviates) {
+  const RigidPose pose = sampler.rigid_pose(segment, s);
+  DeviatingMachine machine{sampler.model(), pose.p, pose.q.toRotationMatrix()};
+  if (!deviates) return machine;
+  std::normal_distribution<double> normal;
+  const auto on_ball = [&](double radius) {
+    return Point(Point(normal(random), normal(random), normal(random)).normalized() * radius);
+  };
+  const auto number = [](const std::string& x) { return ScalarTraits<double>::from_decimal(x); };
+  const TolerancesText& t = *problem.tolerances;
+  // Anchors that are typed as one point move as one.
+  const auto move = [&](std::array<Point, kCables>& anchors, const std::array<DecimalText, kCables>& tolerances) {
+    const std::array<Point, kCables> typed = anchors;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const auto one = static_cast<std::size_t>(std::ranges::find(typed, typed[i]) - typed.begin());
+      anchors[i] = one < i ? anchors[one] : Point(typed[i] + on_ball(number(tolerances[i])));
+    }
+  };
+  move(machine.model.p_WA, t.base_anchor_m);
+  move(machine.model.p_PB, t.platform_anchor_m);
+  machine.p += on_ball(number(t.position_m));
+  machine.r =
+      Eigen::AngleAxisd(evaluate_constant<double>(t.orientation_rad), on_ball(1)).toRotationMatrix() * machine.r;
+  return machine;
+}
+
+void expect_bounds(const Problem& problem, bool deviates, unsigned seed) {
+  const Prover prover(problem);
+  const BodyModel<double>& bodies = prover.bodies()->bodies();
+  std::mt19937 random(seed);
+  int bounds = 0, positive = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::vector<double> from = random_pose(random);
+    std::vector<double> to = from;
+    const double size = std::pow(10.0, -static_cast<double>(trial % 4));
+    for (double& x : to) x += size * std::uniform_real_distribution<double>(-0.3, 0.3)(random);
+    const Waypoint begin = at(from), end = at(to);  // which the segment refers to
+    const Segment segment = prover.segment(begin, end);
+    PairDirections directions;
+    const RigidPose middle = prover.sampler().rigid_pose(segment, 0.5);
+    for (std::size_t n = 0; n < bodies.pairs.size(); ++n) {
+      const auto direction = prover.bodies()->direction(prover.sampler().model(), middle, n);
+      directions.push_back(
+          direction.value_or(Direction{bodies.pairs[n].kind == PairClass::kCablesPlatform, {1, 2, 3}}));
+    }
+    const BoxEnclosure<MpInterval> enclosure = enclose_box(prover.ladder().multiprecision(1), segment, DyadicBox{}, 4);
+    if (!enclosure.pose || (deviates && !enclosure.disturbance)) continue;
+    const PrecisionScope precision(128);
+    const ProofModel<MpInterval>& model = prover.ladder().multiprecision(1);
+    const BodiesBox<MpInterval> box{*model.bodies,
+                                    model.model,
+                                    enclosure.pose->p_WP,
+                                    enclosure.pose->r_WP,
+                                    enclosure.length,
+                                    enclosure.offset,
+                                    deviates ? &*model.tolerance : nullptr,
+                                    deviates ? &*enclosure.disturbance : nullptr};
+    const BodyGaps<MpInterval> gaps(box);
+    ASSERT_TRUE(gaps.have_cables_length());
+    std::vector<double> lower;
+    for (std::size_t n = 0; n < directions.size(); ++n) {
+      lower.push_back(lower_bound(gaps.along(model.bodies->pairs[n], directions[n]).disturbed));
+    }
+    for (int sample = 0; sample < 12; ++sample) {
+      const double s = sample / 11.0;
+      const DeviatingMachine machine = deviating(problem, prover.sampler(), segment, s, random, deviates);
+      for (std::size_t n = 0; n < directions.size(); ++n) {
+        const double truth = true_gap(machine, bodies, bodies.pairs[n]);
+        ++bounds;
+        if (lower[n] > 0) ++positive;
+        EXPECT_LE(lower[n], truth + 1e-9) << trial << ", pair " << n << ", s = " << s;
+        if (size < 0.01 && lower[n] > 0) nearest = std::min(nearest, truth - lower[n]);
+      }
+    }
+  }
+  EXPECT_GT(bounds, 5000);
+  EXPECT_GT(positive, bounds / 2);
+  if (!deviates) {
+    EXPECT_LT(nearest, 1e-3) << "the bounds are vacuous";
+  }
+}
+
+TEST(BodyGaps, AreNoLargerThanTheGapsOfPosesAlongTheSegment) { expect_bounds(crane(), false, 2); }
+
+TEST(BodyGaps, AreNoLargerThanTheGapsOfDeviatingMachines) {
+  Problem problem = crane();
+  problem.tolerances.emplace();
+  problem.tolerances->base_anchor_m.fill("0.01");
+  problem.tolerances->platform_anchor_m.fill("0.01");
+  problem.tolerances->position_m = "0.05";
+  problem.tolerances->orientation_rad = "0.3*pi/180";
+  expect_bounds(problem, true, 3);
+}
+
+// ---- Segments -------------------------------------------------------------------------------------------------------
+
+TEST(Prover, ProvesAMoveBesideAnObstacleAndRefutesOneIntoIt) {
+  Problem problem = crane();
+  const Prover prover(problem);
+  // The container's underside is 3.5 m below P, so that it passes 0.4 m above the stack, and then 0.1 m.
+  const SegmentProof above = prover.prove(at({-4, 0, 6.5, 0, 0, 0}), at({4, 0, 6.5, 0, 0, 0}));
+  ASSERT_EQ(above.verdict, Verdict::kProved) << above.reason;
+  EXPECT_GT(above.clearance_m, 0);
+  EXPECT_LT(above.clearance_m, 0.2);
+  ASSERT_EQ(above.directions.size(), above.boxes.size());
+  const SegmentProof low = prover.prove(at({-4, 0, 6.2, 0, 0, 0}), at({4, 0, 6.2, 0, 0, 0}));
+  ASSERT_EQ(low.verdict, Verdict::kRefuted) << low.reason;
+  ASSERT_TRUE(low.witness->contact);
+  EXPECT_EQ(name(*problem.bodies, pairs(*problem.bodies)[low.witness->contact->pair]), "container / stack");
+}
+
+TEST(Prover, DecidesAClearanceToAHundredthOfAMillimetre) {
+  // Level, over the stack: 3.5 m below P and 2.6 m high, so the gap is pz - 6.1 m and nothing else is nearer.
+  for (const auto& [height, expected] : {std::pair{6.30001, Verdict::kProved}, {6.29999, Verdict::kRefuted}}) {
+    const SegmentProof proof = Prover(crane()).prove(at({-4, 0, height, 0, 0, 0}), at({4, 0, height, 0, 0, 0}));
+    EXPECT_EQ(proof.verdict, expected) << height << ": " << proof.reason;
+  }
+}
+
+}  // namespace
+}  // namespace taut
