@@ -96,8 +96,12 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
     return make_witness(prover, still, {false, gravest_margin(prover, still, verdict.worst), whole},
                         PathPoint{false, index, {}});
   }
-  if (proof.witness && proof.witness->deviation) {
+  if (proof.witness && (proof.witness->deviation || proof.witness->contact)) {
     return make_witness(prover, still, *proof.witness, PathPoint{false, index, {}});
+  }
+  if (verdict.kind == BoxVerdict::Kind::kProved) {  // and the bodies are not
+    undecided = proof.reason;
+    return std::nullopt;
   }
   const Undecided reason = verdict.kind == BoxVerdict::Kind::kNearSingular ? Undecided::kSingular
                            : verdict.kind == BoxVerdict::Kind::kNoMotion   ? Undecided::kNoMotion

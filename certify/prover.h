@@ -66,7 +66,7 @@ class Prover {
   /// "interrupted".
   [[nodiscard]] SegmentSurvey survey(const Segment& segment, const std::stop_token& stop = {}) const;
 
-  /// One box, at the cheapest rung that decides it.
+  /// One box, at the cheapest rung that decides it. Bodies are not judged.
   [[nodiscard]] BoxVerdict judge(const Segment& segment, const DyadicBox& box) const;
 
   /// Encloses what `margin` limits (f0 − v, f0 + v [N] or d [m]) at the midpoint of a box, at the least precision at

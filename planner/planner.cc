@@ -429,7 +429,7 @@ bool Planner::try_plan(const Prover* edge_prover, const Progress& progress, cons
   statistics.cost = statistics.cost_found = 0;
   statistics.factor = 1;
   statistics.budget_spent = false;
-  const SampledMotionValidator looks_clear(sampler_, kEdgeClearanceShare * clearance_);
+  const SampledMotionValidator looks_clear(sampler_, kEdgeClearanceShare * clearance_, prover_.bodies());
   Edges edges(looks_clear, sampler_, edge_prover);
   result.proof = {};
   std::optional<FoundPath> found = find_path(edges, progress, stop, statistics, result.proof.reason);

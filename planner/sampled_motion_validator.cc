@@ -18,11 +18,13 @@ constexpr int kMostLevels = 12;  // of bisection
 
 bool SampledMotionValidator::operator()(const Coordinates& a, const Coordinates& b) const {
   double sign = 0;  // of det J
+  BodySampler::Carried carried;
   const auto clear = [&](const Pose<double>& pose) {
     const Statics<double> statics = sampler_.statics(pose);
     if (!(sampler_.clearance(statics) > clearance_)) return false;
     if (sign == 0) sign = statics.determinant;
-    return statics.determinant * sign > 0;
+    if (!(statics.determinant * sign > 0)) return false;
+    return bodies_ == nullptr || bodies_->is_clear(sampler_.model(), sampler_.rigid_pose(pose), carried);
   };
   const EdgeMotion motion(sampler_, a, b);
   const Pose<double> first = motion.pose(0);

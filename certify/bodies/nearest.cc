@@ -153,6 +153,13 @@ Direction rounded_direction(const Point& along, bool in_platform) {
 
 }  // namespace
 
+BodySampler::BodySampler(const Problem& problem) : bodies_(make_body_model<double>(problem)) {
+  for (const ConvexBody<double>& body : bodies_.platform) {
+    for (const Point& x : body.points) reach_ = std::max(reach_, x.norm());
+  }
+  for (const Point& b : make_model_without_ellipsoid<double>(problem).p_PB) reach_ = std::max(reach_, b.norm());
+}
+
 /// Of a half-space no shares, and `apart` along its normal, whose height it is.
 struct BodySampler::Found {
   NearestPoints nearest;
@@ -224,6 +231,22 @@ PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose
   PointPair points{rounded_shares(found.nearest.first), {}};
   if (!found.is_half_space) points.second = rounded_shares(found.nearest.second);
   return points;
+}
+
+bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const {
+  carried.pairs.resize(bodies_.pairs.size());
+  for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
+    std::optional<Carried::Gap>& last = carried.pairs[n];
+    if (last) {
+      const double bodies_moving = bodies_.pairs[n].kind == PairClass::kCablesCables ? 2 : 1;
+      const double moved =
+          bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);
+      if (moved < last->gap) continue;
+    }
+    last = {gap(model, pose, n), pose};
+    if (!(last->gap > 0)) return false;
+  }
+  return true;
 }
 
 }  // namespace taut

@@ -23,7 +23,7 @@ struct NearestPoints {
 /// The bodies of a problem in doubles.
 class BodySampler {
  public:
-  explicit BodySampler(const Problem& problem) : bodies_(make_body_model<double>(problem)) {}
+  explicit BodySampler(const Problem& problem);
 
   [[nodiscard]] const BodyModel<double>& bodies() const { return bodies_; }
   /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance.
@@ -34,11 +34,23 @@ class BodySampler {
   /// Its nearest points there.
   [[nodiscard]] PointPair nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 
+  /// How far pairs were apart when last measured: a pair stays apart while no point of it has moved as far.
+  struct Carried {
+    struct Gap {
+      double gap = 0;
+      RigidPose pose;
+    };
+    std::vector<std::optional<Gap>> pairs;
+  };
+  /// Whether all pairs are farther apart than their clearances. @param carried  from earlier poses; at first empty
+  [[nodiscard]] bool is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const;
+
  private:
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 
   BodyModel<double> bodies_;
+  double reach_ = 0;  ///< of what the platform carries, from its origin [m]
 };
 
 }  // namespace taut
