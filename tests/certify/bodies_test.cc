@@ -367,5 +367,47 @@ TEST(Prover, DecidesAClearanceToAHundredthOfAMillimetre) {
   }
 }
 
+/// The crane carries a ball past a post that stands upright, as a curve in its coordinates would: the pose turns while
+/// it moves, so the distance has its least value between any samples.
+TEST(Prover, FindsPenetrationsThinnerThanAnySampling) {
+  Problem problem = crane();
+  problem.bodies->platform = {{.name = "hook", .shape = HullText{{{"0", "0", "0"}}, "0.05"}}};
+  problem.bodies->platform[0].at_m = {"0.7", "0", "-1.2"};
+  problem.bodies->obstacles = {capsule("post", {1, 3, 0}, {1, 3, 12}, 0.1)};
+  problem.bodies->clearance_m = {"0.1", std::nullopt, std::nullopt, std::nullopt};
+  const Waypoint from = at({-3, 0, 6.5, 0, 0, -0.1}), to = at({4, 1, 6.5, 0, 0, 0.2});
+  // Where the post has to stand so that the least distance is its clearance: by samples, then by thirds.
+  const Prover prover(problem);
+  const Segment segment = prover.segment(from, to);
+  const auto gap = [&](double s) {
+    return prover.bodies()->gap(prover.sampler().model(), prover.sampler().rigid_pose(segment, s), 0);
+  };
+  double low = 0, high = 1;
+  for (int k = 0; k < 200; ++k) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (gap(a) < gap(b) ? high : low) = gap(a) < gap(b) ? b : a;
+  }
+  const double least = gap(0.5 * (low + high));
+  ASSERT_GT(least, 0.5);
+  for (int digits = 2; digits <= 9; ++digits) {
+    const double deep = std::pow(10.0, -digits);
+    for (const bool touches : {true, false}) {
+      problem.bodies->clearance_m[0] = text(0.1 + least + (touches ? deep : -deep));
+      const SegmentProof proof = Prover(problem).prove(from, to);
+      EXPECT_EQ(proof.verdict, touches ? Verdict::kRefuted : Verdict::kProved) << deep << ": " << proof.reason;
+      EXPECT_LT(proof.boxes_judged, 2000) << deep;
+    }
+  }
+}
+
+TEST(Prover, LeavesATouchOpenAndNamesThePair) {
+  Problem problem = crane();
+  problem.tolerances.emplace();
+  problem.tolerances->position_m = "0.3";
+  const SegmentProof proof = Prover(problem).prove(at({-1, 0, 6.5, 0, 0, 0}), at({1, 0, 6.5, 0, 0, 0}));
+  EXPECT_EQ(proof.verdict, Verdict::kUndecided);
+  EXPECT_NE(proof.reason.text().find("container / stack"), std::string::npos) << proof.reason;
+}
+
 }  // namespace
 }  // namespace taut
