@@ -493,7 +493,10 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   const BodyGaps<I> gaps(box);
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
   for (std::size_t n = 0; n < directions.size(); ++n) {
-    const GapBound<I> bound = gaps.along(problem.bodies->pairs[n], directions[n]);
+    const CheckedPair<I>& pair = problem.bodies->pairs[n];
+    // Of a pair that is farther apart than another one, nothing more is asked.
+    if (const double rough = gaps.rough(pair, directions[n]); rough > 0 && rough >= verdict.clearance_m) continue;
+    const GapBound<I> bound = gaps.along(pair, directions[n]);
     const double lower = lower_bound(bound.disturbed);
     verdict.clearance_m = std::min(verdict.clearance_m, lower);
     if (lower > 0) continue;

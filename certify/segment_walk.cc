@@ -112,16 +112,13 @@ SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double cl
   survey_.tension_N = survey_.length_m = survey_.wrench_scale = survey_.clearance_m =
       std::numeric_limits<double>::infinity();
   if (prover.bodies() == nullptr) return;
-  constexpr Direction kUp{false, {0, 0, 1}};
-  constexpr Direction kUpInPlatform{true, {0, 0, 1}};
-  PairDirections any;
-  for (const auto& pair : prover.bodies()->bodies().pairs) {
-    any.push_back(pair.kind == PairClass::kCablesPlatform ? kUpInPlatform : kUp);
+  const PoseSampler& sampler = prover.sampler();
+  const RigidPose middle = sampler.rigid_pose(segment, 0.5);
+  PairDirections rough;
+  for (std::size_t n = 0; n < prover.bodies()->bodies().pairs.size(); ++n) {
+    rough.push_back(prover.bodies()->rough_direction(sampler.model(), middle, n));
   }
-  directions_ = std::make_shared<const PairDirections>(std::move(any));
-  BoxVerdict all;
-  for (std::size_t n = 0; n < directions_->size(); ++n) all.near.push_back({n, {}});
-  (void)redirect(all, 0.5);
+  directions_ = std::make_shared<const PairDirections>(std::move(rough));
 }
 
 SegmentSurvey SegmentWalk::run() {

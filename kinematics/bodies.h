@@ -20,6 +20,9 @@ template <class S>
 struct ConvexBody {
   std::vector<Vector3<S>> points;  ///< an obstacle's in W, a platform body's in P [m]
   S radius;                        ///< [m]
+  /// A ball that contains all of it.
+  Vector3<S> centre;
+  S reach;  ///< its radius [m]
 };
 
 /// { x : normal·x <= offset }, in W.

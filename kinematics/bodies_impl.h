@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -24,11 +25,10 @@ Vector3<S> vector(const std::array<DecimalText, 3>& x) {
 template <class S>
 ConvexBody<S> placed(const BodyText& body, const HullText& hull) {
   const Vector3<S> at = vector<S>(body.at_m);
-  const bool is_turned = std::ranges::any_of(body.rotation_rad, [](const ExpressionText& x) { return x != "0"; });
-  Matrix3<S> r;
-  if (is_turned) {
-    r = rotation_zyx<S>(evaluate_constant<S>(body.rotation_rad[2]), evaluate_constant<S>(body.rotation_rad[1]),
-                        evaluate_constant<S>(body.rotation_rad[0]));
+  std::optional<Matrix3<S>> r;  // if it is turned
+  if (std::ranges::any_of(body.rotation_rad, [](const ExpressionText& x) { return x != "0"; })) {
+    const auto angle = [&](std::size_t k) { return evaluate_constant<S>(body.rotation_rad[k]); };
+    r = rotation_zyx<S>(angle(2), angle(1), angle(0));
   }
   ConvexBody<S> result;
   result.radius = ScalarTraits<S>::from_decimal(hull.radius_m);
@@ -36,9 +36,18 @@ ConvexBody<S> placed(const BodyText& body, const HullText& hull) {
     const Vector3<S> x = vector<S>(point);
     Vector3<S> placed = at;
     for (int i = 0; i < 3; ++i) {
-      placed(i) = placed(i) + (is_turned ? S(r(i, 0) * x(0) + r(i, 1) * x(1) + r(i, 2) * x(2)) : x(i));
+      placed(i) = placed(i) + (r ? S((*r)(i, 0) * x(0) + (*r)(i, 1) * x(1) + (*r)(i, 2) * x(2)) : x(i));
     }
     result.points.push_back(placed);
+  }
+  // Around the first point and the last, which of a box are opposite corners.
+  for (int i = 0; i < 3; ++i) {
+    result.centre(i) = S(0.5 * (lower_bound(result.points.front()(i)) + lower_bound(result.points.back()(i))));
+  }
+  result.reach = result.radius;
+  for (const Vector3<S>& x : result.points) {
+    const Vector3<S>& c = result.centre;
+    result.reach = larger(result.reach, S(euclidean_norm(x(0) - c(0), x(1) - c(1), x(2) - c(2)) + result.radius));
   }
   return result;
 }

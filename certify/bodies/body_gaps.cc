@@ -38,6 +38,22 @@ SlopeForm<I> dot(const std::array<SlopeForm<I>, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
 }
 
+template <class I>
+bool is_of_obstacle(const CheckedPair<I>& pair) {
+  return pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
+}
+
+template <class I>
+const HalfSpace<I>* half_space(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
+  return is_of_obstacle(pair) ? std::get_if<HalfSpace<I>>(&bodies.obstacles[pair.second]) : nullptr;
+}
+
+/// The second body of a pair that is a hull.
+template <class I>
+const ConvexBody<I>& second_hull(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
+  return is_of_obstacle(pair) ? std::get<ConvexBody<I>>(bodies.obstacles[pair.second]) : bodies.platform[pair.second];
+}
+
 }  // namespace
 
 template <class I>
@@ -142,20 +158,66 @@ std::vector<typename BodyGaps<I>::Projection> BodyGaps<I>::first(const CheckedPa
 }
 
 template <class I>
-GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& direction) const {
-  const bool is_of_obstacle = pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
-  const auto* half = is_of_obstacle ? std::get_if<HalfSpace<I>>(&box_.bodies.obstacles[pair.second]) : nullptr;
-  const bool in_platform = !is_of_obstacle && direction.in_platform;
-  if (pair.kind == PairClass::kCablesPlatform && !in_platform) {
+std::array<I, 3> BodyGaps<I>::vector(const CheckedPair<I>& pair, const Direction& direction) const {
+  if (const auto* half = half_space(box_.bodies, pair)) return {half->normal(0), half->normal(1), half->normal(2)};
+  if (pair.kind == PairClass::kCablesPlatform && !direction.in_platform) {
     throw std::logic_error("a cable and the platform are compared in the platform's axes");
   }
-  std::array<I, 3> u;
-  for (std::size_t k = 0; k < 3; ++k) {
-    u[k] = half != nullptr ? half->normal(static_cast<int>(k)) : I(static_cast<double>(direction.u[k]));
+  const auto component = [&](std::size_t k) { return I(static_cast<double>(direction.u[k])); };
+  return {component(0), component(1), component(2)};
+}
+
+template <class I>
+double BodyGaps<I>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
+  const bool in_platform = !is_of_obstacle(pair) && direction.in_platform;
+  const std::array<I, 3> u = vector(pair, direction);
+  std::array<I, 3> other;
+  for (int k = 0; k < 3; ++k) {
+    const auto entry = [&](int i) { return (in_platform ? box_.r_WP(k, i) : box_.r_WP(i, k)).range; };
+    other[static_cast<std::size_t>(k)] = entry(0) * u[0] + entry(1) * u[1] + entry(2) * u[2];
   }
+  const auto& v = in_platform ? other : u;
+  const I of_origin = v[0] * box_.p_WP(0).range + v[1] * box_.p_WP(1).range + v[2] * box_.p_WP(2).range;
+  Upper lost(0.0);  // to deviations
+  // From where to where a cable reaches along u.
+  const auto cable_range = [&](std::size_t i) {
+    const auto shifts = end_shifts(pair, i, in_platform);
+    lost += shifts[0] + shifts[1];
+    const Vector3<I>& a = box_.model.p_WA[i];
+    const Vector3<I>& b = box_.model.p_PB[i];
+    return in_platform ? hull(dot(other, a) - of_origin, dot(u, b)) : hull(dot(u, a), of_origin + dot(other, b));
+  };
+  I first, second, radii(0.0);
+  if (pair.kind == PairClass::kPlatformObstacles) {
+    const ConvexBody<I>& body = box_.bodies.platform[pair.first];
+    if (box_.tolerance != nullptr) lost += position_ + turn_ * (norm_above(body.centre) + above(body.reach));
+    first = of_origin + dot(other, body.centre);
+    radii = body.reach;
+  } else {
+    first = cable_range(pair.first);
+    radii = box_.bodies.cable_radius[pair.first];
+  }
+  if (const auto* half = half_space(box_.bodies, pair)) {
+    second = half->offset;
+  } else if (pair.kind == PairClass::kCablesCables) {
+    second = cable_range(pair.second);
+    radii = radii + box_.bodies.cable_radius[pair.second];
+  } else {
+    const ConvexBody<I>& body = second_hull(box_.bodies, pair);
+    second = dot(u, body.centre);
+    radii = radii + body.reach;
+  }
+  const I gap = (first - second) / euclidean_norm(u[0], u[1], u[2]) - radii - pair.clearance;
+  return lower_bound(I(gap + ProofScalarTraits<I>::symmetric(lost)));
+}
+
+template <class I>
+GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& direction) const {
+  const auto* half = half_space(box_.bodies, pair);
+  const bool in_platform = !is_of_obstacle(pair) && direction.in_platform;
+  const std::array<I, 3> u = vector(pair, direction);
   const Turned turned_u = turned(u, in_platform);
-  const I norm = euclidean_norm(u[0], u[1], u[2]);
-  const I inverse_norm = reciprocal(norm);
+  const I inverse_norm = reciprocal(euclidean_norm(u[0], u[1], u[2]));
 
   // The second body: constants, or two ends of a cable that move with the platform, too.
   std::vector<Projection> second;
@@ -168,8 +230,7 @@ GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& dire
     second.assign(ends.begin(), ends.end());
     radii = radii + box_.bodies.cable_radius[pair.second];
   } else {
-    const ConvexBody<I>& body = is_of_obstacle ? std::get<ConvexBody<I>>(box_.bodies.obstacles[pair.second])
-                                               : box_.bodies.platform[pair.second];
+    const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     std::optional<I> farthest;
     for (const Vector3<I>& x : body.points) {
       const I at = dot(turned_u.u, x);
@@ -250,18 +311,13 @@ I BodyGaps<I>::distance(const CheckedPair<I>& pair, const PointPair& shares, boo
   const Vector3<Form> a = mean(true);
   I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
                                                        : box_.bodies.cable_radius[pair.first];
-  const bool is_of_obstacle = pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
-  if (is_of_obstacle) {
-    if (const auto* half = std::get_if<HalfSpace<I>>(&box_.bodies.obstacles[pair.second])) {
-      const Vector3<I>& n = half->normal;
-      Form height = a(0) * n(0) + a(1) * n(1) + a(2) * n(2) - half->offset;
-      return known(height) / euclidean_norm(n(0), n(1), n(2)) - radii - pair.clearance;
-    }
-    radii = radii + std::get<ConvexBody<I>>(box_.bodies.obstacles[pair.second]).radius;
-  } else {
-    radii = radii + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
-                                                           : box_.bodies.platform[pair.second].radius);
+  if (const auto* half = half_space(box_.bodies, pair)) {
+    const Vector3<I>& n = half->normal;
+    Form height = a(0) * n(0) + a(1) * n(1) + a(2) * n(2) - half->offset;
+    return known(height) / euclidean_norm(n(0), n(1), n(2)) - radii - pair.clearance;
   }
+  radii = radii + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
+                                                         : second_hull(box_.bodies, pair).radius);
   const Vector3<Form> b = mean(false);
   Vector3<Form> apart;
   for (int k = 0; k < 3; ++k) apart(k) = a(k) - b(k);

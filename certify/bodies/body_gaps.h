@@ -77,6 +77,9 @@ class BodyGaps {
   /// Claim: for every t in T and every deviation the bodies of the pair are farther apart than its clearance by at
   /// least `disturbed`.
   [[nodiscard]] GapBound<I> along(const CheckedPair<I>& pair, const Direction& direction) const;
+  /// The same from ranges alone, of balls around bodies and of whole cables: a lower bound, for pairs that are far
+  /// apart.
+  [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
 
   /// Contains how much farther than the pair's clearance two of its bodies' points are apart, on the undisturbed
   /// machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not apart by more than its
@@ -101,6 +104,8 @@ class BodyGaps {
     std::array<Form, 2> share;
   };
 
+  /// A direction as it is used for a pair: the normal of a half-space, else that given.
+  [[nodiscard]] std::array<I, 3> vector(const CheckedPair<I>& pair, const Direction& direction) const;
   [[nodiscard]] Turned turned(const std::array<I, 3>& u, bool in_platform) const;
   [[nodiscard]] std::array<Projection, 2> cable(std::size_t i, const Turned& u, bool in_platform,
                                                 const std::array<Upper, 2>& shifts) const;

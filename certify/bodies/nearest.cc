@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "certify/bodies/nearest.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,32 +33,44 @@ struct OnSimplex {
 /// The nearest point of the affine hull of some of the vertices; not if it is outside of their hull.
 std::optional<OnSimplex> nearest_on_face(std::span<const Vertex> vertices, unsigned members) {
   std::array<std::size_t, 4> index{};
-  int n = 0;
+  std::size_t n = 0;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
-    if ((members >> k & 1U) != 0) index[static_cast<std::size_t>(n++)] = k;
+    if ((members >> k & 1U) != 0) index[n++] = k;
   }
   const Point& origin = vertices[index[0]].at;
-  Eigen::Matrix<double, 3, 3> edges = Eigen::Matrix<double, 3, 3>::Zero();
-  for (int k = 1; k < n; ++k) edges.col(k - 1) = vertices[index[static_cast<std::size_t>(k)]].at - origin;
-  Eigen::Vector3d along = Eigen::Vector3d::Zero();
-  if (n > 1) {
-    const auto used = edges.leftCols(n - 1);
-    const Eigen::MatrixXd gram = used.transpose() * used;
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(gram);
-    if (!lu.isInvertible()) return std::nullopt;  // a lower face has the same points
-    along.head(n - 1) = lu.solve(-(used.transpose() * origin));
+  std::array<Point, 3> edge;
+  for (std::size_t k = 1; k < n; ++k) edge[k - 1] = vertices[index[k]].at - origin;
+  // The least of |origin + Σ along_k edge_k|, by Gram's matrix and Cramer's rule; where its determinant is next to
+  // nothing a lower face has the same points.
+  constexpr double kFlat = 1e-14;  // of what it would be at right angles
+  std::array<double, 3> along{};
+  const auto g = [&](std::size_t i, std::size_t j) { return edge[i].dot(edge[j]); };
+  const auto h = [&](std::size_t i) { return -edge[i].dot(origin); };
+  if (n == 2) {
+    if (!(g(0, 0) > 0)) return std::nullopt;
+    along[0] = h(0) / g(0, 0);
+  } else if (n == 3) {
+    const double determinant = g(0, 0) * g(1, 1) - g(0, 1) * g(0, 1);
+    if (!(determinant > kFlat * g(0, 0) * g(1, 1))) return std::nullopt;
+    along[0] = (h(0) * g(1, 1) - h(1) * g(0, 1)) / determinant;
+    along[1] = (h(1) * g(0, 0) - h(0) * g(0, 1)) / determinant;
+  } else if (n == 4) {
+    const double volume = edge[0].dot(edge[1].cross(edge[2]));
+    if (!(volume * volume > kFlat * g(0, 0) * g(1, 1) * g(2, 2))) return std::nullopt;
+    for (std::size_t k = 0; k < 3; ++k) along[k] = -origin.dot(edge[(k + 1) % 3].cross(edge[(k + 2) % 3])) / volume;
   }
   OnSimplex result;
   double rest = 1;
-  for (int k = 1; k < n; ++k) {
-    const double share = along(k - 1);
+  result.at = origin;
+  for (std::size_t k = 1; k < n; ++k) {
+    const double share = along[k - 1];
     if (!(share >= 0)) return std::nullopt;
-    result.shares[index[static_cast<std::size_t>(k)]] = share;
+    result.shares[index[k]] = share;
+    result.at += share * edge[k - 1];
     rest -= share;
   }
   if (!(rest >= 0)) return std::nullopt;
   result.shares[index[0]] = rest;
-  result.at = origin + edges * along;
   result.squared = result.at.squaredNorm();
   return result;
 }
@@ -151,6 +163,11 @@ Direction rounded_direction(const Point& along, bool in_platform) {
   return result;
 }
 
+/// Two cables on one point of the platform are best seen from it; where deviations matter little, W is as good.
+bool is_best_in_platform(const CheckedPair<double>& pair) {
+  return pair.kind == PairClass::kCablesPlatform || (pair.kind == PairClass::kCablesCables && pair.shares_platform);
+}
+
 }  // namespace
 
 BodySampler::BodySampler(const Problem& problem) : bodies_(make_body_model<double>(problem)) {
@@ -166,6 +183,11 @@ struct BodySampler::Found {
   double needed = 0;  ///< radii and clearance
   bool is_half_space = false;
 };
+
+const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair) const {
+  const bool is_of_obstacle = pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
+  return is_of_obstacle ? std::get_if<HalfSpace<double>>(&bodies_.obstacles[pair.second]) : nullptr;
+}
 
 BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
@@ -187,8 +209,7 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
       break;
     case PairClass::kPlatformObstacles:
     case PairClass::kCablesObstacles: {
-      const Obstacle<double>& obstacle = bodies_.obstacles[pair.second];
-      if (const auto* half = std::get_if<HalfSpace<double>>(&obstacle)) {
+      if (const auto* half = half_space(pair)) {
         const Point normal = half->normal.normalized();
         const std::size_t lowest = farthest(first, -normal);
         found.is_half_space = true;
@@ -198,7 +219,7 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
         found.nearest.first[lowest] = 1;
         return found;
       }
-      const auto& body = std::get<ConvexBody<double>>(obstacle);
+      const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
       second = body.points;
       found.needed += body.radius;
     }
@@ -217,12 +238,54 @@ std::optional<Direction> BodySampler::direction(const Model<double>& model, cons
   const Found found = find(model, pose, n);
   if (found.is_half_space) return Direction{};
   const CheckedPair<double>& pair = bodies_.pairs[n];
-  // Two cables on one point of the platform are best seen from it; where deviations matter little, W is as good.
-  const bool in_platform =
-      pair.kind == PairClass::kCablesPlatform || (pair.kind == PairClass::kCablesCables && pair.shares_platform);
+  const bool in_platform = is_best_in_platform(pair);
   if (!(found.nearest.distance > 0)) return std::nullopt;
   Point along = found.nearest.apart;
   if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
+  return rounded_direction(along, in_platform);
+}
+
+namespace {
+
+/// Between the nearest points of two segments, from the second to the first.
+Point between_segments(const std::array<Point, 2>& first, const std::array<Point, 2>& second) {
+  const std::array<Vertex, 4> vertices{Vertex{first[0] - second[0]}, Vertex{first[0] - second[1]},
+                                       Vertex{first[1] - second[1]}, Vertex{first[1] - second[0]}};
+  Point best = vertices[0].at;
+  // The difference of two segments is a parallelogram: two triangles.
+  for (const std::array<std::size_t, 3>& of :
+       {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}}) {
+    const std::array<Vertex, 3> triangle{vertices[of[0]], vertices[of[1]], vertices[of[2]]};
+    const OnSimplex nearest = nearest_on_simplex(triangle);
+    if (nearest.squared < best.squaredNorm()) best = nearest.at;
+  }
+  return best;
+}
+
+}  // namespace
+
+Direction BodySampler::rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  if (half_space(pair) != nullptr) return {};
+  const Matrix3<double> r = pose.q.toRotationMatrix();
+  const auto cable = [&](std::size_t i) { return std::array<Point, 2>{model.p_WA[i], pose.p + r * model.p_PB[i]}; };
+  const auto carried_centre = [&](std::size_t k) {
+    const Point at = pose.p + r * bodies_.platform[k].centre;
+    return std::array<Point, 2>{at, at};
+  };
+  const std::array<Point, 2> first =
+      pair.kind == PairClass::kPlatformObstacles ? carried_centre(pair.first) : cable(pair.first);
+  const auto second = [&]() -> std::array<Point, 2> {
+    if (pair.kind == PairClass::kCablesCables) return cable(pair.second);
+    if (pair.kind == PairClass::kCablesPlatform) return carried_centre(pair.second);
+    const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
+    if (body.points.size() == 2) return {body.points[0], body.points[1]};
+    return {body.centre, body.centre};
+  };
+  const bool in_platform = is_best_in_platform(pair);
+  Point along = between_segments(first, second());
+  if (in_platform) along = r.transpose() * along;
+  if (!(along.cwiseAbs().maxCoeff() > 0)) along = Point::UnitZ();
   return rounded_direction(along, in_platform);
 }
 

@@ -307,9 +307,10 @@ void expect_bounds(const Problem& problem, bool deviates, unsigned seed) {
                                     deviates ? &*enclosure.disturbance : nullptr};
     const BodyGaps<MpInterval> gaps(box);
     ASSERT_TRUE(gaps.have_cables_length());
-    std::vector<double> lower;
+    std::vector<double> lower, rough;
     for (std::size_t n = 0; n < directions.size(); ++n) {
       lower.push_back(lower_bound(gaps.along(model.bodies->pairs[n], directions[n]).disturbed));
+      rough.push_back(gaps.rough(model.bodies->pairs[n], directions[n]));
     }
     for (int sample = 0; sample < 12; ++sample) {
       const double s = sample / 11.0;
@@ -318,6 +319,7 @@ void expect_bounds(const Problem& problem, bool deviates, unsigned seed) {
         const double truth = true_gap(machine, bodies, bodies.pairs[n]);
         ++bounds;
         if (lower[n] > 0) ++positive;
+        EXPECT_LE(rough[n], truth + 1e-9) << trial << ", pair " << n << ", s = " << s;
         EXPECT_LE(lower[n], truth + 1e-9) << trial << ", pair " << n << ", s = " << s;
         if (size < 0.01 && lower[n] > 0) nearest = std::min(nearest, truth - lower[n]);
       }
