@@ -52,7 +52,7 @@ class Clearances {
  private:
   /// (1), of pair k.
   [[nodiscard]] Ball distance(std::size_t k) {
-    const auto& [kind, first, second, clearance] = bodies_.pairs[k];
+    const auto& [kind, first, second, clearance, name] = bodies_.pairs[k];
     if (kind == PairKind::kCableCable) return between_cables(first, second, along(k, std::nullopt));
     if (kind == PairKind::kCablePlatform) {
       const Along& u = along(k, Axes::kPlatform);
@@ -239,7 +239,7 @@ std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geom
 
 Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair, const ContactWeights& weights) {
   const PlacedBodies& bodies = machine.bodies.value();
-  const auto& [kind, first, second, clearance] = bodies.pairs.at(pair);
+  const auto& [kind, first, second, clearance, name] = bodies.pairs.at(pair);
   const bool is_platform = kind == PairKind::kPlatformObstacle;
   const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0])
                                      : of_cable(machine, geometry, first, weights[0]);

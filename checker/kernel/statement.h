@@ -134,13 +134,15 @@ struct CheckedPair {
   std::size_t first = 0;
   std::size_t second = 0;
   mpq_class clearance;
+  std::string name{};  ///< "cable 3 / stack"
 };
 
 struct Bodies {
   std::vector<RigidBody> platform;
   std::vector<RigidBody> obstacles;
   std::array<CableBody, kCables> cables;
-  std::vector<CheckedPair> pairs;
+  std::array<bool, 4> checks{};    ///< by PairKind: whether its pairs are checked
+  std::vector<CheckedPair> pairs;  ///< by rising kind; of one kind by first, then by second body
 
   /// Whether the second body of a pair is a half-space.
   [[nodiscard]] bool is_against_half_space(const CheckedPair& pair) const {
