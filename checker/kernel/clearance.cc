@@ -244,9 +244,7 @@ Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t
   const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0])
                                      : of_cable(machine, geometry, first, weights[0]);
   const Ball allowed = a.radius + bodies.clearance[pair];
-  const auto from = [&](const ContactPoint& b) {
-    return allowed + b.radius - sqrt(squared_norm(Vector3<Ball>(a.at - b.at)));
-  };
+  const auto from = [&](const ContactPoint& b) { return allowed + b.radius - length_range(a.at - b.at); };
   if (kind == PairKind::kCableCable) return from(of_cable(machine, geometry, second, weights[1]));
   if (kind == PairKind::kCablePlatform) return from(of_platform(bodies.platform[second], geometry, weights[1]));
   if (const auto* hull = std::get_if<PlacedHull>(&bodies.obstacles[second])) {
