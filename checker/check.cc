@@ -113,10 +113,12 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
   const std::string boxes = plural(result.counts.boxes, "box");
   const int bits = result.counts.bits;
   if (certificate.verdict == Verdict::kProved) {
-    const auto& [tension, length, scale] = certificate.margins;
+    const auto& [tension, length, scale, clearance] = certificate.margins;
+    const bool has_pairs = certificate.problem.bodies && !certificate.problem.bodies->pairs.empty();
+    const std::string apart = has_pairs ? fmt::format(", clearance margin >= {} m", clearance) : "";
     return fmt::format(
-        "{}proved again: {}, {}, tension margin >= {} N, length margin >= {} m, wrench scale >= {}; {} bits", audit,
-        plural(result.counts.segments, "segment"), boxes, tension, length, scale, bits);
+        "{}proved again: {}, {}, tension margin >= {} N, length margin >= {} m, wrench scale >= {}{}; {} bits", audit,
+        plural(result.counts.segments, "segment"), boxes, tension, length, scale, apart, bits);
   }
   const std::string refuted = audit + "refuted again: the witness is confirmed";
   const std::size_t stretches = certificate.stretch_texts.size();

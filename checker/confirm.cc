@@ -77,20 +77,27 @@ class Confirmation {
   void prove_segment(std::size_t k) {
     const Segment segment = certificate_.segment(k);
     const Margins& margins = segment.margins;
-    if (!segment.boxes.empty() && (margins.tension <= 0 || margins.length <= 0 || margins.wrench_scale < 1)) {
+    const bool has_pairs = problem_.bodies && !problem_.bodies->pairs.empty();
+    const bool are_positive = margins.tension > 0 && margins.length > 0 && (!has_pairs || margins.clearance > 0);
+    if (!segment.boxes.empty() && (!are_positive || margins.wrench_scale < 1)) {
       throw Rejected("segment " + std::to_string(k) +
                      ": claims a margin that is not positive, or a wrench scale below 1");
     }
-    for (const Box& box : segment.boxes) {
+    for (std::size_t i = 0; i < segment.boxes.size(); ++i) {
+      const Box& box = segment.boxes[i];
       at_precision(box.bits, name_of(k, box), [&](const Machine& machine) {
-        const Bounds bounds = prove_box(machine, problem_, path_, k, box);
-        const auto require = [](const Ball& bound, const mpq_class& claimed, const char* what) {
+        const Bounds bounds = prove_box(machine, problem_, path_, k, box, segment.apart_of(i));
+        const auto require = [](const Ball& bound, const mpq_class& claimed, const std::string& what) {
           if (certainly_nonnegative(bound - Ball(claimed))) return;
-          throw Undefined(std::string(what) + " is not proved as claimed");
+          throw Undefined(what + " is not proved as claimed");
         };
         require(bounds.tension, margins.tension, "the tension margin");
         require(bounds.length, margins.length, "the length margin");
         require(bounds.wrench_scale, margins.wrench_scale, "the wrench scale");
+        if (problem_.bodies) {
+          const std::string pair = has_pairs ? " of " + problem_.bodies->pairs[bounds.closest_pair].name : "";
+          require(bounds.clearance.value(), margins.clearance, "the clearance" + pair);
+        }
         require_near_waypoints(machine, problem_, path_, k, box);
       });
     }
@@ -104,7 +111,11 @@ class Confirmation {
       return;
     }
     at_precision(witness.at_box.bits, name, [&](const Machine& machine) {
-      confirm_violation(machine, problem_, path_, witness);
+      if (witness.kind == WitnessKind::kContact) {
+        confirm_contact(machine, problem_, path_, witness);
+      } else {
+        confirm_violation(machine, problem_, path_, witness);
+      }
       if (path_.segments() == 0) require_near_waypoints(machine, problem_, path_, 0, witness.at_box);
     });
   }

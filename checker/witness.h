@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a witness claims: a limit broken at one pose of the path, or a sign change of det J between two.
+// What a witness claims: a limit broken or bodies in contact at one pose of the path, or a sign change of det J between
+// two.
 //
 // A limit kind: at the pose of the path (shown by kernel/motion.h, at one place), for the machine as the problem states
 // it or with the deviation that the witness states (kernel/deviant.h), the named quantity is within `value`, which lies
@@ -8,6 +9,7 @@
 #pragma once
 
 #include "checker/format/witness.h"
+#include "checker/kernel/clearance.h"
 #include "checker/kernel/deviant.h"
 
 namespace taut::checker {
@@ -16,8 +18,8 @@ namespace taut::checker {
 [[nodiscard]] Ball determinant_at(const Machine& machine, const Problem& problem, const Path& path,
                                   const PathPoint& place, const Box& how);
 
-/// The least or largest tension [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre not
-/// kSingular
+/// The least or largest tension [N] or |d| [m] of the witness's cable, at its pose and for its machine. @pre the
+/// witness is of a limit
 /// @throws Rejected where the deviation is not within the tolerances, or a load not in its item; Undefined where the
 /// quantity can't be enclosed.
 [[nodiscard]] Ball witnessed_quantity(const Machine& machine, const Problem& problem, const Path& path,
@@ -26,5 +28,10 @@ namespace taut::checker {
 /// Confirms that this quantity is within the witness's `value`. @pre `value` lies beyond the limit.
 /// @throws Rejected where it is certainly outside; Undefined where that can't be told.
 void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness);
+
+/// Confirms that the two points of a witness of contact, of the machine as stated and at its pose, are no farther apart
+/// than the radii around them and the clearance of the pair are together.
+/// @throws Rejected where they certainly are; Undefined where that can't be told.
+void confirm_contact(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness);
 
 }  // namespace taut::checker

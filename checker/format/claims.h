@@ -3,6 +3,9 @@
 // whoever writes a certificate includes this header. docs/certificate-format.md repeats the texts.
 #pragma once
 
+#include <array>
+#include <string>
+
 namespace taut::checker {
 
 inline constexpr const char* kProvedClaim =
@@ -18,6 +21,46 @@ inline constexpr const char* kProvedClaim =
 inline constexpr const char* kItemsClause =
     " K is the sum of the items that the problem's load states, and of its ellipsoid where it states one: the wrenches "
     "about the load point that are a sum of one wrench of each.";
+
+/// Follows "proved" where the problem states bodies, before kBodiesClause.
+inline constexpr const char* kClearClause =
+    " For every s along the path and every machine, load and pose within the stated tolerances, the two bodies of "
+    "every "
+    "checked pair are farther apart than the pair's clearance.";
+
+/// Follows "refuted" where the problem states bodies, before kBodiesClause.
+inline constexpr const char* kContactClause =
+    " Or, where the witness is of kind contact, the two bodies of its pair, of the machine as the problem states it, "
+    "are "
+    "not farther apart at the witness pose than the pair's clearance. The claim of a proved path includes that those "
+    "of "
+    "every checked pair are, for every machine, load and pose within the tolerances.";
+
+/// Then follows which pairs are checked: bodies_clause().
+inline constexpr const char* kBodiesClause =
+    " Obstacles do not move, and bodies of the platform move with it; their shapes are exactly as stated. The body of "
+    "a "
+    "cable is all points within half its diameter of the straight line between its anchors, but for what is nearer to "
+    "an anchor than the stated free end; every cable of a checked pair is longer than its free ends together. Anchors "
+    "of cables that are stated at the same place and with the same tolerance are one point, which deviates as one.";
+
+/// The classes of pairs, in the order in which certificates count them.
+inline constexpr std::array kPairClassNames = {"platform-obstacles", "cables-obstacles", "cables-cables",
+                                               "cables-platform"};
+
+/// Follows the claim of a verdict but "undecided", and the clause of items, where the problem states bodies.
+/// @param checked  by class
+inline std::string bodies_clause(bool is_proved, const std::array<bool, 4>& checked) {
+  const auto list = [&](bool is_checked) {
+    std::string names;
+    for (std::size_t k = 0; k < checked.size(); ++k) {
+      if (checked[k] == is_checked) names += (names.empty() ? "" : ", ") + std::string(kPairClassNames[k]);
+    }
+    return names.empty() ? std::string("none") : names;
+  };
+  return std::string(is_proved ? kClearClause : kContactClause) + kBodiesClause +
+         " Pairs that are checked: " + list(true) + ". Pairs that are not checked: " + list(false) + ".";
+}
 
 inline constexpr const char* kRefutedClaim =
     "The path is not wrench-feasible: at the witness pose of the path some wrench w in K needs a tension outside its "

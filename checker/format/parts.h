@@ -22,6 +22,8 @@ void require_no_tolerance_of_load(const Cursor& tolerances, const ToleranceBound
 /// `loads` of a witness: one for each item.
 [[nodiscard]] std::vector<LoadChoice> read_loads(const Cursor& json, const std::vector<LoadItem>& items);
 [[nodiscard]] Problem read_problem(const Cursor& json);
+/// `problem.bodies`, with the pairs that follow from it.
+void read(const Cursor& json, Bodies& bodies);
 /// `problem.space` of a path whose law is one of poses: the free coordinates px py pz phi theta sigma.
 [[nodiscard]] const Json& coordinate_space();
 /// Whether a `space` is that of the free coordinates, with tilt-and-torsion angles or with those of a case's space.
@@ -37,7 +39,15 @@ void read_pose_tube(const Cursor& json, Path& path);
 /// them.
 [[nodiscard]] bool are_nested(const PoseTube& a, const PoseTube& b);
 
-void read(const Cursor& json, Margins& margins);
+/// Appends an entry of `directions` to the path.
+void append_direction(const Cursor& json, Path& path);
+/// An entry of `apart` for a pair of the problem's bodies.
+[[nodiscard]] std::optional<std::size_t> read_apart(const Cursor& json, std::size_t pair, const Problem& problem,
+                                                    const Path& path);
+/// `weights` of a witness of contact between the bodies of a pair.
+[[nodiscard]] ContactWeights read_contact_weights(const Cursor& json, std::size_t pair, const Problem& problem);
+
+void read_margins(const Cursor& json, const Problem& problem, Margins& margins);
 [[nodiscard]] Segment read_segment(const Cursor& json, std::size_t k, const Problem& problem, const Path& path);
 [[nodiscard]] Witness read_witness(const Cursor& json, const Problem& problem, const Path& path);
 [[nodiscard]] Stretch read_stretch(const Cursor& json, const Problem& problem, const Path& path);

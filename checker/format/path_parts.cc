@@ -37,6 +37,7 @@ struct BoxKeys {
   std::size_t unknowns = 0;     ///< "near" is there unless this is 0
   bool end_point = false;       ///< whether "s" may be ["1", "1"]
   bool tolerances = false;      ///< "parts" and "guesses"
+  bool apart = false;           ///< "apart" may be there, and is read by others
   MotionBox* motion = nullptr;  ///< where not null: "segment", which is read into it
   std::size_t segments = 0;     ///< of the path
 };
@@ -57,12 +58,30 @@ Box read_box(const Cursor& json, const BoxKeys& keys) {
     s.require(box.begin < box.end || (box.begin == box.end && keys.end_point && box.begin == 1), "begin < end");
   };
   const auto if_tolerances = [&](const char* key) { return keys.tolerances ? key : nullptr; };
-  json.object("bits", integer(box.bits, 32, 4096), keys.s ? "s" : nullptr, read_ends,
-              keys.unknowns > 0 ? "near" : nullptr, read_near, if_tolerances("guesses"), integer(box.guesses, 1, 16),
-              if_tolerances("parts"), integer(box.parts, 1, 64), keys.motion != nullptr ? "segment" : nullptr,
+  const auto later = [](const Cursor& /*json*/) {};
+  json.object(keys.apart ? "apart?" : nullptr, later, "bits", integer(box.bits, 32, 4096), keys.s ? "s" : nullptr,
+              read_ends, keys.unknowns > 0 ? "near" : nullptr, read_near, if_tolerances("guesses"),
+              integer(box.guesses, 1, 16), if_tolerances("parts"), integer(box.parts, 1, 64),
+              keys.motion != nullptr ? "segment" : nullptr,
               integer(segment, 0, static_cast<std::int64_t>(keys.segments) - 1));
   if (keys.motion != nullptr) *keys.motion = {segment, box};
   return box;
+}
+
+/// `apart` of a box: what differs from its segment's.
+ApartChanges read_changes(const Cursor& json, const Problem& problem, const Path& path) {
+  ApartChanges changes;
+  const auto pairs = static_cast<std::int64_t>(problem.bodies->pairs.size());
+  json.require(json.size() > 0, "changes, or no such key");
+  json.elements([&](const Cursor& here, std::size_t) {
+    here.require_size(2);
+    const auto pair = static_cast<std::size_t>(here.at(0).integer(0, pairs - 1));
+    here.require(changes.empty() || pair > changes.back().first, "rising pairs");
+    const std::optional<std::size_t> direction = read_apart(here.at(1), pair, problem, path);
+    here.require(direction.has_value(), "a pair neither of which is a half-space");
+    changes.emplace_back(pair, *direction);
+  });
+  return changes;
 }
 
 /// Boxes never reach across a pose at which the reference changes direction.
@@ -223,37 +242,55 @@ bool are_nested(const PoseTube& a, const PoseTube& b) {
   return (a.position <= b.position && a.turn <= b.turn) || (a.position >= b.position && a.turn >= b.turn);
 }
 
-void read(const Cursor& json, Margins& margins) {
-  json.object("length_m", margins.length, "tension_N", margins.tension, "wrench_scale", margins.wrench_scale);
+void read_margins(const Cursor& json, const Problem& problem, Margins& margins) {
+  json.object(problem.bodies ? "clearance_m" : nullptr, margins.clearance, "length_m", margins.length, "tension_N",
+              margins.tension, "wrench_scale", margins.wrench_scale);
 }
 
 Segment read_segment(const Cursor& json, std::size_t k, const Problem& problem, const Path& path) {
   Segment segment;
-  const BoxKeys keys = {.unknowns = unknowns(problem, path), .tolerances = problem.tolerances.has_value()};
+  const BoxKeys keys = {.unknowns = unknowns(problem, path),
+                        .tolerances = problem.tolerances.has_value(),
+                        .apart = problem.bodies.has_value()};
   const auto read_boxes = [&](const Cursor& boxes) {
     boxes.elements([&](const Cursor& here, std::size_t i) {
       Box box = read_box(here, keys);
       here["s"].require(i == 0 || box.begin >= segment.boxes.back().end, "a box after the last one");
       require_one_piece(here, box, k, path);
       segment.boxes.push_back(std::move(box));
+      segment.changes.push_back(here.has("apart") ? read_changes(here["apart"], problem, path) : ApartChanges());
     });
+  };
+  const auto read_apart_of_all = [&](const Cursor& apart) {
+    apart.require(segment.boxes.empty() == apart.is_null(), "null where there is no box, and only there");
+    if (apart.is_null()) return;
+    apart.require_size(problem.bodies->pairs.size());
+    apart.elements(
+        [&](const Cursor& here, std::size_t pair) { segment.apart.push_back(read_apart(here, pair, problem, path)); });
   };
   const auto read_margins = [&](const Cursor& margins) {
     margins.require(segment.boxes.empty() == margins.is_null(), "null where there is no box, and only there");
-    if (!margins.is_null()) read(margins, segment.margins);
+    if (!margins.is_null()) taut::checker::read_margins(margins, problem, segment.margins);
   };
-  json.object("from", exactly(k), "to", exactly(k + path.control_points() - 1), "boxes", read_boxes, "margins",
-              read_margins);
+  json.object("from", exactly(k), "to", exactly(k + path.control_points() - 1), "boxes", read_boxes,
+              problem.bodies ? "apart" : nullptr, read_apart_of_all, "margins", read_margins);
   return segment;
 }
 
+Apart Segment::apart_of(std::size_t box) const {
+  Apart result = apart;
+  for (const auto& [pair, direction] : changes[box]) result[pair] = direction;
+  return result;
+}
+
 Witness read_witness(const Cursor& json, const Problem& problem, const Path& path) {
-  static constexpr std::array<std::pair<const char*, WitnessKind>, 5> kKinds = {
+  static constexpr std::array<std::pair<const char*, WitnessKind>, 6> kKinds = {
       {{"tension_min", WitnessKind::kTensionMin},
        {"tension_max", WitnessKind::kTensionMax},
        {"length_min", WitnessKind::kLengthMin},
        {"length_max", WitnessKind::kLengthMax},
-       {"singular", WitnessKind::kSingular}}};
+       {"singular", WitnessKind::kSingular},
+       {"contact", WitnessKind::kContact}}};
   json.require(json.has("kind"), "an object with the key 'kind'");
   Witness witness;
   witness.kind = json["kind"].one_of<WitnessKind>(kKinds, "a kind of the format");
@@ -270,6 +307,16 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     json.object("kind", ignore, "at", witness_point(witness.at, path), "at_proof", proof(witness.at_box, witness.at, n),
                 "to", witness_point(witness.to, path), "to_proof", proof(witness.to_box, witness.to, n), "motion",
                 read_motion);
+    return witness;
+  }
+  if (witness.kind == WitnessKind::kContact) {
+    json["kind"].require(problem.bodies && !problem.bodies->pairs.empty(), "no contact where no pair is checked");
+    const auto last = static_cast<std::int64_t>(problem.bodies->pairs.size()) - 1;
+    const auto read_weights = [&](const Cursor& weights) {
+      witness.weights = read_contact_weights(weights, witness.pair, problem);
+    };
+    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "at",
+                witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n), "motion", read_motion);
     return witness;
   }
   mpq_class limit;

@@ -208,8 +208,9 @@ Problem read_problem(const Cursor& json) {
                  problem.platform_anchors, "tension_N", problem.tension);
   };
   json.object(
-      "name", name, "robot", read_robot, "load", [&](const Cursor& load) { read_load(load, problem); }, "tolerances",
-      problem.tolerances, "space", [&](const Cursor& space) { read_space(space, problem); }, "query",
+      "bodies?", [&](const Cursor& bodies) { read(bodies, problem.bodies.emplace()); }, "name", name, "robot",
+      read_robot, "load", [&](const Cursor& load) { read_load(load, problem); }, "tolerances", problem.tolerances,
+      "space", [&](const Cursor& space) { read_space(space, problem); }, "query",
       [&](const Cursor& query) { read_query(query, problem); });
   if (problem.tolerances && !problem.items.empty()) {
     require_no_tolerance_of_load(json["tolerances"], *problem.tolerances);

@@ -13,8 +13,13 @@
 namespace taut::checker {
 namespace {
 
-constexpr std::int64_t kVersion = 4;  ///< of the format
-constexpr std::array<const char*, 3> kMarginKeys = {"tension_N", "length_m", "wrench_scale"};
+constexpr std::int64_t kVersion = 4;            ///< of the format
+constexpr std::int64_t kVersionWithBodies = 5;  ///< where the problem states bodies
+constexpr std::array<const char*, 4> kMarginKeys = {"tension_N", "length_m", "wrench_scale", "clearance_m"};
+
+std::array<const mpq_class*, 4> values_of(const Margins& margins) {
+  return {&margins.tension, &margins.length, &margins.wrench_scale, &margins.clearance};
+}
 
 auto is_digest(std::string_view digest) {
   return exactly(digest, "the digest of what the file contains: it was altered");
@@ -52,8 +57,8 @@ class Reader {
     const auto read_footer = [&](const Cursor& footer) {
       footer.object("sha256", is_digest(outline_.body_sha256), "boxes", later, "segments", later, "waypoints", later);
     };
-    top_.object("format", exactly("taut-certificate", "'taut-certificate'"), "version", exactly(kVersion), "footer",
-                read_footer, "generator", by(&Reader::read_generator), "illustration", later, "claim", later, "verdict",
+    top_.object("format", exactly("taut-certificate", "'taut-certificate'"), "version", later, "footer", read_footer,
+                "generator", by(&Reader::read_generator), "illustration", later, "claim", later, "verdict",
                 by(&Reader::read_verdict), "path_sha256", is_digest(outline_.path_sha256), "problem",
                 by(&Reader::read_problem_and_digest), "problem_sha256", later, "path", by(&Reader::read_path),
                 "stretches", by(&Reader::read_stretches), "segments", by(&Reader::read_segments), "margins",
@@ -74,15 +79,16 @@ class Reader {
     const Json& json = outline_.json;
     if (!json.is_object() || json.value("format", Json()) != "taut-certificate") return;
     const Json version = json.value("version", Json());
-    if (!version.is_number_integer() || version == kVersion) return;
-    top_["version"].fail(std::to_string(kVersion) + ", got " + version.dump() +
-                         ": only the taut-check that came with the taut that made it can check it");
+    if (!version.is_number_integer() || version == kVersion || version == kVersionWithBodies) return;
+    top_["version"].fail(std::to_string(kVersion) + " or " + std::to_string(kVersionWithBodies) + ", got " +
+                         version.dump() + ": only the taut-check that came with the taut that made it can check it");
   }
 
   void read_generator(const Cursor& json) { json.require(json.json().is_object(), "an object"); }
   void read_problem_and_digest(const Cursor& json) {
     is_digest(sha256(json.json()))(top_["problem_sha256"]);
     result_.problem = read_problem(json);
+    exactly(result_.problem.bodies ? kVersionWithBodies : kVersion)(top_["version"]);
     require_claim();
   }
   void read_signature(const Cursor& json) { result_.signer = verify_signature(json, outline_.body_sha256); }
@@ -110,8 +116,9 @@ class Reader {
     const auto is_list = [](const Cursor& list) { (void)list.size(); };
     const auto is_list_or_null = [&](const Cursor& list) { list.is_null() ? void() : is_list(list); };
     json.object(
-        "interpolation", [&](const Cursor& law) { path.law = law.one_of<Law>(kLaws, "a law of the format"); },
-        "pose_tubes", is_list, "times", is_list_or_null, "tubes", is_list, "waypoints", is_list);
+        problem.bodies ? "directions" : nullptr, is_list, "interpolation",
+        [&](const Cursor& law) { path.law = law.one_of<Law>(kLaws, "a law of the format"); }, "pose_tubes", is_list,
+        "times", is_list_or_null, "tubes", is_list, "waypoints", is_list);
     for_each("waypoints", "path.waypoints", [&](const Cursor& here, std::string_view /*text*/) {
       path.waypoints.push_back(read_waypoint(here, path.law));
       if (!has_poses(path.law)) require_waypoint(here, path.waypoints.back());
@@ -120,6 +127,8 @@ class Reader {
     if (!json["times"].is_null()) require_size(json["times"], read_times(), waypoints);
     json["waypoints"].require(path.law != Law::kCubicBSpline || path.segments() > 0, "at least four of a spline");
     read_tubes();
+    for_each("directions", "path.directions",
+             [&](const Cursor& here, std::string_view /*text*/) { append_direction(here, path); });
     const std::size_t segments = std::max(path.segments(), std::min<std::size_t>(waypoints, 1));
     require_size(json["tubes"], path.tubes.size(), problem.constraints.empty() ? 0 : segments);
     require_size(json["pose_tubes"], path.pose_tubes.size(), path.law == Law::kCableLengths ? segments : 0);
@@ -197,6 +206,9 @@ class Reader {
     constexpr std::array<const char*, 3> kClaims = {kProvedClaim, kRefutedClaim, kUndecidedClaim};
     std::string claim = kClaims[static_cast<std::size_t>(result_.verdict)];
     if (result_.verdict != Verdict::kUndecided && !result_.problem.items.empty()) claim += kItemsClause;
+    if (result_.verdict != Verdict::kUndecided && result_.problem.bodies) {
+      claim += bodies_clause(result_.verdict == Verdict::kProved, result_.problem.bodies->checks);
+    }
     exactly(claim, "the text that belongs to the verdict")(top_["claim"]);
   }
 
@@ -245,9 +257,11 @@ class Reader {
     }
   }
 
+  [[nodiscard]] std::size_t margin_count() const { return result_.problem.bodies ? 4 : 3; }
+
   void note_margins(const Margins& margins, const Json& written) {
-    const std::array<const mpq_class*, 3> values = {&margins.tension, &margins.length, &margins.wrench_scale};
-    for (std::size_t i = 0; i < 3; ++i) {
+    const auto values = values_of(margins);
+    for (std::size_t i = 0; i < margin_count(); ++i) {
       if (!least_[i] || *values[i] < *least_[i]) least_[i] = *values[i];
       const Json& of_path = outline_.json["margins"];
       is_of_segment_[i] |= of_path.is_object() && of_path.value(kMarginKeys[i], Json()) == written[kMarginKeys[i]];
@@ -257,9 +271,9 @@ class Reader {
   void read_margins_of_path(const Cursor& json) {
     if (result_.verdict != Verdict::kProved) return json.object();
     Margins margins;
-    taut::checker::read(json, margins);
-    const std::array<const mpq_class*, 3> values = {&margins.tension, &margins.length, &margins.wrench_scale};
-    for (std::size_t i = 0; i < 3; ++i) {
+    read_margins(json, result_.problem, margins);
+    const auto values = values_of(margins);
+    for (std::size_t i = 0; i < margin_count(); ++i) {
       const Cursor margin = json[kMarginKeys[i]];
       margin.require(*least_[i] >= *values[i], "not more than any segment's");
       margin.require(is_of_segment_[i], "the text of a segment's");
@@ -305,8 +319,8 @@ class Reader {
   Certificate result_;
   Parts outer_;                                    ///< of the stretches
   std::vector<Stretch> violated_;                  ///< outer ends of those that have witnesses
-  std::array<std::optional<mpq_class>, 3> least_;  ///< margins of segments
-  std::array<bool, 3> is_of_segment_{};  ///< whether a segment writes the top-level margin as the top level does
+  std::array<std::optional<mpq_class>, 4> least_;  ///< margins of segments
+  std::array<bool, 4> is_of_segment_{};  ///< whether a segment writes the top-level margin as the top level does
 };
 
 }  // namespace

@@ -2,6 +2,9 @@
 // What a certificate states of its boxes and witnesses, beyond what the kernel is asked (checker/kernel/statement.h).
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "checker/kernel/statement.h"
 
 namespace taut::checker {
@@ -11,7 +14,11 @@ struct Margins {
   mpq_class tension;       ///< [N]
   mpq_class length;        ///< [m]
   mpq_class wrench_scale;  ///< [1]
+  mpq_class clearance;     ///< of distances, minus the clearances of their pairs [m]; 0 where no bodies are stated
 };
+
+/// Pairs, by rising index, and the direction of each: what differs of a box from `apart` of its segment.
+using ApartChanges = std::vector<std::pair<std::size_t, std::size_t>>;
 
 /// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
 inline bool is_implied(const Problem& problem, const Path& path) {
@@ -30,15 +37,17 @@ struct MotionBox {
   Box box;
 };
 
-enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular };
+enum class WitnessKind { kTensionMin, kTensionMax, kLengthMin, kLengthMax, kSingular, kContact };
 
 struct Witness {
   WitnessKind kind = WitnessKind::kSingular;
   PathPoint at;
-  Box at_box;             ///< [s, s] and how the pose there is shown
-  PathPoint to;           ///< kSingular only; the others use what follows
-  Box to_box;             ///< likewise
-  std::size_t cable = 0;  ///< 0 to 5
+  Box at_box;              ///< [s, s] and how the pose there is shown
+  PathPoint to;            ///< kSingular only
+  Box to_box;              ///< likewise
+  std::size_t pair = 0;    ///< kContact only, as the next
+  ContactWeights weights;  ///< of the two points that are too near to each other
+  std::size_t cable = 0;   ///< 0 to 5; of limits only, as what follows but for `motion`
   mpq_class value_lower;
   mpq_class value_upper;
   std::optional<WitnessDeviation> deviation;

@@ -23,6 +23,25 @@ Json to_json(const NearZero& near) {
           {"narrowings", near.narrowings}};
 }
 
+Json to_json(const Direction& direction) {
+  const auto& [x, y, z] = direction.u;
+  return {direction.axes == Axes::kWorld ? "W" : "P", x, y, z};
+}
+
+Json to_json(const Apart& apart) {
+  Json result = Json::array();
+  for (const std::optional<std::size_t>& direction : apart) {
+    result.push_back(direction ? Json(*direction) : Json(nullptr));
+  }
+  return result;
+}
+
+Json to_json(const ApartChanges& changes) {
+  Json result = Json::array();
+  for (const auto& [pair, direction] : changes) result.push_back({pair, direction});
+  return result;
+}
+
 Json proof_to_json(const Box& box) {
   Json result = {{"bits", box.bits}};
   if (box.near) result["near"] = to_json(*box.near);

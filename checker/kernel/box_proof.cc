@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checker/kernel/box_proof.h"
 
+#include <algorithm>
+
+#include "checker/kernel/clearance.h"
 #include "checker/kernel/deviation.h"
 #include "checker/kernel/motion.h"
 
@@ -8,10 +11,23 @@ namespace taut::checker {
 namespace {
 
 constexpr int kLargestScale = 1'000'000;  ///< that is stated where there is none
+constexpr int kFar = 1'000'000;           ///< likewise of a distance, where no pair is checked [m]
+
+void add_clearance(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
+                   const std::vector<Direction>& directions, const Apart& apart, Bounds& to) {
+  to.clearance = Ball(kFar);
+  const std::vector<Ball> margins = clearance_margins(machine, geometry, loss, directions, apart);
+  for (std::size_t k = 0; k < margins.size(); ++k) {
+    if (&smaller(*to.clearance, margins[k]) != &margins[k]) continue;
+    to.clearance = margins[k];
+    to.closest_pair = k;
+  }
+}
 
 }  // namespace
 
-Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box) {
+Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
+                 const Apart& apart) {
   const Geometry geometry = commanded_geometry(machine, problem, path, k, box);
   const Inverse inverse(geometry.D);  // J is non-singular on the box
   const Tensions tensions = machine.tensions(geometry, inverse);
@@ -33,11 +49,15 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
       // Where K is one wrench, v is 0, and no scale is too large.
       const Ball v = magnitude((length * tensions.radius[side][i]).range()) + loss.radius[i][side];
       const Ball of_scale = v.is_zero() ? Ball(kLargestScale) : lowest(Ball(1) + of_tension / v);
-      if (!result) result = Bounds{of_tension, of_length, of_scale};
-      result = Bounds{smaller(result->tension, of_tension), smaller(result->length, of_length),
-                      smaller(result->wrench_scale, of_scale)};
+      if (!result) result = Bounds{of_tension, of_length, of_scale, {}, 0};
+      result = Bounds{smaller(result->tension, of_tension),
+                      smaller(result->length, of_length),
+                      smaller(result->wrench_scale, of_scale),
+                      {},
+                      0};
     }
   }
+  if (machine.bodies) add_clearance(machine, geometry, loss, path.directions, apart, *result);
   return *result;
 }
 

@@ -135,6 +135,17 @@ class Family {
     return whole_.position + whole_.orientation * lever + whole_.base_anchors[i] + whole_.platform_anchors[i];
   }
 
+  /// Bounds of the rates of the commanded pose.
+  [[nodiscard]] PoseShift commanded_pose_rate() const {
+    PoseShift rate;
+    for (std::size_t j = 0; j < 6 && length_controlled_; ++j) {
+      const Row y(now_.Y[j]);
+      rate.position += rho_[j] * length_bound(y.f - cross(y.m, now_.Rp_m));
+      rate.turn += rho_[j] * length_bound(y.m);
+    }
+    return rate;
+  }
+
   /// A bound of the change of |d_i| where that is L_i + e_i at the commanded pose, whatever leads there. Tracking is
   /// added to the whole deviation, not part by part.
   [[nodiscard]] Ball controlled_length_loss(std::size_t i) const {
@@ -297,6 +308,9 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
   Vector6<Ball> nominal;
   for (int part = 1; part <= parts; ++part) {
     family.advance(share, Ball(mpq_class(part, parts)), guesses);
+    const PoseShift rate = family.commanded_pose_rate();
+    result.shift.position += share * rate.position;
+    result.shift.turn += share * rate.turn;
     for (std::size_t i = 0; i < 6; ++i) {
       if (!length_controlled) result.length[i] += share * family.length_rate(i);
       const Family::TensionRates rates = family.tension_rates(i);
@@ -311,6 +325,8 @@ MarginLoss margin_loss(const Machine& machine, const Geometry& geometry, const I
     result.radius[i].fill(half(least + most));
     if (!machine.items.empty()) result.radius[i] = {least + nominal[i], most + nominal[i]};
   }
+  result.shift.position = highest(result.shift.position + machine.tolerances->position);
+  result.shift.turn = highest(result.shift.turn + machine.tolerances->orientation);
   return result;
 }
 

@@ -41,17 +41,30 @@
 // The length |d_i| of a cable changes at the rate u_i . d_i', by no more than |p'| + min(|W x R b_i . u_i|, |W||b_i|) +
 // ... Where lengths are controlled, it is L_i + e_i at the commanded pose of the whole deviation, from which tracking
 // then takes it by no more than the distance and the angle times |b_i'|.
+//
+// The pose itself.  The platform's origin is -R p_m from P_m, so where lengths are controlled the commanded pose moves
+// at the rates
+//     p_c' = sum_j rho_j (f_j - m_j x R p_m),   W_c = sum_j rho_j m_j,
+// by no more than the sum over all parts of their bounds; a turn at the rate W_c turns by no more than |W_c| (angles
+// between rotations satisfy the triangle inequality). Tracking adds its distance and its angle to the whole deviation.
 #pragma once
 
 #include "checker/kernel/machine.h"
 
 namespace taut::checker {
 
+/// By how much poses differ, each a bound.
+struct PoseShift {
+  Ball position;  ///< |p' - p| [m]
+  Ball turn;      ///< of the angle of the rotation from R to R' [rad]
+};
+
 /// For each cable: bounds that hold for every u and every machine within the tolerances.
 struct MarginLoss {
   std::array<std::array<Ball, 2>, 6> tension;  ///< of the change of the least and of the largest tension [N]
   std::array<std::array<Ball, 2>, 6> radius;   ///< of the change of what they differ by from the nominal one [N]
   Vector6<Ball> length;                        ///< of the change of |d_i| [m]
+  PoseShift shift;                             ///< of the pose
 };
 
 /// @param parts    n above: more are tighter

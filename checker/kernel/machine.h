@@ -20,6 +20,7 @@
 // for every vector y, so that D^-1 B = P (C B) is known to first order, up to N (N q), for each column y of C B.
 #pragma once
 
+#include "checker/kernel/bodies.h"
 #include "checker/kernel/linear.h"
 #include "checker/kernel/loads.h"
 #include "checker/kernel/statement.h"
@@ -73,7 +74,7 @@ struct Tensions {
 
 /// One problem's numbers at one precision. All functions compute at that working precision, which the caller sets.
 struct Machine {
-  /// @throws Undefined where E can't be shown to be positive definite at this precision.
+  /// @throws Undefined where E can't be shown to be positive definite at this precision, or a body has no place.
   explicit Machine(const Problem& problem);
 
   std::array<Vector3<Ball>, 6> base;       ///< a_i
@@ -86,6 +87,7 @@ struct Machine {
   std::array<std::array<Ball, 2>, 6> tension_limits;
   std::array<std::array<Ball, 2>, 6> length_limits;
   std::optional<Tolerances<Ball, Ball>> tolerances;
+  std::optional<PlacedBodies> bodies;
 
   /// @throws Undefined where a cable may have no length.
   [[nodiscard]] Geometry geometry(const Frame& pose) const;

@@ -29,16 +29,22 @@ Matrix3<T> rotation_about(const ExactVector& axis, const T& angle) {
   return R;
 }
 
+/// Rz(yaw) Ry(pitch) Rx(roll).
+template <class T>
+Matrix3<T> roll_pitch_yaw(const T& roll, const T& pitch, const T& yaw) {
+  return multiply(multiply(rotation_about<T>({0, 0, 1}, yaw), rotation_about<T>({0, 1, 0}, pitch)),
+                  rotation_about<T>({1, 0, 0}, roll));
+}
+
 /// R of a pose px py pz and its angles.
 template <class T>
 Matrix3<T> orientation(const Problem& problem, const Vector6<T>& pose) {
   const T &x = pose[3], &y = pose[4], &z = pose[5];
-  const auto Rx = [](const T& angle) { return rotation_about<T>({1, 0, 0}, angle); };
   const auto Ry = [](const T& angle) { return rotation_about<T>({0, 1, 0}, angle); };
   const auto Rz = [](const T& angle) { return rotation_about<T>({0, 0, 1}, angle); };
   switch (problem.angles) {
     case AngleKind::kTiltAndTorsion: return multiply(multiply(Rz(x), Ry(y)), Rz(z - x));
-    case AngleKind::kRollPitchYaw: return multiply(multiply(Rz(z), Ry(y)), Rx(x));
+    case AngleKind::kRollPitchYaw: return roll_pitch_yaw(x, y, z);
     case AngleKind::kZyz: return multiply(multiply(Rz(x), Ry(y)), Rz(z));
     case AngleKind::kAxis: return rotation_about(problem.axis, x);
   }

@@ -98,6 +98,69 @@ struct LoadItem {
   ExactVector at;            ///< c in P [m]; a moment has none
 };
 
+/// All points within `radius` >= 0 of the convex hull of one or more points [m].
+struct HullShape {
+  std::vector<ExactVector> points;
+  mpq_class radius;
+};
+/// All x with normal . x <= 0, for a normal that is not 0, of any length.
+struct HalfSpaceShape {
+  ExactVector normal;
+};
+/// The points at + Rz(yaw) Ry(pitch) Rx(roll) x of all points x of a shape, in W of an obstacle, in P of a body of the
+/// platform.
+struct RigidBody {
+  std::variant<HullShape, HalfSpaceShape> shape;
+  ExactVector at;                      ///< [m]
+  std::array<Expression, 3> rotation;  ///< roll, pitch, yaw: constants [rad]; not read of a half-space
+};
+/// All points within half the diameter of that part of the cable which is at least free_ends[0] from its base anchor
+/// and free_ends[1] from its platform anchor. All are >= 0 [m].
+struct CableBody {
+  mpq_class diameter;
+  std::array<mpq_class, 2> free_ends;
+};
+
+/// Which two bodies; obstacles are half-spaces or hulls, all others are hulls.
+enum class PairKind {
+  kPlatformObstacle,  ///< a body of the platform and an obstacle
+  kCableObstacle,
+  kCableCable,
+  kCablePlatform,  ///< a cable and a body of the platform
+};
+/// Two bodies that have to be farther apart than `clearance` >= 0 [m].
+struct CheckedPair {
+  PairKind kind = PairKind::kPlatformObstacle;
+  std::size_t first = 0;
+  std::size_t second = 0;
+  mpq_class clearance;
+  std::string name{};  ///< "cable 3 / stack"
+};
+
+struct Bodies {
+  std::vector<RigidBody> platform;
+  std::vector<RigidBody> obstacles;
+  std::array<CableBody, kCables> cables;
+  std::array<bool, 4> checks{};    ///< by PairKind: whether its pairs are checked
+  std::vector<CheckedPair> pairs;  ///< by rising kind; of one kind by first, then by second body
+
+  /// Whether the second body of a pair is a half-space.
+  [[nodiscard]] bool is_against_half_space(const CheckedPair& pair) const {
+    return (pair.kind == PairKind::kPlatformObstacle || pair.kind == PairKind::kCableObstacle) &&
+           std::holds_alternative<HalfSpaceShape>(obstacles[pair.second].shape);
+  }
+};
+
+/// A vector along which two bodies are told apart, of integers that are not all 0, in the axes of W or of P.
+struct Direction {
+  Axes axes = Axes::kWorld;
+  std::array<int, 3> u{};
+};
+
+/// A point of each of two bodies: the weights, >= 0 and 1 in sum, of the points whose hull the body is, or of the two
+/// ends of what the free ends leave of a cable; of a half-space none, whose nearest point is meant.
+using ContactWeights = std::array<std::vector<mpq_class>, 2>;
+
 /// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and
 /// wrench have no tolerances.
 struct Problem {
@@ -111,6 +174,7 @@ struct Problem {
   ExactVector gravity;                                  ///< in W [m/s^2]
   std::vector<LoadItem> items;                          ///< none only where there is an ellipsoid
   std::optional<ToleranceBounds> tolerances;
+  std::optional<Bodies> bodies;
   std::vector<Parameter> parameters;
   std::optional<std::array<std::size_t, 2>> flip;
   AngleKind angles = AngleKind::kTiltAndTorsion;
@@ -153,6 +217,7 @@ struct Path {
   std::vector<double> tubes;                        ///< one a segment where the space has constraints, else none
   std::vector<PoseTube> pose_tubes;                 ///< one a segment under kCableLengths, up to its first inner pose
   std::vector<std::vector<InnerPose>> inner_poses;  ///< likewise, by rising s
+  std::vector<Direction> directions;                ///< along which pairs of bodies are told apart, by their index
 
   [[nodiscard]] std::size_t control_points() const { return law == Law::kCubicBSpline ? 4 : 2; }
   [[nodiscard]] std::size_t segments() const {
@@ -182,6 +247,10 @@ struct Box {
   int parts = 1;                 ///< with tolerances: the way to each deviation is taken in so many parts, 1 to 64
   int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
 };
+
+/// For each pair of bodies: the index of a direction of the path; nothing where the second body is a half-space, whose
+/// normal is taken.
+using Apart = std::vector<std::optional<std::size_t>>;
 
 /// One load of an item, by the kind of its set: of a weight a mass and where its centre of gravity is, of a ball or
 /// disc a vector, of a line segment an amount, of load cases one of them.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checker/kernel/bodies.h"
+
+#include "checker/kernel/rotation.h"
+
+namespace taut::checker {
+namespace {
+
+PlacedHull placed(const HullShape& hull, const RigidBody& body) {
+  const auto angle = [&](std::size_t k) { return body.rotation[k].evaluate<MeanValueForm>({}); };
+  const Matrix3<Ball> R = range(roll_pitch_yaw(angle(0), angle(1), angle(2)));
+  PlacedHull result;
+  for (const ExactVector& x : hull.points) result.points.push_back(balls(body.at) + multiply(R, balls(x)));
+  result.radius = Ball(hull.radius);
+  return result;
+}
+
+PlacedHalfSpace placed(const HalfSpaceShape& half_space, const RigidBody& body) {
+  return {balls(half_space.normal), Ball(dot(half_space.normal, body.at))};
+}
+
+}  // namespace
+
+PlacedBodies::PlacedBodies(const Problem& problem) {
+  const Bodies& bodies = problem.bodies.value();
+  for (const RigidBody& body : bodies.platform) platform.push_back(placed(std::get<HullShape>(body.shape), body));
+  for (const RigidBody& body : bodies.obstacles) {
+    std::visit([&](const auto& shape) { obstacles.emplace_back(placed(shape, body)); }, body.shape);
+  }
+  for (const CheckedPair& pair : bodies.pairs) {
+    pairs.push_back(pair);
+    clearance.emplace_back(pair.clearance);
+  }
+  const auto& tolerances = problem.tolerances;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    cable_radius[i] = half(Ball(bodies.cables[i].diameter));
+    free_ends[i] = balls(bodies.cables[i].free_ends);
+    for (std::size_t j = 0; j < kCables; ++j) {
+      shares[i][j] = {problem.base_anchors[i] == problem.base_anchors[j] &&
+                          (!tolerances || tolerances->base_anchors[i] == tolerances->base_anchors[j]),
+                      problem.platform_anchors[i] == problem.platform_anchors[j] &&
+                          (!tolerances || tolerances->platform_anchors[i] == tolerances->platform_anchors[j])};
+    }
+  }
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checker/kernel/clearance.h"
+
+#include <algorithm>
+#include <map>
+
+namespace taut::checker {
+namespace {
+
+/// By how much the ends of a cable may be from where they are stated to be.
+struct EndShift {
+  Ball base;
+  Ball platform;
+};
+
+/// |d_i|, which has to be more than the free ends however a deviation changes it.
+const MeanValueForm& require_longer(const Machine& machine, const Geometry& geometry, std::size_t i, const Ball& loss) {
+  const auto& [at_base, at_platform] = machine.bodies->free_ends[i];
+  const Ball rest = geometry.length[i].range() - loss - at_base - at_platform;
+  if (!certainly_positive(rest)) throw Undefined("a cable may not be longer than its free ends");
+  return geometry.length[i];
+}
+
+/// u, of which products are to be divided by |u|.
+struct Along {
+  Axes axes;
+  Vector3<Ball> u;
+  Ball size;                      ///< |u|
+  Vector3<MeanValueForm> turned;  ///< R' u for u of W, R u for u of P
+};
+
+class Clearances {
+ public:
+  Clearances(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
+             std::span<const Direction> directions, const Apart& apart)
+      : machine_(machine),
+        bodies_(*machine.bodies),
+        geometry_(geometry),
+        loss_(loss),
+        directions_(directions),
+        apart_(apart) {
+    if (apart.size() != bodies_.pairs.size()) throw Undefined("no directions are stated for pairs of bodies");
+    shift_ = {highest(loss.shift.position), highest(loss.shift.turn)};
+  }
+
+  [[nodiscard]] std::vector<Ball> margins() {
+    std::vector<Ball> result;
+    for (std::size_t k = 0; k < apart_.size(); ++k) result.push_back(lowest(distance(k) - bodies_.clearance[k]));
+    return result;
+  }
+
+ private:
+  /// (1), of pair k.
+  [[nodiscard]] Ball distance(std::size_t k) {
+    const auto& [kind, first, second, clearance, name] = bodies_.pairs[k];
+    if (kind == PairKind::kCableCable) return between_cables(first, second, along(k, std::nullopt));
+    if (kind == PairKind::kCablePlatform) {
+      const Along& u = along(k, Axes::kPlatform);
+      return least_of_cable(first, u) - most(bodies_.platform[second], u);
+    }
+    const auto from_obstacle = [&](const Along& u, const Ball& most) {
+      return (kind == PairKind::kCableObstacle ? least_of_cable(first, u) : least(bodies_.platform[first], u)) - most;
+    };
+    if (const auto* hull = std::get_if<PlacedHull>(&bodies_.obstacles[second])) {
+      const Along& u = along(k, Axes::kWorld);
+      return from_obstacle(u, most(*hull, u));
+    }
+    const auto& half_space = std::get<PlacedHalfSpace>(bodies_.obstacles[second]);
+    const Along n = along(Axes::kWorld, half_space.normal);
+    return from_obstacle(n, half_space.offset / n.size);
+  }
+
+  // ---- Directions ---------------------------------------------------------------------------------------------------
+
+  [[nodiscard]] Along along(Axes axes, const Vector3<Ball>& u) const {
+    const Matrix3<MeanValueForm>& R = geometry_.pose.R;
+    return {axes, u, sqrt(squared_norm(u)), multiply(axes == Axes::kWorld ? transposed(R) : R, u)};
+  }
+
+  /// Of pair k, in the only axes that make sense of it.
+  [[nodiscard]] const Along& along(std::size_t k, std::optional<Axes> axes) {
+    if (!apart_[k] || *apart_[k] >= directions_.size()) {
+      throw Undefined("no direction is stated for a pair of bodies");
+    }
+    const Direction& direction = directions_[*apart_[k]];
+    if (axes && direction.axes != *axes) throw Undefined("a pair of bodies is told apart in the wrong axes");
+    const auto known = along_.find(*apart_[k]);
+    if (known != along_.end()) return known->second;
+    const auto& [x, y, z] = direction.u;
+    return along_.emplace(*apart_[k], along(direction.axes, {Ball(x), Ball(y), Ball(z)})).first->second;
+  }
+
+  // ---- Bodies -------------------------------------------------------------------------------------------------------
+
+  /// The second term of (1) for a body that stands still.
+  [[nodiscard]] static Ball most(const PlacedHull& hull, const Along& along) {
+    Ball result = highest(dot(along.u, hull.points.front()));
+    for (const Vector3<Ball>& x : hull.points) result = larger(result, highest(dot(along.u, x)));
+    return result / along.size + hull.radius;
+  }
+
+  /// The first term of (1) for a body of the platform, in W.
+  [[nodiscard]] Ball least(const PlacedHull& hull, const Along& along) const {
+    const MeanValueForm at_p = dot(along.u, geometry_.pose.p);
+    std::optional<Ball> result;
+    for (const Vector3<Ball>& x : hull.points) {
+      const Ball here = (at_p + dot(along.turned, x)).range() / along.size - shift_.turn * length_bound(x);
+      result = result ? smaller(*result, lowest(here)) : lowest(here);
+    }
+    return *result - hull.radius - shift_.position;
+  }
+
+  // ---- Cables -------------------------------------------------------------------------------------------------------
+
+  using OfCuts = std::array<MeanValueForm, 2>;  ///< at base and platform
+
+  /// t_0 and t_1.
+  [[nodiscard]] const OfCuts& cuts(std::size_t i) {
+    if (cuts_[i]) return *cuts_[i];
+    const Ball loss = highest(loss_.length[i]);
+    const MeanValueForm longest = require_longer(machine_, geometry_, i, loss) + MeanValueForm(loss);
+    const MeanValueForm inverse = apply(Function::kInverse, longest);
+    return cuts_[i].emplace(OfCuts{bodies_.free_ends[i][0] * inverse, bodies_.free_ends[i][1] * inverse});
+  }
+
+  /// u . x / |u| at both cuts.
+  [[nodiscard]] OfCuts ends(std::size_t i, const Along& along) {
+    const auto& [t_0, t_1] = cuts(i);
+    const Ball unit = Ball(1) / along.size;
+    if (along.axes == Axes::kWorld) {
+      const MeanValueForm at_A(dot(along.u, machine_.base[i]) * unit);
+      const MeanValueForm d = unit * dot(along.u, geometry_.d[i]);
+      return {at_A + t_0 * d, at_A + d - t_1 * d};
+    }
+    const MeanValueForm at_B(dot(along.u, machine_.platform[i]) * unit);
+    const MeanValueForm d = unit * dot(along.turned, geometry_.d[i]);
+    return {at_B - d + t_0 * d, at_B - t_1 * d};
+  }
+
+  /// The table of the header.
+  [[nodiscard]] EndShift end_shift(std::size_t i, Axes axes) const {
+    if (!machine_.tolerances) return {};
+    const Ball& beta = machine_.tolerances->base_anchors[i];
+    const Ball& mu = machine_.tolerances->platform_anchors[i];
+    if (axes == Axes::kWorld) {
+      return {beta, shift_.position + shift_.turn * length_bound(machine_.platform[i]) + mu};
+    }
+    Vector3<MeanValueForm> from_a = geometry_.pose.p;
+    for (std::size_t c = 0; c < 3; ++c) from_a[c] += MeanValueForm(-machine_.base[i][c]);
+    return {beta + shift_.position + shift_.turn * length_bound(range(from_a)), mu};
+  }
+
+  /// Radii of the balls around both cuts.
+  [[nodiscard]] OfCuts radii(std::size_t i, const EndShift& shift) {
+    const auto& [t_0, t_1] = cuts(i);
+    const Ball& half_diameter = bodies_.cable_radius[i];
+    const Ball growth = shift.platform - shift.base;
+    return {MeanValueForm(shift.base + half_diameter) + growth * t_0,
+            MeanValueForm(shift.platform + half_diameter) - growth * t_1};
+  }
+
+  [[nodiscard]] Ball least_of_cable(std::size_t i, const Along& along) {
+    const OfCuts at = ends(i, along);
+    const OfCuts radius = radii(i, end_shift(i, along.axes));
+    return smaller(lowest((at[0] - radius[0]).range()), lowest((at[1] - radius[1]).range()));
+  }
+
+  [[nodiscard]] Ball between_cables(std::size_t i, std::size_t j, const Along& along) {
+    const EndShift of_i = end_shift(i, along.axes);
+    const EndShift of_j = end_shift(j, along.axes);
+    const std::array at = {ends(i, along), ends(j, along)};
+    Ball result = between_cables(at, {radii(i, of_i), radii(j, of_j)});
+    if (!machine_.tolerances) return result;
+    const auto& [one_base, one_platform] = bodies_.shares[i][j];
+    const auto take = [&](const EndShift& x, const EndShift& y) {
+      result = larger(result, between_cables(at, {radii(i, x), radii(j, y)}));
+    };
+    if (one_base) take({Ball(), of_i.base + of_i.platform}, {Ball(), of_j.base + of_j.platform});
+    if (one_platform) take({of_i.base + of_i.platform, Ball()}, {of_j.base + of_j.platform, Ball()});
+    return result;
+  }
+
+  using OfTwoCables = std::array<OfCuts, 2>;
+  /// The least of all ends of one against all of the other.
+  [[nodiscard]] static Ball between_cables(const OfTwoCables& at, const OfTwoCables& radius) {
+    std::optional<Ball> result;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t l = 0; l < 2; ++l) {
+        const Ball here = lowest((at[0][k] - radius[0][k] - at[1][l] - radius[1][l]).range());
+        result = result ? smaller(*result, here) : here;
+      }
+    }
+    return *result;
+  }
+
+  const Machine& machine_;
+  const PlacedBodies& bodies_;
+  const Geometry& geometry_;
+  const MarginLoss& loss_;
+  PoseShift shift_;
+  std::span<const Direction> directions_;
+  const Apart& apart_;
+  std::map<std::size_t, Along> along_;  ///< by the index of the direction
+  std::array<std::optional<OfCuts>, kCables> cuts_;
+};
+
+// ---- Contact ---------------------------------------------------------------------------------------------------------
+
+/// The point of a hull, or of a cable between its cuts, in W, and the radius around it.
+struct ContactPoint {
+  Vector3<Ball> at;
+  Ball radius;
+};
+
+Vector3<Ball> mean(const std::vector<Vector3<Ball>>& points, const std::vector<mpq_class>& weights) {
+  Vector3<Ball> result;
+  for (std::size_t k = 0; k < points.size(); ++k) result = result + Ball(weights.at(k)) * points[k];
+  return result;
+}
+
+ContactPoint of_platform(const PlacedHull& hull, const Geometry& geometry, const std::vector<mpq_class>& weights) {
+  return {range(geometry.pose.p) + multiply(range(geometry.pose.R), mean(hull.points, weights)), hull.radius};
+}
+
+ContactPoint of_cable(const Machine& machine, const Geometry& geometry, std::size_t i,
+                      const std::vector<mpq_class>& weights) {
+  const Ball length = require_longer(machine, geometry, i, Ball()).range();
+  const auto& [at_base, at_platform] = machine.bodies->free_ends[i];
+  const Ball t = Ball(weights.at(0)) * at_base / length + Ball(weights.at(1)) * (Ball(1) - at_platform / length);
+  return {machine.base[i] + t * range(geometry.d[i]), machine.bodies->cable_radius[i]};
+}
+
+}  // namespace
+
+std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
+                                    std::span<const Direction> directions, const Apart& apart) {
+  return Clearances(machine, geometry, loss, directions, apart).margins();
+}
+
+Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair, const ContactWeights& weights) {
+  const PlacedBodies& bodies = machine.bodies.value();
+  const auto& [kind, first, second, clearance, name] = bodies.pairs.at(pair);
+  const bool is_platform = kind == PairKind::kPlatformObstacle;
+  const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0])
+                                     : of_cable(machine, geometry, first, weights[0]);
+  const Ball allowed = a.radius + bodies.clearance[pair];
+  const auto from = [&](const ContactPoint& b) { return allowed + b.radius - length_range(a.at - b.at); };
+  if (kind == PairKind::kCableCable) return from(of_cable(machine, geometry, second, weights[1]));
+  if (kind == PairKind::kCablePlatform) return from(of_platform(bodies.platform[second], geometry, weights[1]));
+  if (const auto* hull = std::get_if<PlacedHull>(&bodies.obstacles[second])) {
+    return from({mean(hull->points, weights[1]), hull->radius});
+  }
+  const auto& half_space = std::get<PlacedHalfSpace>(bodies.obstacles[second]);
+  return allowed - (dot(half_space.normal, a.at) - half_space.offset) / sqrt(squared_norm(half_space.normal));
+}
+
+}  // namespace taut::checker
