@@ -55,7 +55,7 @@ Vector3d nearest_of_simplex(std::vector<Vector3d>& corners) {
   return nearest;
 }
 
-/// The distance of 0 from the convex hull of `points`, which are not none: the algorithm of Gilbert, Johnson and Keerthi.
+/// The distance of 0 from the convex hull of one point or more: the algorithm of Gilbert, Johnson and Keerthi.
 double distance_approx(const std::vector<Vector3d>& points) {
   constexpr double kRounding = 1e-12;
   constexpr int kMostSteps = 200;  // it takes some ten
@@ -73,8 +73,8 @@ double distance_approx(const std::vector<Vector3d>& points) {
   return nearest.norm() <= kRounding * size ? 0 : nearest.norm();
 }
 
-/// Corners of a polyhedron around the unit ball: the directions of a cube's corners, edges and faces, of one length. Each
-/// of its 48 faces is at the distance kLength / 1.1281 from the origin.
+/// Corners of a polyhedron around the unit ball: the directions of a cube's corners, edges and faces, of one length.
+/// Each of its 48 faces is at the distance kLength / 1.1281 from the origin.
 std::vector<Vector3d> polyhedron_around_ball() {
   constexpr double kLength = 1.1282;
   std::vector<Vector3d> corners;

@@ -6,8 +6,8 @@
 
 namespace taut::case_fields {
 
-/// Whether all points within `radius` of `centre` are within `reach` of the body, up to rounding. For hulls it is false,
-/// too, where this holds of the ball but not of one 1.13 times as large. False for meshes.
+/// Whether all points within `radius` of `centre` are within `reach` of the body, up to rounding. For hulls it is
+/// false, too, where this holds of the ball but not of one 1.13 times as large. False for meshes.
 /// @param centre  in the axes of the body's `at` [m]
 [[nodiscard]] bool contains_ball_approx(const BodyText& body, const PointText& centre, double radius, double reach);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes in files: STL (binary and text), OBJ and PLY, read by CGAL.
 //
-// A mesh is the union of its triangles. A coordinate is the binary64 number nearest to what the file says, in the unit of
-// the file, which the file does not know. A face with more than three corners is split into triangles around its first
-// corner; their union contains the face, if it is flat. Repair takes nothing away from that union.
+// A mesh is the union of its triangles. A coordinate is the binary64 number nearest to what the file says, in the unit
+// of the file, which the file does not know. A face with more than three corners is split into triangles around its
+// first corner; their union contains the face, if it is flat. Repair takes nothing away from that union.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ inline constexpr const char* kMeshNameExpected = "the name of an STL, OBJ or PLY
 
 /// The file's bytes. @throws InputError that begins "which could not be read", or for more than kMostMeshBytes
 [[nodiscard]] std::string mesh_bytes(const std::filesystem::path& path);
-/// What the bytes of a file with such an extension say. @throws InputError "which is no whole stl file, expected a mesh"
-/// @pre is_mesh_name
+/// What the bytes of a file with such an extension say. @pre is_mesh_name()
+/// @throws InputError "which is no whole stl file, expected a mesh"
 [[nodiscard]] PolygonSoup read_polygons(const std::string& extension, const std::string& bytes);
 
 /// A mesh with each point once. Triangles differ, and each has three different corners.
@@ -71,12 +71,13 @@ struct LoadedMesh {
 };
 
 /// Merges equal points and drops triangles that are there twice, in any order of their corners, or that have a corner
-/// twice. A triangle whose corners are two points is the segment between them: unless that is an edge of a triangle that
-/// stays, it is kept among the needles, so that nothing of the file's surface is lost.
-/// @throws InputError for a mesh without triangles or with too many, a corner that is missing, no number or too far away
+/// twice. A triangle whose corners are two points is the segment between them: unless that is an edge of a triangle
+/// that stays, it is kept among the needles, so that nothing of the file's surface is lost.
+/// @throws InputError for a mesh without triangles or with too many, and for a corner that is missing, no number or too
+/// far away
 [[nodiscard]] LoadedMesh repaired(const PolygonSoup& soup);
 
-/// Reads, checks and repairs a mesh. The cost is about half a second for 10^5 triangles as text, a tenth in binary.
+/// Reads, checks and repairs a mesh. 10^5 triangles take 0.1 s, or 0.4 s in an STL file of text.
 /// @throws InputError that says what is wrong with the file, "which …" or "in which …"
 [[nodiscard]] LoadedMesh load_mesh(const std::filesystem::path& path);
 

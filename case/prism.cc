@@ -35,8 +35,8 @@ Rational decimal_above(const Rational& x, unsigned places) {
   return Rational(whole, scale);
 }
 
-/// The corners of a polygon around the unit circle, for the first quarter of a turn; the rest is symmetric. They are the
-/// regular polygon's of that many sides, rounded outward.
+/// The corners of a polygon around the unit circle, for the first quarter of a turn; the rest is symmetric. They are
+/// those of the regular polygon of that many sides, rounded outward.
 constexpr std::array<std::array<const char*, 2>, kPrismSides / 4> kQuarter = {
     {{"1.0196", "0"}, {"0.94199", "0.39019"}, {"0.72097", "0.72097"}, {"0.39019", "0.94199"}}};
 

@@ -22,11 +22,11 @@ inline constexpr std::size_t kPrismSides = 16;
 /// A prism that contains all points within `radius` of the segment between two points and between the planes through
 /// these at right angles to it. Containment is decided in rational arithmetic:
 ///
-/// The corners are from + t w + a U + b V, where w = to − from, t is −τ or 1 + τ, and (a, b) is a corner of a polygon. Let
-/// m0, m1, m2 be the rows of [w U V]^-1. A point of the cylinder is from + t w + y with 0 <= t <= 1, y·w = 0 and
-/// |y| <= radius. It is in the prism if |m0·y| <= τ and, for each edge n·(a, b) <= h of the polygon,
-/// (n1 m1 + n2 m2)·y <= h. Both are linear in y, so their largest values are the radius times the length of m0, less its
-/// part along w, and of n1 m1 + n2 m2, which is at right angles to w. Squares of lengths are rational.
+/// The corners are from + t w + a U + b V, where w = to − from, t is −τ or 1 + τ, and (a, b) is a corner of a polygon.
+/// Let m0, m1, m2 be the rows of [w U V]^-1. A point of the cylinder is from + t w + y with 0 <= t <= 1, y·w = 0 and
+/// |y| <= radius. It is in the prism if |m0·y| <= τ and, for each edge n·(a, b) <= h of the polygon, (n1 m1 + n2 m2)·y
+/// <= h. Both are linear in y, so their largest values are the radius times the length of m0, less its part along w,
+/// and of n1 m1 + n2 m2, which is at right angles to w. Squares of lengths are rational.
 ///
 /// The polygon is regular but for its rounding, and reaches 2 % farther than the circle.
 /// @pre from != to, radius > 0

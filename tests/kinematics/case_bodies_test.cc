@@ -143,7 +143,8 @@ TEST(CaseBodies, ThatAreWrongAreRejectedWithTheirPlace) {
   expect_obstacle_rejected("{name: a, box: [1, 1, 1]}, {name: a, box: [1, 1, 1]}",
                            "crane.yaml:3:47: bodies.obstacles[1].name: got 'a', expected a name of its own");
   expect_obstacle_rejected("{name: a, box: [1, 1, 1], yaw: 1, rotation: {yaw: 1}}", "got both of 'yaw' and");
-  expect_obstacle_rejected("{name: a, box: [1, 1, 1], yaw: phi}", "bodies.obstacles[a].yaw: expression 'phi', column 1");
+  expect_obstacle_rejected("{name: a, box: [1, 1, 1], yaw: phi}",
+                           "bodies.obstacles[a].yaw: expression 'phi', column 1");
   expect_obstacle_rejected("{name: a, box: [1, 1, 1], clearance: -1 mm}", "a length >= 0");
   expect_rejected(
       "{clearance: 1, platform: [{name: f, half_space: {point: [0, 0, 0], normal: [0, 0, 1]}}], cables: "
