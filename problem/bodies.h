@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What may not touch: bodies on the platform, bodies that stand still, cables, and how far apart they have to be.
 //
-// A body is a set of points. One that stands still, an obstacle, is fixed in the world's axes W; a body of the platform,
-// which may be its payload, is fixed in the platform's axes P. A point x of a body is, in those axes,
+// A body is a set of points. One that stands still, an obstacle, is fixed in the world's axes W; a body of the
+// platform, which may be its payload, is fixed in the platform's axes P. A point x of a body is, in those axes,
 //   at + Rz(yaw) Ry(pitch) Rx(roll) x.                                                                            (1)
-// The body "cable i" is made of the segment from A_i to B_i: of those points of it that are at least `free_ends_m[i][0]`
-// from A_i and at least `free_ends_m[i][1]` from B_i, all points within half its diameter.
+// The body "cable i" is made of the segment from A_i to B_i: of those points of it that are at least
+// `free_ends_m[i][0]` from A_i and at least `free_ends_m[i][1]` from B_i, all points within half its diameter.
 //
 // A pair is two bodies of one of four classes. A class for which the problem states a clearance is checked: all its
 // pairs have to be farther apart than their clearance. Numbers are exact decimals, as in the rest of a problem.

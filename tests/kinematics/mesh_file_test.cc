@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "case/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "base/input_error.h"
+
+namespace taut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// A tetrahedron, whose faces look outward.
+const PolygonSoup kTetrahedron = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                  {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+
+TEST(MeshRepair, LeavesAGoodMeshAsItIs) {
+  const LoadedMesh loaded = repaired(kTetrahedron);
+  EXPECT_EQ(loaded.mesh.vertices.size(), 4U);
+  EXPECT_EQ(loaded.mesh.triangles.size(), 4U);
+  EXPECT_TRUE(loaded.mesh.needles.empty());
+  const MeshReport& report = loaded.report;
+  EXPECT_EQ(report.split_faces + report.merged_points + report.unused_points + report.dropped_triangles, 0U);
+  EXPECT_TRUE(report.is_watertight());
+  EXPECT_EQ(report.closed_components, 1U);
+  EXPECT_EQ(report.open_components, 0U);
+  EXPECT_THAT(report.lower, ElementsAre(0, 0, 0));
+  EXPECT_THAT(report.upper, ElementsAre(1, 1, 1));
+}
+
+TEST(MeshRepair, MergesEqualPoints) {
+  PolygonSoup soup;  // each triangle has points of its own, and one of them a zero with a sign
+  for (const auto& face : kTetrahedron.faces) {
+    for (const std::size_t i : face) soup.points.push_back(kTetrahedron.points[i]);
+    const std::size_t k = soup.points.size();
+    soup.faces.push_back({k - 3, k - 2, k - 1});
+  }
+  soup.points[0][1] = -0.0;
+  const LoadedMesh loaded = repaired(soup);
+  EXPECT_EQ(loaded.mesh.vertices.size(), 4U);
+  EXPECT_EQ(loaded.report.merged_points, 8U);
+  EXPECT_TRUE(loaded.report.is_watertight());
+  soup.points[0][1] = 5e-324;  // near is not equal
+  EXPECT_FALSE(repaired(soup).report.is_watertight());
+}
+
+TEST(MeshRepair, DropsTrianglesThatAreThereTwice) {
+  PolygonSoup soup = kTetrahedron;
+  soup.faces.push_back({1, 2, 0});
+  const LoadedMesh loaded = repaired(soup);
+  EXPECT_EQ(loaded.mesh.triangles.size(), 4U);
+  EXPECT_EQ(loaded.report.dropped_triangles, 1U);
+  EXPECT_TRUE(loaded.report.is_watertight());
+}
+
+TEST(MeshRepair, LosesNothingOfTheSurface) {
+  PolygonSoup soup = kTetrahedron;
+  soup.points.insert(soup.points.end(), {{5, 0, 0}, {6, 0, 0}, {9, 9, 9}, {7, 7, 7}, {0.5, 0, 0}});
+  soup.faces.push_back({0, 1, 1});  // an edge of the tetrahedron
+  soup.faces.push_back({2, 2, 2});  // a corner of it
+  soup.faces.push_back({4, 5, 4});  // a segment elsewhere
+  soup.faces.push_back({7, 7, 7});  // a point elsewhere
+  soup.faces.push_back({0, 8, 1});  // no area, but three corners
+  const LoadedMesh loaded = repaired(soup);
+  EXPECT_EQ(loaded.mesh.triangles.size(), 5U);
+  EXPECT_EQ(loaded.report.dropped_triangles, 4U);
+  EXPECT_EQ(loaded.report.flat_triangles, 1U);
+  EXPECT_EQ(loaded.report.unused_points, 1U);
+  ASSERT_EQ(loaded.mesh.needles.size(), 2U);
+  const auto& vertices = loaded.mesh.vertices;
+  EXPECT_THAT(vertices[loaded.mesh.needles[0][0]], ElementsAre(5, 0, 0));
+  EXPECT_THAT(vertices[loaded.mesh.needles[0][1]], ElementsAre(6, 0, 0));
+  EXPECT_THAT(vertices[loaded.mesh.needles[1][0]], ElementsAre(7, 7, 7));
+  EXPECT_THAT(loaded.report.upper, ElementsAre(7, 7, 7));
+}
+
+TEST(MeshRepair, TellsFlatTrianglesExactly) {
+  // The middle corner of 0.1 (1, 3, 7) and 0.3 (1, 3, 7) in binary64 is not on the line of its neighbours; that of
+  // integers is.
+  const auto flat = [](std::array<double, 3> a, std::array<double, 3> b, std::array<double, 3> c) {
+    return repaired({{a, b, c}, {{0, 1, 2}}}).report.flat_triangles;
+  };
+  EXPECT_EQ(flat({1, 3, 7}, {2, 6, 14}, {3, 9, 21}), 1U);
+  EXPECT_EQ(flat({1, 3, 7}, {2, 6, 14}, {3, 9, std::nextafter(21.0, 22.0)}), 0U);
+  EXPECT_EQ(flat({0, 0, 0}, {1e-170, 1e-170, 0}, {2e-170, 2e-170, 0}), 1U);
+  EXPECT_EQ(flat({0, 0, 0}, {1e-170, 1e-170, 0}, {2e-170, 3e-170, 0}), 0U);
+  EXPECT_EQ(flat({0, 0, 0}, {0.1, 0.3, 0.7}, {0.2, 0.6, 1.4}), 1U);
+  EXPECT_EQ(flat({0, 0, 0}, {0.1, 0.3, 0.7}, {0.1 * 3, 0.3 * 3, 0.7 * 3}), 0U);
+}
+
+TEST(MeshReport, CountsPartsAndTheirHoles) {
+  PolygonSoup soup = kTetrahedron;  // two of them, the second without its last face
+  for (const auto& p : kTetrahedron.points) soup.points.push_back({p[0] + 10, p[1], p[2]});
+  for (std::size_t k = 0; k < 3; ++k) {
+    soup.faces.push_back({});
+    for (const std::size_t i : kTetrahedron.faces[k]) soup.faces.back().push_back(i + 4);
+  }
+  const MeshReport holed = repaired(soup).report;
+  EXPECT_FALSE(holed.is_watertight());
+  EXPECT_EQ(holed.edges_of_one, 3U);
+  EXPECT_EQ(holed.closed_components, 1U);
+  EXPECT_EQ(holed.open_components, 1U);
+  soup.faces.push_back({5, 6, 7});
+  EXPECT_EQ(repaired(soup).report.closed_components, 2U);
+  EXPECT_TRUE(repaired(soup).report.is_watertight());
+}
+
+TEST(MeshReport, CountsEdgesOfMoreThanTwoTriangles) {
+  PolygonSoup soup = kTetrahedron;
+  soup.points.push_back({1, 1, 1});
+  soup.faces.push_back({1, 2, 4});  // a fin
+  const MeshReport report = repaired(soup).report;
+  EXPECT_EQ(report.edges_of_many, 1U);
+  EXPECT_EQ(report.edges_of_one, 2U);
+  EXPECT_EQ(report.open_components, 1U);
+  EXPECT_FALSE(report.is_watertight());
+}
+
+class MeshFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ("mesh-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  LoadedMesh load(const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return load_mesh(folder_ / name);
+  }
+  void expect_rejected(const std::string& name, const std::string& content, const std::string& message) {
+    EXPECT_THAT([&] { (void)load(name, content); }, ThrowsMessage<InputError>(HasSubstr(message))) << name;
+  }
+  std::filesystem::path folder_;
+};
+
+/// A binary STL file that says it holds `count` triangles and holds these corners.
+std::string binary_stl(std::uint32_t count, const std::vector<float>& corners) {
+  std::string text(80, ' ');
+  const auto append = [&](std::uint32_t bits, int bytes) {
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>((bits >> (8 * i)) & 0xff);
+  };
+  append(count, 4);
+  for (std::size_t i = 0; i < corners.size(); i += 9) {
+    for (int k = 0; k < 3; ++k) append(0, 4);  // the normal
+    for (std::size_t k = 0; k < 9; ++k) append(std::bit_cast<std::uint32_t>(corners[i + k]), 4);
+    append(0, 2);
+  }
+  return text;
+}
+
+std::string stl_of_tetrahedron() {
+  std::vector<float> corners;
+  for (const auto& face : kTetrahedron.faces) {
+    for (const std::size_t i : face) {
+      for (const double x : kTetrahedron.points[i]) corners.push_back(static_cast<float>(x) * 0.1F);
+    }
+  }
+  return binary_stl(4, corners);
+}
+
+TEST_F(MeshFiles, OfAllKindsHoldTheSameTetrahedron) {
+  std::string
+      text = "solid t\n",
+      obj,
+      ply =
+          "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\n"
+          "property double y\nproperty double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto line = [](const std::array<double, 3>& p) {
+    return std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + "\n";
+  };
+  for (const auto& p : kTetrahedron.points) {
+    obj += "v " + line(p);
+    ply += line(p);
+  }
+  for (const auto& face : kTetrahedron.faces) {
+    text += "facet normal 0 0 1\nouter loop\n";
+    for (const std::size_t i : face) text += "vertex " + line(kTetrahedron.points[i]);
+    text += "endloop\nendfacet\n";
+    obj += "f", ply += "3";
+    for (const std::size_t i : face) {
+      obj += " " + std::to_string(i + 1);
+      ply += " " + std::to_string(i);
+    }
+    obj += "\n", ply += "\n";
+  }
+  text += "endsolid t\n";
+  for (const LoadedMesh& loaded : {load("a.stl", text), load("b.OBJ", obj), load("c.ply", ply)}) {
+    EXPECT_EQ(loaded.mesh.triangles.size(), 4U);
+    EXPECT_TRUE(loaded.report.is_watertight());
+    EXPECT_THAT(loaded.report.upper, ElementsAre(1, 1, 1));
+  }
+  const LoadedMesh binary = load("d.stl", stl_of_tetrahedron());
+  EXPECT_TRUE(binary.report.is_watertight());
+  EXPECT_EQ(binary.report.upper[0], static_cast<double>(0.1F));
+}
+
+TEST_F(MeshFiles, AreKnownByTheDigestOfTheirBytes) {
+  EXPECT_EQ(load("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").sha256,
+            "697b00ab13410c52a542d2e9c63711fcc04e9cbf6c0d3439a9b43cc812e6e713");
+  EXPECT_NE(load("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\n").sha256,
+            load("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").sha256);
+}
+
+TEST_F(MeshFiles, WithLargeFacesAreSplitAroundTheFirstCorner) {
+  const LoadedMesh loaded = load("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4 1\n");
+  EXPECT_EQ(loaded.report.split_faces, 1U);
+  ASSERT_EQ(loaded.mesh.triangles.size(), 2U);
+  EXPECT_THAT(loaded.mesh.vertices[loaded.mesh.triangles[1][0]], ElementsAre(1, 0, 0));
+}
+
+TEST_F(MeshFiles, ThatAreNoMeshesAreRejected) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT([&] { (void)load_mesh(folder_ / "none.stl"); },
+              ThrowsMessage<InputError>(HasSubstr("which could not be read: No such file")));
+  expect_rejected("empty.stl", "", "which is no whole stl file");
+  expect_rejected("empty.obj", "", "expected a mesh");
+  expect_rejected("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "which is no whole obj file");
+  expect_rejected("cut.stl", binary_stl(3, std::vector<float>(18, 1.0F)), "which is no whole stl file");
+  expect_rejected("lie.stl", binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)), "which is no whole stl file");
+  expect_rejected("nan.stl", binary_stl(1, std::vector<float>(9, kNan)), "is no number");
+  expect_rejected("inf.stl", binary_stl(1, std::vector<float>(9, 1 / 0.0F)), "is no number");
+  expect_rejected("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "expected a mesh");
+  expect_rejected("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "expected a mesh");
+  expect_rejected("far.obj", "v 0 0 0\nv 2e9 0 0\nv 0 1 0\nf 1 2 3\n", "point 2 is farther away than 1e+09");
+  expect_rejected("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "no triangle has three different corners");
+  expect_rejected("huge.stl", std::string(kMostMeshBytes + 1, 'x'), "expected a mesh of at most 64 MB");
+}
+
+TEST(MeshLimits, AreOnTriangles) {
+  PolygonSoup soup = kTetrahedron;
+  soup.faces.assign(kMostMeshTriangles + 1, {0, 1, 2});
+  EXPECT_THAT([&] { (void)repaired(soup); },
+              ThrowsMessage<InputError>(HasSubstr("a mesh of 1000001 triangles, expected at most 1000000")));
+  soup.faces.pop_back();
+  EXPECT_EQ(repaired(soup).mesh.triangles.size(), 1U);
+}
+
+}  // namespace
+}  // namespace taut
