@@ -17,8 +17,9 @@
 
 namespace taut {
 
-/// Version of the format that is written and read.
+/// Version of the format that is written and read, and that where the problem has bodies.
 inline constexpr int kCertificateVersion = 4;
+inline constexpr int kCertificateVersionWithBodies = 5;
 /// The most half turns that a waypoint may state, either way.
 inline constexpr int kMostHalfTurns = 1'000'000;
 
@@ -32,6 +33,8 @@ struct Generator {
 struct CertificateSegment {
   std::vector<checker::Box> boxes;  ///< in order; each is proved by the kernel at one go
   std::optional<Margins> margins;   ///< kept by all boxes; absent where there is no box
+  /// One a box, where the problem has bodies: along which pairs are told apart on it.
+  std::vector<PairDirections> directions{};
 };
 
 /// A proved violation, and how the kernel proves it. Segments are counted from the path's beginning.

@@ -33,10 +33,19 @@ void append_hex_floats(std::string& text, std::span<const double> values) {
   text += ']';
 }
 
-std::string claim_of(Verdict verdict, bool has_items) {
+std::string claim_of(Verdict verdict, bool has_items, const std::optional<std::array<bool, kPairClasses>>& checked) {
   if (verdict == Verdict::kUndecided) return checker::kUndecidedClaim;
-  const std::string claim = verdict == Verdict::kProved ? checker::kProvedClaim : checker::kRefutedClaim;
-  return has_items ? claim + checker::kItemsClause : claim;
+  const bool is_proved = verdict == Verdict::kProved;
+  std::string claim = is_proved ? checker::kProvedClaim : checker::kRefutedClaim;
+  if (has_items) claim += checker::kItemsClause;
+  if (checked) claim += checker::bodies_clause(is_proved, *checked);
+  return claim;
+}
+
+json rationals(const std::vector<std::int64_t>& shares) {
+  json list = json::array();
+  for (const std::int64_t share : shares) list.push_back(dyadic_share(share).text());
+  return list;
 }
 
 json hex_floats(std::span<const double> values) {
@@ -70,7 +79,9 @@ json pose_tube_json(const PoseTube& tube, std::span<const InnerPose> inner_poses
 }
 
 json to_json(const Margins& m) {
-  return {{"tension_N", m.tension_N}, {"length_m", m.length_m}, {"wrench_scale", m.wrench_scale}};
+  json result = {{"tension_N", m.tension_N}, {"length_m", m.length_m}, {"wrench_scale", m.wrench_scale}};
+  if (m.clearance_m) result["clearance_m"] = *m.clearance_m;
+  return result;
 }
 
 json to_json(const PathPoint& p) {
@@ -149,15 +160,22 @@ std::string waypoint_text(Interpolation law, const Waypoint& waypoint) {
   return text + "}";
 }
 
-std::string segment_text(const CertificateSegment& segment, std::size_t k, const Problem& problem, Interpolation law) {
+namespace {
+
+/// Of segment k, without directions.
+json segment_json(const CertificateSegment& segment, std::size_t k, bool has_tolerances, Interpolation law) {
   json boxes = json::array();
-  for (const checker::Box& box : segment.boxes) {
-    boxes.push_back(checker::to_json(box, problem.tolerances.has_value()));
-  }
-  return canonical({{"boxes", std::move(boxes)},
-                    {"from", k},
-                    {"to", k + control_points(law) - 1},
-                    {"margins", segment.margins ? to_json(*segment.margins) : json()}});
+  for (const checker::Box& box : segment.boxes) boxes.push_back(checker::to_json(box, has_tolerances));
+  return {{"boxes", std::move(boxes)},
+          {"from", k},
+          {"to", k + control_points(law) - 1},
+          {"margins", segment.margins ? to_json(*segment.margins) : json()}};
+}
+
+}  // namespace
+
+std::string segment_text(const CertificateSegment& segment, std::size_t k, const Problem& problem, Interpolation law) {
+  return canonical(segment_json(segment, k, problem.tolerances.has_value(), law));
 }
 
 json to_json(const Witness& witness) {
@@ -170,6 +188,14 @@ json to_json(const Witness& witness) {
     result["to"] = to_json(violation.to);
     result["at_proof"] = checker::proof_to_json(witness.at_box);
     result["to_proof"] = checker::proof_to_json(witness.to_box);
+    return result;
+  }
+  if (violation.contact) {
+    const auto& [pair, points] = *violation.contact;
+    result["kind"] = "contact";
+    result["pair"] = pair;
+    result["weights"] = {rationals(points.first), rationals(points.second)};
+    result["proof"] = checker::proof_to_json(witness.at_box);
     return result;
   }
   result["kind"] = name(violation.margin.kind);
@@ -248,9 +274,12 @@ class CertificateWriter::Spool {
 
 CertificateWriter::CertificateWriter(const Problem& problem, Interpolation law, const std::filesystem::path& folder)
     : problem_(taut::to_json(problem)), law_(law) {
-  for (auto* spool : {&waypoints_, &times_, &tubes_, &pose_tubes_, &segments_, &stretches_}) {
+  for (auto* spool : {&waypoints_, &times_, &tubes_, &pose_tubes_, &segments_, &stretches_, &directions_}) {
     *spool = std::make_unique<Spool>(folder);
   }
+  if (!problem.bodies) return;
+  checked_.emplace();
+  for (std::size_t k = 0; k < kPairClasses; ++k) (*checked_)[k] = problem.bodies->clearance_m[k].has_value();
 }
 
 CertificateWriter::~CertificateWriter() = default;
@@ -265,10 +294,52 @@ void CertificateWriter::add_segment(std::string_view text, std::size_t boxes) {
   segments_->add(text);
   boxes_ += boxes;
 }
+std::size_t CertificateWriter::index_of(const Direction& direction) {
+  const auto [at, is_new] = index_.try_emplace(direction, index_.size());
+  if (is_new) {
+    const auto& [x, y, z] = direction.u;
+    directions_->add(canonical(json::array({direction.in_platform ? "P" : "W", x, y, z})));
+  }
+  return at->second;
+}
+
+/// An entry of `apart` for each pair: null against a half-space.
+json CertificateWriter::apart(const PairDirections& directions) {
+  json result = json::array();
+  for (const Direction& direction : directions) {
+    const bool is_of_half_space = direction.u == std::array<int, 3>{};
+    result.push_back(is_of_half_space ? json() : json(index_of(direction)));
+  }
+  return result;
+}
+
+void CertificateWriter::add_segment(const CertificateSegment& segment, std::size_t k) {
+  json result = segment_json(segment, k, !problem_["tolerances"].is_null(), law_);
+  if (checked_) {
+    const json of_all = segment.boxes.empty() ? json() : apart(segment.directions.front());
+    for (std::size_t n = 1; n < segment.boxes.size(); ++n) {
+      const json of_box = apart(segment.directions[n]);
+      json changes = json::array();
+      for (std::size_t pair = 0; pair < of_box.size(); ++pair) {
+        if (of_box[pair] != of_all[pair]) changes.push_back({pair, of_box[pair]});
+      }
+      if (!changes.empty()) result["boxes"][n]["apart"] = std::move(changes);
+    }
+    result["apart"] = of_all;
+  }
+  add_segment(canonical(result), segment.boxes.size());
+}
+
 void CertificateWriter::add_stretch(const Stretch& stretch) { stretches_->add(canonical(to_json(stretch))); }
 
 void CertificateWriter::emit_path(const Write& write) const {
-  write(fmt::format(R"({{"interpolation":"{}","pose_tubes":)", interpolation_name(law_)));
+  write("{");
+  if (checked_) {
+    write("\"directions\":");
+    directions_->replay(write);
+    write(",");
+  }
+  write(fmt::format(R"("interpolation":"{}","pose_tubes":)", interpolation_name(law_)));
   pose_tubes_->replay(write);
   write(",\"times\":");
   if (times_->count() == 0) {
@@ -286,7 +357,7 @@ void CertificateWriter::emit_path(const Write& write) const {
 /// Writes all but the footer, the signature and the brace at the end.
 void CertificateWriter::emit(const Certificate& rest, const Write& write, const std::string& path_digest) const {
   const bool is_undecided = rest.verdict == Verdict::kUndecided;
-  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_["load"].contains("items"))));
+  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_["load"].contains("items"), checked_)));
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical({{"name", "taut"}, {"version", TAUT_VERSION}}));
   write(",\"illustration\":" + canonical(rest.illustration));
   write(",\"margins\":" + canonical(rest.margins ? to_json(*rest.margins) : json::object()));
@@ -307,7 +378,8 @@ void CertificateWriter::emit(const Certificate& rest, const Write& write, const 
     stretches_->replay(write);
   }
   write(",\"undecided\":" + canonical(rest.undecided ? to_json(*rest.undecided) : json()));
-  write(fmt::format(R"(,"verdict":"{}","version":{},"witness":{})", name(rest.verdict), kCertificateVersion,
+  write(fmt::format(R"(,"verdict":"{}","version":{},"witness":{})", name(rest.verdict),
+                    checked_ ? kCertificateVersionWithBodies : kCertificateVersion,
                     canonical(rest.witness ? to_json(*rest.witness) : json())));
 }
 
@@ -347,8 +419,7 @@ std::string certificate_text(const Certificate& certificate, const SigningKey* k
                                                              : std::span<const InnerPose>());
   }
   for (std::size_t k = 0; k < certificate.segments.size(); ++k) {
-    const CertificateSegment& segment = certificate.segments[k];
-    writer.add_segment(segment_text(segment, k, certificate.problem, path.interpolation), segment.boxes.size());
+    writer.add_segment(certificate.segments[k], k);
   }
   for (const Stretch& stretch : certificate.stretches) writer.add_stretch(stretch);
   CertificateWriter::Sign sign;

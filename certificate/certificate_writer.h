@@ -2,10 +2,13 @@
 // Writes certificates, whole ones and ones of any length that come segment by segment.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +20,7 @@ namespace taut {
 
 /// Canonical JSON of a waypoint. Thread-safe.
 [[nodiscard]] std::string waypoint_text(Interpolation law, const Waypoint& waypoint);
-/// Canonical JSON of segment k of a path. Thread-safe.
+/// Canonical JSON of segment k of a path. Thread-safe. @pre the problem has no bodies
 [[nodiscard]] std::string segment_text(const CertificateSegment& segment, std::size_t k, const Problem& problem,
                                        Interpolation law);
 /// A witness as certificates state it.
@@ -46,6 +49,8 @@ class CertificateWriter {
   void add_pose_tube(const PoseTube& tube, std::span<const InnerPose> inner_poses = {});
   /// @param text  as segment_text() has it
   void add_segment(std::string_view text, std::size_t boxes);
+  /// Segment k of a path, with its directions where the problem has bodies.
+  void add_segment(const CertificateSegment& segment, std::size_t k);
   void add_stretch(const Stretch& stretch);
 
   /// Writes the whole certificate, with a line for each waypoint and segment. If it is undecided, its segments are left
@@ -58,10 +63,14 @@ class CertificateWriter {
   class Spool;
   void emit_path(const Write& write) const;
   void emit(const Certificate& rest, const Write& write, const std::string& path_digest) const;
+  [[nodiscard]] std::size_t index_of(const Direction& direction);
+  [[nodiscard]] nlohmann::json apart(const PairDirections& directions);
 
   nlohmann::json problem_;
+  std::optional<std::array<bool, kPairClasses>> checked_;  ///< where the problem has bodies: which pairs
   Interpolation law_;
-  std::unique_ptr<Spool> waypoints_, times_, tubes_, pose_tubes_, segments_, stretches_;
+  std::unique_ptr<Spool> waypoints_, times_, tubes_, pose_tubes_, segments_, stretches_, directions_;
+  std::map<Direction, std::size_t> index_;  ///< of each in `directions_`
   std::size_t boxes_ = 0;
 };
 

@@ -14,6 +14,7 @@
 #include "checker/format/cursor.h"
 #include "checker/format/exact.h"
 #include "checker/format/parts.h"
+#include "checker/kernel/clearance.h"
 #include "checker/kernel/deviant.h"
 #include "checker/near_waypoints.h"
 #include "checker/witness.h"
@@ -84,6 +85,7 @@ checker::WitnessDeviation to_kernel(const Deviation& deviation) {
 
 checker::WitnessKind to_kernel(const PathWitness& found) {
   if (found.singular) return checker::WitnessKind::kSingular;
+  if (found.contact) return checker::WitnessKind::kContact;
   switch (found.margin.kind) {
     case MarginKind::kTensionMin: return checker::WitnessKind::kTensionMin;
     case MarginKind::kTensionMax: return checker::WitnessKind::kTensionMax;
@@ -91,6 +93,12 @@ checker::WitnessKind to_kernel(const PathWitness& found) {
     case MarginKind::kLengthMax: break;
   }
   return checker::WitnessKind::kLengthMax;
+}
+
+std::vector<mpq_class> exact_shares(const std::vector<std::int64_t>& shares) {
+  std::vector<mpq_class> result;
+  for (const std::int64_t share : shares) result.push_back(to_rational(dyadic_share(share)));
+  return result;
 }
 
 /// The statement of a violation, as of segment 0.
@@ -102,6 +110,11 @@ checker::Witness statement(const PathWitness& found) {
   result.at = {0, point(found.at)};
   if (found.singular) {
     result.to = {0, point(found.to)};
+    return result;
+  }
+  if (found.contact) {
+    result.pair = found.contact->pair;
+    result.weights = {exact_shares(found.contact->points.first), exact_shares(found.contact->points.second)};
     return result;
   }
   result.cable = static_cast<std::size_t>(found.margin.cable);
@@ -162,6 +175,20 @@ class Elaborator::Search {
   Search(const Elaborator& elaborator, const Segment& segment)
       : elaborator_(elaborator), path_(to_kernel(segment, !elaborator.problem_.constraints.empty())) {}
 
+  /// Tells pairs of bodies apart along these from now on.
+  void use(const PairDirections& directions) {
+    directions_ = directions;
+    path_.directions.clear();
+    apart_.clear();
+    for (const Direction& direction : directions) {
+      const bool is_of_half_space = direction.u == std::array<int, 3>{};
+      apart_.push_back(is_of_half_space ? std::nullopt : std::optional(path_.directions.size()));
+      if (is_of_half_space) continue;
+      path_.directions.push_back(
+          {direction.in_platform ? checker::Axes::kPlatform : checker::Axes::kWorld, direction.u});
+    }
+  }
+
   /// Appends boxes that tile [begin, end] and that the kernel proves; false where it does not prove some part.
   bool prove(const mpq_class& begin, const mpq_class& end, std::vector<KernelBox>& out) {
     return cover(begin, end, [&](const checker::Box& box) {
@@ -198,11 +225,16 @@ class Elaborator::Search {
       try {
         const checker::Machine& machine = elaborator_.machine(box.bits);
         const checker::WorkingPrecision precision(box.bits);
-        const checker::Bounds bounds = prove_box(machine, elaborator_.problem_, path_, 0, box);
+        const checker::Bounds bounds = prove_box(machine, elaborator_.problem_, path_, 0, box, apart_);
         require_near_waypoints(machine, elaborator_.problem_, path_, 0, box);
-        const KernelBox result{box, lower_bound(bounds.tension), lower_bound(bounds.length),
-                               lower_bound(bounds.wrench_scale)};
-        if (result.tension_N > 0 && result.length_m > 0 && result.wrench_scale >= 1) return result;
+        KernelBox result{box, lower_bound(bounds.tension), lower_bound(bounds.length),
+                         lower_bound(bounds.wrench_scale)};
+        if (bounds.clearance) {
+          result.clearance_m = lower_bound(*bounds.clearance);
+          result.directions = directions_;
+        }
+        const bool is_clear = !result.clearance_m || *result.clearance_m > 0;
+        if (result.tension_N > 0 && result.length_m > 0 && result.wrench_scale >= 1 && is_clear) return result;
         return std::nullopt;
       } catch (const checker::Undefined&) {
         if (!elaborator_.has_tolerances()) return std::nullopt;
@@ -228,6 +260,24 @@ class Elaborator::Search {
     Witness result{found, witness.at_box, witness.to_box, {}, {}, {}};
     for (checker::Box& box : between) result.motion.push_back({segment_of(found), std::move(box)});
     return result;
+  }
+
+  std::optional<Witness> contact(const PathWitness& found) {
+    checker::Witness witness = statement(found);
+    const bool touches = at_some_precision([&](int bits) {
+      const checker::Machine& machine = elaborator_.machine(bits);
+      if (!place_pose(witness.at.s, bits, witness.at_box)) return false;
+      const checker::WorkingPrecision precision(bits);
+      // As in with_slack_for_rounding(): the checker sees the segment as a part of the path.
+      const Ball slack = Ball::make([bits](arb_ptr r) {
+        arb_set_ui(r, 1);
+        arb_mul_2exp_si(r, r, 24 - bits);
+      });
+      const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
+      return certainly_nonnegative(contact_depth(machine, geometry, witness.pair, witness.weights) - slack);
+    });
+    if (!touches) return std::nullopt;
+    return Witness{found, witness.at_box, {}, {}, {}, {}};
   }
 
   std::optional<Witness> violation(const PathWitness& found) {
@@ -402,6 +452,8 @@ class Elaborator::Search {
   rounding_detail::NearestGuard nearest_;  ///< so that guesses are the same whatever mode the caller has
   const Elaborator& elaborator_;
   checker::Path path_;
+  PairDirections directions_;
+  checker::Apart apart_;
   int attempts_ = 0;
 };
 
@@ -445,6 +497,7 @@ class Elaborator::Tightener {
     if (boxes == nullptr) return false;
     const auto worst = worst_of(*boxes, bound);
     Search search(elaborator_, segment_(static_cast<std::size_t>(boxes - boxes_.data())));
+    search.use(worst->directions);
     checker::Box point = worst->box;
     point.begin = point.end = (worst->box.begin + worst->box.end) / 2;
     const std::optional<KernelBox> there = search.attempt(point);
@@ -513,11 +566,14 @@ const checker::Machine& Elaborator::machine(int bits) const {
   return *result;
 }
 
-std::optional<std::vector<KernelBox>> Elaborator::boxes(const Segment& segment,
-                                                        std::span<const DyadicBox> proved) const {
+std::optional<std::vector<KernelBox>> Elaborator::boxes(
+    const Segment& segment, std::span<const DyadicBox> proved,
+    std::span<const std::shared_ptr<const PairDirections>> directions) const {
   Search search(*this, segment);
   std::vector<KernelBox> result;
-  for (const DyadicBox& box : proved) {
+  for (std::size_t k = 0; k < proved.size(); ++k) {
+    const DyadicBox& box = proved[k];
+    if (!directions.empty()) search.use(*directions[k]);
     if (!search.prove(to_rational(box.lower()), to_rational(box.upper()), result)) return std::nullopt;
   }
   return result;
@@ -549,10 +605,12 @@ void Elaborator::tighten(const std::function<Segment(std::size_t k)>& segment,
   tightener.raise([](const KernelBox& x) { return x.tension_N; }, 0.98);
   tightener.raise([](const KernelBox& x) { return x.wrench_scale - 1; }, 0.98);
   tightener.raise([](const KernelBox& x) { return x.length_m; }, 0.998);
+  if (problem_.bodies) tightener.raise([](const KernelBox& x) { return x.clearance_m.value(); }, 0.98);
 }
 
 std::optional<Witness> Elaborator::witness(const Segment& segment, const PathWitness& found) const {
   Search search(*this, segment);
+  if (found.contact) return search.contact(found);
   return found.singular ? search.singular(found) : search.violation(found);
 }
 
@@ -563,10 +621,11 @@ void LeastBounds::add(std::span<const KernelBox> boxes) {
     tension_N = std::min(tension_N, box.tension_N);
     length_m = std::min(length_m, box.length_m);
     wrench_scale = std::min(wrench_scale, box.wrench_scale);
+    if (box.clearance_m) clearance_m = std::min(clearance_m.value_or(*box.clearance_m), *box.clearance_m);
   }
 }
 
-Margins LeastBounds::margins() const { return margins_below(tension_N, length_m, wrench_scale); }
+Margins LeastBounds::margins() const { return margins_below(tension_N, length_m, wrench_scale, clearance_m); }
 
 CertificateSegment make_segment(std::vector<KernelBox> boxes) {
   CertificateSegment result;
@@ -574,7 +633,10 @@ CertificateSegment make_segment(std::vector<KernelBox> boxes) {
   LeastBounds least;
   least.add(boxes);
   result.margins = least.margins();
-  for (KernelBox& box : boxes) result.boxes.push_back(std::move(box.box));
+  for (KernelBox& box : boxes) {
+    result.boxes.push_back(std::move(box.box));
+    if (box.clearance_m) result.directions.push_back(std::move(box.directions));
+  }
   return result;
 }
 
@@ -586,7 +648,8 @@ bool confirm_proof(const Elaborator& elaborator, const PathProof& proof, Certifi
   std::vector<std::vector<KernelBox>> boxes(proof.segments.size());
   std::atomic<bool> is_confirmed = true;
   tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t k) {
-    std::optional<std::vector<KernelBox>> found = elaborator.boxes(path.segment(k), proof.segments[k].boxes);
+    std::optional<std::vector<KernelBox>> found =
+        elaborator.boxes(path.segment(k), proof.segments[k].boxes, proof.segments[k].directions);
     if (!found) is_confirmed = false;
     if (found) boxes[k] = std::move(*found);
   });

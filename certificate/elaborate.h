@@ -28,6 +28,8 @@ struct KernelBox {
   double tension_N = 0;
   double length_m = 0;
   double wrench_scale = 0;
+  std::optional<double> clearance_m = {};  ///< where the problem has bodies
+  PairDirections directions{};             ///< along which that is proved, likewise
 };
 
 /// The least of the bounds of some boxes.
@@ -35,6 +37,7 @@ struct LeastBounds {
   double tension_N = std::numeric_limits<double>::infinity();
   double length_m = std::numeric_limits<double>::infinity();
   double wrench_scale = std::numeric_limits<double>::infinity();
+  std::optional<double> clearance_m;
 
   void add(std::span<const KernelBox> boxes);
   /// The bounds as decimals, rounded down. @pre some box was added
@@ -51,8 +54,10 @@ class Elaborator {
   Elaborator(const Problem& problem, Interpolation law);
 
   /// Boxes that tile the given ones, in order; nothing where the kernel does not prove some part of them.
-  [[nodiscard]] std::optional<std::vector<KernelBox>> boxes(const Segment& segment,
-                                                            std::span<const DyadicBox> proved) const;
+  /// @param directions  one a box, where the problem has bodies
+  [[nodiscard]] std::optional<std::vector<KernelBox>> boxes(
+      const Segment& segment, std::span<const DyadicBox> proved,
+      std::span<const std::shared_ptr<const PairDirections>> directions = {}) const;
 
   /// What the kernel proves of one box at one go, with the ways of deviations in so many parts. Nothing where it does
   /// not prove that all margins are positive, nor of a box that contains an inner pose between its ends.

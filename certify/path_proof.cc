@@ -118,8 +118,10 @@ std::optional<PathWitness> refute_pose(const Prover& prover, const Segment& stil
 
 }  // namespace
 
-Margins margins_below(double tension_N, double length_m, double wrench_scale) {
-  return {decimal_below(tension_N), decimal_below(length_m), decimal_below(wrench_scale)};
+Margins margins_below(double tension_N, double length_m, double wrench_scale, std::optional<double> clearance_m) {
+  Margins margins{decimal_below(tension_N), decimal_below(length_m), decimal_below(wrench_scale)};
+  if (clearance_m) margins.clearance_m = decimal_below(*clearance_m);
+  return margins;
 }
 
 PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& known, const std::stop_token& stop) {

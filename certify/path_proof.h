@@ -33,10 +33,12 @@ struct PathWitness {
 
 struct Margins {
   DecimalText tension_N, length_m, wrench_scale;  ///< decimals, rounded down
+  std::optional<DecimalText> clearance_m = {};    ///< where the problem has bodies
 };
 
 /// Proved lower bounds as decimals.
-[[nodiscard]] Margins margins_below(double tension_N, double length_m, double wrench_scale);
+[[nodiscard]] Margins margins_below(double tension_N, double length_m, double wrench_scale,
+                                    std::optional<double> clearance_m = {});
 
 struct PathProof {
   Verdict verdict = Verdict::kUndecided;

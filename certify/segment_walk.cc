@@ -2,6 +2,7 @@
 #include "certify/segment_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <utility>
@@ -234,14 +235,16 @@ SegmentWalk::Step SegmentWalk::examine_singular(const Task& task, const BoxVerdi
 // ---- Bodies ---------------------------------------------------------------------------------------------------------
 
 SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict& verdict) {
-  constexpr int kMostRedirections = 2;
+  constexpr std::array kFineness = {Direction::kFine, Direction::kLargest};
   const bool may_split = task.box.depth < ladder_.deepest(task.rung);
   if (verdict.near.empty()) {
     if (task.box.depth < prover_.options().tolerance_depth) return {Step::Kind::kSplit, verdict};
     return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
   }
   const double s = task.box.mid().approx();
-  if (task.redirections < kMostRedirections && redirect(verdict, s)) return {Step::Kind::kRedirect, verdict};
+  if (task.redirections < kFineness.size() && redirect(verdict, s, kFineness[task.redirections])) {
+    return {Step::Kind::kRedirect, verdict};
+  }
 
   const auto gap_of = [&](const BoxVerdict::NearPair& near) { return gap(near.pair, s); };
   const BoxVerdict::NearPair nearest = *std::ranges::min_element(verdict.near, {}, gap_of);
@@ -263,12 +266,12 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
 }
 
 /// Takes the directions along which the near pairs are farthest apart at s. @returns whether any is another one.
-bool SegmentWalk::redirect(const BoxVerdict& verdict, double s) {
+bool SegmentWalk::redirect(const BoxVerdict& verdict, double s, int largest) {
   const PoseSampler& sampler = prover_.sampler();
   const RigidPose pose = sampler.rigid_pose(segment_, s);
   PairDirections turned = *directions_;
   for (const auto& near : verdict.near) {
-    const auto direction = prover_.bodies()->direction(sampler.model(), pose, near.pair);
+    const auto direction = prover_.bodies()->direction(sampler.model(), pose, near.pair, largest);
     if (direction) turned[near.pair] = *direction;
   }
   if (turned == *directions_) return false;

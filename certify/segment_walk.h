@@ -44,7 +44,7 @@ class SegmentWalk {
     std::size_t rung = 0;        ///< of the ladder; 0: binary64
     bool is_hopeless = false;    ///< no higher rung is worth trying
     int continuation_steps = 1;  ///< of deviations (tolerance.h)
-    int redirections = 0;        ///< how often it was judged again with other directions of pairs
+    std::size_t redirections = 0;  ///< how often it was judged again with other directions of pairs
   };
   /// What to do with a box.
   struct Step {
@@ -70,7 +70,7 @@ class SegmentWalk {
   [[nodiscard]] Step examine_motion(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_singular(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_bodies(const Task& task, const BoxVerdict& verdict);
-  [[nodiscard]] bool redirect(const BoxVerdict& verdict, double s);
+  [[nodiscard]] bool redirect(const BoxVerdict& verdict, double s, int largest);
   [[nodiscard]] std::optional<Step> refute_contact(const Task& task, const BoxVerdict& verdict, std::size_t pair);
   [[nodiscard]] std::string pair_name(std::size_t pair) const;
   [[nodiscard]] double gap(std::size_t pair, double s) const;

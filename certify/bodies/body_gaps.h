@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "certify/arithmetic/dyadic.h"
 #include "certify/arithmetic/neumann.h"
 #include "certify/arithmetic/slope_form.h"
 #include "certify/tolerance/tolerance.h"
@@ -27,9 +28,11 @@ namespace taut {
 /// A vector along which two bodies are to be shown apart; it points from the second to the first.
 struct Direction {
   static constexpr int kLargest = 32767;  ///< of its components; certificates hold no larger ones
+  static constexpr int kFine = 127;       ///< enough for most pairs
+  static constexpr int kCoarse = 15;      ///< enough for pairs that are far apart; many have the same one
   bool in_platform = false;               ///< in the axes of P, else of W
   std::array<int, 3> u{};                 ///< not all 0, but where the second body is a half-space: not used
-  bool operator==(const Direction&) const = default;
+  auto operator<=>(const Direction&) const = default;
 };
 
 /// One for each pair of a BodyModel, in its order.
@@ -41,6 +44,9 @@ struct PointPair {
   static constexpr std::int64_t kWhole = std::int64_t{1} << 30;
   std::vector<std::int64_t> first, second;
 };
+
+/// A share as a number in [0, 1].
+[[nodiscard]] inline Dyadic dyadic_share(std::int64_t share) { return {share, 30}; }
 
 /// Where everything is over a box T with midpoint m, of the undisturbed machine but for `deviations`.
 template <class I>

@@ -150,8 +150,8 @@ std::vector<std::int64_t> rounded_shares(const std::vector<double>& shares) {
   return result;
 }
 
-Direction rounded_direction(const Point& along, bool in_platform) {
-  const Point scaled = along * (Direction::kLargest / along.cwiseAbs().maxCoeff());
+Direction rounded_direction(const Point& along, bool in_platform, int largest) {
+  const Point scaled = along * (largest / along.cwiseAbs().maxCoeff());
   Direction result{in_platform, {}};
   int divisor = 0;
   for (int k = 0; k < 3; ++k) {
@@ -233,8 +233,8 @@ double BodySampler::gap(const Model<double>& model, const RigidPose& pose, std::
   return found.nearest.distance - found.needed;
 }
 
-std::optional<Direction> BodySampler::direction(const Model<double>& model, const RigidPose& pose,
-                                                std::size_t n) const {
+std::optional<Direction> BodySampler::direction(const Model<double>& model, const RigidPose& pose, std::size_t n,
+                                                int largest) const {
   const Found found = find(model, pose, n);
   if (found.is_half_space) return Direction{};
   const CheckedPair<double>& pair = bodies_.pairs[n];
@@ -242,7 +242,7 @@ std::optional<Direction> BodySampler::direction(const Model<double>& model, cons
   if (!(found.nearest.distance > 0)) return std::nullopt;
   Point along = found.nearest.apart;
   if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
-  return rounded_direction(along, in_platform);
+  return rounded_direction(along, in_platform, largest);
 }
 
 namespace {
@@ -286,7 +286,7 @@ Direction BodySampler::rough_direction(const Model<double>& model, const RigidPo
   Point along = between_segments(first, second());
   if (in_platform) along = r.transpose() * along;
   if (!(along.cwiseAbs().maxCoeff() > 0)) along = Point::UnitZ();
-  return rounded_direction(along, in_platform);
+  return rounded_direction(along, in_platform, Direction::kCoarse);
 }
 
 PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {

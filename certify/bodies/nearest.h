@@ -28,9 +28,9 @@ class BodySampler {
   [[nodiscard]] const BodyModel<double>& bodies() const { return bodies_; }
   /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance.
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
-  /// Along which a pair is farthest apart at a pose; nothing where hulls meet.
-  [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose,
-                                                   std::size_t pair) const;
+  /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet.
+  [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose, std::size_t pair,
+                                                   int largest = Direction::kLargest) const;
   /// One along which a pair may well be apart there, from its bodies' axes and middles: much cheaper.
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Its nearest points there.

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kMaxBodies = 64;        ///< of the platform, and as many obstacles
 constexpr std::size_t kMaxHullPoints = 1000;  ///< bounds the work of a box, as kMaxBodies does
 constexpr std::size_t kMaxBodyName = 120;     ///< characters
-constexpr std::size_t kMaxDirections = 65536;
-constexpr int kMaxComponent = 127;  ///< of a direction
+constexpr std::size_t kMaxDirections = 10'000'000;
+constexpr int kMaxComponent = 32767;  ///< of a direction
 
 /// "cable 3" of i = 2.
 std::string cable_name(std::size_t i) { return "cable " + std::to_string(i + 1); }
@@ -218,7 +218,7 @@ void read(const Cursor& json, Bodies& bodies) { BodiesReader(bodies).read(json);
 
 void append_direction(const Cursor& json, Path& path) {
   static constexpr std::array<std::pair<const char*, Axes>, 2> kAxes = {{{"W", Axes::kWorld}, {"P", Axes::kPlatform}}};
-  json.require(path.directions.size() < kMaxDirections, "at most 65536 directions");
+  json.require(path.directions.size() < kMaxDirections, "at most 10000000 directions");
   json.require_size(4);
   Direction direction;
   direction.axes = json.at(0).one_of<Axes>(kAxes, "W or P");
