@@ -167,18 +167,12 @@ int run_first(const MapArguments& arguments, std::unique_ptr<Ranks>& ranks) {
 }
 
 /// What other ranks do: they compute, print nothing and write nothing.
-int serve(const MapArguments& arguments, Ranks& ranks) {
-  const Interruption interruption;
-  try {
-    const MappedCase mapped(arguments.case_path, arguments.from);
-    const SubdivisionOptions options = options_of(arguments, mapped, true);
-    const PartedMap parts(mapped, options, "");
-    ranks.serve(
-        parts.digest(), [&](const Task& task) { return parts.run(task); }, interruption.token());
-  } catch (const InputError& error) {
-    ranks.fail(error.what());
-  }
-  return kProvedExit;
+void serve(const MapArguments& arguments, Ranks& ranks, const std::stop_token& stop) {
+  const MappedCase mapped(arguments.case_path, arguments.from);
+  const SubdivisionOptions options = options_of(arguments, mapped, true);
+  const PartedMap parts(mapped, options, "");
+  ranks.serve(
+      parts.digest(), [&](const Task& task) { return parts.run(task); }, stop);
 }
 
 }  // namespace
@@ -216,12 +210,9 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
 }
 
 int run_map(const MapArguments& arguments) {
-  std::unique_ptr<Ranks> ranks = join_ranks(arguments.parts);
-  if (!ranks) return run_first(arguments, ranks);
-  if (!ranks->is_first()) return serve(arguments, *ranks);
-  const int code = run_first(arguments, ranks);
-  say_exit_code(code);
-  return code;
+  return run_in_ranks(
+      arguments.parts, [&](std::unique_ptr<Ranks>& ranks) { return run_first(arguments, ranks); },
+      [&](Ranks& ranks, const std::stop_token& stop) { serve(arguments, ranks, stop); });
 }
 
 }  // namespace taut
