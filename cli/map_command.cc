@@ -199,6 +199,8 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
                      "of the query are apart, certificate.json, which proves it");
   command.add_flag("--png", arguments.png, "draw map.png beside map.svg, by an installed Chromium; only with --out");
   command.add_option("--path", arguments.path, "path to draw there, such as path.csv; only with --out");
+  command.add_option("--atlas", arguments.atlas,
+                     "atlas file whose charts to draw there (taut plan --save-atlas); only with --out");
   command.add_option("--polygons", arguments.polygons, "file to write polygons to, as GeoJSON; two coordinates only");
   command.add_option("--grid", arguments.grid,
                      "NumPy file (.npy) to write a grid to; its meaning is written beside it");

@@ -21,6 +21,7 @@ struct MapArguments {
   std::string out;        ///< folder for map.svg or map.html, or empty
   bool png = false;       ///< map.png beside map.svg
   std::string path;       ///< of the file of a path that is drawn
+  std::string atlas;      ///< of the file of charts that are drawn
   std::string polygons;   ///< file, or empty
   std::string grid;       ///< file.npy, or empty
   std::string grid_size;  ///< "1024" or "720,360"; empty: 1024 of two coordinates, 128 of three
