@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "cli/parts_options.h"
@@ -13,10 +14,10 @@ namespace taut {
 
 struct MapArguments {
   std::string case_path;
-  std::string undecided;  ///< "1 %", "0.01"; empty: 1 % of two coordinates, 10 % of three
-  double least_width = 0.0005;
+  std::string undecided;              ///< "1 %", "0.01"; empty: 1 % of two coordinates, 10 % of three
+  std::optional<double> least_width;  ///< without it 0.0005
   double seconds = std::numeric_limits<double>::infinity();
-  std::size_t most_cells = 20'000'000;
+  std::optional<std::size_t> most_cells;
   std::string from;       ///< a waypoint's number, or coordinates; empty: the query's first
   std::string out;        ///< folder for map.svg or map.html, or empty
   bool png = false;       ///< map.png beside map.svg
