@@ -428,9 +428,9 @@ TEST(CaseFile, BoundsCoordinatesThatASliceLeavesFree) {
   EXPECT_EQ(parse(sections).problem.space.parameters[0].kind, ParameterKind::kPeriodic);
 
   sections.query = "query: {waypoints: [{phi: 0, theta: 0.5}, {phi: 1, theta: 1.01}]}\n";
-  expect_rejected(sections, "got '1.01', which is 1.01, expected a value in the parameter's range [0, 1]");
+  expect_rejected(sections, "query.waypoints[1].theta: got '1.01', expected a value in the parameter's range [0, 1]");
   sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [1, 0], sigma: 0}}\n";
-  expect_rejected(sections, "test.yaml:10:50: space.parameters.theta: got [1, 0], expected lower < upper");
+  expect_rejected(sections, "test.yaml:10:47: space.parameters.theta: got [1, 0], expected lower < upper");
   sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [0, 1, 2], sigma: 0}}\n";
   expect_rejected(sections, "space.slice.theta: got [0, 1, 2], expected a range [lower, upper]");
   sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [0, 3 mm], sigma: 0}}\n";
