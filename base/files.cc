@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/files.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <utility>
 
 #include "base/input_error.h"
@@ -51,10 +53,11 @@ std::filesystem::path target_of(const std::filesystem::path& path) {
 }
 
 /// The process that made the temporary file `name` for a file named `file`; 0 if `name` is not a temporary name for it.
-pid_t maker(std::string_view name, const std::string& file) {
-  const std::string prefix = file + ".";
-  if (!name.starts_with(prefix) || !name.ends_with(kPart) || name.size() <= prefix.size() + kPart.size()) return 0;
-  name.remove_prefix(prefix.size());
+pid_t maker(std::string_view name, std::string_view file) {
+  const std::size_t prefix = file.size() + 1;
+  if (!name.starts_with(file) || !name.ends_with(kPart) || name.size() <= prefix + kPart.size()) return 0;
+  if (name[file.size()] != '.') return 0;
+  name.remove_prefix(prefix);
   name.remove_suffix(kPart.size());
   pid_t process = 0;
   unsigned number = 0;
@@ -66,16 +69,20 @@ pid_t maker(std::string_view name, const std::string& file) {
 }
 
 /// Removes temporary files for `path` that killed runs left behind: their process is gone and nobody locks the file.
+/// Cost: some tens of nanoseconds for each file of the folder, which may hold thousands of parts.
 void remove_leftovers(const std::filesystem::path& path) {
-  std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  for (auto entry = std::filesystem::directory_iterator(folder, ignored);
-       entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
-    const pid_t process = maker(entry->path().filename().string(), path.filename().string());
+  const std::string file = path.filename().string();
+  const auto close = [](DIR* names) { ::closedir(names); };
+  const std::unique_ptr<DIR, decltype(close)> names(::opendir(folder.c_str()), close);
+  if (!names) return;
+  while (const dirent* const entry = ::readdir(names.get())) {
+    const pid_t process = maker(entry->d_name, file);
     if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH) continue;
-    const int descriptor = ::open(entry->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const int descriptor =
+        ::openat(::dirfd(names.get()), entry->d_name, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) continue;
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlinkat(::dirfd(names.get()), entry->d_name, 0);
     ::close(descriptor);
   }
 }

@@ -140,13 +140,14 @@ void set_free(Space& space, std::size_t i, const Units& units) {
   space.units.push_back(pose_unit(units, i));
 }
 
-/// Sets the space's flip if phi and theta of tilt and torsion are free: (phi, theta) and (phi + pi, -theta) are then
-/// the same pose.
+/// Sets the space's flip if phi and theta of tilt and torsion are free and unbounded: (phi, theta) and
+/// (phi + pi, -theta) are then the same pose.
 void set_flip(SpaceText& space) {
   if (space.angles.kind != AngleKind::kTiltAndTorsion) return;
   const auto index = [&](const std::string& name) {
-    const auto found = std::find_if(space.parameters.begin(), space.parameters.end(),
-                                    [&](const Parameter& p) { return p.name == name; });
+    const auto found = std::find_if(space.parameters.begin(), space.parameters.end(), [&](const Parameter& p) {
+      return p.name == name && p.kind != ParameterKind::kRange;
+    });
     return static_cast<std::size_t>(found - space.parameters.begin());
   };
   const std::size_t phi = index("phi"), theta = index("theta");
@@ -160,27 +161,41 @@ Space empty_space(const AnglesText& angles) {
   return space;
 }
 
+std::pair<ExpressionText, ExpressionText> read_range(const Field& field, const Unit& unit,
+                                                     const std::string& expected) {
+  const std::vector<Field> ends = field.list(2, expected);
+  return {read_expression(ends[0], unit, {}), read_expression(ends[1], unit, {})};
+}
+
+/// Makes pose coordinate i a parameter that stays in a range.
+void set_bounded(Space& space, std::size_t i, const Field& range, const Units& units) {
+  set_free(space, i, units);
+  Parameter& parameter = space.text.parameters.back();
+  parameter.kind = ParameterKind::kRange;
+  std::tie(parameter.range_lower, parameter.range_upper) =
+      read_range(range, pose_unit(units, i), "a range [lower, upper]");
+  range.remember_as("space.parameters." + parameter.name);
+}
+
 Space read_slice(const Field& field, const AnglesText& angles, const Units& units) {
   Space space = empty_space(angles);
   const std::vector<std::string> names = pose_names(angles.kind);
   const Map map = coordinate_map(field, names, angles.kind);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (const auto fixed = map.find(names[i])) {
-      space.text.pose[i] = read_expression(*fixed, pose_unit(units, i), {});
-      fixed->remember_as(fmt::format("space.pose.{}", names[i]));
-    } else {
+    const auto given = map.find(names[i]);
+    if (!given) {
       set_free(space, i, units);
+    } else if (given->node().IsSequence()) {
+      set_bounded(space, i, *given, units);
+    } else {
+      space.text.pose[i] = read_expression(*given, pose_unit(units, i), {});
+      given->remember_as(fmt::format("space.pose.{}", names[i]));
     }
   }
-  if (space.text.parameters.empty()) field.complain("got all six coordinates, expected at least one to be left free");
+  if (space.text.parameters.empty())
+    field.complain("got all six coordinates fixed, expected at least one to be left free");
   set_flip(space.text);
   return space;
-}
-
-std::pair<ExpressionText, ExpressionText> read_range(const Field& field, const Unit& unit,
-                                                     const std::string& expected) {
-  const std::vector<Field> ends = field.list(2, expected);
-  return {read_expression(ends[0], unit, {}), read_expression(ends[1], unit, {})};
 }
 
 Space read_free(const Field& field, const AnglesText& angles, const Units& units) {
@@ -188,14 +203,11 @@ Space read_free(const Field& field, const AnglesText& angles, const Units& units
   const std::vector<std::string> names = pose_names(angles.kind);
   const Map map = field.map({"px", "py", "pz"});
   for (std::size_t i = 0; i < names.size(); ++i) {
-    set_free(space, i, units);
-    if (i >= 3) continue;
-    Parameter& parameter = space.text.parameters.back();
-    const Field range = map.at(names[i]);
-    parameter.kind = ParameterKind::kRange;
-    std::tie(parameter.range_lower, parameter.range_upper) =
-        read_range(range, pose_unit(units, i), "a range [lower, upper]");
-    range.remember_as("space.parameters." + parameter.name);
+    if (i < 3) {
+      set_bounded(space, i, map.at(names[i]), units);
+    } else {
+      set_free(space, i, units);
+    }
   }
   set_flip(space.text);
   return space;

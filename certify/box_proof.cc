@@ -310,10 +310,6 @@ bool may_be_sharpened(const ProofModel<I>& problem, const BoxEnclosure<I>& box) 
   });
 }
 
-}  // namespace
-
-namespace {
-
 /// The rest of enclose_box, of a problem with neither items nor tolerances, for all cables at once.
 void enclose_in_lanes(const ProofModel<Interval>& problem, const MotionEnclosure<Interval>& motion, double radius,
                       BoxEnclosure<Interval>& result) {

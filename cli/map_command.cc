@@ -87,23 +87,40 @@ void require_options_of_parts(const MapArguments& arguments, const SubdivisionOp
   }
 }
 
+/// Of three coordinates, who asks for nothing in particular gets a map within seconds.
+bool is_brief(const MapArguments& arguments, const MappedCase& mapped) {
+  const bool asks = !arguments.undecided.empty() || arguments.least_width || arguments.most_cells ||
+                    std::isfinite(arguments.seconds) || arguments.parts.merge || !arguments.parts.shard.empty();
+  return mapped.space.size() == 3 && !asks;
+}
+
+constexpr std::size_t kMostCells = 20'000'000, kMostCellsOfBriefMap = 1'000'000;
+
 SubdivisionOptions options_of(const MapArguments& arguments, const MappedCase& mapped, bool is_parted) {
   SubdivisionOptions options;
   options.undecided_share = mapped.space.size() == 2 ? 0.01 : 0.1;
   if (arguments.parts.merge) options.undecided_share = 0;
   if (!arguments.undecided.empty()) options.undecided_share = share_of(arguments.undecided);
-  options.least_width = arguments.least_width;
-  options.most_cells = arguments.most_cells;
+  options.least_width = arguments.least_width.value_or(options.least_width);
+  options.most_cells = arguments.most_cells.value_or(is_brief(arguments, mapped) ? kMostCellsOfBriefMap : kMostCells);
   options.seconds = arguments.seconds;
   if (is_parted) require_options_of_parts(arguments, options);
   return options;
+}
+
+PartedMap::PartDone shown_on(ProgressLine& line) {
+  return [&line](std::size_t done, std::size_t all) {
+    line.show([&] { return fmt::format("{} of {} parts", done, all); });
+  };
 }
 
 /// Makes one shard of the parts, and no map.
 int run_shard(const MapArguments& arguments, const MappedCase& mapped, const SubdivisionOptions& options,
               const Shard& shard, const Stopwatch& stopwatch) {
   PartedMap parts(mapped, options, arguments.parts.folder);
-  const auto made = parts.make_shard(shard);
+  ProgressLine line(!arguments.json);
+  const auto made = parts.make_shard(shard, shown_on(line));
+  line.clear();
   if (!made) return report_interruption("map", "interrupted: finished parts are kept", arguments.json);
   if (arguments.json) {
     nlohmann::json document = {{"command", "map"},
@@ -124,15 +141,22 @@ int run_shard(const MapArguments& arguments, const MappedCase& mapped, const Sub
 }
 
 /// @returns nothing where it was interrupted.
-std::optional<CellMap> make_map(const MapArguments& arguments, const MappedCase& mapped,
-                                const SubdivisionOptions& options, std::unique_ptr<Ranks>& ranks) {
+std::optional<CellMap> make_map(const MapArguments& arguments, const MappedCase& mapped, SubdivisionOptions options,
+                                std::unique_ptr<Ranks>& ranks) {
+  ProgressLine line(!arguments.json);
   if (!ranks && !arguments.parts.any()) {
+    options.progress = [&](const MapProgress& at) {
+      line.show([&] { return fmt::format("{} cells, {:.1f} % undecided", at.cells, 100 * at.undecided); });
+    };
     CellMap map = subdivide(mapped.the_case.problem, mapped.space, options);
     if (map.end == CellMap::End::kStopped) return std::nullopt;
     return map;
   }
   PartedMap parts(mapped, options, arguments.parts.folder);
-  return arguments.parts.merge ? std::optional(parts.merge()) : parts.make(ranks.get());
+  if (arguments.parts.merge) return parts.merge();
+  if (!parts.judge(ranks.get(), shown_on(line))) return std::nullopt;
+  ranks.reset();  // the others go while this one puts the map together, which takes long enough to seem dead
+  return parts.map();
 }
 
 /// What `taut map` does, and rank 0 under mpirun.
@@ -144,12 +168,11 @@ int run_first(const MapArguments& arguments, std::unique_ptr<Ranks>& ranks) {
   const Interruption interruption;
   SubdivisionOptions options = options_of(arguments, mapped, ranks || arguments.parts.any());
   options.stop = interruption.token();
-  require_memory(arguments.most_cells);
+  require_memory(options.most_cells);
   announce(the_case, arguments.json);
   if (const auto shard = shard_of(arguments.parts)) return run_shard(arguments, mapped, options, *shard, stopwatch);
   const Stopwatch map_stopwatch;
   std::optional<CellMap> map = make_map(arguments, mapped, options, ranks);
-  ranks.reset();  // the others go while this one finishes
   if (!map) return report_interruption("map", "interrupted", arguments.json);
   const CaseMap made(mapped, std::move(*map), map_stopwatch.seconds());
   const auto written = files.write(made, interruption.token());
@@ -161,24 +184,24 @@ int run_first(const MapArguments& arguments, std::unique_ptr<Ranks>& ranks) {
     print_json(document);
   } else {
     print(the_case, made);
+    if (is_brief(arguments, mapped) && made.result().map.end == CellMap::End::kCells) {
+      fmt::print(
+          "Of three coordinates a map ends at {} cells unless something else is asked for: --undecided 10% goes "
+          "on, which takes minutes, and --budget for so many seconds.\n",
+          kMostCellsOfBriefMap);
+    }
     for (const std::filesystem::path& file : *written) fmt::print("Written: {}\n", sanitize(file.string()));
   }
   return kProvedExit;
 }
 
 /// What other ranks do: they compute, print nothing and write nothing.
-int serve(const MapArguments& arguments, Ranks& ranks) {
-  const Interruption interruption;
-  try {
-    const MappedCase mapped(arguments.case_path, arguments.from);
-    const SubdivisionOptions options = options_of(arguments, mapped, true);
-    const PartedMap parts(mapped, options, "");
-    ranks.serve(
-        parts.digest(), [&](const Task& task) { return parts.run(task); }, interruption.token());
-  } catch (const InputError& error) {
-    ranks.fail(error.what());
-  }
-  return kProvedExit;
+void serve(const MapArguments& arguments, Ranks& ranks, const std::stop_token& stop) {
+  const MappedCase mapped(arguments.case_path, arguments.from);
+  const SubdivisionOptions options = options_of(arguments, mapped, true);
+  const PartedMap parts(mapped, options, "");
+  ranks.serve(
+      parts.digest(), [&](const Task& task) { return parts.run(task); }, stop);
 }
 
 }  // namespace
@@ -194,8 +217,10 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
   command.add_option("--budget", arguments.seconds, "seconds after which cells are halved no further")
       ->check(positive_number("a number of seconds above 0"));
   command
-      .add_option("--cells", arguments.most_cells,
-                  "the most cells, each of which takes up to 120 bytes of memory (default: 20000000)")
+      .add_option(
+          "--cells", arguments.most_cells,
+          "the most cells, each of which takes up to 120 bytes of memory (default: 20000000; of three coordinates "
+          "1000000, unless --undecided, --cell or --budget asks for more)")
       ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
   command.add_option("--from", arguments.from,
                      "where one starts: a waypoint of the query by its number, or coordinates such as 'phi: 10 deg, "
@@ -205,6 +230,8 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
                      "of the query are apart, certificate.json, which proves it");
   command.add_flag("--png", arguments.png, "draw map.png beside map.svg, by an installed Chromium; only with --out");
   command.add_option("--path", arguments.path, "path to draw there, such as path.csv; only with --out");
+  command.add_option("--atlas", arguments.atlas,
+                     "atlas file whose charts to draw there (taut plan --save-atlas); only with --out");
   command.add_option("--polygons", arguments.polygons, "file to write polygons to, as GeoJSON; two coordinates only");
   command.add_option("--grid", arguments.grid,
                      "NumPy file (.npy) to write a grid to; its meaning is written beside it");
@@ -216,12 +243,9 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
 }
 
 int run_map(const MapArguments& arguments) {
-  std::unique_ptr<Ranks> ranks = join_ranks(arguments.parts);
-  if (!ranks) return run_first(arguments, ranks);
-  if (!ranks->is_first()) return serve(arguments, *ranks);
-  const int code = run_first(arguments, ranks);
-  say_exit_code(code);
-  return code;
+  return run_in_ranks(
+      arguments.parts, [&](std::unique_ptr<Ranks>& ranks) { return run_first(arguments, ranks); },
+      [&](Ranks& ranks, const std::stop_token& stop) { serve(arguments, ranks, stop); });
 }
 
 }  // namespace taut

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "cli/parts_options.h"
@@ -13,14 +14,15 @@ namespace taut {
 
 struct MapArguments {
   std::string case_path;
-  std::string undecided;  ///< "1 %", "0.01"; empty: 1 % of two coordinates, 10 % of three
-  double least_width = 0.0005;
+  std::string undecided;              ///< "1 %", "0.01"; empty: 1 % of two coordinates, 10 % of three
+  std::optional<double> least_width;  ///< without it 0.0005
   double seconds = std::numeric_limits<double>::infinity();
-  std::size_t most_cells = 20'000'000;
+  std::optional<std::size_t> most_cells;
   std::string from;       ///< a waypoint's number, or coordinates; empty: the query's first
   std::string out;        ///< folder for map.svg or map.html, or empty
   bool png = false;       ///< map.png beside map.svg
   std::string path;       ///< of the file of a path that is drawn
+  std::string atlas;      ///< of the file of charts that are drawn
   std::string polygons;   ///< file, or empty
   std::string grid;       ///< file.npy, or empty
   std::string grid_size;  ///< "1024" or "720,360"; empty: 1024 of two coordinates, 128 of three

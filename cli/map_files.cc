@@ -11,7 +11,6 @@
 #include "base/input_error.h"
 #include "base/sanitize.h"
 #include "cli/browser.h"
-#include "cli/map_path.h"
 #include "cli/no_path_output.h"
 #include "map/both_limits.h"
 #include "map/singular.h"
@@ -86,7 +85,7 @@ void for_each_mark(const CaseMap& made, const Add& add) {
   if (is_typed) add("from here", made.start());
 }
 
-std::string picture(const CaseMap& made, const std::vector<std::vector<std::array<double, 2>>>& path) {
+std::string picture(const CaseMap& made, const std::vector<MapLine>& path, const std::vector<MapLine>& charts) {
   constexpr double kEnclosure = 1.0 / 2048;  // of det J = 0: half a pixel
   constexpr double kBoth = 1.0 / 2048;
   const MapResult& result = made.result();
@@ -94,6 +93,7 @@ std::string picture(const CaseMap& made, const std::vector<std::vector<std::arra
   overlay.singular = singular_cells(result.problem, result.map, kEnclosure);
   overlay.both = cells_beyond_both(result.problem, result.map, kBoth);
   overlay.path = path;
+  overlay.charts = charts;
   for_each_mark(made, [&](const std::string& name, const std::vector<MapBox>& place) {
     overlay.marks.push_back({name, middle<2>(place)});
   });
@@ -126,6 +126,11 @@ MapFiles::MapFiles(const MapArguments& arguments, const MappedCase& mapped) : ar
     if (arguments.out.empty()) throw InputError(ErrorCode::kUse, "--path: got no --out, expected a folder to draw in");
     path_ = path_on_map(arguments.path, mapped.the_case.problem, space);
   }
+  if (!arguments.atlas.empty()) {
+    require_two("--atlas", space, "charts are drawn in a flat picture");
+    if (arguments.out.empty()) throw InputError(ErrorCode::kUse, "--atlas: got no --out, expected a folder to draw in");
+    charts_ = charts_on_map(arguments.atlas, mapped.the_case, space);
+  }
   if (arguments.grid.empty()) {
     if (!arguments.grid_size.empty()) {
       throw InputError(ErrorCode::kUse, "--grid-size: got no --grid, expected the file to write");
@@ -152,7 +157,7 @@ std::optional<std::vector<std::filesystem::path>> MapFiles::write(const CaseMap&
   if (!arguments_.out.empty()) {
     const std::filesystem::path folder = arguments_.out;
     if (result.axes.size() == 2) {
-      files.push_back({folder / "map.svg", picture(made, path_)});
+      files.push_back({folder / "map.svg", picture(made, path_, charts_)});
       if (arguments_.png) {
         const auto [width, height] = map_picture_size(result);
         std::optional<std::string> png = draw_as_png(files.back().content, width, height, stop);

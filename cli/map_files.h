@@ -10,6 +10,7 @@
 
 #include "cli/case_map.h"
 #include "cli/map_command.h"
+#include "cli/map_path.h"
 #include "map/grid.h"
 
 namespace taut {
@@ -29,7 +30,7 @@ class MapFiles {
   const MapArguments& arguments_;
   const MappedCase& mapped_;
   GridSize grid_size_{1, 1, 1};
-  std::vector<std::vector<std::array<double, 2>>> path_;  ///< to draw
+  std::vector<MapLine> path_, charts_;  ///< to draw
 };
 
 }  // namespace taut

@@ -106,29 +106,37 @@ std::vector<Task> PartedMap::tasks_up_to(std::size_t level) const {
   return tasks;
 }
 
-std::optional<CellMap> PartedMap::make(Ranks* ranks) {
+bool PartedMap::judge(Ranks* ranks, const PartDone& part_done) {
   read_known({});
   const RunTask run_task = [this](const Task& task) { return run(task); };
   for (TreeExtent all = extent(); !MapParts::is_enough(all, options_); all = extent()) {
     const std::vector<Task> tasks = tasks_up_to(next_level(all));
-    const TaskDone done = [&](std::size_t task, std::string tree) { keep(tasks[task].part, std::move(tree)); };
+    std::size_t count = 0;
+    const TaskDone done = [&](std::size_t task, std::string tree) {
+      keep(tasks[task].part, std::move(tree));
+      part_done(++count, tasks.size());
+    };
     if (ranks != nullptr) {
       ranks->deal(digest_, tasks, run_task, done, options_.stop);
     } else {
       deal_to_threads(tasks, usable_threads(), run_task, done, options_.stop);
     }
-    if (options_.stop.stop_requested()) return std::nullopt;
+    if (options_.stop.stop_requested()) return false;
   }
-  return parts_.assemble(trees_, options_);
+  return true;
 }
 
-std::optional<PartedMap::Made> PartedMap::make_shard(const Shard& shard) {
+std::optional<PartedMap::Made> PartedMap::make_shard(const Shard& shard, const PartDone& part_done) {
   read_known(shard);
   std::vector<Task> tasks = tasks_up_to(TreeExtent::kLevels);
   std::erase_if(tasks, [&](const Task& task) { return !shard.has(task.part); });
+  std::size_t count = 0;
+  const TaskDone done = [&](std::size_t task, std::string tree) {
+    keep(tasks[task].part, std::move(tree));
+    part_done(++count, tasks.size());
+  };
   deal_to_threads(
-      tasks, usable_threads(), [this](const Task& task) { return run(task); },
-      [&](std::size_t task, std::string tree) { keep(tasks[task].part, std::move(tree)); }, options_.stop);
+      tasks, usable_threads(), [this](const Task& task) { return run(task); }, done, options_.stop);
   if (options_.stop.stop_requested()) return std::nullopt;
   Made made{0, tasks.size()};
   for (std::size_t part = 0; part < parts_.size(); ++part) made.parts += shard.has(part) ? 1 : 0;
@@ -147,7 +155,7 @@ CellMap PartedMap::merge() {
                     "--undecided that its cells are enough",
                     files_->file(static_cast<std::size_t>(open - extents_.begin())).string()));
   }
-  return parts_.assemble(trees_, options_);
+  return map();
 }
 
 }  // namespace taut

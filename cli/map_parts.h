@@ -3,6 +3,7 @@
 // kept in files (docs/clusters.md).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -18,6 +19,9 @@ namespace taut {
 
 class PartedMap {
  public:
+  /// Is told after each part how many of how many are done, of those that are judged together.
+  using PartDone = std::function<void(std::size_t done, std::size_t all)>;
+
   /// Divides the space into parts. Refers to its arguments.
   /// @param folder  of the parts' files; empty: none are read or written
   PartedMap(const MappedCase& mapped, const SubdivisionOptions& options, const std::string& folder);
@@ -30,16 +34,18 @@ class PartedMap {
 
   /// Judges as much as the map needs and the files don't know, a few levels of all parts at a time.
   /// @param ranks  that share in it, or null: threads do it
-  /// @returns nothing where `options` asked to stop
+  /// @returns false where `options` asked to stop
   /// @throws InputError naming a file that is not such a part
-  [[nodiscard]] std::optional<CellMap> make(Ranks* ranks);
+  [[nodiscard]] bool judge(Ranks* ranks, const PartDone& part_done);
+  /// The map of what is judged. @pre judge() returned true
+  [[nodiscard]] CellMap map() const { return parts_.assemble(trees_, options_); }
   struct Made {
     std::size_t parts = 0;     ///< of the shard
     std::size_t computed = 0;  ///< that were not finished before
   };
   /// Judges all of a shard's parts. @returns nothing where `options` asked to stop
   /// @throws InputError naming a file that is not such a part
-  [[nodiscard]] std::optional<Made> make_shard(const Shard& shard);
+  [[nodiscard]] std::optional<Made> make_shard(const Shard& shard, const PartDone& part_done);
   /// The map of what is known. @throws InputError naming a part that is missing, or is not judged as far as necessary,
   /// or a file that is not such a part
   [[nodiscard]] CellMap merge();

@@ -3,14 +3,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <thread>
-
 #include "base/input_error.h"
-#include "base/sanitize.h"
 #include "cli/console.h"
 
 namespace taut {
+namespace {
+
+/// The other processes, where mpirun started this one.
+std::unique_ptr<Ranks> join_ranks(const PartsArguments& arguments) {
+  auto ranks = Ranks::join([](const std::string& message) { complain(message); });
+  if (ranks && ranks->is_first() && (arguments.merge || !arguments.shard.empty())) {
+    throw InputError(ErrorCode::kUse, fmt::format("mpirun: got {} processes and {}, expected one of them",
+                                                  ranks->size(), arguments.merge ? "--merge" : "--shard"));
+  }
+  return ranks;
+}
+
+}  // namespace
 
 void add_parts_options(CLI::App& command, PartsArguments& arguments) {
   CLI::Option* const parts = command.add_option(
@@ -28,21 +37,23 @@ std::optional<Shard> shard_of(const PartsArguments& arguments) {
   return read_shard(arguments.shard);
 }
 
-std::unique_ptr<Ranks> join_ranks(const PartsArguments& arguments) {
-  auto ranks = Ranks::join([](const std::string& message) { complain(message); });
-  if (ranks && ranks->is_first() && (arguments.merge || !arguments.shard.empty())) {
-    throw InputError(ErrorCode::kUse, fmt::format("mpirun: got {} processes and {}, expected one of them",
-                                                  ranks->size(), arguments.merge ? "--merge" : "--shard"));
+int run_in_ranks(const PartsArguments& arguments, const RunFirst& first, const ServeRanks& serve) {
+  std::unique_ptr<Ranks> ranks = join_ranks(arguments);
+  if (!ranks) return first(ranks);
+  if (!ranks->is_first()) {
+    const Interruption interruption;
+    try {
+      serve(*ranks, interruption.token());
+    } catch (const InputError& error) {
+      ranks->fail(error.what());
+    }
+    return kProvedExit;
   }
-  return ranks;
-}
-
-void say_exit_code(int exit_code) {
-  if (exit_code != kProvedExit) {
-    complain(fmt::format("the exit code is {}; mpirun --enable-recovery ends with 0 nevertheless", exit_code));
+  const int code = first(ranks);
+  if (code != kProvedExit) {
+    complain(fmt::format("the exit code is {}; mpirun --enable-recovery ends with 0 nevertheless", code));
   }
+  return code;
 }
-
-std::size_t usable_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 }  // namespace taut

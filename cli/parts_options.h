@@ -3,8 +3,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "shards/dealing.h"
@@ -26,14 +28,15 @@ void add_parts_options(CLI::App& command, PartsArguments& arguments);
 /// The shard that was asked for. @throws InputError
 [[nodiscard]] std::optional<Shard> shard_of(const PartsArguments& arguments);
 
-/// The other processes, where mpirun started this one. @throws InputError as Ranks::join(), and for options that make
-/// no sense there
-[[nodiscard]] std::unique_ptr<Ranks> join_ranks(const PartsArguments& arguments);
+/// What one process does, and rank 0 under mpirun: it alone prints and writes. It is given the other ranks, or null, and
+/// may let them go before it ends. Returns the exit code.
+using RunFirst = std::function<int(std::unique_ptr<Ranks>& ranks)>;
+/// What other ranks do: they compute. An InputError is said by rank 0.
+using ServeRanks = std::function<void(Ranks& ranks, const std::stop_token& stop)>;
 
-/// Says on stderr that an exit code other than 0 may not be seen under mpirun.
-void say_exit_code(int exit_code);
-
-/// How many threads the processors have that this process may use.
-[[nodiscard]] std::size_t usable_threads();
+/// Does what this process is to do: all of the work, or its share where mpirun started it with others.
+/// @returns the exit code
+/// @throws InputError as Ranks::join(), for options that make no sense there, and as `first`
+[[nodiscard]] int run_in_ranks(const PartsArguments& arguments, const RunFirst& first, const ServeRanks& serve);
 
 }  // namespace taut

@@ -181,19 +181,12 @@ int run_first(const RegressArguments& arguments, std::unique_ptr<Ranks>& ranks) 
 }
 
 /// What other ranks do: they run cases, and print nothing.
-int serve(const RegressArguments& arguments, Ranks& ranks) {
-  const Interruption interruption;
-  try {
-    const RegressOptions options = options_of(arguments);
-    const RegressParts parts(arguments.folder, find_cases(arguments.folder), options, "");
-    const CaseResults results(options.out);
-    ranks.serve(
-        parts.digest(), [&](const Task& task) { return parts.run(task.part, results.path(), interruption.token()); },
-        interruption.token());
-  } catch (const InputError& error) {
-    ranks.fail(error.what());
-  }
-  return kProvedExit;
+void serve(const RegressArguments& arguments, Ranks& ranks, const std::stop_token& stop) {
+  const RegressOptions options = options_of(arguments);
+  const RegressParts parts(arguments.folder, find_cases(arguments.folder), options, "");
+  const CaseResults results(options.out);
+  ranks.serve(
+      parts.digest(), [&](const Task& task) { return parts.run(task.part, results.path(), stop); }, stop);
 }
 
 }  // namespace
@@ -220,12 +213,9 @@ void add_regress_options(CLI::App& command, RegressArguments& arguments) {
 }
 
 int run_regress(const RegressArguments& arguments) {
-  std::unique_ptr<Ranks> ranks = join_ranks(arguments.parts);
-  if (!ranks) return run_first(arguments, ranks);
-  if (!ranks->is_first()) return serve(arguments, *ranks);
-  const int code = run_first(arguments, ranks);
-  say_exit_code(code);
-  return code;
+  return run_in_ranks(
+      arguments.parts, [&](std::unique_ptr<Ranks>& ranks) { return run_first(arguments, ranks); },
+      [&](Ranks& ranks, const std::stop_token& stop) { serve(arguments, ranks, stop); });
 }
 
 }  // namespace taut

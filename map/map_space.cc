@@ -30,7 +30,7 @@ MapAxis make_axis(const SpaceText& space, const ExpressionTape& pose, std::size_
   }
   if (is_periodic(space, pose, j)) return {parameter.name, MapAxis::Kind::kTurn, "-pi", "pi"};
   throw FieldError("space.parameters." + parameter.name, "a coordinate without bounds",
-                   "expected a range [lower, upper], because a map covers all of its space");
+                   "expected a range [lower, upper] for it in 'slice', because a map covers all of its space");
 }
 
 /// φ, θ and σ. On θ = π the orientation depends on σ − 2φ alone, so σ has to be known as a coordinate or a constant.

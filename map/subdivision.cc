@@ -99,6 +99,7 @@ class Subdivision {
     });
     map_.judged += batch.size();
     for (std::size_t n = 0; n < batch.size(); ++n) settle(batch[n], verdicts_[n]);
+    if (options_.progress) options_.progress({map_.leaves(), map_.share[0]});
   }
 
   void settle(const Pending& pending, const CellVerdict& verdict) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <stop_token>
 #include <vector>
@@ -27,6 +28,12 @@ struct MapNode {
 };
 static_assert(sizeof(MapNode) == 8);
 
+/// How far a map is that is being made.
+struct MapProgress {
+  std::size_t cells = 0;  ///< leaves
+  double undecided = 1;   ///< share of the space's volume
+};
+
 struct SubdivisionOptions {
   /// No axis is halved to cells narrower than this share of it.
   double least_width = 0.0005;
@@ -34,6 +41,7 @@ struct SubdivisionOptions {
   std::size_t most_cells = 20'000'000;  ///< leaves
   double seconds = std::numeric_limits<double>::infinity();
   std::stop_token stop = {};
+  std::function<void(const MapProgress&)> progress = {};  ///< where set: called now and then, by the calling thread
 };
 
 struct CellMap {

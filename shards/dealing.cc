@@ -15,6 +15,8 @@
 
 namespace taut {
 
+std::size_t usable_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
+
 void deal_to_threads(const std::vector<Task>& tasks, std::size_t threads, const RunTask& run, const TaskDone& done,
                      const std::stop_token& stop) {
   std::mutex mutex;

@@ -22,6 +22,9 @@ using RunTask = std::function<std::string(const Task&)>;
 /// Takes a result, by the task's number among those that were dealt. Called once for each, one at a time.
 using TaskDone = std::function<void(std::size_t, std::string)>;
 
+/// How many threads run at a time on the processors that this process may use.
+[[nodiscard]] std::size_t usable_threads();
+
 /// Deals tasks, the first one first. Returns when all are done, or as soon as `stop` is requested and nothing runs.
 /// Throws what `run` and `done` throw, when nothing runs.
 void deal_to_threads(const std::vector<Task>& tasks, std::size_t threads, const RunTask& run, const TaskDone& done,

@@ -431,21 +431,31 @@ class Ranks::FirstRank {
 
 class Ranks::OtherRank {
  public:
+  enum class End {
+    kLetGo,      ///< rank 0 waits for this one
+    kLeftAlone,  ///< it does not
+    kSilence,    ///< it was not heard of for kMostSilence
+  };
+
   OtherRank(Network& network, const RunTask& run) : network_(network), run_(run) {}
 
-  void serve(const std::stop_token& stop) {
+  End serve(const std::stop_token& stop) {
+    bool is_silent = false;
     std::jthread computing([this](const std::stop_token& end) { compute(end); });
     while (!is_over_ && !stop.stop_requested()) {
       const bool was_busy = receive_all();
       if (!send_results() && !was_busy) std::this_thread::sleep_for(kNap);
       const auto now = Clock::now();
-      if (now - heard_ > kMostSilence) break;
+      is_silent = now - heard_ > kMostSilence;
+      if (is_silent) break;
       if (now - last_beat_ < kBetweenBeats) continue;
       last_beat_ = now;
       network_.send(0, Word::kBeat);
     }
     computing.request_stop();
     changed_.notify_all();
+    if (is_silent) return End::kSilence;
+    return is_left_alone_ ? End::kLeftAlone : End::kLetGo;
   }
 
  private:
@@ -490,6 +500,7 @@ class Ranks::OtherRank {
       has_any = true;
       heard_ = Clock::now();
       if (message->word == Word::kEnd) is_over_ = true;
+      if (message->word == Word::kLeave) is_over_ = is_left_alone_ = true;  // this one was thought dead
       if (message->word != Word::kTask) continue;
       const std::string& content = message->content;
       const std::lock_guard lock(mutex_);
@@ -502,7 +513,7 @@ class Ranks::OtherRank {
 
   Network& network_;
   const RunTask& run_;
-  bool is_over_ = false;
+  bool is_over_ = false, is_left_alone_ = false;
   Clock::time_point heard_ = Clock::now(), last_beat_ = Clock::now();
   std::mutex mutex_;
   std::condition_variable_any changed_;
@@ -538,6 +549,7 @@ Ranks::~Ranks() {
       if (first_->let_go()) network_->end();
       return;
     }
+    if (!is_awaited_) return;
     network_->send(0, Word::kBye);
     const auto begin = Clock::now();
     while (Clock::now() - begin < 4 * kMostSilence) {
@@ -564,7 +576,11 @@ void Ranks::serve(const std::string& work, const RunTask& run, const std::stop_t
   gethostname(host.data(), host.size() - 1);
   const nlohmann::json hello = {{"host", host.data()}, {"process", getpid()}, {"work", work}};
   network_->send(0, Word::kHello, hello.dump());
-  OtherRank(*network_, run).serve(stop);
+  const OtherRank::End end = OtherRank(*network_, run).serve(stop);
+  is_awaited_ = end == OtherRank::End::kLetGo;
+  if (end != OtherRank::End::kSilence) return;
+  say_(fmt::format("rank {} on {} ends, because rank 0 was not heard of for {} s", network_->rank(), host.data(),
+                   kMostSilence.count()));
 }
 
 void Ranks::fail(const std::string& message) { network_->send(0, Word::kFailed, message); }

@@ -26,7 +26,8 @@ class Ranks {
   /// @throws InputError where there is no module, or it is made for another MPI than mpirun is of
   [[nodiscard]] static std::unique_ptr<Ranks> join(std::function<void(const std::string&)> say);
 
-  /// Of rank 0: lets the others go. All of them: ends MPI, unless a rank has died, which MPI would wait for.
+  /// Of rank 0: lets the others go. All of them: ends MPI, unless a rank has died, which MPI would wait for. Where rank 0
+  /// fell silent, ends at once.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -40,7 +41,7 @@ class Ranks {
   void deal(const std::string& work, const std::vector<Task>& tasks, const RunTask& run, const TaskDone& done,
             const std::stop_token& stop);
 
-  /// Other ranks: computes what rank 0 deals, until it lets them go or is not heard of for kMostSilence.
+  /// Other ranks: computes what rank 0 deals, until it lets them go or is not heard of for kMostSilence, which is said.
   /// @param work  the digest of all that determines results
   void serve(const std::string& work, const RunTask& run, const std::stop_token& stop);
 
@@ -57,6 +58,7 @@ class Ranks {
   std::unique_ptr<Network> network_;
   std::function<void(const std::string&)> say_;
   std::unique_ptr<FirstRank> first_;  ///< on rank 0
+  bool is_awaited_ = true;            ///< on other ranks: rank 0 waits for this one to end
 };
 
 }  // namespace taut

@@ -38,6 +38,7 @@ constexpr std::array<Style, kLooks> kStyles = {{
 }};
 constexpr const char* kCutOff = "url(#cut-off)";
 constexpr const char* kSingular = "#d7191c";
+constexpr const char* kChartEdge = "#14324f";
 
 constexpr const char* kPatterns = R"(<defs>
 <pattern id="unbalanced" width="8" height="8" patternUnits="userSpaceOnUse"><rect width="8" height="8" fill="#8fbce6"/>
@@ -76,7 +77,7 @@ class Drawing {
     for (const Style& style : kStyles) out += area(style.name, style.fill, "#333", cells_[style.look]);
     out += area("cut-off", kCutOff, "none", cut_off_);
     out += area("singular", kSingular, kSingular, overlay_.singular);
-    out += path() + frame_.axes().str() + frame_.marks(overlay_.marks).str() + legend();
+    out += charts() + path() + frame_.axes().str() + frame_.marks(overlay_.marks).str() + legend();
     return out + "</svg>\n";
   }
 
@@ -124,13 +125,29 @@ class Drawing {
     path += 'z';
   }
 
-  [[nodiscard]] std::string path() const {
+  [[nodiscard]] std::string lines(const std::vector<MapLine>& all) const {
     std::string path;
-    for (const auto& line : overlay_.path) {
+    for (const auto& line : all) {
       for (std::size_t n = 0; n < line.size(); ++n) {
         path += (n == 0 ? "M" : "L") + pixels(x(line[n][0])) + "," + pixels(y(line[n][1]));
       }
     }
+    return path;
+  }
+
+  [[nodiscard]] std::string charts() const {
+    if (overlay_.charts.empty()) return "";
+    return fmt::format(
+        "<clipPath id=\"space\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
+        "<path class=\"charts\" clip-path=\"url(#space)\" fill=\"none\" stroke=\"{}\" stroke-width=\"0.7\" "
+        "stroke-opacity=\"0.8\" "
+        "stroke-linejoin=\"round\" d=\"{}\"/>\n",
+        pixels(x(0)), pixels(y(1)), pixels(frame_.width()), pixels(frame_.height()), kChartEdge,
+        lines(overlay_.charts));
+  }
+
+  [[nodiscard]] std::string path() const {
+    const std::string path = lines(overlay_.path);
     if (path.empty()) return "";
     return fmt::format(
         "<path fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" d=\"{0}\"/>\n"
@@ -162,6 +179,7 @@ class Drawing {
     }
     if (!cut_off_.empty()) entry(kCutOff, "inside, but no motion from the start leads there (proved)");
     if (!overlay_.singular.empty()) entry(kSingular, "encloses det J = 0");
+    if (!overlay_.charts.empty()) entry(kChartEdge, "charts of the atlas (nothing is proved of them)");
     return out;
   }
 

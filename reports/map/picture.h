@@ -12,11 +12,15 @@
 
 namespace taut {
 
+/// A line of places t in the space.
+using MapLine = std::vector<std::array<double, 2>>;
+
 /// What is drawn on top of a map.
 struct MapOverlay {
-  std::vector<Cell> singular;                            ///< cells that enclose det J = 0
-  std::vector<Cell> both;                                ///< where a length and the tensions are beyond limits
-  std::vector<std::vector<std::array<double, 2>>> path;  ///< lines in t
+  std::vector<Cell> singular;   ///< cells that enclose det J = 0
+  std::vector<Cell> both;       ///< where a length and the tensions are beyond limits
+  std::vector<MapLine> path;    ///< lines in t
+  std::vector<MapLine> charts;  ///< of an atlas, likewise
   std::vector<MapMark> marks;
 };
 

@@ -19,17 +19,6 @@ struct FeatureKey {
   auto operator<=>(const FeatureKey&) const = default;
 };
 
-const char* kind_name(CellKind kind) {
-  switch (kind) {
-    case CellKind::kInside: return "inside";
-    case CellKind::kLength: return "length";
-    case CellKind::kTension: return "tension";
-    case CellKind::kUnbalanced: return "unbalanced";
-    case CellKind::kUndecided: break;
-  }
-  return "undecided";
-}
-
 const char* kind_meaning(CellKind kind) {
   switch (kind) {
     case CellKind::kInside: return "every pose is feasible (proved)";
@@ -69,7 +58,7 @@ nlohmann::json feature_json(const MapResult& result, const FeatureKey& key, cons
     polygons.push_back(std::move(rings));
     share += polygon.area();
   }
-  nlohmann::json properties = {{"kind", kind_name(key.kind)},
+  nlohmann::json properties = {{"kind", cell_kind_name(key.kind)},
                                {"meaning", kind_meaning(key.kind)},
                                {"share", share},
                                {"area", share * whole_volume(result.axes)},

@@ -21,6 +21,17 @@ const char* axis_kind_name(MapAxis::Kind kind) {
   return "tilt";
 }
 
+const char* cell_kind_name(CellKind kind) {
+  switch (kind) {
+    case CellKind::kInside: return "inside";
+    case CellKind::kLength: return "length";
+    case CellKind::kTension: return "tension";
+    case CellKind::kUnbalanced: return "unbalanced";
+    case CellKind::kUndecided: break;
+  }
+  return "undecided";
+}
+
 std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space, const DisplayUnits& units) {
   std::vector<ShownAxis> result;
   for (std::size_t k = 0; k < space.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "map/cell_proof.h"
 #include "map/map_space.h"
 #include "reports/summary/display_units.h"
 
@@ -27,6 +28,8 @@ struct ShownAxis {
 
 /// "range", "turn" or "tilt".
 [[nodiscard]] const char* axis_kind_name(MapAxis::Kind kind);
+/// "undecided", "inside", "length", "tension" or "unbalanced".
+[[nodiscard]] const char* cell_kind_name(CellKind kind);
 
 /// All axes of a map of a problem's space.
 [[nodiscard]] std::vector<ShownAxis> shown_axes(const SpaceText& text, const MapSpace& space,

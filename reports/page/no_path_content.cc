@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/json_cursor.h"
+#include "certify/path_proof.h"
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
 #include "reports/summary/summary.h"
@@ -22,21 +23,14 @@ std::size_t start_of(const checker::CheckResult& checked) {
   return checked.certificate->at("waypoints").at(0).get<std::size_t>();
 }
 
-Waypoint waypoint(const std::vector<ExpressionText>& coordinates) {
-  Waypoint result;
-  for (const ExpressionText& coordinate : coordinates) result.x.push_back(evaluate_constant<double>(coordinate));
-  result.half_turns.assign(coordinates.size(), 0);
-  return result;
-}
-
 /// Start and goal as the path of a plan that was not found, which claims nothing.
 ReportContext scene_of(const checker::CheckResult& checked) {
   const json& stated = *checked.certificate;
   const std::size_t from = start_of(checked);
   Certificate certificate;
   certificate.problem = problem_from_json(stated.at("problem"));
-  certificate.path.waypoints = {waypoint(certificate.problem.query.at(from)),
-                                waypoint(certificate.problem.query.at(from + 1))};
+  const std::vector<Waypoint> query = query_waypoints(certificate.problem);
+  certificate.path.waypoints = {query.at(from), query.at(from + 1)};
   certificate.undecided = OpenPart{"no path", std::nullopt};
   certificate.illustration = stated.at("illustration");
   const JsonCursor generator(stated.at("generator"), "generator");
@@ -176,18 +170,15 @@ NoPathContent::NoPathContent(const checker::CheckResult& checked_result, const R
       space(make_map_space(scene.certificate.problem.space)),
       axes(shown_axes(scene.certificate.problem.space, space, scene.illustration.units)),
       fields(scene.illustration.document_fields),
-      document(options.document),
+      document(document_of(scene, options)),
       revision(options.revision),
       date(options.date),
-      title(fields.title.empty() ? title_from_name(scene.certificate.problem.name) : fields.title),
+      title(title_of(scene)),
       word(is_proved() ? "NO PATH EXISTS" : "UNCHECKED"),
       headline(headline_of(*this)),
       load(load_statement(scene.certificate.problem.load)),
       statements(statements_of(*this)),
       assumed(assumed_of(scene.certificate.problem)),
-      not_covered(not_covered_of(scene.certificate.problem)) {
-  if (document.empty()) document = fields.document;
-  if (document.empty()) document = document_number(scene.certificate.footer_sha256);
-}
+      not_covered(not_covered_of(scene.certificate.problem)) {}
 
 }  // namespace taut

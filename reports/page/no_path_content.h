@@ -35,7 +35,7 @@ struct NoPathContent {
   std::string word;                      ///< "NO PATH EXISTS" or "UNCHECKED"
   std::string headline;
   LoadStatement load;
-  std::vector<Statement> statements;  ///< move, space, limits, tolerances, proof, re-check
+  std::vector<Statement> statements;  ///< move, space, limits, tolerances, re-check
   std::vector<ScopeItem> assumed, not_covered;
 };
 

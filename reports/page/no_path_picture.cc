@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reports/page/no_path_picture.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -64,6 +66,8 @@ class Looks {
   }
 
   [[nodiscard]] const std::array<Look, 5>& all() const { return looks_; }
+  /// Whether some cells are too fine to be drawn one by one.
+  [[nodiscard]] bool are_joined() const { return are_joined_; }
 
  private:
   /// The look of a leaf, if it has one.
@@ -95,11 +99,13 @@ class Looks {
       for (unsigned side = 0; side < 2; ++side) gather(cell.half(here.axis, side), here.child + side);
       return;
     }
+    if (here.axis != MapNode::kLeaf) are_joined_ = true;
     if (const auto found = look_of_part(node)) looks_.at(*found).cells.push_back(cell);
   }
 
   CellMap map_;
   std::vector<bool> from_start_, from_goal_;  ///< by node
+  bool are_joined_ = false;
   std::array<Look, 5> looks_ = {{{"from-start", "what no feasible motion from the start leaves"},
                                  {"from-goal", "what no feasible motion from the goal leaves"},
                                  {"wall-tension", "no feasible pose: a tension is beyond its limit (proved)"},
@@ -134,6 +140,17 @@ Html legend(const Looks& looks) {
   return keys;
 }
 
+std::string caption(const Looks& looks) {
+  const std::string joined = fmt::format(
+      " Where cells are narrower than 1/{} of an axis, a place of that width has the colour of one of them: "
+      "of a wall, if there is one.",
+      kAreaUnits);
+  return fmt::format(
+      "These are the cells of the certificate, as the checker has proved them; edges are edges of cells.{} What has no "
+      "colour did not have to be decided.",
+      looks.are_joined() ? joined : "");
+}
+
 }  // namespace
 
 Html no_path_picture(const NoPathContent& content) {
@@ -150,10 +167,9 @@ Html no_path_picture(const NoPathContent& content) {
   return html(
       "<figure class=\"walls\"><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"The space of {} and {}: cells "
       "without a feasible pose part start and goal.\">\n{}{}{}</svg>\n<figcaption><span "
-      "class=\"keys\">{}</span>These are the cells of the certificate, as the checker has proved them; edges are edges "
-      "of cells. What has no colour did not have to be decided.</figcaption></figure>\n",
+      "class=\"keys\">{}</span>{}</figcaption></figure>\n",
       kSize.width, std::ceil(frame.y(0) + kBelow), content.axes[0].name, content.axes[1].name, areas(looks, frame),
-      frame.axes(), frame.marks(marks), legend(looks));
+      frame.axes(), frame.marks(marks), legend(looks), caption(looks));
 }
 
 }  // namespace taut

@@ -8,8 +8,9 @@
 namespace taut {
 
 /// The walls, by the reasons that the checker has confirmed; which part of the space they close off around start and
-/// goal; the two places. Cells finer than kAreaUnits (map_frame.h) are drawn with what is around them. A sentence where
-/// the space has three coordinates. @pre content.is_proved()
+/// goal; the two places. A part finer than 1/kAreaUnits of an axis (map_frame.h) is drawn as one cell with the look of
+/// its first wall, and the caption then says so. A sentence where the space has three coordinates.
+/// @pre content.is_proved()
 [[nodiscard]] Html no_path_picture(const NoPathContent& content);
 
 /// The part of the style sheet that is for it.

@@ -7,6 +7,7 @@
 #include "map/both_limits.h"
 #include "map/region.h"
 #include "map/singular.h"
+#include "reports/page/map_axis.h"
 #include "reports/page/map_frame.h"
 
 namespace taut {
@@ -37,7 +38,6 @@ std::vector<Cell> cut_off_cells(const Problem& problem, const CellMap& map) {
 
 /// Everything but cut_off.
 PlaneMap drawn(const Problem& problem, const CellMap& map) {
-  constexpr std::array<const char*, kCellKinds> kNames = {"undecided", "inside", "length", "tension", "unbalanced"};
   PlaneMap result;
   std::array<std::vector<Cell>, kCellKinds> cells;
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
@@ -46,7 +46,9 @@ PlaneMap drawn(const Problem& problem, const CellMap& map) {
   const auto add = [&](const char* kind, const std::vector<Cell>& of) {
     if (!of.empty()) result.areas.push_back({kind, area_path(of)});
   };
-  for (std::size_t kind = 0; kind < kCellKinds; ++kind) add(kNames.at(kind), cells.at(kind));
+  for (std::size_t kind = 0; kind < kCellKinds; ++kind) {
+    add(cell_kind_name(static_cast<CellKind>(kind)), cells.at(kind));
+  }
   add("both", cells_beyond_both(problem, map, kOverlayWidth));
   add("singular", singular_cells(problem, map, kOverlayWidth));
   for (std::size_t k = 0; k < 2; ++k) {

@@ -57,13 +57,6 @@ const char* name(CableUse::Source source) {
   return "none";
 }
 
-/// The document's number: the one asked for, else the case's, else one made from the certificate's digest.
-std::string document_of(const ReportContext& scene, const ReportOptions& options) {
-  if (!options.document.empty()) return options.document;
-  const std::string& stated = scene.illustration.document_fields.document;
-  return stated.empty() ? document_number(scene.certificate.footer_sha256) : stated;
-}
-
 nlohmann::json scope_json(const std::vector<ScopeItem>& items) {
   nlohmann::json result = nlohmann::json::array();
   for (const ScopeItem& item : items) {
@@ -79,7 +72,7 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
       revision(options.revision),
       date(options.date),
       name(scene.certificate.problem.name),
-      title(scene.illustration.document_fields.title),
+      title(title_of(scene)),
       machine(scene.illustration.document_fields.machine),
       site(scene.illustration.document_fields.site),
       load_name(scene.illustration.document_fields.load_name),
@@ -106,7 +99,6 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
   key_numbers = taut::key_numbers(scene, use);
   cables = cable_lines(scene, use);
   use_caption = taut::use_caption(scene, use.source);
-  if (title.empty()) title = title_from_name(name);
   assurance_case = taut::assurance_case(scene, title);
   const bool is_unchecked = scene.recheck.result == Recheck::Result::kUnchecked;
   if (const auto items = stated_items(scene.certificate)) {
@@ -118,6 +110,17 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
     headroom.insert(headroom.begin(), sentence(*found, scene.illustration.units));
   }
   lift_plan = taut::lift_plan(scene, *this);  // of all the rest
+}
+
+std::string document_of(const ReportContext& scene, const ReportOptions& options) {
+  if (!options.document.empty()) return options.document;
+  const std::string& stated = scene.illustration.document_fields.document;
+  return stated.empty() ? document_number(scene.certificate.footer_sha256) : stated;
+}
+
+std::string title_of(const ReportContext& scene) {
+  const std::string& stated = scene.illustration.document_fields.title;
+  return stated.empty() ? title_from_name(scene.certificate.problem.name) : stated;
 }
 
 std::string title_from_name(const std::string& name) {

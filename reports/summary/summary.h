@@ -47,8 +47,13 @@ struct Summary {
 /// "TAUT-1A2B-3C4D-5E6F", made from the certificate's own digest; nothing if that is no digest.
 [[nodiscard]] std::string document_number(const std::string& footer_sha256);
 
+/// The document's number: the one asked for, else the case's, else one made from the certificate's digest.
+[[nodiscard]] std::string document_of(const ReportContext& scene, const ReportOptions& options);
+
 /// The title of a case that states none: "Robot1 slice qs qg" of "robot1-slice-qs-qg".
 [[nodiscard]] std::string title_from_name(const std::string& name);
+/// The title that the case states, else one made from its name.
+[[nodiscard]] std::string title_of(const ReportContext& scene);
 
 /// The verdict as logs and terminals show it: "PROVED", "REFUTED - DO NOT RUN", "UNDECIDED - NO DECISION",
 /// "NO PATH FOUND" or "UNCHECKED".

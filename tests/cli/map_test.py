@@ -11,7 +11,7 @@ import re
 import subprocess
 import xml.etree.ElementTree as xml
 
-from command_line import CASES, ROBOT1, TAUT, InFolder, interrupt, main, run, text_of
+from command_line import CASES, CHECK, ROBOT1, TAUT, InFolder, interrupt, main, run, text_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -26,6 +26,19 @@ def read_npy(path):
     header = ast.literal_eval(content[10:10 + size].decode("ascii"))
     assert (header["descr"], header["fortran_order"]) == ("|u1", False)
     return header["shape"], content[10 + size:]
+
+
+def corners_of(path):
+    """The lines of an SVG path of absolute M and L."""
+    return [[tuple(map(float, corner.split(","))) for corner in re.findall(r"[ML]?([-\d.]+,[-\d.]+)", line)]
+            for line in re.findall(r"M[^M]+", path)]
+
+
+def encloses(ring, point):
+    """Whether a polygon has a point inside: by the crossings of a ray."""
+    x, y = point
+    return sum((y0 > y) != (y1 > y) and x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)
+               for (x0, y0), (x1, y1) in zip(ring, ring[1:] + ring[:1])) % 2 == 1
 
 
 def signed_area(ring):
@@ -110,12 +123,26 @@ class Map(InFolder):
         found = self.found(case, "--undecided", "60 %")
         self.assertEqual(len(found["axes"]), 3)
         self.assertGreater(found["share"]["inside"], 0)
-        for option, reason in (("--polygons", "polygons are flat"), ("--path", "a flat picture")):
+        for option, reason in (("--polygons", "polygons are flat"), ("--path", "a flat picture"),
+                               ("--atlas", "a flat picture")):
             said = run(TAUT, "map", case, option, self.path("x"))
             self.assertEqual(said.returncode, 3)
             self.assertIn("got a case with 3 free coordinates, expected two, because", said.stderr)
             self.assertIn(reason, said.stderr)
             self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_three_coordinates_end_at_a_million_cells(self):
+        case = os.path.join(CASES, "maps", "robot1-orientations.yaml")
+        said = run(TAUT, "map", case)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("there are as many cells as there may be", said.stdout)
+        self.assertIn("Of three coordinates a map ends at 1000000 cells unless something else is asked for", said.stdout)
+        cells = int(re.search(r"^(\d+) cells from", said.stdout, re.M).group(1))
+        self.assertGreater(cells, 990000)
+        self.assertLessEqual(cells, 1000000)
+        said = run(TAUT, "map", case, "--cells", "20000")
+        self.assertIn("there are as many cells as there may be", said.stdout)
+        self.assertNotIn("unless something else", said.stdout)
 
     def test_slices_of_three_coordinates(self):
         case = os.path.join(CASES, "robot2-sphere-sigma-free-q2-q3.yaml")
@@ -229,6 +256,31 @@ class Map(InFolder):
         self.assertIn("whose rows are poses or cable lengths, expected a file of the case's own", said.stderr)
         self.assertFalse(os.path.exists(self.path("other")))
 
+    def test_charts_of_an_atlas_are_drawn(self):
+        atlas = self.path("qs-qg.atlas")
+        planned = run(TAUT, "plan", ROBOT1, "--out", self.path("plan"), "--save-atlas", atlas, "--json")
+        self.assertEqual(planned.returncode, 0, planned.stderr)
+        charts = json.loads(planned.stdout)["charts"]
+        self.found(ROBOT1, "--undecided", "5%", "--out", self.path("map"), "--atlas", atlas)
+        text = text_of(self.path("map", "map.svg"))
+        self.assertIn("charts of the atlas (nothing is proved of them)", text)
+        picture = xml.fromstring(text)
+        drawn, = (path.get("d") for path in picture.iter(SVG + "path") if path.get("class") == "charts")
+        outlines = corners_of(drawn)
+        self.assertGreaterEqual(len(outlines), charts)  # one that crosses the end of a turn has two lines
+        # Start and goal are the centres of charts, whose polygons share no place but their edges.
+        for circle in picture.iter(SVG + "circle"):
+            place = float(circle.get("cx")), float(circle.get("cy"))
+            around, = (outline for outline in outlines if encloses(outline, place))
+            self.assertLess(max(abs(x - place[0]) + abs(y - place[1]) for x, y in around), 120)
+        self.found(ROBOT1, "--undecided", "5%", "--out", self.path("plain"))
+        self.assertNotIn("charts", text_of(self.path("plain", "map.svg")))
+        other = os.path.join(CASES, "robot2-sphere-q2-q3.yaml")
+        said = run(TAUT, "map", other, "--out", self.path("other"), "--atlas", atlas)
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("qs-qg.atlas: ", said.stderr)
+        self.assertFalse(os.path.exists(self.path("other")))
+
     def test_a_png_is_the_svg_with_two_dots_a_pixel(self):
         found = self.found(ROBOT1, "--undecided", "5%", "--out", self.path("map"), "--png")
         self.assertEqual(found["files"], [self.path("map", "map.svg"), self.path("map", "map.png")])
@@ -248,6 +300,7 @@ class Map(InFolder):
         for arguments, expected in ((["--grid", "g.csv"], "expected a name that ends in .npy"),
                                     (["--grid-size", "4"], "got no --grid"),
                                     (["--path", "path.csv"], "got no --out"), (["--png"], "got no --out"),
+                                    (["--atlas", "a.atlas"], "--atlas: got no --out"),
                                     (["--grid", "g.npy", "--polygons", "g.npy.json"], "expected another file"),
                                     (["--polygons", ROBOT1], "cases"),
                                     *((["--grid", "g.npy", "--grid-size", size], "--grid-size: got")
@@ -263,6 +316,27 @@ class Map(InFolder):
         self.assertEqual(said.returncode, 3)
         self.assertRegex(said.stderr, r"--cells: got 1000000000, which may take 120.0 GB of memory \(120 bytes each\), "
                                       r"expected at most \d+, because [\d.]+ GB are available")
+
+    def test_a_slice_may_bound_positions(self):
+        level = text_of(ROBOT1).replace("slice: {px: 0, py: 0, pz: 350, sigma: 34 deg}",
+                                        "slice: {px: [-200, 200], py: [-0.2 m, 0.2 m], pz: 350, phi: 0, theta: 0, "
+                                        "sigma: 34 deg}")
+        self.assertNotEqual(level, text_of(ROBOT1))
+        level = re.sub(r"\{phi: [-\d.]+, theta: [-\d.]+\}", "{px: 0, py: 0}", level)
+        found = self.found(self.write("level.yaml", level))
+        self.assertEqual([(axis["name"], axis["kind"], axis["lower"], axis["upper"]) for axis in found["axes"]],
+                         [("px", "range", "-0.2", "0.2"), ("py", "range", "-0.2", "0.2")])
+        self.assertGreater(found["share"]["inside"], 0)
+        self.assertGreater(found["share"]["length"], 0)
+        self.assertEqual(found["connections"], ["joined"])
+        crane = text_of(os.path.join(CASES, "cranes", "portal-20t.yaml")).split("decoration:", maxsplit=1)[0]
+        crane = crane.replace("free: {px: [-8, 8], py: [-5, 5], pz: [3, 10]}",
+                              "slice: {px: [-8, 8], py: [-5, 5], pz: 6, phi: 0, theta: 0, sigma: 0}")
+        crane = self.write("crane.yaml", re.sub(r"\{px: (-?4), py: 0,.*\}", r"{px: \1, py: 0}", crane))
+        planned = run(TAUT, "plan", crane, "--out", self.path("crane"))
+        self.assertEqual(planned.returncode, 0, planned.stdout + planned.stderr)
+        checked = run(CHECK, self.path("crane", "certificate.json"), crane, "--expect", "proved")
+        self.assertTrue(checked.stdout.startswith("accepted"), checked.stdout + checked.stderr)
 
     def test_what_has_no_map_is_refused(self):
         for name, expected in (("robot1-free-box-qs-qg", "(px, py, pz, phi, theta, sigma), expected two or three"),

@@ -99,6 +99,22 @@ class NoPath(InFolder):
         for claimed in ("NO PATH EXISTS", 'class="wall-tension"', "What is claimed"):
             self.assertNotIn(claimed, page)
 
+    def test_cells_too_fine_to_be_drawn_are_said_to_be_joined(self):
+        tree = self.certificate["map"]["tree"]
+        page = self.page_of(self.certificate)
+        self.assertIn("edges are edges of cells. What has no colour", page)
+        wall = next(n for n, c in enumerate(tree) if c.isalpha())
+        halved = "0" * 11 + tree[wall] * 12  # the halves of a cell have its reason
+        page = self.page_of(self.with_tree(tree[:wall] + halved + tree[wall + 1:]))
+        self.assertIn("Where cells are narrower than 1/2048 of an axis, a place of that width has the colour of one of "
+                      "them: of a wall, if there is one.", page)
+
+    def page_of(self, certificate):
+        said = run(TAUT, "report", self.write("drawn.json", json.dumps(certificate, sort_keys=True)), "--out",
+                   self.path("drawn.html"))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        return text_of(self.path("drawn.html"))
+
     def test_a_report_of_free_text_that_is_none(self):
         def odd(c):
             c["generator"] = {"name": 7}

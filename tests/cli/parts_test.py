@@ -232,15 +232,47 @@ class UnderMpi(Parts):
         with subprocess.Popen(["mpirun", "--enable-recovery", "-n", "3", TAUT, "map", *LONG, "--json", "--out",
                                out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env=self.environment) as process:
-            victim = None
-            while victim is None and process.poll() is None:
-                time.sleep(0.01)
-                victim = next((pid for pid in children(process.pid) if rank_of(pid) == "2" and is_ready(pid)), None)
-            self.assertIsNotNone(victim)
-            os.kill(victim, signal.SIGKILL)
+            os.kill(self.working_rank(process, "2"), signal.SIGKILL)
             stdout, stderr = process.communicate(timeout=300)
         self.assertRegex(stderr, r"taut: rank 2 on \S+ is lost, because its process ended; \d of its parts dealt again")
         self.assertEqual((without_times(stdout), content(os.path.join(out, "map.html"))), (one[0], one[1][0]))
+
+    def test_a_minute_of_silence_is_taken_for_death(self):
+        """A rank that hangs, and rank 0 that dies: both take a minute, so that they are tried at once."""
+        one = self.made("one", *LONG)
+        jobs = {}
+        for name in ("hung", "headless"):
+            with open(self.path(name + ".out"), "w") as out, open(self.path(name + ".err"), "w") as err:
+                jobs[name] = subprocess.Popen(
+                    ["mpirun", "--enable-recovery", "-n", "2", TAUT, "map", *LONG, "--json", "--out", self.path(name)],
+                    stdout=out, stderr=err, env=self.environment)
+        pids = {(name, rank): self.working_rank(jobs[name], rank) for name in jobs for rank in ("0", "1")}
+        os.kill(pids["hung", "1"], signal.SIGSTOP)
+        os.kill(pids["headless", "0"], signal.SIGKILL)
+        begin = time.monotonic()
+        while is_there(pids["hung", "0"]) and time.monotonic() - begin < 250:
+            time.sleep(0.1)
+        os.kill(pids["hung", "1"], signal.SIGCONT)  # mpirun waits for a process that hangs
+        self.assertEqual(jobs["hung"].wait(60), 0)
+        jobs["headless"].wait(60)
+        self.assertRegex(text_of(self.path("hung.err")),
+                         r"taut: rank 1 on \S+ is lost, because it was not heard of for 60 s; \d of its parts dealt again")
+        self.assertEqual((without_times(text_of(self.path("hung.out"))), content(self.path("hung", "map.html"))),
+                         (one[0], one[1][0]))
+        self.assertRegex(text_of(self.path("headless.err")),
+                         r"taut: rank 1 on \S+ ends, because rank 0 was not heard of for 60 s")
+        self.assertEqual(text_of(self.path("headless.out")), "")
+        self.assertFalse(os.path.exists(self.path("headless")), "nothing is written without rank 0")
+
+    def working_rank(self, process, rank):
+        """The process of a rank of mpirun that computes already."""
+        while process.poll() is None:
+            time.sleep(0.01)
+            for pid in children(process.pid):
+                if rank_of(pid) == rank and is_ready(pid):
+                    return pid
+        self.fail(f"rank {rank} ended too soon")
+        return None
 
     def test_a_job_that_was_killed_goes_on(self):
         parts = self.path("parts")
@@ -324,6 +356,15 @@ class Regress(InFolder):
 def children(pid):
     with open(f"/proc/{pid}/task/{pid}/children", encoding="ascii") as file:
         return [int(child) for child in file.read().split()]
+
+
+def is_there(pid):
+    """Whether a process runs, or is stopped; one that ended and was not waited for does not."""
+    try:
+        with open(f"/proc/{pid}/stat", encoding="ascii") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except OSError:
+        return False
 
 
 def rank_of(pid):

@@ -405,6 +405,38 @@ TEST(CaseFile, RejectsABoxThatIsNone) {
   expect_rejected(sections, "space.free.py: got '1', expected a range [lower, upper]");
 }
 
+TEST(CaseFile, BoundsCoordinatesThatASliceLeavesFree) {
+  Sections sections;
+  sections.space =
+      "space: {slice: {px: [-300, 0.25 m], py: 0, pz: [1/4, 600], phi: 0, theta: 0.1, sigma: [-10 deg, 1]}}\n";
+  sections.query = "query: {waypoints: [{px: -300, pz: 300, sigma: 0}, {px: 250, pz: 500, sigma: 1}]}\n";
+  const Problem level = parse(sections).problem;
+  const SpaceText& space = level.space;
+  ASSERT_EQ(space.parameters.size(), 3u);
+  for (const Parameter& parameter : space.parameters)
+    EXPECT_EQ(parameter.kind, ParameterKind::kRange) << parameter.name;
+  EXPECT_THAT(space.pose, ElementsAre("px", "0", "pz", "0", "0.1", "sigma"));
+  EXPECT_EQ(space.parameters[0].range_lower, "-0.3");
+  EXPECT_EQ(space.parameters[0].range_upper, "0.25");
+  EXPECT_EQ(space.parameters[2].range_upper, "1");
+  EXPECT_THAT(level.query[1], ElementsAre("0.25", "0.5", "1"));
+
+  // What is bounded keeps its names apart: theta = 0 and phi = pi are ends there.
+  sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [0, 1], sigma: 0}}\n";
+  sections.query = "query: {waypoints: [{phi: 0, theta: 0.5}, {phi: 1, theta: 1}]}\n";
+  EXPECT_EQ(parse(sections).problem.space.flip, std::nullopt);
+  EXPECT_EQ(parse(sections).problem.space.parameters[0].kind, ParameterKind::kPeriodic);
+
+  sections.query = "query: {waypoints: [{phi: 0, theta: 0.5}, {phi: 1, theta: 1.01}]}\n";
+  expect_rejected(sections, "query.waypoints[1].theta: got '1.01', expected a value in the parameter's range [0, 1]");
+  sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [1, 0], sigma: 0}}\n";
+  expect_rejected(sections, "test.yaml:10:47: space.parameters.theta: got [1, 0], expected lower < upper");
+  sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [0, 1, 2], sigma: 0}}\n";
+  expect_rejected(sections, "space.slice.theta: got [0, 1, 2], expected a range [lower, upper]");
+  sections.space = "space: {slice: {px: 0, py: 0, pz: 350, theta: [0, 3 mm], sigma: 0}}\n";
+  expect_rejected(sections, "space.slice.theta[1]: got '3 mm', expected a number or constant");
+}
+
 TEST(CaseFile, FlipsOnlyWherePhiAndThetaAreFree) {
   Sections sections;
   sections.space = "space: {slice: {px: 0, py: 0, pz: 350, phi: 0}}\n";

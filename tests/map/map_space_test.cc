@@ -51,8 +51,10 @@ TEST(MapSpace, RefusesWhatCannotBeCovered) {
   SpaceText unbounded = robot1_slice().space;
   unbounded.parameters.push_back({"px", ParameterKind::kReal, "", ""});
   unbounded.pose[0] = "px";
-  EXPECT_THAT([&] { (void)make_map_space(unbounded); },
-              ThrowsMessage<FieldError>(HasSubstr("space.parameters.px: got a coordinate without bounds")));
+  EXPECT_THAT(
+      [&] { (void)make_map_space(unbounded); },
+      ThrowsMessage<FieldError>(HasSubstr(
+          "space.parameters.px: got a coordinate without bounds, expected a range [lower, upper] for it in 'slice'")));
 
   SpaceText implied = robot1_sigma_free().space;
   implied.constraints = {"sin(sigma)"};

@@ -44,7 +44,6 @@
 #include <sstream>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "base/input_error.h"
@@ -1077,7 +1076,7 @@ int main(int argc, char** argv) {
   if (tolerances) options.tolerances = static_cast<ToleranceKind>(*tolerances);
   if (loads) options.loads = static_cast<LoadKind>(*loads);
   if (!shard.empty()) campaign.shard = read_shard(shard);
-  campaign.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  campaign.threads = threads > 0 ? threads : usable_threads();
   const auto ranks = Ranks::join([](const std::string& message) { fmt::print(stderr, "soundness: {}\n", message); });
   if (ranks && !ranks->is_first()) {
     ranks->serve(sha256(work_of(options)), [&](const Task& task) { return run_part(options, task); }, {});
