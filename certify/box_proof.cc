@@ -468,6 +468,20 @@ I disturbed_reach(const I& undisturbed, std::size_t cable, std::size_t side, con
   return undisturbed + ProofScalarTraits<I>::symmetric(UpperOf<I>(0.5) * (low + high));
 }
 
+/// BoxVerdict::strain.
+template <class I>
+double strain(const MarginList<I>& margins) {
+  double largest = 0;
+  for (const auto& margin : margins) {
+    const double over_box = lower_bound(margin.value.range);
+    const double at_mid = lower_bound(margin.value.at_mid);
+    const double left_by_deviations = at_mid - (over_box - lower_bound(margin.disturbed));
+    if (!(left_by_deviations > 0)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, (at_mid - over_box) / left_by_deviations);
+  }
+  return largest;
+}
+
 /// More than this is not claimed of the factor by which K may grow.
 constexpr double kMostGrowth = 1e6;
 
@@ -488,6 +502,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
 
   verdict.tension_N = verdict.length_m = std::numeric_limits<double>::infinity();
   verdict.wrench_scale = kMostGrowth;
+  if (enclosure.regular) verdict.strain = strain(enclosure.margins);
   bool all_positive = true;
   bool midpoint_positive = true;
   bool refuted = false;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -120,6 +121,9 @@ struct BoxVerdict {
   double tension_N = 0;  ///< proved lower bounds over the box; only if kProved
   double length_m = 0;
   double wrench_scale = 0;
+  /// The largest share of its value at the midpoint that a margin may lose over the box: less than 1 if kProved. It
+  /// proves nothing, and tells which size of box would do. Infinite where it is not known.
+  double strain = std::numeric_limits<double>::infinity();
 };
 
 /// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins
