@@ -17,6 +17,8 @@ constexpr int kProgressPeriod = 256;  // expansions between two reports
 // The weights of an anytime search begin with infinity and kFirstWeight; the one after a weight up to kLastWeight is 1.
 constexpr double kFirstWeight = 2.0;
 constexpr double kLastWeight = 1.03;
+// A greedy search that would end sooner is left alone.
+constexpr int kExpansionsBeforeDetours = 10;
 
 struct Node {
   bool closed = false;
@@ -86,6 +88,7 @@ class Search {
       open_.pop();
       if (!is_current(candidate)) continue;
       if (candidate.child == candidate.parent) {
+        if (may_go_by_detour() && find_detour()) return SearchStatus::kFound;
         expand(candidate.child);
         continue;
       }
@@ -130,6 +133,31 @@ class Search {
     result_.cost = problem_.cost(problem_.start, end);
     result_.path = {{problem_.start, {}, problem_.start}, {problem_.goal, image, end}};
     return SearchStatus::kFound;
+  }
+
+  bool may_go_by_detour() const {
+    return greedy_ && problem_.straight_to_goal && problem_.detours &&
+           result_.nodes_expanded == kExpansionsBeforeDetours;
+  }
+
+  // Sets the path if there is a point by which two edges lead to the goal.
+  bool find_detour() {
+    const auto is_edge_ok = [&](const Coordinates& a, const Coordinates& b) {
+      ++result_.edges_checked;
+      const bool is_ok = problem_.edge_ok(a, b);
+      if (!is_ok) ++result_.edges_rejected;
+      return is_ok;
+    };
+    for (const Coordinates& by : problem_.detours(problem_.start, problem_.goal)) {
+      if (problem_.stop.stop_requested()) return false;
+      const Image image = symmetry_.nearest_image(problem_.goal, by);
+      const Coordinates end = symmetry_.apply(problem_.goal, image);
+      if (!is_edge_ok(problem_.start, by) || !is_edge_ok(by, end)) continue;
+      result_.cost = problem_.cost(problem_.start, by) + problem_.cost(by, end);
+      result_.path = {{problem_.start, {}, problem_.start}, {by, {}, by}, {problem_.goal, image, end}};
+      return true;
+    }
+    return false;
   }
 
   bool is_current(const Candidate& candidate) const {
@@ -308,10 +336,9 @@ SearchResult search(Atlas& atlas, const SearchProblem& problem, const SearchOpti
 }
 
 SearchResult search_anytime(Atlas& atlas, const SearchProblem& problem,
-                            const std::function<void(const SearchResult&)>& improved) {
+                            const std::function<bool(const SearchResult&)>& improved) {
   SearchResult best = search(atlas, problem, {.weight = std::numeric_limits<double>::infinity()});
-  if (best.status == SearchStatus::kFound) improved(best);
-  bool ended = best.status != SearchStatus::kFound;
+  bool ended = best.status != SearchStatus::kFound || !improved(best);
   for (double weight = kFirstWeight; !ended && best.factor > 1; weight = next_weight(weight)) {
     SearchResult next = search(atlas, problem, {.weight = weight, .cost_bound = best.cost});
     next.nodes_expanded += best.nodes_expanded;
@@ -327,7 +354,7 @@ SearchResult search_anytime(Atlas& atlas, const SearchProblem& problem,
       next.factor = ended ? best.factor : weight;
     }
     best = std::move(next);
-    if (status == SearchStatus::kFound) improved(best);
+    if (status == SearchStatus::kFound) ended = !improved(best);
   }
   return best;
 }

@@ -14,6 +14,10 @@
 // other candidate is more promising than the node: the number of a chart's neighbours grows exponentially with the
 // dimension, and few are needed. With weight 1 no neighbour can be more promising than its node, so all are made.
 //
+// A greedy search may pass along an obstacle from chart to chart, where two long edges would go around it. So after a
+// few charts it tries some points by which the way would not be much longer than the straight one
+// (SearchProblem::detours).
+//
 // Sources: J. M. Porta, L. Jaillet, O. Bohigas 2012; O. Bohigas, M. Manubens, L. Ros (greedy best-first, A*);
 // C. Dellin, S. Srinivasa, "A unifying formalism for shortest path problems with expensive edge evaluations", 2016;
 // S. Richter, J. Thayer, W. Ruml, "The joy of forgetting: faster anytime search via restarting", 2010.
@@ -50,6 +54,9 @@ struct SearchProblem {
   /// Adds to the charts' graph an edge from every chart straight to the goal. Most are not ok; one that is saves all
   /// charts beyond it. `edge_ok` is then called often and should refuse quickly.
   bool straight_to_goal = false;
+  /// Points by which a greedy search with straight_to_goal tries to reach the goal in two edges, in the order in which
+  /// they are tried, when the straight edge and the first charts have not led there. Called once; may be empty.
+  std::function<std::vector<Coordinates>(const Coordinates& start, const Coordinates& goal)> detours;
   std::function<void(const SearchProgress&)> progress;  ///< may be empty
   std::stop_token stop;                                 ///< checked before each expansion and each edge_ok of a path
 };
@@ -67,8 +74,8 @@ struct SearchOptions {
   void validate() const;
 };
 
-/// A chart's centre as a vertex of the path. `base` is the centre's coordinates bit for bit (the query's own for start
-/// and goal); `image` says exactly by how many half turns they were shifted to make the path continuous.
+/// A chart's centre, or a detour's point, as a vertex of the path. `base` is its coordinates bit for bit (the query's own
+/// for start and goal); `image` says exactly by how many half turns they were shifted to make the path continuous.
 /// The first vertex is the start, unshifted; the last is the image of the goal that was reached.
 struct PathVertex {
   Coordinates base;
@@ -103,9 +110,10 @@ struct SearchResult {
 
 /// Finds a path soon and shorter ones later: a greedy best-first search is followed by searches with weights that halve
 /// their distance to 1, each for a path shorter than the last, all on the same atlas. Calls `improved` with each path
-/// found. Ends when the last path is known to be the shortest on the charts' graph, or with `factor` > 1 when
-/// max_charts is reached or `stop` is requested. @returns the last path found, with counts over all searches.
+/// found, which says whether a shorter one is wanted. Ends when none is, when the last path is known to be the shortest
+/// on the charts' graph, or with `factor` > 1 when max_charts is reached or `stop` is requested.
+/// @returns the last path found, with counts over all searches.
 [[nodiscard]] SearchResult search_anytime(Atlas& atlas, const SearchProblem& problem,
-                                          const std::function<void(const SearchResult&)>& improved);
+                                          const std::function<bool(const SearchResult&)>& improved);
 
 }  // namespace taut

@@ -506,6 +506,20 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
   }
 }
 
+/// BoxVerdict::strain.
+template <class I>
+double strain(const MarginList<I>& margins) {
+  double largest = 0;
+  for (const auto& margin : margins) {
+    const double over_box = lower_bound(margin.value.range);
+    const double at_mid = lower_bound(margin.value.at_mid);
+    const double left_by_deviations = at_mid - (over_box - lower_bound(margin.disturbed));
+    if (!(left_by_deviations > 0)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, (at_mid - over_box) / left_by_deviations);
+  }
+  return largest;
+}
+
 /// More than this is not claimed of the factor by which K may grow.
 constexpr double kMostGrowth = 1e6;
 
@@ -526,6 +540,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
 
   verdict.tension_N = verdict.length_m = std::numeric_limits<double>::infinity();
   verdict.wrench_scale = kMostGrowth;
+  if (enclosure.regular) verdict.strain = strain(enclosure.margins);
   bool all_positive = true;
   bool midpoint_positive = true;
   bool refuted = false;

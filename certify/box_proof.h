@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -136,6 +137,9 @@ struct BoxVerdict {
     AtMid at_mid = AtMid::kUnknown;
   };
   std::vector<NearPair> near;  ///< only if kNear; none: the free ends of a cable may meet
+  /// The largest share of its value at the midpoint that a margin may lose over the box: less than 1 if kProved. It
+  /// proves nothing, and tells which size of box would do. Infinite where it is not known.
+  double strain = std::numeric_limits<double>::infinity();
 };
 
 /// Never throws for mathematical reasons. A planner may ask for more than the claim: with a clearance c >= 0, margins

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -133,10 +134,16 @@ PathProof prove_path(const Prover& prover, const Path& path, const KnownProof& k
     return result;
   }
   result.segments.resize(path.segments());
-  tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
+  const auto prove = [&](std::size_t k) {
     const SegmentProof* earlier = known ? known(path.segment(k)) : nullptr;
     result.segments[k] = earlier != nullptr ? *earlier : prover.prove(path.segment(k), 0, stop);
-  });
+  };
+  // Making threads takes longer than most short paths.
+  constexpr std::chrono::milliseconds kAlone{1};
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t next = 0;
+  while (next < result.segments.size() && std::chrono::steady_clock::now() - start < kAlone) prove(next++);
+  tbb::parallel_for(next, result.segments.size(), prove);
   result.verdict = Verdict::kProved;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     const SegmentProof& segment = result.segments[k];

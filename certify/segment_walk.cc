@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -44,6 +46,39 @@ std::optional<SlopeForm<MpInterval>> margin_over(const ProofModel<MpInterval>& m
     if (margin.id == id) return margin.value;
   }
   return std::nullopt;
+}
+
+/// Whether smaller boxes may be proved where this one was not.
+bool may_be_too_wide(BoxVerdict::Kind kind) {
+  using Kind = BoxVerdict::Kind;
+  return kind == Kind::kSplit || kind == Kind::kNearSingular || kind == Kind::kFault || kind == Kind::kSpansKnot ||
+         kind == Kind::kNoMotion;
+}
+
+/// The depth of the largest box that is likely to be proved next to one that was judged.
+int likely_depth_after(const DyadicBox& box, const BoxVerdict& verdict) {
+  // Strain grows like this power of the width: between 1, of slopes, and 2, of what slopes vary by.
+  constexpr double kOrder = 1.5;
+  constexpr double kLeast = 1e-9, kGreatest = 1e9;
+  const double halvings = std::log2(std::clamp(verdict.strain, kLeast, kGreatest)) / kOrder;
+  if (verdict.kind == BoxVerdict::Kind::kProved) return box.depth + static_cast<int>(std::min(0.0, halvings));
+  if (verdict.kind != BoxVerdict::Kind::kSplit) return box.depth + 1;
+  return box.depth + std::max(1, static_cast<int>(halvings));
+}
+
+/// The depth of boxes about as long as the longest that are usually proved of paths through parameters.
+int likely_first_depth(const Segment& segment) {
+  if (segment.law != Interpolation::kStraight) return 0;
+  constexpr double kUsual = 0.5;  // in the parameters [rad, m]
+  constexpr double kGreatest = 1e3;
+  const Waypoint &a = *segment.control[0], &b = *segment.control[1];
+  double square = 0;
+  for (std::size_t j = 0; j < a.x.size(); ++j) {
+    const double step = b.x[j] - a.x[j] + std::numbers::pi * (b.half_turns[j] - a.half_turns[j]);
+    square += step * step;
+  }
+  const double halvings = std::log2(std::clamp(std::sqrt(square), kUsual, kGreatest) / kUsual);
+  return static_cast<int>(halvings);
 }
 
 BigFloat middle(const MpInterval& x) { return MpfrRounding<BigFloat>::median(x.lower(), x.upper()); }
@@ -123,12 +158,52 @@ SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double cl
 }
 
 SegmentSurvey SegmentWalk::run() {
+  if (prove_in_strides()) return std::move(survey_);
   while (!open_.empty() && !is_over_) {
     const Task task = std::move(open_.back());
     open_.pop_back();
     take(task, examine(task));
   }
+  survey_.boxes_judged += boxes_of_strides_;
   return std::move(survey_);
+}
+
+bool SegmentWalk::prove_in_strides() {
+  if (directions_) return false;  // which change along the way
+  constexpr int kDeepest = 20;  // what takes smaller boxes is next to a limit, where the loop looks more closely
+  const int most_boxes = std::min(1000, prover_.options().max_boxes / 2);  // little that a failure can waste
+  SegmentSurvey proved = survey_;
+  std::vector<DyadicBox> open = {DyadicBox{}};
+  int likely_depth = likely_first_depth(segment_);
+  const auto halve = [&](const DyadicBox& box) {
+    open.push_back(box.right());
+    open.push_back(box.left());  // judged first
+  };
+  while (!open.empty()) {
+    const DyadicBox box = std::move(open.back());
+    open.pop_back();
+    if (box.depth < likely_depth) {
+      halve(box);
+      continue;
+    }
+    if (box.depth > kDeepest || boxes_of_strides_ >= most_boxes || stop_.stop_requested()) return false;
+    ++boxes_of_strides_;
+    const BoxVerdict verdict = ladder_.judge(0, segment_, box, clearance_, 1);
+    likely_depth = std::min(likely_depth_after(box, verdict), kDeepest);
+    if (verdict.kind == BoxVerdict::Kind::kProved) {
+      proved.tension_N = std::min(proved.tension_N, verdict.tension_N);
+      proved.length_m = std::min(proved.length_m, verdict.length_m);
+      proved.wrench_scale = std::min(proved.wrench_scale, verdict.wrench_scale);
+      proved.boxes.push_back({box, SurveyedBox::Kind::kProved, {}, {}});
+    } else if (may_be_too_wide(verdict.kind)) {
+      halve(box);
+    } else {
+      return false;
+    }
+  }
+  proved.boxes_judged = boxes_of_strides_;
+  survey_ = std::move(proved);
+  return true;
 }
 
 std::optional<SegmentWitness> SegmentWalk::refute_elsewhere() {
@@ -144,7 +219,8 @@ bool SegmentWalk::may_climb(const Task& task) const { return task.rung < ladder_
 SegmentWalk::Step SegmentWalk::examine(const Task& task) {
   using Kind = BoxVerdict::Kind;
   const ProofOptions& options = prover_.options();
-  if (survey_.boxes_judged >= options.max_boxes || survey_.boxes_multiprecision >= options.max_multiprecision_boxes) {
+  if (survey_.boxes_judged + boxes_of_strides_ >= options.max_boxes ||
+      survey_.boxes_multiprecision >= options.max_multiprecision_boxes) {
     return {Step::Kind::kStop, {}, {}, Undecided::kBoxBudget};
   }
   if (stop_.stop_requested()) return {Step::Kind::kStop, {}, {}, Undecided::kInterrupted};

@@ -5,6 +5,12 @@
 // climbs the ladder of precisions (precision_ladder.h). Before it climbs, a box looks for the point where the margin is
 // least, by secants: that point may refute, or show that no rung can tell. There are three verdicts, and "undecided" is
 // not "unsafe".
+//
+// Before that loop, the walk tries to prove the segment in strides: how much of its margins a box lost
+// (BoxVerdict::strain) tells how large the next one may be, as the error of a step does in the integration of
+// differential equations, and larger boxes are halved without being judged. Unless that proves the segment, the loop
+// begins anew and judges every box, because a violation may show at the middle of just such a larger box. So strides
+// save boxes of what is proved, and change nothing of what is refuted or left undecided.
 #pragma once
 
 #include <memory>
@@ -64,6 +70,10 @@ class SegmentWalk {
     Reason reason = {};
   };
 
+  /// Proves the whole segment by boxes of the sizes that earlier ones suggest, in binary64. Returns false as soon as
+  /// one box fails for another reason than its width; nothing is reported then.
+  [[nodiscard]] bool prove_in_strides();
+
   [[nodiscard]] Step examine(const Task& task);
   [[nodiscard]] Step examine_split(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_deviations(const Task& task, const BoxVerdict& verdict);
@@ -96,6 +106,7 @@ class SegmentWalk {
   DeviationSearch deviations_;
   std::shared_ptr<const PairDirections> directions_;  ///< along which pairs were apart last; null: no bodies
   SegmentSurvey survey_;
+  int boxes_of_strides_ = 0;  ///< judged by strides that did not prove the segment
   std::vector<Task> open_ = {Task{}};
   bool is_over_ = false;
   BoxVerdict last_verdict_;

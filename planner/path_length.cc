@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/input_error.h"
 #include "kinematics/geometry.h"
@@ -117,6 +118,12 @@ double PathLength::distance(const Coordinates& a, const Coordinates& b) const {
 
 double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   if (cost_ == Cost::kParameters) return (b - a).norm();
+  const EdgeMotion motion(sampler_, a, b);
+  return along(a, transform(motion.pose(0)), b, transform(motion.pose(1)));
+}
+
+double PathLength::along(const Coordinates& a, const RigidTransform& at_a, const Coordinates& b,
+                         const RigidTransform& at_b) const {
   // The error of a sum over pieces is of second order in their length. Richardson's extrapolation combines the sums
   // over single and over double pieces. A double piece is at most this long in the parameters.
   constexpr double kDoublePiece = 0.4;
@@ -126,15 +133,31 @@ double PathLength::along(const Coordinates& a, const Coordinates& b) const {
   double coarse = 0;
   double fine = 0;
   const EdgeMotion motion(sampler_, a, b);
-  RigidTransform even = transform(motion.pose(0));
+  RigidTransform even = at_a;
   for (int k = 1; k < pieces; k += 2) {
     const RigidTransform middle = transform(motion.pose(static_cast<double>(k) / pieces));
-    const RigidTransform end = transform(motion.pose(static_cast<double>(k + 1) / pieces));
+    const RigidTransform end = k + 1 < pieces ? transform(motion.pose(static_cast<double>(k + 1) / pieces)) : at_b;
     coarse += between(even, end);
     fine += between(even, middle) + between(middle, end);
     even = end;
   }
   return fine + (fine - coarse) / 3.0;
+}
+
+PathLength::Through::Through(const PathLength& length, Coordinates a, Coordinates b)
+    : length_(length), a_(std::move(a)), b_(std::move(b)) {
+  if (length_.cost_ == Cost::kParameters || length_.sampler_.constraints()) return;
+  at_a_ = length_.transform(a_);
+  at_b_ = length_.transform(b_);
+}
+
+double PathLength::Through::operator()(const Coordinates& x) const {
+  // On constraints a pose depends on the edge by which it is reached, within rounding of the coordinates.
+  if (length_.cost_ == Cost::kParameters || length_.sampler_.constraints()) {
+    return length_.along(a_, x) + length_.along(x, b_);
+  }
+  const RigidTransform at_x = length_.transform(x);
+  return length_.along(a_, at_a_, x, at_x) + length_.along(x, at_x, b_, at_b_);
 }
 
 }  // namespace taut

@@ -33,6 +33,9 @@ class PathLength {
   /// distance(a, b); its relative error is of fourth order in the distance between samples.
   [[nodiscard]] double along(const Coordinates& a, const Coordinates& b) const;
 
+  /// x -> along(a, x) + along(x, b), but for rounding, where much of what a and b take is done once.
+  class Through;
+
   /// Length of the shortest motion between the two poses without limits: the angle ‖log(R_a^T R_b)‖ [rad], the arc on
   /// the sphere [m], the distance of the point's places plus a length per radian of that angle [m], or the distance in
   /// the parameters.
@@ -46,6 +49,8 @@ class PathLength {
   [[nodiscard]] RigidTransform transform(const Pose<double>& pose) const;
   [[nodiscard]] RigidTransform transform(const Coordinates& q) const;
   [[nodiscard]] double between(const RigidTransform& a, const RigidTransform& b) const;
+  [[nodiscard]] double along(const Coordinates& a, const RigidTransform& at_a, const Coordinates& b,
+                             const RigidTransform& at_b) const;
   [[nodiscard]] Coordinates point_near(const Coordinates& centre, const Coordinates& away) const;
   void fit_sphere(const std::vector<Coordinates>& near);
 
@@ -54,6 +59,18 @@ class PathLength {
   Vector3<double> point_P_;   ///< [m], for kTravel
   double per_radian_ = 0;     ///< [m], for kTravel
   double sphere_radius_ = 0;  ///< [m], for kGreatCircle
+};
+
+class PathLength::Through {
+ public:
+  /// `length` has to outlive this.
+  Through(const PathLength& length, Coordinates a, Coordinates b);
+  [[nodiscard]] double operator()(const Coordinates& x) const;
+
+ private:
+  const PathLength& length_;
+  Coordinates a_, b_;
+  RigidTransform at_a_, at_b_;
 };
 
 }  // namespace taut

@@ -18,6 +18,7 @@
 #include "certify/undecided.h"
 #include "kinematics/geometry.h"
 #include "kinematics/motion_length.h"
+#include "planner/detours.h"
 #include "planner/sampled_motion_validator.h"
 #include "planner/shorten.h"
 #include "planner/smooth.h"
@@ -146,6 +147,10 @@ constexpr double kLongEdge = 0.5;
 /// The fraction of the charts' clearance that edges must keep.
 constexpr double kEdgeClearanceShare = 0.5;
 
+/// An anytime search ends with a path that is longer than the shortest motion without limits by no more than this
+/// fraction.
+constexpr double kNearlyShortest = 1e-3;
+
 /// With more parameters there are too many charts for a plain A*, which needs all of them.
 constexpr int kMostParametersForAllCharts = 3;
 
@@ -157,6 +162,7 @@ struct Planner::Leg {
   std::vector<Coordinates> vertices;  ///< of the path found, pulled taut if the case asks for that
   double cost_found = 0;
   double cost = std::numeric_limits<double>::infinity();
+  bool is_nearly_shortest = false;  ///< no motion, whatever the limits, costs noticeably less
 };
 
 /// Which edges search and shortening may use: those that look clear and, with a prover, are proved.
@@ -186,6 +192,7 @@ class Planner::Edges {
     return it == proofs_.end() || it->second.verdict != Verdict::kProved ? nullptr : &it->second;
   }
 
+  [[nodiscard]] bool are_proved() const { return prover_ != nullptr; }
   [[nodiscard]] double proving_seconds() const { return proving_seconds_; }
   [[nodiscard]] int checked() const { return checked_; }
   [[nodiscard]] int rejected() const { return rejected_; }
@@ -267,6 +274,12 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
   };
   search_problem.straight_to_goal = true;
   search_problem.heuristic = distance;
+  // Where a path is to be pulled taut, that takes longer than charts, and a path along charts leaves it more to choose.
+  if (case_.planner.smoothing == Smoothing::kNone && !edges.are_proved() && !sampler_.constraints()) {
+    search_problem.detours = [&](const Coordinates& a, const Coordinates& b) {
+      return Detours(case_.problem.space, sampler_, length_, manifold_->symmetry())(a, b);
+    };
+  }
   search_problem.edge_ok = [&](const Coordinates& a, const Coordinates& b) {
     return edges.ok(a, b, search_problem.stop);
   };
@@ -303,14 +316,18 @@ std::optional<Planner::FoundPath> Planner::find_path(Edges& edges, const Progres
 /// The shortest path of a leg that strategy and budget allow; or its status if none was found.
 Planner::Leg Planner::find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics) {
   Leg best;
+  const double least = least_cost(problem);
   const auto keep_better = [&](const SearchResult& found) {
     Leg leg = pull_taut(found, problem, edges, statistics);
     if (leg.cost < best.cost) best = std::move(leg);
+    best.is_nearly_shortest = best.cost <= (1 + kNearlyShortest) * least;
+    return !best.is_nearly_shortest;
   };
   SearchResult last;
   if (is_anytime()) {
     last = search_anytime(*atlas_, problem, keep_better);
-    statistics.budget_spent |= last.factor > 1;
+    if (best.is_nearly_shortest) last.factor = std::min(last.factor, std::max(1.0, best.cost_found / least));
+    statistics.budget_spent |= last.factor > 1 && !best.is_nearly_shortest;
   } else {
     last = search(*atlas_, problem, {.weight = search_weight(case_.planner.strategy)});
     if (last.status == SearchStatus::kFound) keep_better(last);
@@ -319,6 +336,13 @@ Planner::Leg Planner::find_leg(const SearchProblem& problem, Edges& edges, PlanS
   statistics.factor = std::max(statistics.factor, last.factor);
   if (last.status != SearchStatus::kFound) best.found = std::move(last);
   return best;
+}
+
+/// No motion from start to goal costs less, whatever the limits.
+double Planner::least_cost(const SearchProblem& problem) const {
+  const CoordinateSymmetry symmetry = manifold_->symmetry();
+  return problem.heuristic(problem.start,
+                           symmetry.apply(problem.goal, symmetry.nearest_image(problem.goal, problem.start)));
 }
 
 Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
@@ -336,7 +360,11 @@ Planner::Leg Planner::pull_taut(const SearchResult& found, const SearchProblem& 
     const double proving_before = edges.proving_seconds();
     std::function<bool(Coordinates&)> onto_constraints;
     if (sampler_.constraints()) onto_constraints = [&](Coordinates& q) { return project(sampler_, q); };
-    leg.cost = shorten(leg.vertices, {length, problem.edge_ok, problem.stop, onto_constraints}).cost_after;
+    const auto through = [&](const Coordinates& before, const Coordinates& after) {
+      return [by = PathLength::Through(length_, before, after)](const Coordinates& x) { return by(x); };
+    };
+    const ShortenProblem taut{length, problem.edge_ok, problem.stop, onto_constraints, least_cost(problem), through};
+    leg.cost = shorten(leg.vertices, taut).cost_after;
     statistics.smooth_seconds += seconds_since(start) - (edges.proving_seconds() - proving_before);
   }
   return leg;

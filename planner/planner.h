@@ -8,7 +8,7 @@
 //
 // A* on a budget, or over more than three parameters, is an anytime search (atlas/search.h): each path that it finds is
 // pulled taut on proved edges, and the shortest such path is the result. The budget only ends the search for a shorter
-// one.
+// one, and so does a path that is within a thousandth of the shortest motion without limits.
 #pragma once
 
 #include <chrono>
@@ -104,6 +104,7 @@ class Planner {
                                                    PlanStatistics& statistics, Reason& reason);
   void round_corners(const std::vector<std::size_t>& stops, const std::stop_token& stop, Plan& plan) const;
   [[nodiscard]] Leg find_leg(const SearchProblem& problem, Edges& edges, PlanStatistics& statistics);
+  [[nodiscard]] double least_cost(const SearchProblem& problem) const;
   [[nodiscard]] Leg pull_taut(const SearchResult& found, const SearchProblem& problem, Edges& edges,
                               PlanStatistics& statistics) const;
   [[nodiscard]] double seconds_for_leg(std::size_t leg) const;

@@ -14,7 +14,7 @@ class Shortener {
 
   ShortenResult run() {
     result_.cost_before = result_.cost_after = total();
-    for (double edges = kFewestEdges; edges <= options_.edges && may_go_on(); edges *= 2) {
+    for (double edges = kFewestEdges; edges <= options_.edges && may_go_on() && !is_shortest(); edges *= 2) {
       sweep_until_settled(result_.cost_after / edges);
     }
     leave_out();
@@ -35,12 +35,15 @@ class Shortener {
       const double cost = total();
       const double gain = result_.cost_after - cost;
       result_.cost_after = cost;
-      if (gain < options_.least_gain * cost) break;
+      if (gain < options_.least_gain * cost || is_shortest()) break;
     }
   }
 
   [[nodiscard]] bool may_go_on() const {
     return result_.edges_checked < options_.max_edges_checked && !problem_.stop.stop_requested();
+  }
+  [[nodiscard]] bool is_shortest() const {
+    return result_.cost_after <= (1 + options_.least_gain) * problem_.least_cost;
   }
   [[nodiscard]] bool project(Coordinates& vertex) const { return !problem_.project || problem_.project(vertex); }
   [[nodiscard]] double cost(std::size_t a, std::size_t b) const { return problem_.cost(path_[a], path_[b]); }
@@ -96,9 +99,10 @@ class Shortener {
   void relax(std::size_t k) {
     const Coordinates& before = path_[k - 1];
     const Coordinates& after = path_[k + 1];
-    const auto local = [&](Coordinates x) {
-      return project(x) ? problem_.cost(before, x) + problem_.cost(x, after) : HUGE_VAL;
+    const auto through = problem_.cost_through ? problem_.cost_through(before, after) : [&](const Coordinates& x) {
+      return problem_.cost(before, x) + problem_.cost(x, after);
     };
+    const auto local = [&](Coordinates x) { return project(x) ? through(x) : HUGE_VAL; };
     const double now = local(path_[k]);
     const Coordinates target = minimiser(path_[k], (after - before).norm(), local);
     const double best = local(target);

@@ -33,6 +33,11 @@ struct ShortenProblem {
   /// Moves a vertex onto the manifold, if straight lines between its points leave it; returns false if that fails. May
   /// be empty.
   std::function<bool(Coordinates& vertex)> project = {};
+  /// No path costs less: one that nearly costs no more than this is left as it is.
+  double least_cost = 0;
+  /// The function x -> cost(before, x) + cost(x, after), which is asked for many x; empty: made of `cost`.
+  std::function<std::function<double(const Coordinates& x)>(const Coordinates& before, const Coordinates& after)>
+      cost_through = {};
 };
 
 struct ShortenResult {

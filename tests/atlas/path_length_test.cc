@@ -61,6 +61,24 @@ TEST(PathLength, AlongIsTheSumOfManySmallDistances) {
   }
 }
 
+TEST(PathLength, ThroughAPointIsTheSumOfBothEdges) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  const PoseSampler slice(testing::robot1_slice());
+  const PoseSampler sphere(testing::robot2_sphere());
+  const PathLength turn(slice, Cost::kRotation, {coordinates({0, 0})});
+  const PathLength way(sphere, Cost::kGreatCircle, {coordinates({0.5, 1.0})});
+  const PathLength parameters(slice, Cost::kParameters, {coordinates({0, 0})});
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    const Coordinates a = coordinates({coordinate(random), coordinate(random)});
+    const Coordinates b = coordinates({coordinate(random), coordinate(random)});
+    const Coordinates x = coordinates({coordinate(random), coordinate(random)});
+    for (const PathLength* length : {&turn, &way, &parameters}) {
+      EXPECT_NEAR(PathLength::Through(*length, a, b)(x), length->along(a, x) + length->along(x, b), 1e-7);
+    }
+  }
+}
+
 TEST(PathLength, OnTheSphereIsTheArcOfItsRadius) {
   const PoseSampler sampler(testing::robot2_sphere());
   const PathLength length(sampler, Cost::kGreatCircle, {coordinates({0.55, 0.75}), coordinates({2.63, 0.75})});

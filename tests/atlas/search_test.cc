@@ -153,6 +153,66 @@ TEST(Search, StraightToTheGoalShortensTheWayRoundAWall) {
   }
 }
 
+// A dead end opens towards the start, and the goal lies behind it.
+struct DeadEnd {
+  testing::FlatSpace plane{2, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 2; }};
+  SearchProblem query = problem(coordinates({-0.9, 0.01}), coordinates({1.5, -0.5}));
+  int asked = 0;
+
+  DeadEnd() {
+    query.straight_to_goal = true;
+    query.edge_ok = [](const Coordinates& a, const Coordinates& b) {
+      constexpr int kSamples = 400;
+      for (int k = 0; k <= kSamples; ++k) {
+        const Coordinates x = a + (b - a) * (1.0 * k / kSamples);
+        const bool is_in_back = std::abs(x[0] - 0.5) < 0.03 && std::abs(x[1]) < 1;
+        const bool is_in_side = x[0] > -0.5 && x[0] < 0.5 && std::abs(std::abs(x[1]) - 1) < 0.03;
+        if (is_in_back || is_in_side) return false;
+      }
+      return true;
+    };
+    query.detours = [this](const Coordinates& start, const Coordinates& goal) -> std::vector<Coordinates> {
+      ++asked;
+      EXPECT_EQ(start, query.start);
+      EXPECT_EQ(goal, query.goal);
+      return {coordinates({0.25, 0}), coordinates({-0.6, 1.4}), coordinates({0.6, 1.4}), coordinates({-0.3, -1.9})};
+    };
+  }
+};
+
+TEST(Search, GreedyGoesByAPointRoundADeadEnd) {
+  DeadEnd world;
+  Atlas atlas(world.plane, options(0.1, 0.1));
+  const SearchResult result = search(atlas, world.query, {.weight = kGreedy});
+  expect_sound(result, world.query, world.plane);
+  EXPECT_EQ(world.asked, 1);
+  ASSERT_EQ(result.path.size(), 3u);
+  EXPECT_EQ(result.path[1].base, coordinates({-0.3, -1.9}));
+  EXPECT_LT(result.charts, 40);
+}
+
+TEST(Search, GreedyGoesOnByChartsWhereNoPointHelps) {
+  DeadEnd world;
+  world.query.detours = [](const Coordinates&, const Coordinates&) -> std::vector<Coordinates> {
+    return {coordinates({0.25, 0}), coordinates({9, 9})};
+  };
+  world.query.edge_ok = [edge_ok = world.query.edge_ok](const Coordinates& a, const Coordinates& b) {
+    return std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) <= 2 && edge_ok(a, b);
+  };
+  Atlas atlas(world.plane, options(0.1, 0.1));
+  const SearchResult result = search(atlas, world.query, {.weight = kGreedy});
+  expect_sound(result, world.query, world.plane);
+  EXPECT_GT(result.path.size(), 3u);
+}
+
+TEST(Search, AStarGoesByNoDetour) {
+  DeadEnd world;
+  Atlas atlas(world.plane, options(0.1, 0.1));
+  const SearchResult result = search(atlas, world.query, {.weight = 1});
+  expect_sound(result, world.query, world.plane);
+  EXPECT_EQ(world.asked, 0);
+}
+
 TEST(Search, AStarIsShortestOnAFinishedAtlas) {
   const testing::FlatTorus torus({0, 0});
   for (int seed = 0; seed < 20; ++seed) {
@@ -383,6 +443,7 @@ TEST(AnytimeSearch, EndsWithTheShortestPathWhereItMay) {
       EXPECT_LT(improved.cost, last);
       last = improved.cost;
       ++improvements;
+      return true;
     });
     if (std::isinf(shortest)) {
       EXPECT_EQ(result.status, SearchStatus::kExhausted);
@@ -405,6 +466,7 @@ TEST(AnytimeSearch, KeepsTheBestPathWhenChartsRunOut) {
   double first = 0;
   const SearchResult result = search_anytime(atlas, query, [&](const SearchResult& improved) {
     if (first == 0) first = improved.cost;
+    return true;
   });
   expect_sound(result, query, space);
   EXPECT_EQ(result.charts, 400);
@@ -418,7 +480,10 @@ TEST(AnytimeSearch, KeepsTheBestPathWhenStopped) {
   SearchProblem query = problem(coordinates({0, 0}), coordinates({2, 0}));
   query.stop = source.get_token();
   Atlas atlas(plane, options(0.1, 0.1));
-  const SearchResult result = search_anytime(atlas, query, [&](const SearchResult&) { source.request_stop(); });
+  const SearchResult result = search_anytime(atlas, query, [&](const SearchResult&) {
+    source.request_stop();
+    return true;
+  });
   query.stop = {};
   expect_sound(result, query, plane);
   EXPECT_TRUE(std::isinf(result.factor));
@@ -429,17 +494,37 @@ TEST(AnytimeSearch, TakesAnyPathWhereAllCostNothing) {
   Atlas atlas(space, options(0.15, 0.15));
   const SearchProblem query = problem(Coordinates::Constant(4, -0.5), Coordinates::Constant(4, 0.5),
                                       [](const Coordinates&, const Coordinates&) { return 0.0; });
-  const SearchResult result = search_anytime(atlas, query, [](const SearchResult&) {});
+  const SearchResult result = search_anytime(atlas, query, [](const SearchResult&) { return true; });
   expect_sound(result, query, space);
   EXPECT_EQ(result.factor, 1);
   EXPECT_LT(result.charts, 100) << "the goal's direction is followed all the same";
 }
 
+TEST(AnytimeSearch, EndsWhenNoShorterPathIsWanted) {
+  const testing::FlatSpace space(6, [](const Coordinates& x) { return x.cwiseAbs().maxCoeff() <= 1; });
+  AtlasOptions few = options(0.15, 0.15);
+  few.max_charts = 400;
+  Atlas atlas(space, few);
+  const SearchProblem query = problem(Coordinates::Constant(6, -0.5), Coordinates::Constant(6, 0.5));
+  int improvements = 0;
+  const SearchResult result = search_anytime(atlas, query, [&](const SearchResult&) {
+    ++improvements;
+    return false;
+  });
+  expect_sound(result, query, space);
+  EXPECT_EQ(improvements, 1);
+  EXPECT_LT(result.charts, 100) << "a shorter path would take more";
+  EXPECT_TRUE(std::isinf(result.factor));
+}
+
 TEST(AnytimeSearch, SaysWhenThereIsNoPath) {
   const testing::FlatSpace disc(2, [](const Coordinates& x) { return x.norm() < 1 || x[0] > 2; });
   Atlas atlas(disc, options(0.1, 0.1));
-  const SearchResult result = search_anytime(atlas, problem(coordinates({0, 0}), coordinates({3, 0})),
-                                             [](const SearchResult&) { FAIL() << "no path exists"; });
+  const SearchResult result =
+      search_anytime(atlas, problem(coordinates({0, 0}), coordinates({3, 0})), [](const SearchResult&) {
+        ADD_FAILURE() << "no path exists";
+        return true;
+      });
   EXPECT_EQ(result.status, SearchStatus::kExhausted);
 }
 

@@ -104,6 +104,34 @@ TEST(Shorten, AStraightPathStaysStraight) {
   EXPECT_NEAR(shorten(path, world.problem()).cost_after, 4.0, 1e-12);
 }
 
+TEST(Shorten, LeavesAPathAloneThatCanHardlyBeShorter) {
+  DiscWorld world;
+  ShortenProblem problem = world.problem();
+  std::vector<Coordinates> path = {coordinates({-2, 2}), coordinates({2, 2})};
+  problem.least_cost = 4.0;
+  (void)shorten(path, problem);
+  EXPECT_EQ(world.asked, 0);
+  problem.least_cost = 3.9;  // it may be shorter
+  (void)shorten(path, problem);
+  EXPECT_GT(world.asked, 0);
+}
+
+TEST(Shorten, AsksTheCostThroughAVertexWhereThatIsGiven) {
+  DiscWorld world;
+  std::vector<Coordinates> path = jagged_detour();
+  std::vector<Coordinates> same = path;
+  ShortenProblem problem = world.problem();
+  const double expected = shorten(same, problem).cost_after;
+  int times = 0;
+  problem.cost_through = [&](const Coordinates& before, const Coordinates& after) {
+    ++times;
+    return [=](const Coordinates& x) { return (x - before).norm() + (after - x).norm(); };
+  };
+  EXPECT_EQ(shorten(path, problem).cost_after, expected);
+  EXPECT_EQ(path, same);
+  EXPECT_GT(times, 10);
+}
+
 TEST(Shorten, LeavesAPathAloneThatNoMoveMayTouch) {
   DiscWorld world;
   ShortenProblem problem = world.problem();

@@ -63,6 +63,36 @@ TEST(Prover, ProvesAShortSegmentAndCoversItWithBoxes) {
   EXPECT_GE(proof.wrench_scale, 1.0);
 }
 
+TEST(Prover, LearnsFromABoxHowLargeTheNextMayBe) {
+  const Prover prover(robot1_slice());
+  int judged = 0;
+  int by_halving = 0;
+  for (int k = 1; k <= 6; ++k) {
+    const SegmentProof proof = prover.prove(kStart, at({-2.3 + 0.05 * k, 1.6 - 0.1 * k}));
+    if (proof.verdict != Verdict::kProved) continue;
+    expect_cover(proof.boxes);
+    judged += proof.boxes_judged;
+    by_halving += 2 * static_cast<int>(proof.boxes.size()) - 1;
+  }
+  ASSERT_GT(by_halving, 10);
+  EXPECT_LT(judged, 0.8 * by_halving);
+}
+
+// The violation is at the middle of the whole segment, and strides begin with smaller boxes, of which none shows it
+// before the walk is next to the limit.
+TEST(Prover, RefutesByTheMiddleOfABoxThatStridesPassOver) {
+  Problem problem = testing::free_flying(robot1_slice());
+  problem.robot.base_anchors_m[0] = {"0", "0.25", "0"};
+  problem.robot.platform_anchors_m[0] = {"0", "0.25", "0"};
+  for (auto& limits : problem.robot.tension_N) limits = {"-1000", "1000"};
+  for (auto& limits : problem.robot.length_m) limits = {"0.01", "10"};
+  problem.robot.length_m[0].lower = "0.50000000000000000000000000000000000000000000000001";  // at x = 0 alone
+  const auto place = [](double x) { return Waypoint{{x, 0, 0.5, 0, 0, 0}, std::vector<int>(6, 0)}; };
+  const SegmentProof proof = Prover(problem).prove(place(-0.75), place(0.75));
+  ASSERT_EQ(proof.verdict, Verdict::kRefuted) << proof.reason;
+  EXPECT_EQ(proof.witness->box, DyadicBox{});
+}
+
 TEST(Prover, ProvesASegmentOfLengthZero) {
   const SegmentProof proof = Prover(robot1_slice()).prove(kStart, kStart);
   EXPECT_EQ(proof.verdict, Verdict::kProved);
