@@ -525,6 +525,9 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
         if (enclosure.disturbance) reach = disturbed_reach(reach, n, is_low ? 0 : 1, *enclosure.disturbance);
         const double most = upper_bound(reach);
         if (!(most > bound / (2 * kMostGrowth))) continue;  // K is nearly a single wrench
+        if constexpr (std::is_same_v<I, Interval>) {  // rounding upward: 1 + bound/most is not below what is known
+          if (bound >= (verdict.wrench_scale - 1) * most) continue;
+        }
         const I scale = I(1.0) + I(bound) / I(most);
         verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
       }

@@ -66,13 +66,11 @@ struct Box {
   double radius[N];
   FormRow<N> length;
   IntervalRow d_mid[6], d_slope[N][6];  ///< D, entry (k, j): row k, lane j
-  Row c_row[6];                         ///< C: row i, lane j
   Row c[6];                             ///< C by columns
   IntervalRow a0[6], a1[N][6];          ///< C D(m), C S_k
   Row a1_size[N][6];                    ///< |A1_k|
   Row n0[6], n[6];                      ///< N of theory.md at m, and over the box
   Row q0[6], q[6];                      ///< bounds of |P − I| at m, and over the box
-  Row w[N][6];                          ///< W_k
   FormRow<N> nominal, spread;           ///< λ_i, and |Z_i| of the ellipsoid
   unsigned enclosed;                    ///< bit i: what follows of cable i from K is enclosed; else the box is too wide
   FormRow<N> low, high;                 ///< the least and the greatest tension; not of items
@@ -88,7 +86,7 @@ struct BoxKernel {
   Outcome (*enclose_geometry)(const Machine&, const PoseForms<N>&, Box<N>&);
   /// Sets what depends on C, but for q. kNo: no C.
   Outcome (*precondition)(Box<N>&);
-  /// Sets q0, q and w. kNo: not proved non-singular.
+  /// Sets q0 and q. kNo: not proved non-singular.
   Outcome (*bound_inverse)(Box<N>&);
   /// Sets the rest, for the nominal wrench.
   Outcome (*enclose_tensions)(const Machine&, const Ends (&wrench)[6], Box<N>&);

@@ -140,7 +140,6 @@ std::vector<std::uint64_t> bits_of(const lanes::BoxKernel<1>& kernel, const lane
   if (outcomes[2] != lanes::Outcome::kYes) return result;
   add(box.q0);
   add(box.q);
-  add(box.w);
   if (outcomes[3] != lanes::Outcome::kYes) return result;
   add(box.nominal);
   add(box.spread);
