@@ -6,7 +6,7 @@
 //   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                      (a)
 // If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
 //   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                               (b)
-// As D^-1 = P C, a column D^-1 b = P x, x = C b, has the value P(m) x in x ± Q0|x| at m, where Q0 is (b) of N0 = |I − A0|,
+// As D^-1 = P C, a column D^-1 b = P x, x = C b, has the value P(m) x in x ± Q0|x| at m, where Q0 is (b) of |I − A0|,
 // and the slopes from m
 //   −P(t) v,  v = (C S) P(m) x,   P(t) v in v ± Q|v|.                                                               (c)
 // |v| is far below |A1||x|, as the columns of D^-1 change little. Proof of each step: docs/theory.md, "A box".

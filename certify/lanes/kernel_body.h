@@ -142,8 +142,11 @@ Outcome enclose_geometry(const Machine& machine, const PoseForms<N>& pose, Box<N
 constexpr Row kUnit[6] = {{{1, 0, 0, 0, 0, 0, 1, 1}}, {{0, 1, 0, 0, 0, 0, 0, 0}}, {{0, 0, 1, 0, 0, 0, 0, 0}},
                           {{0, 0, 0, 1, 0, 0, 0, 0}}, {{0, 0, 0, 0, 1, 0, 0, 0}}, {{0, 0, 0, 0, 0, 1, 0, 0}}};
 
-/// Gauss-Jordan elimination in place, with partial pivoting. Of a matrix by rows it sets the inverse by columns; what
-/// was the matrix is lost. @returns whether every pivot is positive in size
+enum class Order { kByRows, kByColumns };
+
+/// Gauss-Jordan elimination in place, with partial pivoting, of a matrix by rows, which is lost. @returns whether every
+/// pivot is positive in size
+template <Order kOrder>
 TAUT_LANES_INLINE bool invert(Row (&a)[6], Row (&inverse)[6]) {
   int order[6] = {0, 1, 2, 3, 4, 5};
   const Lanes zero = broadcast(0.0), one = broadcast(1.0);
@@ -170,9 +173,13 @@ TAUT_LANES_INLINE bool invert(Row (&a)[6], Row (&inverse)[6]) {
   }
   // Column j has become the one of the row that was chosen for it.
   for (int j = 0; j < 6; ++j) {
-    Row& result = inverse[order[j]];
-    for (int i = 0; i < 6; ++i) result.x[i] = a[order[i]].x[j];
-    for (int i = 6; i < kWidth; ++i) result.x[i] = a[order[0]].x[j];
+    const int to = order[j];
+    for (int i = 0; i < 6; ++i) {
+      (kOrder == Order::kByRows ? inverse[i].x[to] : inverse[to].x[i]) = a[order[i]].x[j];
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int lane = 6; lane < kWidth; ++lane) inverse[i].x[lane] = inverse[i].x[0];
   }
   return true;
 }
@@ -188,7 +195,7 @@ template <int N>
 Outcome precondition(Box<N>& box) {
   Row mid[6];
   for (int i = 0; i < 6; ++i) store(mid[i], midpoint_approx(load(box.d_mid[i])));
-  if (!invert(mid, box.c)) return Outcome::kNo;
+  if (!invert<Order::kByColumns>(mid, box.c)) return Outcome::kNo;
   Factors c[6];
   for (int k = 0; k < 6; ++k) c[k] = factors(load(box.c[k]));
 #pragma GCC unroll 1
@@ -287,6 +294,15 @@ TAUT_LANES_INLINE Intervals loaded(const Factors (&c)[6], const Ends (&b)[6]) {
   return sum;
 }
 
+/// Column j of C L.
+TAUT_LANES_INLINE Intervals root_column(const Machine& machine, const Factors (&c)[6], int j) {
+  Intervals entry = c[j] * broadcast(machine.root[j][j]);
+  if (!machine.is_ellipsoid_diagonal) {
+    for (int l = 0; l < j; ++l) entry = entry + c[l] * broadcast(machine.root[l][j]);
+  }
+  return entry;
+}
+
 /// @returns where they are enclosed
 template <int N>
 TAUT_LANES_INLINE Mask enclose_spread(const Machine& machine, const Factors (&c)[6], const Box<N>& box,
@@ -294,11 +310,7 @@ TAUT_LANES_INLINE Mask enclose_spread(const Machine& machine, const Factors (&c)
   Forms<N> square;
 #pragma GCC unroll 1
   for (int j = 0; j < 6; ++j) {
-    Intervals entry = c[j] * broadcast(machine.root[j][j]);
-    if (!machine.is_ellipsoid_diagonal) {
-      for (int l = 0; l < j; ++l) entry = entry + c[l] * broadcast(machine.root[l][j]);
-    }
-    const Forms<N> form = times<N>(box, entry);
+    const Forms<N> form = times<N>(box, root_column(machine, c, j));
     square = j == 0 ? sqr(form) : square + sqr(form);
   }
   Mask is_void = tighten<N>(square, box.radius);
@@ -341,6 +353,29 @@ Outcome enclose_tensions(const Machine& machine, const Ends (&wrench)[6], Box<N>
   return Outcome::kYes;
 }
 
+template <int N>
+void compare_work(const Machine& machine, const Ends (&wrench)[6], const Ends (&density)[6], const Box<N>& box,
+                  WorkRow& work) {
+  Factors c[6];
+  for (int k = 0; k < 6; ++k) c[k] = factors(load(box.c[k]));
+  const Intervals nominal = loaded(c, wrench);
+  Intervals spread{broadcast(0.0), broadcast(0.0)};
+  if (machine.has_ellipsoid) {
+    Intervals square = sqr(root_column(machine, c, 0));
+    for (int j = 1; j < 6; ++j) square = square + sqr(root_column(machine, c, j));
+    spread = sqrt(square);
+  }
+  store(work.least, nominal.upper + spread.minus_lower);
+  store(work.greatest, -(nominal.minus_lower + spread.minus_lower));
+  Intervals sum{broadcast(0.0), broadcast(0.0)};
+  for (int j = 0; j < 6; ++j) {
+    Lanes reach = broadcast(box.radius[0]) * load(box.a1_size[0][j]);
+    for (int k = 1; k < N; ++k) reach = reach + broadcast(box.radius[k]) * load(box.a1_size[k][j]);
+    sum = sum + widened(load(box.a0[j]), reach) * broadcast(density[j]);
+  }
+  store(work.sum, sum);
+}
+
 // ---- The self-test --------------------------------------------------------------------------------------------------
 
 /// volatile: operands are loaded at run time, so that no compiler knows the results.
@@ -364,7 +399,7 @@ void divide(const Row& a, const Row& b, Row& quotient) { store(quotient, load(a)
 
 template <int N>
 constexpr BoxKernel<N> box_kernel_of_level() {
-  return {enclose_geometry<N>, precondition<N>, bound_inverse<N>, enclose_tensions<N>};
+  return {enclose_geometry<N>, precondition<N>, bound_inverse<N>, enclose_tensions<N>, compare_work<N>};
 }
 
 }  // namespace
