@@ -7,9 +7,10 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
-#include "certify/box_in_lanes.h"
 #include "certify/inverse_bound.h"
+#include "certify/motion/forms_in_lanes.h"
 #include "certify/motion/length_controlled_motion.h"
+#include "certify/motion/pose_in_lanes.h"
 #include "certify/row_forms.h"
 #include "kinematics/statics.h"
 
@@ -351,6 +352,12 @@ template <class I>
 MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segment& segment, const EnclosedBox<I>& s,
                                       const I& offset) {
   if (segment.law == Interpolation::kCableLengths) {
+    if constexpr (std::is_same_v<I, Interval>) {
+      if (problem.lanes) {
+        return forward_kinematics_in_lanes(lanes::kernels(), *problem.lanes, problem.model, segment, s.range, s.mid,
+                                           offset);
+      }
+    }
     return forward_kinematics(problem.model, segment, s.range, s.mid, offset);
   }
   return enclose_motion(problem.motion, segment, s.range, s.mid, offset);
@@ -578,6 +585,9 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
         if (enclosure.disturbance) reach = disturbed_reach(reach, n, is_low ? 0 : 1, *enclosure.disturbance);
         const double most = upper_bound(reach);
         if (!(most > bound / (2 * kMostGrowth))) continue;  // K is nearly a single wrench
+        if constexpr (std::is_same_v<I, Interval>) {  // rounding upward: 1 + bound/most is not below what is known
+          if (bound >= (verdict.wrench_scale - 1) * most) continue;
+        }
         const I scale = I(1.0) + I(bound) / I(most);
         verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
       }

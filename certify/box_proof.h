@@ -42,7 +42,7 @@ struct ProofModel {
   MotionModel<I> motion;
   std::optional<ToleranceModel<I>> tolerance;
   ItemRows item_rows;                           ///< of model.loads; only for Interval
-  std::shared_ptr<const lanes::Machine> lanes;  ///< the machine for box_in_lanes.h; only for Interval, else null
+  std::shared_ptr<const lanes::Machine> lanes;  ///< the machine for forms_in_lanes.h; only for Interval, else null
   std::optional<BodyModel<I>> bodies;           ///< where the problem has any
 };
 

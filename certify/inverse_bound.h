@@ -6,9 +6,10 @@
 //   |I − C D(t)| <= N := |I − A0| + r |A1|   for every t in T.                                                      (a)
 // If ρ = ‖N‖∞ < 1, C D(t) is non-singular, hence so are D(t) and C, and with P(t) = (C D(t))^-1 = Σ_k (I − C D(t))^k
 //   |P(t) − I| <= N + N² + … <= Q,   Q_ij = N_ij + (Σ_k N_ik) (max_k N_kj) / (1 − ρ).                               (b)
-// As D^-1 = P C, a column D^-1 b = P C b has the slopes from m
-//   −P(t) (C S) P(m) C b,   P(t) (C S) P(m) in A1 ± W,   W = |A1| Q0 + Q (|A1| + |A1| Q0),                          (c)
-// where Q0 is (b) of N0 = |I − A0|: a bound of |P(m) − I|. Proof of each step: docs/theory.md, "A box".
+// As D^-1 = P C, a column D^-1 b = P x, x = C b, has the value P(m) x in x ± Q0|x| at m, where Q0 is (b) of |I − A0|,
+// and the slopes from m
+//   −P(t) v,  v = (C S) P(m) x,   P(t) v in v ± Q|v|.                                                               (c)
+// |v| is far below |A1||x|, as the columns of D^-1 change little. Proof of each step: docs/theory.md, "A box".
 #pragma once
 
 #include "certify/arithmetic/neumann.h"
@@ -34,23 +35,22 @@ class InverseBound {
 
   [[nodiscard]] const Matrix6<Point>& c() const { return c_; }
   [[nodiscard]] const Square<Upper>& q() const { return q_; }
-  /// A1, Q0 and W of (c).
   [[nodiscard]] const Square<I>& a1() const { return a1_; }
   [[nodiscard]] const Square<Upper>& q0() const { return q0_; }
-  [[nodiscard]] const Square<Upper>& w() const { return w_; }
+  /// W = |A1| Q0 + Q (|A1| + |A1| Q0): P(t) (C S) P(m) is in A1 ± W.
+  [[nodiscard]] Square<Upper> slope_bound() const;
 
  private:
   /// row += factor * other, for an exact factor.
   static void add_multiple(std::array<I, 6>& row, const Point& factor, const std::array<I, 6>& other) {
     for (std::size_t j = 0; j < 6; ++j) row[j] = row[j] + factor * other[j];
   }
-  void set_slope_bound();
 
   double radius_ = 0;
   Matrix6<Point> c_;
   Square<I> a1_;
   Square<Upper> a1_magnitude_;
-  Square<Upper> q0_, q_, w_;
+  Square<Upper> q0_, q_;
 };
 
 template <class I>
@@ -86,27 +86,24 @@ bool InverseBound<I>::set(const Matrix6<SlopeForm<I>>& force_density, double rad
       n[i][j] = n0[i][j] + Upper(radius) * a1_magnitude_[i][j];
     }
   }
-  if (!neumann_bound<I>(n0, q0_) || !neumann_bound<I>(n, q_)) return false;
-  set_slope_bound();
-  return true;
+  return neumann_bound<I>(n0, q0_) && neumann_bound<I>(n, q_);
 }
 
-/// W of (c).
 template <class I>
-void InverseBound<I>::set_slope_bound() {
-  w_ = upper_product(a1_magnitude_, q0_);
-  Square<Upper> sum = w_;
+auto InverseBound<I>::slope_bound() const -> Square<Upper> {
+  Square<Upper> w = upper_product(a1_magnitude_, q0_);
+  Square<Upper> sum = w;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) sum[i][j] += a1_magnitude_[i][j];
   }
   const Square<Upper> second = upper_product(q_, sum);
   for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) w_[i][j] += second[i][j];
+    for (std::size_t j = 0; j < 6; ++j) w[i][j] += second[i][j];
   }
+  return w;
 }
 
-/// P x has the value x ± Q0|x| at m and slopes −(A1 ± W) x. A1 x is enclosed by A1 times numbers x̂ near x, and |A1|
-/// times bounds of x − x̂.
+/// A1 P(m) x is enclosed by A1 times numbers x̂ near x, and |A1| times bounds of P(m) x − x̂.
 template <class I>
 template <std::size_t N>
 std::array<std::array<SlopeForm<I>, N>, 6> InverseBound<I>::times(const Columns<N>& x) const {
@@ -122,14 +119,21 @@ std::array<std::array<SlopeForm<I>, N>, 6> InverseBound<I>::times(const Columns<
     }
   }
   const auto mid_error = upper_product(q0_, x_magnitude);
-  const auto slope_error = upper_product(w_, x_magnitude);
+  for (std::size_t k = 0; k < 6; ++k) {
+    for (std::size_t j = 0; j < N; ++j) x_error[k][j] += mid_error[k][j];
+  }
   const auto drift_error = upper_product(a1_magnitude_, x_error);
+  std::array<std::array<Upper, N>, 6> drift_magnitude;  // |v|
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < N; ++j) drift_magnitude[i][j] = Upper(magnitude(drift[i][j])) + drift_error[i][j];
+  }
+  const auto change = upper_product(q_, drift_magnitude);
   std::array<std::array<SlopeForm<I>, N>, 6> result;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < N; ++j) {
       SlopeForm<I>& value = result[i][j];
       value.at_mid = x[i][j] + ProofScalarTraits<I>::symmetric(mid_error[i][j]);
-      value.slope = ProofScalarTraits<I>::symmetric(slope_error[i][j] + drift_error[i][j]) - drift[i][j];
+      value.slope = ProofScalarTraits<I>::symmetric(drift_error[i][j] + change[i][j]) - drift[i][j];
       value.range = value.at_mid + ProofScalarTraits<I>::symmetric(Upper(radius_) * Upper(magnitude(value.slope)));
     }
   }

@@ -20,6 +20,7 @@ RowForms row_forms(const InverseBound<Interval>& inverse, double radius) {
     force_size[row] = size(0);
     moment_size[row] = size(3);
   }
+  const Square<double> slope_bound = inverse.slope_bound();
   RowForms rows;
   rows.radius = radius;
   VectorForm<Six>&force = rows.force, &moment = rows.moment;
@@ -29,7 +30,7 @@ RowForms row_forms(const InverseBound<Interval>& inverse, double radius) {
     const Six upper = entry([&](std::size_t i) { return inverse.a1()[i][k].upper(); });
     const Six minus_lower = entry([&](std::size_t i) { return -inverse.a1()[i][k].lower(); });
     const Six mid = Six(0.5) * upper - Six(0.5) * minus_lower;
-    const Six w = entry([&](std::size_t i) { return inverse.w()[i][k]; });
+    const Six w = entry([&](std::size_t i) { return slope_bound[i][k]; });
     const Six error = w + max(upper - mid, mid + minus_lower) + Six(kRounding) * abs(mid);
     const Six q0 = entry([&](std::size_t i) { return inverse.q0()[i][k]; });
     for (int j = 0; j < 6; ++j) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "certify/box_proof.h"
+#include "certify/motion/forms_in_lanes.h"
 #include "map/cell_inverse.h"
 
 namespace taut {
@@ -44,6 +45,15 @@ CellModel<N> make_cell_model(const Problem& problem, const MapSpace& space) {
   });
   if (!is_bounded) throw InputError("space: got a range whose ends are beyond the range of binary64, or not defined");
   return model;
+}
+
+template <std::size_t N>
+const lanes::BoxKernel<static_cast<int>(N)>& cell_kernel() {
+  if constexpr (N == 2) {
+    return lanes::kernels().cell_of_two;
+  } else {
+    return lanes::kernels().cell_of_three;
+  }
 }
 
 /// Of deviations (certify/tolerance/tolerance.h).
@@ -93,6 +103,7 @@ class Judgement {
 
   /// Encloses what deviations() takes. @returns whether J is non-singular
   bool enclose_all() {
+    enclose_pose();
     enclose_geometry();
     if (!inverse_.set(geometry_.force_density, radius_) || !inverse_.is_regular()) return false;
     prepare_columns();
@@ -102,6 +113,11 @@ class Judgement {
   [[nodiscard]] std::optional<DeviationBounds<Interval>> deviations() const;
 
   void decide() {
+    enclose_pose();
+    if (problem_.proof.lanes && model_.loads.empty() && !problem_.proof.tolerance) {
+      decide_in_lanes();
+      return;
+    }
     enclose_geometry();
     if (is_outside_by_length()) return;
     if (!inverse_.set(geometry_.force_density, radius_)) {
@@ -112,22 +128,40 @@ class Judgement {
     prepare_columns();
     if (inverse_.is_regular() && is_decided_by_tensions()) return;
     if (is_unbalanced()) return;
-    suggest_axis();
+    suggest_axis([&](std::size_t axis) { return inverse_.reach(axis); });
   }
 
  private:
+  using LanesBox = lanes::Box<static_cast<int>(N)>;
+
+  /// decide() for a machine with neither items nor tolerances, for all cables at once (certify/lanes).
+  void decide_in_lanes();
+  bool is_decided_by_tensions(LanesBox& box);
+  bool is_unbalanced(const LanesBox& box);
+  /// Numbers in which the wrench of the kernel is.
+  using LanesWrench = lanes::Ends[6];
+  void set_wrench(LanesWrench& wrench) const {
+    for (int j = 0; j < 6; ++j) wrench[j] = lanes_detail::ends(model_.wrench(j));
+  }
+  /// What a cable's force density may be within limits, where lengths are within theirs. @returns false where a length
+  /// is beyond them: then there is nothing to show
+  [[nodiscard]] bool set_densities(std::array<Interval, kCables>& density) const;
+
   [[nodiscard]] bool is_proved(std::size_t margin) const { return (verdict_.proved >> margin & 1U) != 0; }
   void end(CellKind kind, std::size_t reason) {
     verdict_.kind = kind;
     verdict_.reason = static_cast<std::uint8_t>(reason);
   }
 
+  void enclose_pose();
   void enclose_geometry();
   bool is_outside_by_length();
   void prepare_columns();
   bool is_decided_by_tensions();
   bool is_unbalanced();
-  void suggest_axis();
+  /// @param reach  how much the cell's extent along an axis adds to the row sums of N
+  template <class F>
+  void suggest_axis(const F& reach);
 
   /// Notes what is known of a margin. @returns whether it is not positive on all of the cell.
   bool examine(std::size_t margin, const Form& value) {
@@ -188,7 +222,7 @@ class Judgement {
 };
 
 template <std::size_t N>
-void Judgement<N>::enclose_geometry() {
+void Judgement<N>::enclose_pose() {
   const Pose<Form> pose = evaluate_pose(problem_.pose, std::span<const Form>(parameters_));
   p_WP_ = pose.p_WP;
   r_WP_ = rotation(model_.angles, pose.angles);
@@ -196,6 +230,10 @@ void Judgement<N>::enclose_geometry() {
     p_WP_(i).tighten(offset_);
     for (int j = 0; j < 3; ++j) r_WP_(i, j).tighten(offset_);
   }
+}
+
+template <std::size_t N>
+void Judgement<N>::enclose_geometry() {
   geometry_ = cable_geometry(model_, p_WP_, r_WP_);
   for (std::size_t i = 0; i < kCables; ++i) {
     length_[i] = length(geometry_.p_AB_W[i]);
@@ -422,18 +460,23 @@ auto Judgement<N>::work(std::size_t i) const -> Work {
   return {(nominal.range - below.range).upper(), (nominal.range + above.range).lower()};
 }
 
-/// At a pose of the cell that balances every w of K within limits, D λ = w with λ_j = f_j/d_j, and so y·w = Σ_j (y·D_j)
-/// λ_j for y row i of C. The greatest y·w over K must not exceed the greatest such sum, nor the least fall below.
 template <std::size_t N>
-bool Judgement<N>::is_unbalanced() {
-  std::array<Interval, kCables> density;
+bool Judgement<N>::set_densities(std::array<Interval, kCables>& density) const {
   for (std::size_t j = 0; j < kCables; ++j) {
-    // Where a length is beyond its limits, there is nothing to show.
     const double least = std::max(length_[j].range.lower(), model_.length_lower[j].lower());
     const double most = std::min(length_[j].range.upper(), model_.length_upper[j].upper());
     if (!(least > 0 && least <= most)) return false;
     density[j] = Interval(model_.tension_lower[j].lower(), model_.tension_upper[j].upper()) / Interval(least, most);
   }
+  return true;
+}
+
+/// At a pose of the cell that balances every w of K within limits, D λ = w with λ_j = f_j/d_j, and so y·w = Σ_j (y·D_j)
+/// λ_j for y row i of C. The greatest y·w over K must not exceed the greatest such sum, nor the least fall below.
+template <std::size_t N>
+bool Judgement<N>::is_unbalanced() {
+  std::array<Interval, kCables> density;
+  if (!set_densities(density)) return false;
   for (std::size_t i = 0; i < kCables; ++i) {
     Interval sum(0.0);
     for (std::size_t j = 0; j < kCables; ++j) sum = sum + inverse_.product(i, j) * density[j];
@@ -447,15 +490,97 @@ bool Judgement<N>::is_unbalanced() {
 }
 
 template <std::size_t N>
-void Judgement<N>::suggest_axis() {
+template <class F>
+void Judgement<N>::suggest_axis(const F& reach) {
   if (std::all_of(weight_.begin(), weight_.end(), [](double x) { return !(x > 0); }) || !verdict_.regular) {
-    for (std::size_t k = 0; k < N; ++k) weight_[k] = inverse_.reach(k);
+    for (std::size_t k = 0; k < N; ++k) weight_[k] = reach(k);
   }
   std::size_t best = 0;
   for (std::size_t k = 1; k < N; ++k) {
     if (weight_[k] > weight_[best]) best = k;
   }
   verdict_.axis = static_cast<std::uint8_t>(best);
+}
+
+template <std::size_t N>
+void Judgement<N>::decide_in_lanes() {
+  using lanes::Outcome;
+  constexpr int kSlopes = static_cast<int>(N);
+  const lanes::BoxKernel<kSlopes>& kernel = cell_kernel<N>();
+  lanes::PoseForms<kSlopes> pose = lanes_pose<kSlopes>(p_WP_, r_WP_);
+  std::copy(radius_.begin(), radius_.end(), pose.radius);
+  LanesBox box;
+  if (kernel.enclose_geometry(*problem_.proof.lanes, pose, box) != Outcome::kYes) {
+    Faults<Interval>::raise();
+    return;
+  }
+  for (std::size_t i = 0; i < kCables; ++i) set_from_lanes(box.length, i, length_[i]);
+  if (is_outside_by_length()) return;
+  if (kernel.precondition(box) != Outcome::kYes) {
+    verdict_.axis = widest_axis<N>(cell_);
+    return;
+  }
+  verdict_.regular = kernel.bound_inverse(box) == Outcome::kYes;
+  if (verdict_.regular && is_decided_by_tensions(box)) return;
+  if (is_unbalanced(box)) return;
+  suggest_axis([&](std::size_t axis) {
+    double most = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      double sum = 0;
+      for (const lanes::Row& column : box.a1_size[axis]) sum += column.x[i];
+      most = std::max(most, sum);
+    }
+    return radius_[axis] * most;
+  });
+}
+
+template <std::size_t N>
+bool Judgement<N>::is_decided_by_tensions(LanesBox& box) {
+  constexpr std::uint32_t kAll = (1U << kMargins.size()) - 1;
+  constexpr std::uint32_t kTensions = (1U << 2 * kCables) - 1;
+  static_assert(number(MarginKind::kTensionMin, 0) == 0 && number(MarginKind::kTensionMax, 0) == kCables);
+  if ((verdict_.proved & kTensions) != kTensions) {
+    LanesWrench wrench;
+    set_wrench(wrench);
+    if (cell_kernel<N>().enclose_tensions(*problem_.proof.lanes, wrench, box) != lanes::Outcome::kYes) {
+      Faults<Interval>::raise();
+      return true;
+    }
+  }
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const std::array<std::size_t, 2> both = {number(MarginKind::kTensionMin, i), number(MarginKind::kTensionMax, i)};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (is_proved(both[side]) || (box.enclosed >> i & 1U) == 0) continue;
+      Form tension;
+      set_from_lanes(side == 0 ? box.low : box.high, i, tension);
+      const Form margin = side == 0 ? tension - model_.tension_lower[i] : -tension + model_.tension_upper[i];
+      if (!examine(both[side], margin)) continue;
+      end(CellKind::kTension, both[side]);
+      return true;
+    }
+  }
+  if (verdict_.proved != kAll) return false;
+  end(CellKind::kInside, 0);
+  return true;
+}
+
+template <std::size_t N>
+bool Judgement<N>::is_unbalanced(const LanesBox& box) {
+  std::array<Interval, kCables> density;
+  if (!set_densities(density)) return false;
+  lanes::Ends densities[kCables];
+  for (std::size_t j = 0; j < kCables; ++j) densities[j] = lanes_detail::ends(density[j]);
+  LanesWrench wrench;
+  set_wrench(wrench);
+  lanes::WorkRow work;
+  cell_kernel<N>().compare_work(*problem_.proof.lanes, wrench, densities, box, work);
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const bool is_above = work.greatest.x[i] > work.sum.upper.x[i];
+    if (!is_above && !(work.least.x[i] < -work.sum.minus_lower.x[i])) continue;
+    end(CellKind::kUnbalanced, 2 * i + (is_above ? 0 : 1));
+    return true;
+  }
+  return false;
 }
 
 template <std::size_t N>

@@ -60,19 +60,28 @@ struct PoseForms {
   double radius[N];  ///< r_k: of the box
 };
 
+/// A machine that is held by cable lengths: where its pose is sought (certify/motion/length_controlled_motion.h), for
+/// |t − m| <= radius.
+struct LengthControl {
+  Ends p_mid[3], p_slope[3], p_range[3];  ///< p_ref
+  /// R_ref(t) = r_mid + (t − m)(r_slope + (t − m) r_bend), and R_ref over T.
+  Ends r_mid[3][3], r_slope[3][3], r_bend[3][3], r_range[3][3];
+  double position, turn;                 ///< the tube, r_p and r_u
+  IntervalRow length_mid, length_slope;  ///< L(m) and L'
+  double radius;
+};
+
 /// All that is known of a box. Matrices have one row of lanes for each column: entry (i, j) is row j, lane i.
 template <int N>
 struct Box {
   double radius[N];
   FormRow<N> length;
   IntervalRow d_mid[6], d_slope[N][6];  ///< D, entry (k, j): row k, lane j
-  Row c_row[6];                         ///< C: row i, lane j
   Row c[6];                             ///< C by columns
   IntervalRow a0[6], a1[N][6];          ///< C D(m), C S_k
   Row a1_size[N][6];                    ///< |A1_k|
   Row n0[6], n[6];                      ///< N of theory.md at m, and over the box
   Row q0[6], q[6];                      ///< bounds of |P − I| at m, and over the box
-  Row w[N][6];                          ///< W_k
   FormRow<N> nominal, spread;           ///< λ_i, and |Z_i| of the ellipsoid
   unsigned enclosed;                    ///< bit i: what follows of cable i from K is enclosed; else the box is too wide
   FormRow<N> low, high;                 ///< the least and the greatest tension; not of items
@@ -82,24 +91,40 @@ struct Box {
 /// processor's flags or, where a form is not defined, in kFault.
 enum class Outcome { kYes, kNo, kFault };
 
+/// Farkas's test on the rows of C (map/cell_proof.h), for y row i of C: over K, y·w takes values from at most `least`
+/// to at least `greatest`; and what balances it is in `sum`.
+struct WorkRow {
+  Row least, greatest;
+  IntervalRow sum;
+};
+
 template <int N>
 struct BoxKernel {
   /// Sets `length`, `d_mid`, `d_slope`. kFault where a length may be 0.
   Outcome (*enclose_geometry)(const Machine&, const PoseForms<N>&, Box<N>&);
   /// Sets what depends on C, but for q. kNo: no C.
   Outcome (*precondition)(Box<N>&);
-  /// Sets q0, q and w. kNo: not proved non-singular.
+  /// Sets q0 and q. kNo: not proved non-singular.
   Outcome (*bound_inverse)(Box<N>&);
   /// Sets the rest, for the nominal wrench.
   Outcome (*enclose_tensions)(const Machine&, const Ends (&wrench)[6], Box<N>&);
+  /// For force densities λ_j in density[j]. @pre precondition()
+  void (*compare_work)(const Machine&, const Ends (&wrench)[6], const Ends (&density)[6], const Box<N>&, WorkRow&);
 };
+
+/// The only zero z(t) of the equations of lengths with z in [−1, 1]^6, as ParametricKrawczyk encloses it; its lanes are
+/// the six unknowns. kNo: not proved to be the only one, or to be there.
+using FindPose = Outcome (*)(const Machine&, const LengthControl&, FormRow<1>& z);
 
 enum class Level { kSse2, kAvx2, kAvx512 };
 [[nodiscard]] const char* name(Level level);
 
 struct Kernels {
   Level level;
-  BoxKernel<1> box;  ///< of segments
+  BoxKernel<1> box;            ///< of segments
+  BoxKernel<2> cell_of_two;    ///< of maps of two coordinates
+  BoxKernel<3> cell_of_three;  ///< of three
+  FindPose find_pose;
   /// Whether this level's sums, products, quotients and roots round upward in every lane. Under run_upward().
   /// @returns what does not, or null
   const char* (*failed_rounding)();

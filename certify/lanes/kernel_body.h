@@ -142,51 +142,46 @@ Outcome enclose_geometry(const Machine& machine, const PoseForms<N>& pose, Box<N
 constexpr Row kUnit[6] = {{{1, 0, 0, 0, 0, 0, 1, 1}}, {{0, 1, 0, 0, 0, 0, 0, 0}}, {{0, 0, 1, 0, 0, 0, 0, 0}},
                           {{0, 0, 0, 1, 0, 0, 0, 0}}, {{0, 0, 0, 0, 1, 0, 0, 0}}, {{0, 0, 0, 0, 0, 1, 0, 0}}};
 
-/// Gauss-Jordan elimination with partial pivoting. @returns whether every pivot is positive in size
+enum class Order { kByRows, kByColumns };
+
+/// Gauss-Jordan elimination in place, with partial pivoting, of a matrix by rows, which is lost. @returns whether every
+/// pivot is positive in size
+template <Order kOrder>
 TAUT_LANES_INLINE bool invert(Row (&a)[6], Row (&inverse)[6]) {
-  int order[6];
-  for (int i = 0; i < 6; ++i) {
-    order[i] = i;
-    store(inverse[i], load(kUnit[i]));
-  }
-#pragma GCC unroll 1
+  int order[6] = {0, 1, 2, 3, 4, 5};
+  const Lanes zero = broadcast(0.0), one = broadcast(1.0);
+#pragma GCC unroll 6
   for (int column = 0; column < 6; ++column) {
     int pivot = column;
-    double largest = -1;
-    for (int row = column; row < 6; ++row) {
+    double largest = __builtin_fabs(a[order[column]].x[column]);
+    for (int row = column + 1; row < 6; ++row) {
       const double size = __builtin_fabs(a[order[row]].x[column]);
-      if (!(size > largest)) continue;
-      largest = size;
-      pivot = row;
+      pivot = size > largest ? row : pivot;
+      largest = size > largest ? size : largest;
     }
     if (!(largest > 0)) return false;
     const int chosen = order[pivot];
     order[pivot] = order[column];
     order[column] = chosen;
-    const Lanes scale = broadcast(1.0 / a[chosen].x[column]);
-    const Lanes a_row = load(a[chosen]) * scale;
-    const Lanes inverse_row = load(inverse[chosen]) * scale;
-    store(a[chosen], a_row);
-    store(inverse[chosen], inverse_row);
+    const Mask is_column = zero < load(kUnit[column]);
+    const Lanes pivot_row = select(is_column, one, load(a[chosen])) * broadcast(1.0 / a[chosen].x[column]);
     for (int row = 0; row < 6; ++row) {
-      if (row == chosen) continue;
       const Lanes factor = broadcast(a[row].x[column]);
-      store(inverse[row], load(inverse[row]) - factor * inverse_row);
-      store(a[row], load(a[row]) - factor * a_row);
+      store(a[row], select(is_column, zero, load(a[row])) - factor * pivot_row);
+    }
+    store(a[chosen], pivot_row);
+  }
+  // Column j has become the one of the row that was chosen for it.
+  for (int j = 0; j < 6; ++j) {
+    const int to = order[j];
+    for (int i = 0; i < 6; ++i) {
+      (kOrder == Order::kByRows ? inverse[i].x[to] : inverse[to].x[i]) = a[order[i]].x[j];
     }
   }
-  Row sorted[6];
-  for (int i = 0; i < 6; ++i) store(sorted[i], load(inverse[order[i]]));
-  for (int i = 0; i < 6; ++i) store(inverse[i], load(sorted[i]));
-  return true;
-}
-
-/// Rows to columns, or back.
-TAUT_LANES_INLINE void transpose(const Row (&from)[6], Row (&to)[6]) {
   for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) to[i].x[j] = from[j].x[i];
-    for (int j = 6; j < kWidth; ++j) to[i].x[j] = from[0].x[i];
+    for (int lane = 6; lane < kWidth; ++lane) inverse[i].x[lane] = inverse[i].x[0];
   }
+  return true;
 }
 
 /// Σ_k factor[k] x[k][j]
@@ -196,19 +191,11 @@ TAUT_LANES_INLINE Intervals product(const Factors (&factor)[6], const IntervalRo
   for (int k = 1; k < 6; ++k) sum = sum + factor[k] * entry(k);
   return sum;
 }
-/// Of upper bounds: Σ_k a[k] b(k, j), a and b by columns.
-TAUT_LANES_INLINE Lanes product(const Lanes (&a)[6], const Row& b) {
-  Lanes sum = a[0] * broadcast(b.x[0]);
-  for (int k = 1; k < 6; ++k) sum = sum + a[k] * broadcast(b.x[k]);
-  return sum;
-}
-
 template <int N>
 Outcome precondition(Box<N>& box) {
   Row mid[6];
   for (int i = 0; i < 6; ++i) store(mid[i], midpoint_approx(load(box.d_mid[i])));
-  if (!invert(mid, box.c_row)) return Outcome::kNo;
-  transpose(box.c_row, box.c);
+  if (!invert<Order::kByColumns>(mid, box.c)) return Outcome::kNo;
   Factors c[6];
   for (int k = 0; k < 6; ++k) c[k] = factors(load(box.c[k]));
 #pragma GCC unroll 1
@@ -254,60 +241,46 @@ TAUT_LANES_INLINE bool neumann_bound(const Row (&n)[6], Row (&q)[6]) {
 template <int N>
 Outcome bound_inverse(Box<N>& box) {
   if (!neumann_bound(box.n0, box.q0) || !neumann_bound(box.n, box.q)) return Outcome::kNo;
-  Lanes q[6];
-  for (int k = 0; k < 6; ++k) q[k] = load(box.q[k]);
-  for (int n = 0; n < N; ++n) {
-    Lanes a1[6];
-    for (int k = 0; k < 6; ++k) a1[k] = load(box.a1_size[n][k]);
-#pragma GCC unroll 1
-    for (int j = 0; j < 6; ++j) {
-      const Lanes first = product(a1, box.q0[j]);
-      Row sum;
-      store(sum, first + a1[j]);
-      store(box.w[n][j], first + product(q, sum));
-    }
-  }
   return Outcome::kYes;
 }
 
 // ---- Tensions -------------------------------------------------------------------------------------------------------
 
-/// A column x = C b, and what enclosing P x takes to know of it.
-struct Column {
-  Intervals value;
-  Row near, error, size;  ///< |x − near| <= error, |x| <= size
+/// Σ_k a[k] b[k], a matrix by columns times a column.
+TAUT_LANES_INLINE Lanes product(const Row (&a)[6], const Row& b) {
+  Lanes sum = load(a[0]) * broadcast(b.x[0]);
+  for (int k = 1; k < 6; ++k) sum = sum + load(a[k]) * broadcast(b.x[k]);
+  return sum;
+}
 
-  TAUT_LANES_INLINE explicit Column(const Intervals& x) : value(x) {
-    const Lanes middle = midpoint_approx(x);
-    store(near, middle);
-    store(error, max(x.minus_lower + middle, x.upper - middle));
-    store(size, magnitude(x));
-  }
-};
-
-/// P x over the box. (Of a factor near(k) < 0 the ends of A1 change places.)
+/// P x over the box for a column x = C b: (c) of inverse_bound.h. (Of a factor near(k) < 0 the ends of A1 change
+/// places.)
 template <int N>
-[[gnu::noinline]] Forms<N> times(const Box<N>& box, const Column& x) {
-  const auto sum = [](const Row(&a)[6], const Row& b) {
-    Lanes s = load(a[0]) * broadcast(b.x[0]);
-    for (int k = 1; k < 6; ++k) s = s + load(a[k]) * broadcast(b.x[k]);
-    return s;
-  };
+[[gnu::noinline]] Forms<N> times(const Box<N>& box, const Intervals& x) {
+  const Lanes middle = midpoint_approx(x);
+  Row near, size, error;  // |x - near| and |P(m) x - near| <= error, |x| <= size
+  store(near, middle);
+  store(size, magnitude(x));
+  const Lanes mid_error = product(box.q0, size);
+  store(error, max(x.minus_lower + middle, x.upper - middle) + mid_error);
   Forms<N> result;
-  result.at_mid = widened(x.value, sum(box.q0, x.size));
+  result.at_mid = widened(x, mid_error);
   Lanes reach = broadcast(0.0);
   for (int n = 0; n < N; ++n) {
     Intervals drift{broadcast(0.0), broadcast(0.0)};
     for (int k = 0; k < 6; ++k) {
       const IntervalRow& a1 = box.a1[n][k];
       const Row* ends[2] = {&a1.minus_lower, &a1.upper};
-      const int negative = x.near.x[k] < 0 ? 1 : 0;
-      const Lanes size = broadcast(__builtin_fabs(x.near.x[k]));
-      drift.minus_lower = drift.minus_lower + size * load(*ends[negative]);
-      drift.upper = drift.upper + size * load(*ends[1 - negative]);
+      const int negative = near.x[k] < 0 ? 1 : 0;
+      const Lanes factor = broadcast(__builtin_fabs(near.x[k]));
+      drift.minus_lower = drift.minus_lower + factor * load(*ends[negative]);
+      drift.upper = drift.upper + factor * load(*ends[1 - negative]);
     }
-    const Lanes error = sum(box.w[n], x.size) + sum(box.a1_size[n], x.error);
-    result.slope[n] = {error + drift.upper, error + drift.minus_lower};
+    const Lanes drift_error = product(box.a1_size[n], error);
+    Row drift_size;
+    store(drift_size, magnitude(drift) + drift_error);
+    const Lanes slope_error = drift_error + product(box.q, drift_size);
+    result.slope[n] = {slope_error + drift.upper, slope_error + drift.minus_lower};
     reach = reach + broadcast(box.radius[n]) * magnitude(result.slope[n]);
   }
   result.range = widened(result.at_mid, reach);
@@ -321,6 +294,15 @@ TAUT_LANES_INLINE Intervals loaded(const Factors (&c)[6], const Ends (&b)[6]) {
   return sum;
 }
 
+/// Column j of C L.
+TAUT_LANES_INLINE Intervals root_column(const Machine& machine, const Factors (&c)[6], int j) {
+  Intervals entry = c[j] * broadcast(machine.root[j][j]);
+  if (!machine.is_ellipsoid_diagonal) {
+    for (int l = 0; l < j; ++l) entry = entry + c[l] * broadcast(machine.root[l][j]);
+  }
+  return entry;
+}
+
 /// @returns where they are enclosed
 template <int N>
 TAUT_LANES_INLINE Mask enclose_spread(const Machine& machine, const Factors (&c)[6], const Box<N>& box,
@@ -328,11 +310,7 @@ TAUT_LANES_INLINE Mask enclose_spread(const Machine& machine, const Factors (&c)
   Forms<N> square;
 #pragma GCC unroll 1
   for (int j = 0; j < 6; ++j) {
-    Intervals entry = c[j] * broadcast(machine.root[j][j]);
-    if (!machine.is_ellipsoid_diagonal) {
-      for (int l = 0; l < j; ++l) entry = entry + c[l] * broadcast(machine.root[l][j]);
-    }
-    const Forms<N> form = times<N>(box, Column(entry));
+    const Forms<N> form = times<N>(box, root_column(machine, c, j));
     square = j == 0 ? sqr(form) : square + sqr(form);
   }
   Mask is_void = tighten<N>(square, box.radius);
@@ -353,7 +331,7 @@ template <int N>
 Outcome enclose_tensions(const Machine& machine, const Ends (&wrench)[6], Box<N>& box) {
   Factors c[6];
   for (int k = 0; k < 6; ++k) c[k] = factors(load(box.c[k]));
-  const Forms<N> nominal = times<N>(box, Column(loaded(c, wrench)));
+  const Forms<N> nominal = times<N>(box, loaded(c, wrench));
   store(box.nominal, nominal);
   const Lanes zero = broadcast(0.0);
   Forms<N> spread;
@@ -373,6 +351,29 @@ Outcome enclose_tensions(const Machine& machine, const Ends (&wrench)[6], Box<N>
   store(box.low, low);
   store(box.high, high);
   return Outcome::kYes;
+}
+
+template <int N>
+void compare_work(const Machine& machine, const Ends (&wrench)[6], const Ends (&density)[6], const Box<N>& box,
+                  WorkRow& work) {
+  Factors c[6];
+  for (int k = 0; k < 6; ++k) c[k] = factors(load(box.c[k]));
+  const Intervals nominal = loaded(c, wrench);
+  Intervals spread{broadcast(0.0), broadcast(0.0)};
+  if (machine.has_ellipsoid) {
+    Intervals square = sqr(root_column(machine, c, 0));
+    for (int j = 1; j < 6; ++j) square = square + sqr(root_column(machine, c, j));
+    spread = sqrt(square);
+  }
+  store(work.least, nominal.upper + spread.minus_lower);
+  store(work.greatest, -(nominal.minus_lower + spread.minus_lower));
+  Intervals sum{broadcast(0.0), broadcast(0.0)};
+  for (int j = 0; j < 6; ++j) {
+    Lanes reach = broadcast(box.radius[0]) * load(box.a1_size[0][j]);
+    for (int k = 1; k < N; ++k) reach = reach + broadcast(box.radius[k]) * load(box.a1_size[k][j]);
+    sum = sum + widened(load(box.a0[j]), reach) * broadcast(density[j]);
+  }
+  store(work.sum, sum);
 }
 
 // ---- The self-test --------------------------------------------------------------------------------------------------
@@ -398,7 +399,7 @@ void divide(const Row& a, const Row& b, Row& quotient) { store(quotient, load(a)
 
 template <int N>
 constexpr BoxKernel<N> box_kernel_of_level() {
-  return {enclose_geometry<N>, precondition<N>, bound_inverse<N>, enclose_tensions<N>};
+  return {enclose_geometry<N>, precondition<N>, bound_inverse<N>, enclose_tensions<N>, compare_work<N>};
 }
 
 }  // namespace

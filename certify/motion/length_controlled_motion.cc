@@ -5,7 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "certify/motion/forms_in_lanes.h"
 #include "certify/motion/parametric_krawczyk.h"
+#include "certify/motion/pose_in_lanes.h"
 #include "kinematics/geometry.h"
 #include "kinematics/quaternion.h"
 
@@ -140,14 +142,13 @@ class LengthSystem {
     return result;
   }
 
-  [[nodiscard]] EquationDerivatives<kUnknowns, I> derivatives(const Vector& z, EvaluationDomain domain) const {
+  [[nodiscard]] Square<I, kUnknowns> derivatives(const Vector& z, EvaluationDomain domain) const {
     const bool over_box = domain == EvaluationDomain::kOverBox;
     const Vector3<I> p = position(z, over_box ? &SlopeForm<I>::range : &SlopeForm<I>::at_mid);
-    const Matrix3<I> local = local_turn(z);
-    const Matrix3<I> r = times(local, over_box ? reference_.r_range : reference_.r_mid);
+    const Matrix3<I> r = times(local_turn(z), over_box ? reference_.r_range : reference_.r_mid);
     const Vector3<I> u = turn(z);
     const I scale = I(2.0 * reference_.tube.turn) / (I(1.0) + sqr(u(0)) + sqr(u(1)) + sqr(u(2)));
-    EquationDerivatives<kUnknowns, I> result;
+    Square<I, kUnknowns> result;
     for (std::size_t i = 0; i < kCables; ++i) {
       const Vector3<I> reach = apply(r, model_.p_PB[i]);
       const Vector3<I>& base = model_.p_WA[i];
@@ -156,11 +157,38 @@ class LengthSystem {
       const Vector3<I> moment = cross(reach, from_base);  // = R b_i × d_i, and tighter
       const Vector3<I> turned = moment + cross(moment, u);
       for (int k = 0; k < 3; ++k) {
-        result.by_y[i][static_cast<std::size_t>(k)] = I(reference_.tube.position) * d(k);
-        result.by_y[i][static_cast<std::size_t>(k) + 3] = scale * turned(k);
+        result[i][static_cast<std::size_t>(k)] = I(reference_.tube.position) * d(k);
+        result[i][static_cast<std::size_t>(k) + 3] = scale * turned(k);
       }
     }
-    if (over_box) add_slopes(z, local, result);
+    return result;
+  }
+
+  /// With d(t) = d(m) + h (σ + h τ), h = t − m: (|d(t)|^2 − |d(m)|^2)/2 = h (d(m)·σ + h (d(m)·τ + |σ + h τ|^2/2)).
+  [[nodiscard]] EquationSlopes<kUnknowns, I> slopes(const Vector& z) const {
+    const Vector3<I> p = position(z, &SlopeForm<I>::at_mid);
+    const Matrix3<I> local = local_turn(z);
+    const Matrix3<I> r = times(local, reference_.r_mid);
+    const Matrix3<I> r_slope = times(local, reference_.r_slope);
+    const Matrix3<I> r_bend = times(local, reference_.r_bend);
+    EquationSlopes<kUnknowns, I> result;
+    for (std::size_t i = 0; i < kCables; ++i) {
+      const Vector3<I> reach = apply(r, model_.p_PB[i]);
+      const Vector3<I> reach_slope = apply(r_slope, model_.p_PB[i]);
+      const Vector3<I> reach_bend = apply(r_bend, model_.p_PB[i]);
+      I slope(0.0);
+      I bend(0.0);
+      I square(0.0);
+      for (int k = 0; k < 3; ++k) {
+        const I d = p(k) + reach(k) - model_.p_WA[i](k);
+        const I sigma = reference_.p(k).slope + reach_slope(k);
+        slope = slope + d * sigma;
+        bend = bend + d * reach_bend(k);
+        square = square + sqr(I(sigma + offset_ * reach_bend(k)));
+      }
+      result.by_t[i] = slope - lengths_[i].slope * lengths_[i].at_mid;
+      result.bend[i] = bend + I(0.5) * (square - sqr(lengths_[i].slope));
+    }
     return result;
   }
 
@@ -189,31 +217,6 @@ class LengthSystem {
   }
 
  private:
-  /// With d(t) = d(m) + h (σ + h τ), h = t − m: (|d(t)|^2 − |d(m)|^2)/2 = h (d(m)·σ + h (d(m)·τ + |σ + h τ|^2/2)).
-  void add_slopes(const Vector& z, const Matrix3<I>& local, EquationDerivatives<kUnknowns, I>& result) const {
-    const Vector3<I> p = position(z, &SlopeForm<I>::at_mid);
-    const Matrix3<I> r = times(local, reference_.r_mid);
-    const Matrix3<I> r_slope = times(local, reference_.r_slope);
-    const Matrix3<I> r_bend = times(local, reference_.r_bend);
-    for (std::size_t i = 0; i < kCables; ++i) {
-      const Vector3<I> reach = apply(r, model_.p_PB[i]);
-      const Vector3<I> reach_slope = apply(r_slope, model_.p_PB[i]);
-      const Vector3<I> reach_bend = apply(r_bend, model_.p_PB[i]);
-      I slope(0.0);
-      I bend(0.0);
-      I square(0.0);
-      for (int k = 0; k < 3; ++k) {
-        const I d = p(k) + reach(k) - model_.p_WA[i](k);
-        const I sigma = reference_.p(k).slope + reach_slope(k);
-        slope = slope + d * sigma;
-        bend = bend + d * reach_bend(k);
-        square = square + sqr(I(sigma + offset_ * reach_bend(k)));
-      }
-      result.by_t[i] = slope - lengths_[i].slope * lengths_[i].at_mid;
-      result.bend[i] = bend + I(0.5) * (square - sqr(lengths_[i].slope));
-    }
-  }
-
   [[nodiscard]] Vector3<I> turn(const Vector& z) const {
     const I size(reference_.tube.turn);
     return {size * z[3], size * z[4], size * z[5]};
@@ -238,24 +241,95 @@ class LengthSystem {
 
 }  // namespace
 
+namespace {
+
+/// What a pose is sought from.
+template <class I>
+struct PoseQuestion {
+  Reference<I> reference;
+  Lengths<I> lengths;
+};
+
+/// Sets the question. @returns kKnown, or the status that there is no pose to find
+template <class I>
+typename MotionEnclosure<I>::Status ask(const Segment& segment, const I& range, const I& mid, const I& offset,
+                                        PoseQuestion<I>& question) {
+  using Status = typename MotionEnclosure<I>::Status;
+  auto reference = enclose_reference(segment, range, mid, offset);
+  if (!reference) return Status::kSpansKnot;
+  const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!is_size(reference->tube.position) || !is_size(reference->tube.turn)) return Status::kUnproved;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const auto line = coordinate_polynomial<I>(segment, kPoseNumbers + i);
+    question.lengths[i] = {line.at(mid), line.slope(range), line.at(range)};
+    if (!certainly_positive(question.lengths[i].range)) return Status::kUnproved;
+  }
+  question.reference = *std::move(reference);
+  return Status::kKnown;
+}
+
+}  // namespace
+
 template <class I>
 MotionEnclosure<I> forward_kinematics(const Model<I>& model, const Segment& segment, const I& range, const I& mid,
                                       const I& offset) {
-  const auto reference = enclose_reference(segment, range, mid, offset);
-  if (!reference) return {MotionEnclosure<I>::Status::kSpansKnot, {}, {}};
-  const auto is_size = [](double x) { return x > 0 && std::isfinite(x); };
-  if (!is_size(reference->tube.position) || !is_size(reference->tube.turn)) return {};
-  Lengths<I> lengths;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const auto line = coordinate_polynomial<I>(segment, kPoseNumbers + i);
-    lengths[i] = {line.at(mid), line.slope(range), line.at(range)};
-    if (!certainly_positive(lengths[i].range)) return {};
-  }
+  PoseQuestion<I> question;
+  const auto status = ask(segment, range, mid, offset, question);
+  if (status != MotionEnclosure<I>::Status::kKnown) return {status, {}, {}};
   using System = LengthSystem<I>;
-  const System system(model, *reference, lengths, offset);
+  const System system(model, question.reference, question.lengths, offset);
   std::array<SlopeForm<I>, kUnknowns> z;
   if (!ParametricKrawczyk<kUnknowns, I, System>(system, offset, 1.0).enclose(z)) return {};
   return system.pose(z);
+}
+
+namespace {
+
+lanes::LengthControl length_control(const PoseQuestion<Interval>& question, const Interval& offset) {
+  using lanes_detail::ends;
+  const Reference<Interval>& reference = question.reference;
+  lanes::LengthControl result;
+  for (int i = 0; i < 3; ++i) {
+    result.p_mid[i] = ends(reference.p(i).at_mid);
+    result.p_slope[i] = ends(reference.p(i).slope);
+    result.p_range[i] = ends(reference.p(i).range);
+    for (int j = 0; j < 3; ++j) {
+      result.r_mid[i][j] = ends(reference.r_mid(i, j));
+      result.r_slope[i][j] = ends(reference.r_slope(i, j));
+      result.r_bend[i][j] = ends(reference.r_bend(i, j));
+      result.r_range[i][j] = ends(reference.r_range(i, j));
+    }
+  }
+  result.position = reference.tube.position;
+  result.turn = reference.tube.turn;
+  result.radius = magnitude(offset);
+  for (std::size_t lane = 0; lane < lanes::kWidth; ++lane) {
+    const SlopeForm<Interval>& length = question.lengths[lane < kCables ? lane : 0];
+    const lanes::Ends mid = ends(length.at_mid), slope = ends(length.slope);
+    result.length_mid.minus_lower.x[lane] = mid.minus_lower;
+    result.length_mid.upper.x[lane] = mid.upper;
+    result.length_slope.minus_lower.x[lane] = slope.minus_lower;
+    result.length_slope.upper.x[lane] = slope.upper;
+  }
+  return result;
+}
+
+}  // namespace
+
+MotionEnclosure<Interval> forward_kinematics_in_lanes(const lanes::Kernels& kernels, const lanes::Machine& machine,
+                                                      const Model<Interval>& model, const Segment& segment,
+                                                      const Interval& range, const Interval& mid,
+                                                      const Interval& offset) {
+  PoseQuestion<Interval> question;
+  const auto status = ask(segment, range, mid, offset, question);
+  if (status != MotionEnclosure<Interval>::Status::kKnown) return {status, {}, {}};
+  lanes::FormRow<1> found;
+  const lanes::Outcome outcome = kernels.find_pose(machine, length_control(question, offset), found);
+  if (outcome == lanes::Outcome::kFault) Faults<Interval>::raise();
+  if (outcome != lanes::Outcome::kYes) return {};
+  std::array<SlopeForm<Interval>, kUnknowns> z;
+  for (std::size_t k = 0; k < kUnknowns; ++k) set_from_lanes(found, k, z[k]);
+  return LengthSystem<Interval>(model, question.reference, question.lengths, offset).pose(z);
 }
 
 namespace {

@@ -79,26 +79,28 @@ class ConstraintSystem {
     return result;
   }
 
-  [[nodiscard]] EquationDerivatives<K, I> derivatives(const Vector& y, EvaluationDomain domain) const {
+  [[nodiscard]] Square<I, K> derivatives(const Vector& y, EvaluationDomain domain) const {
     const auto where = domain == EvaluationDomain::kAtMid ? &SlopeForm<I>::at_mid : &SlopeForm<I>::range;
-    const auto lambda = at(y, where);
-    std::array<J, kMaxConstrainedParameters> jets;
-    for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));
-    std::array<J, K> c;
-    constraints_.jets.evaluate(std::span<const J>(jets.data(), line_.size()), c);
-    EquationDerivatives<K, I> result;
-    for (auto& row : result.by_y) row.fill(I(0.0));
+    const std::array<J, K> c = jets(at(y, where));
+    Square<I, K> result;
+    for (auto& row : result) row.fill(I(0.0));
+    for (std::size_t j = 0; j < line_.size(); ++j) {
+      for (std::size_t e = 0; e < K; ++e) {
+        for (std::size_t i = 0; i < K; ++i) result[e][i] = result[e][i] + c[e].partial[j] * (normal_[j][i].*where);
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] EquationSlopes<K, I> slopes(const Vector& y) const {
+    const std::array<J, K> c = jets(at(y, &SlopeForm<I>::range));
+    EquationSlopes<K, I> result;
     result.by_t.fill(I(0.0));
     result.bend.fill(I(0.0));
     for (std::size_t j = 0; j < line_.size(); ++j) {
       I slope = line_[j].slope;
       for (std::size_t i = 0; i < K; ++i) slope = slope + normal_[j][i].slope * y[i];
-      for (std::size_t e = 0; e < K; ++e) {
-        result.by_t[e] = result.by_t[e] + c[e].partial[j] * slope;
-        for (std::size_t i = 0; i < K; ++i) {
-          result.by_y[e][i] = result.by_y[e][i] + c[e].partial[j] * (normal_[j][i].*where);
-        }
-      }
+      for (std::size_t e = 0; e < K; ++e) result.by_t[e] = result.by_t[e] + c[e].partial[j] * slope;
     }
     return result;
   }
@@ -115,6 +117,15 @@ class ConstraintSystem {
 
  private:
   using J = Jet<I, kMaxConstrainedParameters>;
+
+  /// C and its gradient.
+  [[nodiscard]] std::array<J, K> jets(const std::array<I, kMaxConstrainedParameters>& lambda) const {
+    std::array<J, kMaxConstrainedParameters> jets;
+    for (std::size_t j = 0; j < line_.size(); ++j) jets[j] = J(lambda[j], static_cast<int>(j));
+    std::array<J, K> c;
+    constraints_.jets.evaluate(std::span<const J>(jets.data(), line_.size()), c);
+    return c;
+  }
 
   /// ℓ + N y, at m or over T.
   [[nodiscard]] std::array<I, kMaxConstrainedParameters> at(const Vector& y, I SlopeForm<I>::*where) const {

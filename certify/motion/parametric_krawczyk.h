@@ -3,13 +3,14 @@
 // T.
 //
 // For T with midpoint m, any ŷ in Y and any matrix A, let ρ be the largest row sum of |I − A g_y(Y, T)|. If ρ < 1 there
-// is at most one zero in Y for every t in T; and exactly one, y(t), where Y contains the
-// box                         (a)
-//   ŷ ± w,   w = max_i (|A g(ŷ, m)|_i + |A g_t(Y, T)|_i |T|/2) / (1 − ρ),                                           (b)
-// which then holds y(t). With any box Z around ŷ that holds it, in Y, the operator narrows it to
-//   K(T) = ŷ − A g(ŷ, m) − A g_t(Z, T) (T − m) + (I − A g_y(Z, T)) (Z − ŷ).                                         (c)
-// y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t, enclosed with the bound of neumann.h; at m alone
-// a box of the size of the residual encloses y(m) tightly. Proof: docs/theory.md, "A motion that is only implied".
+// is at most one zero in Y for every t in T; and exactly one, y(t), where Y contains the boxes                      (a)
+//   D = ŷ ± δ,  δ = max_i |A g(ŷ, m)|_i / (1 − ρ),
+//   Z = ŷ ± w,  w = max_i (|A g(ŷ, m)|_i + |A g_t(D, T)|_i |T|/2) / (1 − ρ),                                        (b)
+// which then hold y(m) and y(t). Any box Z' of Y with ŷ that holds y(t) is narrowed to
+//   K(T) = ŷ − A g(ŷ, m) − A g_t(D, T) (T − m) + (I − A g_y(Z', T)) (Z' − ŷ).                                       (c)
+// y is a centred form over T: its slopes from m are −(A g_y)^-1 A g_t(D, T), enclosed with the bound of neumann.h; at m
+// alone (c) with D in place of Z' is as tight as the residual is small. Proof: docs/theory.md, "A motion that is only
+// implied".
 #pragma once
 
 #include <Eigen/LU>
@@ -26,17 +27,16 @@ namespace taut {
 /// Where equations are enclosed.
 enum class EvaluationDomain { kAtMid, kOverBox };
 
+/// Slopes of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend).
 template <std::size_t K, class I>
-struct EquationDerivatives {
-  Square<I, K> by_y;  ///< g_y: one row an equation
-  /// Slopes of g in t from m, at one y and for every t of T: g(y, t) − g(y, m) = (t − m)(by_t + (t − m) bend). Only
-  /// over the box.
+struct EquationSlopes {
   std::array<I, K> by_t;
   std::array<I, K> bend;
 };
 
-/// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m), and
-/// EquationDerivatives<K, I> derivatives(const std::array<I, K>& y, EvaluationDomain)  for y in a box, at m or over T.
+/// `System` has  std::array<I, K> values(const std::array<I, K>& y)  enclosing g(y, m);
+/// Square<I, K> derivatives(const std::array<I, K>& y, EvaluationDomain)  enclosing g_y, one row an equation, for y in
+/// a box, at m or over T; and  EquationSlopes<K, I> slopes(const std::array<I, K>& y)  for each y of a box.
 template <std::size_t K, class I, class System>
 class ParametricKrawczyk {
  public:
@@ -46,21 +46,36 @@ class ParametricKrawczyk {
   /// y over T; false if (a) or (b) fails.
   [[nodiscard]] bool enclose(std::array<SlopeForm<I>, K>& y) {
     if (!(radius_ > 0) || !std::isfinite(radius_) || !start_newton()) return false;
-    Vector whole;
-    whole.fill(I(-radius_, radius_));
-    Vector inside;
-    if (!stay_inside(krawczyk(whole), inside)) return false;
-    const Step second = krawczyk(inside);
+    Vector box;
+    box.fill(I(-radius_, radius_));
+    const Square<I, K> over_tube = rest(box);
+    Upper gap;
+    if (!contracts(over_tube, gap)) return false;
+    const I delta = ProofScalarTraits<I>::symmetric(largest(residual_) / gap);
+    if (!stays_inside(delta, box)) return false;
+    const Vector drift = drift_at(box);
+    Vector reach = residual_;
+    for (std::size_t i = 0; i < K; ++i) {
+      reach[i] = ProofScalarTraits<I>::symmetric(Upper(magnitude(residual_[i])) + Upper(magnitude(drift[i] * offset_)));
+    }
+    const I w = ProofScalarTraits<I>::symmetric(largest(reach) / gap);
+    if (!stays_inside(w, box)) return false;
+    // Narrowed by (c) twice; ŷ stays in the box.
+    const Vector known = narrowed(over_tube, box, drift);
+    for (std::size_t i = 0; i < K; ++i) box[i] = hull(known[i], centre_[i]);
+    const Square<I, K> over_box = rest(box);
     Square<Upper, K> q;
-    if (!neumann_bound<I>(magnitudes(second.rest), q)) return false;
+    if (!neumann_bound<I>(magnitudes(over_box), q)) return false;
+    const Vector image = narrowed(over_box, box, drift);
     for (std::size_t i = 0; i < K; ++i) {
       Upper error(0.0);
-      for (std::size_t k = 0; k < K; ++k) error += q[i][k] * Upper(magnitude(second.drift[k]));
-      y[i].range = intersect(second.image[i], inside[i]);
-      y[i].slope = ProofScalarTraits<I>::symmetric(error) - second.drift[i];
-      y[i].at_mid = y[i].range;
+      for (std::size_t k = 0; k < K; ++k) error += q[i][k] * Upper(magnitude(drift[k]));
+      y[i].range = intersect(image[i], known[i]);
+      y[i].slope = ProofScalarTraits<I>::symmetric(error) - drift[i];
+      I at_mid = centre_[i] - residual_[i];
+      for (std::size_t k = 0; k < K; ++k) at_mid = at_mid + over_box[i][k] * delta;
+      y[i].at_mid = intersect(at_mid, y[i].range);
     }
-    enclose_at_mid(y);
     return true;
   }
 
@@ -68,12 +83,6 @@ class ParametricKrawczyk {
   using Point = typename ProofScalarTraits<I>::Point;
   using Upper = UpperOf<I>;
   using Vector = std::array<I, K>;
-
-  struct Step {
-    Vector image;       ///< (c)
-    Square<I, K> rest;  ///< I − A g_y
-    Vector drift;       ///< A g_t: slopes from m
-  };
 
   [[nodiscard]] Square<I, K> times_a(const Square<I, K>& x) const {
     Square<I, K> result;
@@ -95,13 +104,6 @@ class ParametricKrawczyk {
     return result;
   }
 
-  static Square<I, K> one_minus(Square<I, K> x) {
-    for (std::size_t i = 0; i < K; ++i) {
-      for (std::size_t k = 0; k < K; ++k) x[i][k] = I(i == k ? 1.0 : 0.0) - x[i][k];
-    }
-    return x;
-  }
-
   static Square<Upper, K> magnitudes(const Square<I, K>& x) {
     Square<Upper, K> result;
     for (std::size_t i = 0; i < K; ++i) {
@@ -113,7 +115,7 @@ class ParametricKrawczyk {
   /// Chooses A and ŷ: any choice is sound, a good one is near g_y^-1 and y(m).
   [[nodiscard]] bool start_newton() {
     centre_.fill(I(0.0));
-    const Square<I, K> g_y = system_.derivatives(centre_, EvaluationDomain::kAtMid).by_y;
+    const Square<I, K> g_y = system_.derivatives(centre_, EvaluationDomain::kAtMid);
     Eigen::Matrix<double, static_cast<int>(K), static_cast<int>(K)> mid;
     for (std::size_t i = 0; i < K; ++i) {
       for (std::size_t k = 0; k < K; ++k) {
@@ -145,63 +147,61 @@ class ParametricKrawczyk {
     return true;
   }
 
-  /// The box ŷ ± w of (b), where it is inside the tube and ρ < 1.
-  [[nodiscard]] bool stay_inside(const Step& over_tube, Vector& box) const {
-    Upper rho(0.0);
-    Upper largest(0.0);
+  /// I − A g_y over a box and T.
+  [[nodiscard]] Square<I, K> rest(const Vector& box) const {
+    Square<I, K> result = times_a(system_.derivatives(box, EvaluationDomain::kOverBox));
     for (std::size_t i = 0; i < K; ++i) {
+      for (std::size_t k = 0; k < K; ++k) result[i][k] = I(i == k ? 1.0 : 0.0) - result[i][k];
+    }
+    return result;
+  }
+
+  /// Whether ρ < 1, with 1 − ρ rounded down.
+  [[nodiscard]] static bool contracts(const Square<I, K>& rest, Upper& gap) {
+    Upper rho(0.0);
+    for (const auto& row : rest) {
       Upper row_sum(0.0);
-      for (const I& x : over_tube.rest[i]) row_sum += Upper(magnitude(x));
+      for (const I& x : row) row_sum += Upper(magnitude(x));
       if (!(row_sum < Upper(1.0))) return false;  // also where a NaN slipped in, which max() would drop
       rho = std::max(rho, row_sum);
-      largest = std::max(largest, Upper(magnitude(residual_[i])) + Upper(magnitude(over_tube.drift[i] * offset_)));
     }
-    const Upper gap = ProofScalarTraits<I>::one_minus_lower(rho);
-    if (!(Upper(0.0) < gap)) return false;
-    const I w = ProofScalarTraits<I>::symmetric(largest / gap);
+    gap = ProofScalarTraits<I>::one_minus_lower(rho);
+    return Upper(0.0) < gap;
+  }
+
+  static Upper largest(const Vector& x) {
+    Upper result(0.0);
+    for (const I& entry : x) result = std::max(result, Upper(magnitude(entry)));
+    return result;
+  }
+
+  /// Sets `box` to ŷ + `around`. @returns whether it is inside the tube
+  [[nodiscard]] bool stays_inside(const I& around, Vector& box) const {
     for (std::size_t i = 0; i < K; ++i) {
-      box[i] = centre_[i] + w;
+      box[i] = centre_[i] + around;
       if (!(lower_bound(box[i]) > -radius_ && upper_bound(box[i]) < radius_)) return false;
     }
     return true;
   }
 
-  /// (c) for a box Z that contains ŷ.
-  [[nodiscard]] Step krawczyk(const Vector& box) const {
-    const EquationDerivatives<K, I> over = system_.derivatives(box, EvaluationDomain::kOverBox);
-    Step step;
-    step.rest = one_minus(times_a(over.by_y));
-    step.drift = times_a(over.by_t);
-    const Vector bend = times_a(over.bend);
-    for (std::size_t i = 0; i < K; ++i) step.drift[i] = step.drift[i] + bend[i] * offset_;
-    for (std::size_t i = 0; i < K; ++i) {
-      I image = centre_[i] - residual_[i] - step.drift[i] * offset_;
-      for (std::size_t k = 0; k < K; ++k) image = image + step.rest[i][k] * (box[k] - centre_[k]);
-      step.image[i] = image;
-    }
-    return step;
+  /// A g_t: slopes from m, at each y of a box.
+  [[nodiscard]] Vector drift_at(const Vector& box) const {
+    const EquationSlopes<K, I> slopes = system_.slopes(box);
+    Vector drift = times_a(slopes.by_t);
+    const Vector bend = times_a(slopes.bend);
+    for (std::size_t i = 0; i < K; ++i) drift[i] = drift[i] + bend[i] * offset_;
+    return drift;
   }
 
-  /// Narrows y(m) by a Krawczyk test at m alone in a box ŷ ± δ within the tube: the zero in it is the one in the tube.
-  void enclose_at_mid(std::array<SlopeForm<I>, K>& y) const {
-    constexpr double kRoom = 4.0;
-    double largest = 0;
-    for (const I& r : residual_) largest = std::max(largest, ProofScalarTraits<I>::to_double(Upper(magnitude(r))));
-    const double delta = kRoom * largest + std::numeric_limits<double>::min();
-    Vector box;
+  /// (c) within a box that contains ŷ.
+  [[nodiscard]] Vector narrowed(const Square<I, K>& rest, const Vector& box, const Vector& drift) const {
+    Vector result;
     for (std::size_t i = 0; i < K; ++i) {
-      box[i] = centre_[i] + I(-delta, delta);
-      if (!(lower_bound(box[i]) > -radius_ && upper_bound(box[i]) < radius_)) return;
+      I image = centre_[i] - residual_[i] - drift[i] * offset_;
+      for (std::size_t k = 0; k < K; ++k) image = image + rest[i][k] * (box[k] - centre_[k]);
+      result[i] = intersect(image, box[i]);
     }
-    const Square<I, K> rest = one_minus(times_a(system_.derivatives(box, EvaluationDomain::kAtMid).by_y));
-    Vector image;
-    for (std::size_t i = 0; i < K; ++i) {
-      I step = I(0.0) - residual_[i];
-      for (std::size_t k = 0; k < K; ++k) step = step + rest[i][k] * I(-delta, delta);
-      if (!(lower_bound(step) > -delta && upper_bound(step) < delta)) return;
-      image[i] = centre_[i] + step;
-    }
-    for (std::size_t i = 0; i < K; ++i) y[i].at_mid = intersect(image[i], y[i].range);
+    return result;
   }
 
   const System& system_;

@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "certify/box_in_lanes.h"
 #include "certify/box_proof.h"
 #include "certify/lanes/kernel.h"
+#include "certify/motion/forms_in_lanes.h"
 #include "tests/support/robots.h"
 
 namespace taut {
@@ -140,7 +140,6 @@ std::vector<std::uint64_t> bits_of(const lanes::BoxKernel<1>& kernel, const lane
   if (outcomes[2] != lanes::Outcome::kYes) return result;
   add(box.q0);
   add(box.q);
-  add(box.w);
   if (outcomes[3] != lanes::Outcome::kYes) return result;
   add(box.nominal);
   add(box.spread);
@@ -182,6 +181,127 @@ TEST(Lanes, AllLevelsOfTheProcessorGiveTheSameBits) {
     }
   }
   EXPECT_GT(sound, kBoxes / 2);
+}
+
+// ---- Several variables ----------------------------------------------------------------------------------------------
+
+/// `pose` as a function of N variables: number `which` is t, and on the others, whose extent is anything, it does not
+/// depend.
+template <int N>
+lanes::PoseForms<N> among(const lanes::PoseForms<1>& pose, int which) {
+  lanes::PoseForms<N> result;
+  const auto set = [&](const lanes::Form<1>& from, lanes::Form<N>& to) {
+    to.at_mid = from.at_mid;
+    to.range = from.range;
+    for (int k = 0; k < N; ++k) to.slope[k] = k == which ? from.slope[0] : lanes::Ends{0, 0};
+  };
+  for (int i = 0; i < 3; ++i) {
+    set(pose.p[i], result.p[i]);
+    for (int j = 0; j < 3; ++j) set(pose.r[i][j], result.r[i][j]);
+  }
+  for (int k = 0; k < N; ++k) result.radius[k] = k == which ? pose.radius[0] : 0.37;
+  return result;
+}
+
+/// Whether lengths and tensions of N variables are those of one, bit for bit.
+template <int N>
+void expect_as_of_one(const lanes::Kernels& kernels, const lanes::BoxKernel<N>& kernel, const lanes::Machine& machine,
+                      const lanes::PoseForms<1>& pose, const lanes::Ends (&wrench)[6], int which) {
+  using lanes::Outcome;
+  lanes::Box<1> one;
+  lanes::Box<N> many;
+  std::array<Outcome, 4> of_one{}, of_many{};
+  const auto run = [&](const auto& by, const auto& forms, auto& box, std::array<Outcome, 4>& outcomes) {
+    return run_upward([&] {
+      outcomes[0] = by.enclose_geometry(machine, forms, box);
+      if (outcomes[0] == Outcome::kYes) outcomes[1] = by.precondition(box);
+      if (outcomes[1] == Outcome::kYes) outcomes[2] = by.bound_inverse(box);
+      if (outcomes[2] == Outcome::kYes) outcomes[3] = by.enclose_tensions(machine, wrench, box);
+    });
+  };
+  of_one.fill(Outcome::kNo);
+  of_many.fill(Outcome::kNo);
+  const bool is_sound = run(kernels.box, pose, one, of_one);
+  ASSERT_EQ(run(kernel, among<N>(pose, which), many, of_many), is_sound);
+  ASSERT_EQ(of_many, of_one);
+  if (!is_sound || of_one[3] != Outcome::kYes) return;
+  const auto expect_same = [&](const lanes::FormRow<1>& a, const lanes::FormRow<N>& b) {
+    for (std::size_t i = 0; i < kCables; ++i) {
+      expect_equal(lanes_detail::interval(a.at_mid, i), lanes_detail::interval(b.at_mid, i), "at m");
+      expect_equal(lanes_detail::interval(a.range, i), lanes_detail::interval(b.range, i), "range");
+      for (int k = 0; k < N; ++k) {
+        expect_equal(k == which ? lanes_detail::interval(a.slope[0], i) : Interval(0.0),
+                     lanes_detail::interval(b.slope[k], i), "slope");
+      }
+    }
+  };
+  EXPECT_EQ(many.enclosed, one.enclosed);
+  expect_same(one.length, many.length);
+  expect_same(one.nominal, many.nominal);
+  expect_same(one.spread, many.spread);
+  expect_same(one.low, many.low);
+  expect_same(one.high, many.high);
+}
+
+/// What Farkas's test compares, as bits.
+template <int N>
+std::vector<double> work_of(const lanes::BoxKernel<N>& kernel, const lanes::Machine& machine,
+                            const lanes::PoseForms<N>& pose, const lanes::Ends (&wrench)[6]) {
+  lanes::Box<N> box;
+  lanes::WorkRow work;
+  lanes::Ends density[kCables];
+  for (int j = 0; j < kCables; ++j) density[j] = {-(j + 1.0), 10.0 + j};
+  bool is_known = false;
+  const bool is_sound = run_upward([&] {
+    is_known = kernel.enclose_geometry(machine, pose, box) == lanes::Outcome::kYes &&
+               kernel.precondition(box) == lanes::Outcome::kYes;
+    if (is_known) kernel.compare_work(machine, wrench, density, box, work);
+  });
+  std::vector<double> result = {is_sound ? 1.0 : 0.0, is_known ? 1.0 : 0.0};
+  if (!is_sound || !is_known) return result;
+  for (const lanes::Row* row : {&work.least, &work.greatest, &work.sum.minus_lower, &work.sum.upper}) {
+    result.insert(result.end(), row->x, row->x + kCables);
+  }
+  return result;
+}
+
+TEST(Lanes, OfSeveralVariablesGiveWhatOneGivesAndTheSameOnAllLevels) {
+  const ProofModel<Interval> model = make_proof_model(skewed(testing::robot1_slice()));
+  lanes::Ends wrench[6];
+  for (int j = 0; j < 6; ++j) wrench[j] = lanes_detail::ends(model.model.wrench(j));
+  std::mt19937_64 random(5);
+  int compared = 0;
+  for (int n = 0; n < 300 && !::testing::Test::HasFailure(); ++n) {
+    const RandomBox at(random);
+    const Segment segment = Segment::straight(at.from, at.to);
+    lanes::PoseForms<1> pose;
+    const double radius = at.box.radius();
+    ASSERT_TRUE(run_upward([&] {
+      const auto motion = undisturbed_motion(model, segment, enclose<Interval>(at.box), Interval(-radius, radius));
+      pose = lanes_pose<1>(motion.p_WP, motion.r_WP);
+      pose.radius[0] = radius;
+    }));
+    std::vector<double> first_of_two, first_of_three;
+    for (const Level level : kLevels) {
+      const lanes::Kernels* const kernels = lanes::kernels_of(level);
+      if (kernels == nullptr) continue;
+      for (const int which : {0, 1}) {
+        expect_as_of_one<2>(*kernels, kernels->cell_of_two, *model.lanes, pose, wrench, which);
+        expect_as_of_one<3>(*kernels, kernels->cell_of_three, *model.lanes, pose, wrench, 2 * which);
+      }
+      const auto of_two = work_of<2>(kernels->cell_of_two, *model.lanes, among<2>(pose, 1), wrench);
+      const auto of_three = work_of<3>(kernels->cell_of_three, *model.lanes, among<3>(pose, 1), wrench);
+      if (first_of_two.empty()) {
+        first_of_two = of_two;
+        first_of_three = of_three;
+      }
+      EXPECT_EQ(of_two, first_of_two) << lanes::name(level);
+      EXPECT_EQ(of_three, first_of_three) << lanes::name(level);
+      EXPECT_EQ(of_three, of_two);
+      if (of_two.size() > 2) ++compared;
+    }
+  }
+  EXPECT_GT(compared, 200);
 }
 
 TEST(Lanes, TheSelfTestPassesRoundingUpwardAndFailsRoundingToNearest) {

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <random>
 #include <tuple>
+#include <vector>
 
+#include "certify/motion/pose_in_lanes.h"
 #include "certify/path_proof.h"
 #include "certify/prover.h"
 #include "kinematics/pose_conversion.h"
@@ -142,6 +144,97 @@ TEST(HeldMotion, BoxesEncloseThePosesThatTheLengthsImply) {
     }
   }
   EXPECT_GT(enclosed, 50);
+}
+
+/// Binary64 numbers as exact ones.
+MpInterval exactly(const Interval& x) { return {BigFloat(x.lower()), BigFloat(x.upper())}; }
+
+bool contains(const MpInterval& outer, const MpInterval& inner) {
+  return !(inner.lower() < outer.lower()) && !(outer.upper() < inner.upper());
+}
+
+/// Calls `look` with each number of a pose over a box and what is known of it at a point of the box.
+template <class F>
+void for_each_number(const MotionEnclosure<Interval>& box, const MotionEnclosure<MpInterval>& point, const F& look) {
+  for (int i = 0; i < 3; ++i) {
+    look(box.p_WP(i), point.p_WP(i).range);
+    for (int j = 0; j < 3; ++j) look(box.r_WP(i, j), point.r_WP(i, j).range);
+  }
+}
+
+/// In lanes and by the templates: the centred forms hold what 200 bits say of points of the box.
+TEST(HeldMotion, BoxesEncloseWhatTwoHundredBitsSay) {
+  const Step step(kStart, kFar);
+  const PrecisionScope precision(200);
+  const ProofModel<MpInterval> fine = make_mp_proof_model(step.problem);
+  const ProofModel<Interval> in_lanes = make_proof_model(step.problem);
+  ProofModel<Interval> templates = make_proof_model(step.problem);
+  ASSERT_TRUE(in_lanes.lanes);
+  templates.lanes.reset();
+  std::mt19937_64 random(3);
+  int enclosed = 0;
+  for (int n = 0; n < 25; ++n) {
+    const int depth = std::uniform_int_distribution<int>(3, 12)(random);
+    const DyadicBox box{std::uniform_int_distribution<int>(0, (1 << depth) - 1)(random), depth};
+    const double radius = box.radius();
+    for (const ProofModel<Interval>* model : {&in_lanes, static_cast<const ProofModel<Interval>*>(&templates)}) {
+      MotionEnclosure<Interval> motion;
+      const bool is_sound = run_upward([&] {
+        motion = undisturbed_motion(*model, step.segment, enclose<Interval>(box), Interval(-radius, radius));
+      });
+      if (!is_sound || !motion.is_enclosed()) continue;
+      ++enclosed;
+      for (const double h : {-1.0, -0.375, 0.0, 0.5, 1.0}) {
+        const MpInterval s(box.mid().approx() + h * radius);  // exact
+        const auto point = undisturbed_motion(fine, step.segment, {s, s}, MpInterval(0.0));
+        ASSERT_EQ(point.status, MotionEnclosure<MpInterval>::Status::kKnown);
+        for_each_number(motion, point, [&](const SlopeForm<Interval>& form, const MpInterval& value) {
+          EXPECT_TRUE(contains(exactly(form.range), value));
+          EXPECT_TRUE(h != 0 || contains(exactly(form.at_mid), value));
+          EXPECT_TRUE(contains(exactly(form.at_mid) + exactly(form.slope) * MpInterval(h * radius), value));
+        });
+      }
+    }
+  }
+  EXPECT_GT(enclosed, 20);
+}
+
+TEST(HeldMotion, AllLevelsFindTheSamePose) {
+  const Step step(kStart, kFar);
+  const ProofModel<Interval>& model = step.prover.model();
+  std::mt19937_64 random(4);
+  int enclosed = 0;
+  for (int n = 0; n < 400; ++n) {
+    const int depth = std::uniform_int_distribution<int>(2, 20)(random);
+    const DyadicBox box{std::uniform_int_distribution<int>(0, (1 << depth) - 1)(random), depth};
+    const auto found = [&](lanes::Level level, std::vector<double>& numbers) {
+      MotionEnclosure<Interval> motion;
+      const bool is_sound = run_upward([&] {
+        const EnclosedBox<Interval> s = enclose<Interval>(box);
+        motion = forward_kinematics_in_lanes(*lanes::kernels_of(level), *model.lanes, model.model, step.segment,
+                                             s.range, s.mid, Interval(-box.radius(), box.radius()));
+      });
+      numbers = {static_cast<double>(motion.status), is_sound ? 1.0 : 0.0};
+      if (!is_sound || !motion.is_enclosed()) return false;
+      const auto add = [&](const SlopeForm<Interval>& x) {
+        for (const Interval& end : {x.at_mid, x.slope, x.range})
+          numbers.insert(numbers.end(), {end.lower(), end.upper()});
+      };
+      for (int i = 0; i < 3; ++i) {
+        add(motion.p_WP(i));
+        for (int j = 0; j < 3; ++j) add(motion.r_WP(i, j));
+      }
+      return true;
+    };
+    std::vector<double> first, other;
+    enclosed += found(lanes::Level::kSse2, first) ? 1 : 0;
+    for (const lanes::Level level : {lanes::Level::kAvx2, lanes::Level::kAvx512}) {
+      if (lanes::kernels_of(level) == nullptr) continue;
+      static_cast<void>(found(level, other));
+      ASSERT_EQ(other, first) << lanes::name(level) << ", box " << n;
+    }
+  }
+  EXPECT_GT(enclosed, 200);
 }
 
 TEST(HeldMotion, ABoxAcrossAnInnerPoseIsSplit) {

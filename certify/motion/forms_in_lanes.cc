@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "certify/box_in_lanes.h"
+#include "certify/motion/forms_in_lanes.h"
 
 namespace taut {
 namespace {
