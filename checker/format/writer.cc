@@ -28,7 +28,7 @@ Json to_json(const Direction& direction) {
   return {direction.axes == Axes::kWorld ? "W" : "P", x, y, z};
 }
 
-Json to_json(const Apart& apart) {
+Json apart_to_json(const Apart& apart) {
   Json result = Json::array();
   for (const std::optional<std::size_t>& direction : apart) {
     result.push_back(direction ? Json(*direction) : Json(nullptr));
@@ -36,7 +36,7 @@ Json to_json(const Apart& apart) {
   return result;
 }
 
-Json to_json(const ApartChanges& changes) {
+Json apart_to_json(const ApartChanges& changes) {
   Json result = Json::array();
   for (const auto& [pair, direction] : changes) result.push_back({pair, direction});
   return result;

@@ -36,9 +36,13 @@ class Hints {
     for (std::size_t k = 0; k < certificate_.segment_texts.size(); ++k) {
       const checker::Segment segment = certificate_.segment(k);
       json boxes = json::array();
-      for (const Box& box : segment.boxes) {
+      for (std::size_t i = 0; i < segment.boxes.size(); ++i) {
+        apart_ = segment.apart_of(i);
         const auto proves = [&](Box& part, std::size_t rung) { return prove(k, segment.margins, part, rung); };
-        for (const Box& part : cover(k, box, proves)) boxes.push_back(to_json(part, has_tolerances()));
+        for (const Box& part : cover(k, segment.boxes[i], proves)) {
+          boxes.push_back(to_json(part, has_tolerances()));
+          if (!segment.changes[i].empty()) boxes.back()["apart"] = checker::apart_to_json(segment.changes[i]);
+        }
       }
       result_["segments"][k]["boxes"] = std::move(boxes);
     }
@@ -108,13 +112,14 @@ class Hints {
       const checker::WorkingPrecision precision(box.bits);
       const checker::Machine& machine = this->machine(box.bits);
       if (!place(k, box)) return false;
-      const checker::Bounds bounds = prove_box(machine, problem(), path(), k, box);
+      const checker::Bounds bounds = prove_box(machine, problem(), path(), k, box, apart_);
       require_near_waypoints(machine, problem(), path(), k, box);
       const auto is_kept = [](const checker::Ball& bound, const mpq_class& claimed) {
         return certainly_nonnegative(bound - checker::Ball(claimed));
       };
       return is_kept(bounds.tension, margins.tension) && is_kept(bounds.length, margins.length) &&
-             is_kept(bounds.wrench_scale, margins.wrench_scale);
+             is_kept(bounds.wrench_scale, margins.wrench_scale) &&
+             (!bounds.clearance || is_kept(*bounds.clearance, margins.clearance));
     });
   }
 
@@ -280,7 +285,11 @@ class Hints {
         }
         if (is_first) witness = tried;
         is_first = false;
-        confirm_violation(machine, problem(), path(), tried);
+        if (tried.kind == checker::WitnessKind::kContact) {
+          confirm_contact(machine, problem(), path(), tried);
+        } else {
+          confirm_violation(machine, problem(), path(), tried);
+        }
         return true;
       });
       if (!holds) continue;
@@ -292,6 +301,7 @@ class Hints {
   checker::Certificate certificate_;
   json result_;
   std::map<int, std::unique_ptr<checker::Machine>> machines_;
+  checker::Apart apart_;  ///< of the box that is proved
   int work_ = 0;
   bool gave_up_ = false;  ///< once something is false, it does not matter what else is
 };

@@ -846,6 +846,241 @@ def grazing():
         {'from': 0, 'to': 1, 'boxes': halve(Fraction(0), Fraction(1), 0), 'margins': margins}])
 
 
+def corners(x, y, z):
+    """Of a box with these half-sides, as texts."""
+    return [[('' if a else '-') + x, ('' if b else '-') + y, ('' if c else '-') + z]
+            for a in (0, 1) for b in (0, 1) for c in (0, 1)]
+
+
+BODIES = {
+    'platform': [
+        {'name': 'plate', 'at_m': ['0', '0', '0.03'],
+         'hull': {'points_m': [['-0.09', '0.05', '0'], ['0.09', '0.05', '0'], ['0', '-0.1', '0']], 'radius_m': '0.005'}},
+        {'name': 'tool', 'clearance_m': '0.004', 'at_m': ['0', '0', '0.06'], 'rotation_rad': ['0', 'pi/6', '-(20)*pi/180'],
+         'hull': {'points_m': corners('0.02', '0.01', '0.03'), 'radius_m': '0'}}],
+    'obstacles': [
+        {'name': 'ground', 'at_m': ['0.1', '-3', '-0.05'], 'half_space': {'normal': ['0.01', '0', '3']}},
+        {'name': 'stack', 'at_m': ['0.42', '0.1', '0.2'], 'rotation_rad': ['0.1', '0', '0.5'],
+         'hull': {'points_m': corners('0.1', '0.08', '0.15'), 'radius_m': '0.002'}},
+        {'name': 'mast', 'at_m': ['-0.3', '0.3', '0'],
+         'hull': {'points_m': [['0', '0', '0'], ['0', '0', '0.9']], 'radius_m': '0.03'}}],
+    'cables': {'diameter_m': ['0.002'] * 5 + ['0.001'], 'free_ends_m': [['0.05', '0.04']] * 6},
+    'clearance_m': {'platform-obstacles': '0.01', 'cables-obstacles': '0.005', 'cables-cables': '0.0001',
+                    'cables-platform': '0'},
+    'pair_clearances_m': [{'pair': ['cable 2', 'cable 1'], 'clearance_m': '0.002'},
+                          {'pair': ['tool', 'ground'], 'clearance_m': '0.02'}]}
+
+CLASSES = ('platform-obstacles', 'cables-obstacles', 'cables-cables', 'cables-platform')
+
+
+def pairs_of(bodies):
+    """(class, first, second, clearance) of each pair."""
+    platform, obstacles = bodies['platform'], bodies['obstacles']
+    cables = [{'name': 'cable %d' % i} for i in range(1, 7)]
+    own = {frozenset(entry['pair']): entry['clearance_m'] for entry in bodies.get('pair_clearances_m', [])}
+    result = []
+    for kind, of_first, of_second in zip(CLASSES, (platform, cables, cables, cables),
+                                         (obstacles, obstacles, cables, platform)):
+        if kind not in bodies['clearance_m']:
+            continue
+        for i, first in enumerate(of_first):
+            for j, second in enumerate(of_second):
+                if of_first is of_second and j <= i:
+                    continue
+                stated = [float(x['clearance_m']) for x in (first, second) if 'clearance_m' in x]
+                clearance = own.get(frozenset((first['name'], second['name'])),
+                                    max(stated) if stated else bodies['clearance_m'][kind])
+                result.append((kind, i, j, float(clearance)))
+    return result
+
+
+def plus(a, b, by=1.0):
+    return [x + by * y for x, y in zip(a, b)]
+
+
+def inner(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def size(a):
+    return sqrt(inner(a, a))
+
+
+def applied(A, x):
+    return [inner(row, x) for row in A]
+
+
+def placed(body):
+    """The points of a body's hull, where it is fixed; each (point, radius)."""
+    empty = {'constants': {}, 'parameters': []}
+    roll, pitch, yaw = evaluate(empty, body.get('rotation_rad', ['0'] * 3), [])
+    Q = rotation(after(about((0, 0, 1), yaw), after(about((0, 1, 0), pitch), about((1, 0, 0), roll))))
+    at = [float(x) for x in body['at_m']]
+    return [(plus(at, applied(Q, [float(x) for x in point])), float(body['hull']['radius_m']))
+            for point in body['hull']['points_m']]
+
+
+class Scene:
+    """Bodies at a pose, with what tolerances add to their radii; in W or, turned, in the axes of P."""
+
+    def __init__(self, pr, at, shift=None):
+        self.pr, self.bodies = pr, pr['bodies']
+        self.p, self.R = frame(pr, at)
+        kinds = pr['tolerances'] or tolerances()
+        angle = tolerance_of(dict(pr, tolerances=kinds), 'orientation_rad', None)
+        self.moved, self.turned = shift or (float(kinds['position_m']), angle)
+        self.tolerance = [[float(x) for x in kinds[key]] for key in ('base_anchor_m', 'platform_anchor_m')]
+        if shift:
+            self.loss = [float(kinds['cable_length_m'][i]) + self.moved + self.turned for i in range(6)]
+        else:
+            self.loss = [self.moved + self.turned + self.tolerance[0][i] + self.tolerance[1][i] for i in range(6)]
+
+    def carried(self, k, in_P):
+        if in_P:
+            return placed(self.bodies['platform'][k])
+        return [(plus(self.p, applied(self.R, x)), r + self.moved + self.turned * size(x))
+                for x, r in placed(self.bodies['platform'][k])]
+
+    def anchors(self, i):
+        number = lambda key: [float(x) for x in self.pr['robot'][key][i]]
+        return number('base_anchors_m'), number('platform_anchors_m')
+
+    def shifts(self, i, in_P):
+        a, b = self.anchors(i)
+        beta, mu = (tolerance[i] for tolerance in self.tolerance)
+        if in_P:
+            return beta + self.moved + self.turned * size(plus(a, self.p, -1)), mu
+        return beta, self.moved + self.turned * size(b) + mu
+
+    def cable(self, i, in_P, shifts=None):
+        a, b = self.anchors(i)
+        B = plus(self.p, applied(self.R, b))
+        length = size(plus(B, a, -1)) + self.loss[i]
+        x, y = shifts or self.shifts(i, in_P)
+        ends = []
+        for t in (float(self.bodies['cables']['free_ends_m'][i][0]) / length,
+                  1 - float(self.bodies['cables']['free_ends_m'][i][1]) / length):
+            point = plus([(1 - t) * u for u in a], B, t)
+            if in_P:
+                point = applied([list(row) for row in zip(*self.R)], plus(point, self.p, -1))
+            ends.append((point, (1 - t) * x + t * y + float(self.bodies['cables']['diameter_m'][i]) / 2))
+        return ends
+
+    def margin(self, pair, u, in_P):
+        """What is proved of a pair along u; of a half-space whatever u is."""
+        kind, i, j, clearance = pair
+        if kind == 'cables-cables':
+            (x1, y1), (x2, y2) = self.shifts(i, in_P), self.shifts(j, in_P)
+            choices = [((x1, y1), (x2, y2))]
+            robot = self.pr['robot']
+            for n, key in enumerate(('base_anchors_m', 'platform_anchors_m')):
+                if robot[key][i] == robot[key][j] and self.tolerance[n][i] == self.tolerance[n][j]:
+                    choices.append([((0, x1 + y1), (0, x2 + y2)), ((x1 + y1, 0), (x2 + y2, 0))][n])
+            return max(along(self.cable(i, in_P, one), self.cable(j, in_P, other), u)
+                       for one, other in choices) - clearance
+        first = self.carried(i, in_P) if kind == 'platform-obstacles' else self.cable(i, in_P)
+        if kind == 'cables-platform':
+            return along(first, self.carried(j, in_P), u) - clearance
+        body = self.bodies['obstacles'][j]
+        if 'half_space' in body:
+            n = [float(x) for x in body['half_space']['normal']]
+            wall = [([float(x) for x in body['at_m']], 0.0)]
+            return along(first, wall, n) - clearance
+        return along(first, placed(body), u) - clearance
+
+    def direction(self, pair):
+        """Integers next to the best u, in W or in P, where either serves in turn; nothing for a half-space."""
+        kind, i, j, _ = pair
+        in_P = kind == 'cables-platform' or (kind == 'cables-cables' and (i + j) % 2 == 0)
+        first = self.carried(i, in_P) if kind == 'platform-obstacles' else self.cable(i, in_P)
+        if kind.endswith('obstacles') and 'half_space' in self.bodies['obstacles'][j]:
+            return None
+        second = self.cable(j, in_P) if kind == 'cables-cables' else (
+            self.carried(j, in_P) if kind == 'cables-platform' else placed(self.bodies['obstacles'][j]))
+        u = nearest([x for x, _ in first], [x for x, _ in second])
+        largest = max(abs(x) for x in u)
+        return ['P' if in_P else 'W'] + [round(x / largest * 127) for x in u]
+
+
+def along(first, second, u):
+    """(13a) of theory.md."""
+    return (min(inner(u, x) / size(u) - r for x, r in first) - max(inner(u, x) / size(u) + r for x, r in second))
+
+
+def nearest(first, second, steps=500):
+    """About the shortest vector from a point of one hull to one of another, by the method of Frank and Wolfe."""
+    v = plus(first[0], second[0], -1)
+    for _ in range(steps):
+        w = plus(min(first, key=lambda x: inner(v, x)), max(second, key=lambda x: inner(v, x)), -1)
+        step = plus(v, w, -1)
+        if inner(step, step) == 0:
+            break
+        v = plus(v, step, -max(0.0, min(1.0, inner(v, step) / inner(step, step))))
+    return v
+
+
+def clear(c, below=0.9, shift=None, samples=24):
+    """The certificate c with bodies in its problem: told apart along directions that are best in the middle."""
+    pr, pa = c['problem'], c['path']
+    c['version'] = 5
+    pa['directions'] = []
+    pairs = pairs_of(pr['bodies'])
+    for k, segment in enumerate(c['segments']):
+        middle = Scene(pr, frame(pr, parameters(pr, pa, k, 0.5)), shift)
+        directions = [middle.direction(pair) for pair in pairs]
+        for u in directions:
+            if u is not None and u not in pa['directions']:
+                pa['directions'].append(u)
+        segment['apart'] = [None if u is None else pa['directions'].index(u) for u in directions]
+        least = min(Scene(pr, frame(pr, parameters(pr, pa, k, i / samples)), shift).margin(
+            pair, u and u[1:], u is not None and u[0] == 'P')
+            for i in range(samples + 1) for pair, u in zip(pairs, directions)) * below
+        assert least > 0, (pr['name'], k, least)
+        segment['margins']['clearance_m'] = '%.6e' % least
+    return c
+
+
+def with_bodies(pr, **changes):
+    return dict(copy.deepcopy(pr), bodies=dict(copy.deepcopy(BODIES), **changes))
+
+
+def nearest_of_cables(scene, i, j, parts=1000):
+    """The weights of the nearest points of two cables, of which those of the first are so many parts of 1."""
+    (a0, _), (a1, _) = scene.cable(i, False)
+    (b0, _), (b1, _) = scene.cable(j, False)
+    d = plus(b1, b0, -1)
+    def at(n):
+        x = plus(a0, plus(a1, a0, -1), n / parts)
+        t = max(0.0, min(1.0, inner(plus(x, b0, -1), d) / inner(d, d)))
+        return size(plus(x, plus(b0, d, t), -1)), t
+    n = min(range(parts + 1), key=lambda n: at(n)[0])
+    t = round(at(n)[1] * parts)
+    return [[str(Fraction(parts - k, parts)), str(Fraction(k, parts))] for k in (n, t)]
+
+
+def clearances():
+    """Bodies that are told apart, and two that are not."""
+    query = [['-2.3', '1.6'], ['-2.2', '1.55']]
+    near = with_bodies(problem('robot1-with-bodies', ROBOT1, SLICE, query))
+    ends = straight(waypoint([-2.3, 1.6]), waypoint([-2.25, 1.575]), waypoint([-2.2, 1.55]))
+    yield 'clearance', clear(proved(near, copy.deepcopy(ends), below=0.98))
+    of_obstacles = with_bodies(near, clearance_m={'platform-obstacles': '0.01', 'cables-obstacles': '0.005'},
+                               pair_clearances_m=BODIES['pair_clearances_m'][1:])
+    yield 'clearance_of_obstacles', clear(proved(of_obstacles, copy.deepcopy(ends), below=0.98))
+    yield 'clearance_tolerances', clear(tolerant(with_tolerances(near, **KINDS), copy.deepcopy(ends), below=0.9))
+    held = with_tolerances(near, **LESS, cable_length_m=['0.000005'] * 6)
+    yield 'clearance_held_by_lengths', clear(tolerant(held, copy.deepcopy(ends), below=0.85), shift=(0.0006, 0.003))
+
+    # Cables 5 and 6 hang from one anchor and are about 9 mm apart where their free ends are over.
+    narrow = with_bodies(problem('robot1-with-bodies', ROBOT1, SLICE, query), clearance_m=dict(
+        BODIES['clearance_m'], **{'cables-cables': '0.02'}))
+    scene = Scene(narrow, frame(narrow, [-2.25, 1.575]))
+    pa = copy.deepcopy(ends)
+    yield 'contact', certificate(narrow, dict(pa, directions=[]), 'refuted', version=5, witness={
+        'kind': 'contact', 'pair': [pair[:3] for pair in pairs_of(narrow['bodies'])].index(('cables-cables', 4, 5)),
+        'at': {'waypoint': 1}, 'weights': nearest_of_cables(scene, 4, 5)})
+
+
 # ---- files ----------------------------------------------------------------------------------------------------------
 
 def differences(kept, made, at=''):
@@ -868,7 +1103,7 @@ def nearly_equal(a, b):
 def main(check):
     wrong, names = [], set()
     for topic in (in_parameters, other_angles, splines, implied, between_given_poses, tolerated, stretches,
-                  held_deviations, grazing):
+                  held_deviations, grazing, clearances):
         for name, certificate in topic():
             names.add(name)
             file = os.path.join(BASES, name + '.json')

@@ -15,15 +15,24 @@ def claims():
     return {verdict.lower(): ''.join(re.findall('"([^"]*)"', texts)) for verdict, texts in found}
 
 
-def items_clause():
-    """What follows a claim where the load has items."""
+def text_of(name):
+    """A text of claims.h."""
     with open(CLAIMS_FILE, encoding='utf-8') as f:
-        texts = re.search(r'char\* kItemsClause =((?:\s*"[^"]*")+);', f.read()).group(1)
+        texts = re.search(r'char\* %s =((?:\s*"[^"]*")+);' % name, f.read()).group(1)
     return ''.join(re.findall('"([^"]*)"', texts))
 
 
+def bodies_clause(verdict, bodies):
+    """What follows a claim where there are bodies."""
+    names = ('platform-obstacles', 'cables-obstacles', 'cables-cables', 'cables-platform')
+    checked = [n for n in names if n in bodies['clearance_m']]
+    return '%s%s Pairs that are checked: %s. Pairs that are not checked: %s.' % (
+        text_of('kClearClause' if verdict == 'proved' else 'kContactClause'), text_of('kBodiesClause'),
+        ', '.join(checked) or 'none', ', '.join(n for n in names if n not in checked) or 'none')
+
+
 CLAIMS = claims()
-ITEMS_CLAUSE = items_clause()
+ITEMS_CLAUSE = text_of('kItemsClause')
 
 
 def box(lower, upper):
@@ -45,7 +54,8 @@ def digest(value):
 
 def least_margins(segments):
     """The margins of a proved path: the least of its segments'."""
-    return {key: min((s['margins'][key] for s in segments), key=float) for key in MARGINS}
+    return {key: min((s['margins'][key] for s in segments), key=float)
+            for key in MARGINS + ('clearance_m',) if all(key in s['margins'] for s in segments)}
 
 
 def seal(certificate, keep=()):
@@ -55,6 +65,9 @@ def seal(certificate, keep=()):
     if 'claim' not in keep:
         has_items = c['verdict'] != 'undecided' and 'items' in c['problem']['load']
         c['claim'] = CLAIMS[c['verdict']] + (ITEMS_CLAUSE if has_items else '')
+        bodies = c['problem'].get('bodies')
+        if c['verdict'] != 'undecided' and isinstance(bodies, dict) and isinstance(bodies.get('clearance_m'), dict):
+            c['claim'] += bodies_clause(c['verdict'], bodies)
     if 'margins' not in keep:
         c['margins'] = least_margins(claimed) if c['verdict'] == 'proved' and claimed else {}
     c['problem_sha256'] = digest(c['problem'])

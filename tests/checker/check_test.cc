@@ -130,8 +130,8 @@ TEST(Checker, ComparesWithTheCase) {
 
 TEST(Checker, ConfirmsEachMarginUpToWhatTheBoxesProve) {
   // Halving the doubt, each margin is confirmed up to one number, and denied from there on.
-  for (const std::string margin : {"tension_N", "length_m", "wrench_scale"}) {
-    nlohmann::json json = accepted("robot1_near_goal");
+  for (const std::string margin : {"tension_N", "length_m", "wrench_scale", "clearance_m"}) {
+    nlohmann::json json = accepted(margin == "clearance_m" ? "clearance" : "robot1_near_goal");
     const double stated = std::stod(json["margins"][margin].get<std::string>());
     const auto outcome_of = [&](double value) {
       char text[32];

@@ -82,7 +82,7 @@ TEST(Mutation, WithoutNewDigestsNothingPasses) {
   for (const char* name :
        {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped", "implied_start_is_goal",
         "refuted_implied_singular", "geodesic_still", "lengths_still", "lengths_inner_still", "tight_position",
-        "refuted_by_a_deviation", "refuted_by_held_anchors_and_lengths", "loads_exact", "refuted_by_loads"}) {
+        "refuted_by_a_deviation", "refuted_by_held_anchors_and_lengths", "loads_exact", "refuted_by_loads", "contact"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
       EXPECT_EQ(check(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
@@ -196,6 +196,17 @@ TEST(Mutation, OfLawsOfPosesOnlyTrueStatementsPass) {
   expect_accepted_mutants(
       "lengths_inner_still", "/path",
       {minus_zero, {"-0 is 0.", std::regex("/path/pose_tubes/0/inner/0/position/.: changes its sign"), true}});
+}
+
+TEST(Mutation, OfBodiesOnlyTrueStatementsPass) {
+  expect_accepted_mutants("contact", "/witness",
+                          {{"They are in contact at the other waypoints, too.", std::regex("/witness/at/waypoint: .*")},
+                           {"-0 is 0.", std::regex("/witness/weights/./.: changes its sign"), true}});
+  // A direction only says how: whatever it is, what is claimed is proved along it, or not at all.
+  expect_accepted_mutants("clearance_of_obstacles", "/segments/0/apart",
+                          {{"Another direction will do.", std::regex("/segments/0/apart/.*: (plus .*|becomes 0)")}});
+  expect_accepted_mutants("clearance_of_obstacles", "/problem/bodies/clearance_m",
+                          {{"A smaller clearance.", std::regex("/.*: (becomes 1e-400|changes its sign)")}});
 }
 
 /// What is left when all that only says how is left out.
