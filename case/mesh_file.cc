@@ -17,9 +17,11 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 
 #include "base/input_error.h"
+#include "base/sanitize.h"
 #include "base/sha256.h"
 #include "problem/rational.h"
 
@@ -28,32 +30,150 @@ namespace {
 
 [[noreturn]] void fail(const std::string& message) { throw InputError(ErrorCode::kCase, message); }
 
-/// A binary STL file says how many triangles follow, of 50 bytes each; CGAL would make room for as many as it says.
-bool is_cut_stl(const std::string& content) {
-  constexpr std::size_t kHead = 84;
-  if (content.starts_with("solid") && content.find("facet") != std::string::npos) return false;
-  if (content.size() < kHead) return true;
-  std::uint32_t count = 0;
+// --- Files -------------------------------------------------------------------------------------------------------
+//
+// CGAL reads them, but leaves out without a word what it does not know. What would be lost is refused.
+
+constexpr std::size_t kStlHead = 84;   ///< of a binary STL file, with the count of triangles in its last 4 bytes
+constexpr std::size_t kStlPiece = 50;  ///< a triangle: normal, corners, two bytes
+
+bool is_text_stl(const std::string& bytes) {
+  return bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
+}
+
+std::uint32_t little_endian(const std::string& bytes, std::size_t at) {
+  std::uint32_t number = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    count |= static_cast<std::uint32_t>(static_cast<unsigned char>(content[kHead - 4 + i])) << (8 * i);
+    number |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
   }
-  return content.size() < kHead + 50 * static_cast<std::size_t>(count);
+  return number;
+}
+
+/// A binary STL file says how many triangles follow; CGAL would make room for as many as it says.
+bool is_cut_stl(const std::string& bytes) {
+  if (is_text_stl(bytes)) return false;
+  if (bytes.size() < kStlHead) return true;
+  return bytes.size() < kStlHead + kStlPiece * static_cast<std::size_t>(little_endian(bytes, kStlHead - 4));
+}
+
+/// CGAL takes a point that is no number for one that it has read before. @pre !is_cut_stl
+void require_numbers(const std::string& bytes) {
+  const std::size_t count = little_endian(bytes, kStlHead - 4);
+  for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t k = 3; k < 12; ++k) {
+      if (std::isfinite(std::bit_cast<float>(little_endian(bytes, kStlHead + kStlPiece * t + 4 * k)))) continue;
+      fail(fmt::format("in which a coordinate of triangle {} is no number, expected a mesh", t + 1));
+    }
+  }
+}
+
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::size_t count_words(const std::string& bytes, const std::string& word) {
+  std::istringstream stream(bytes);
+  std::size_t count = 0;
+  for (std::string each; stream >> each;) count += lower_case(each) == word;
+  return count;
+}
+
+/// Whether a word of a face in an OBJ file is a corner: "3", "-1", "3/1/2", "3//2".
+bool is_corner(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return !word.empty() && std::isdigit(static_cast<unsigned char>(word.front())) != 0 &&
+         word.find_first_not_of("-0123456789/") == std::string_view::npos &&
+         word.substr(0, word.find('/')).find('-') == std::string_view::npos;
+}
+
+/// Refuses faces with words that are no corners, behind which CGAL leaves out the rest, and surfaces of other kinds.
+void require_plain_faces(const std::string& bytes) {
+  std::istringstream lines(bytes);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word)) continue;
+    for (const char* curved : {"surf", "bsp", "bzp", "cdc", "cdp"}) {
+      if (word == curved) fail(fmt::format("which has a curved surface in line {}, expected a mesh", number));
+    }
+    if (word != "f") continue;
+    while (words >> word && !word.starts_with('#')) {
+      if (!is_corner(word)) fail(fmt::format("in which line {} is no face, expected a mesh", number));
+    }
+  }
+}
+
+/// Refuses a PLY file whose points lack a coordinate, or with elements such as strips of triangles.
+void require_plain_elements(const std::string& bytes) {
+  std::istringstream lines(bytes);
+  std::set<std::string> coordinates;
+  std::string element;
+  for (std::string line; std::getline(lines, line) && !line.starts_with("end_header");) {
+    std::istringstream words(line);
+    std::string word, type, name;
+    words >> word;
+    if (word == "element") {
+      words >> element;
+      constexpr std::array<const char*, 5> kKnown = {"vertex", "vertices", "face", "faces", "edge"};
+      if (std::ranges::find(kKnown, element) == kKnown.end()) {
+        fail(fmt::format("which has elements that are called '{}', expected points and faces", excerpt(element)));
+      }
+    }
+    if (word != "property" || !element.starts_with("vert") || !(words >> type >> name)) continue;
+    if (type.starts_with("float") || type.starts_with("double")) coordinates.insert(name);
+  }
+  for (const char* coordinate : {"x", "y", "z"}) {
+    if (!coordinates.contains(coordinate)) {
+      fail(fmt::format("in which points have no floating-point number '{}', expected a mesh", coordinate));
+    }
+  }
 }
 
 using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
+
+/// Refuses a file of which CGAL would lose a part, or would crash. @pre it is not cut, if it is a binary STL file
+void require_plain(const std::string& extension, const std::string& bytes) {
+  if (extension == ".obj") {
+    require_plain_faces(bytes);
+  } else if (extension == ".ply") {
+    require_plain_elements(bytes);
+  } else if (!is_text_stl(bytes)) {
+    require_numbers(bytes);
+  }
+}
 
 bool read_by_cgal(const std::string& extension, const std::string& bytes, std::vector<CgalPoint>& points,
                   std::vector<std::vector<std::size_t>>& faces) {
   std::istringstream stream(bytes, std::ios::binary);
   const auto quietly = CGAL::parameters::verbose(false);
   try {
-    if (extension == ".stl") return !is_cut_stl(bytes) && CGAL::IO::read_STL(stream, points, faces, quietly);
     if (extension == ".obj") return CGAL::IO::read_OBJ(stream, points, faces, quietly);
-    return CGAL::IO::read_PLY(stream, points, faces, quietly);
+    if (extension == ".ply") return CGAL::IO::read_PLY(stream, points, faces, quietly);
+    if (!CGAL::IO::read_STL(stream, points, faces, quietly)) return false;
+    return is_text_stl(bytes) ? count_words(bytes, "vertex") == 3 * faces.size()
+                              : little_endian(bytes, kStlHead - 4) == faces.size();
   } catch (const std::exception&) {  // of a file that promises what it does not hold
     return false;
   }
 }
+
+/// Reads a whole file. False if it is none.
+bool read_file(const std::string& extension, const std::string& bytes, std::vector<CgalPoint>& points,
+               std::vector<std::vector<std::size_t>>& faces) {
+  if (extension == ".stl" && is_cut_stl(bytes)) return false;
+  require_plain(extension, bytes);
+  if (extension == ".obj" && bytes.find('\t') != std::string::npos) {  // CGAL does not take tabs in faces for blanks
+    std::string with_blanks = bytes;
+    std::ranges::replace(with_blanks, '\t', ' ');
+    return read_by_cgal(extension, with_blanks, points, faces);
+  }
+  return read_by_cgal(extension, bytes, points, faces);
+}
+
+// --- Repair ------------------------------------------------------------------------------------------------------
 
 using Vertex = std::array<double, 3>;
 using Corners = std::array<std::uint32_t, 3>;
@@ -146,9 +266,7 @@ class Repair {
     corners_.reserve(count);
     for (const std::vector<std::size_t>& face : soup_.faces) {
       for (const std::size_t i : face) {
-        if (i >= soup_.points.size()) {
-          fail(fmt::format("in which corner {} is missing, expected a mesh", i + 1));
-        }
+        if (i >= soup_.points.size()) fail("in which a face has a corner that is missing, expected a mesh");
       }
       if (face.size() < 3) fail(fmt::format("in which a face has {} corners, expected a mesh", face.size()));
       const auto corner = [&](std::size_t k) { return static_cast<std::uint32_t>(face[k]); };
@@ -293,10 +411,7 @@ class Repair {
 }  // namespace
 
 std::string extension_of(const std::string& name) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(std::filesystem::path(name).extension().string());
 }
 
 bool is_mesh_name(const std::string& name) {
@@ -324,7 +439,7 @@ std::string mesh_bytes(const std::filesystem::path& path) {
 PolygonSoup read_polygons(const std::string& extension, const std::string& bytes) {
   std::vector<CgalPoint> points;
   PolygonSoup soup;
-  if (!read_by_cgal(extension, bytes, points, soup.faces)) {
+  if (!read_file(extension, bytes, points, soup.faces)) {
     fail(fmt::format("which is no whole {} file, expected a mesh", extension.substr(1)));
   }
   soup.points.reserve(points.size());

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes in files: STL (binary and text), OBJ and PLY, read by CGAL.
 //
-// A mesh is the union of its triangles. A coordinate is the binary64 number nearest to what the file says, in the unit
-// of the file, which the file does not know. A face with more than three corners is split into triangles around its
-// first corner; their union contains the face, if it is flat. Repair takes nothing away from that union.
+// A mesh is the union of its triangles. A coordinate is the binary64 number nearest to what the file says, or the
+// binary32 number where the file says that its numbers are such, in a unit that the file does not know. A face with
+// more than three corners is split into triangles around its first corner; their union contains the face, if it is
+// flat. Repair takes nothing away from that union.
 #pragma once
 
 #include <array>

@@ -229,12 +229,44 @@ TEST_F(MeshFiles, ThatAreNoMeshesAreRejected) {
   expect_rejected("cut.stl", binary_stl(3, std::vector<float>(18, 1.0F)), "which is no whole stl file");
   expect_rejected("lie.stl", binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)), "which is no whole stl file");
   expect_rejected("nan.stl", binary_stl(1, std::vector<float>(9, kNan)), "is no number");
+  expect_rejected("negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "expected a mesh");
   expect_rejected("inf.stl", binary_stl(1, std::vector<float>(9, 1 / 0.0F)), "is no number");
   expect_rejected("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "expected a mesh");
   expect_rejected("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "expected a mesh");
   expect_rejected("far.obj", "v 0 0 0\nv 2e9 0 0\nv 0 1 0\nf 1 2 3\n", "point 2 is farther away than 1e+09");
   expect_rejected("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "no triangle has three different corners");
   expect_rejected("huge.stl", std::string(kMostMeshBytes + 1, 'x'), "expected a mesh of at most 64 MB");
+}
+
+TEST_F(MeshFiles, OfWhichCgalWouldLoseAPartAreRejected) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+  EXPECT_EQ(load("tabs.obj", points + "f 1 2\t4 3\n").mesh.triangles.size(), 2U);
+  EXPECT_EQ(load("plain.obj", points + "f 1/1/1 2//2 -1 3 # four\r\n").mesh.triangles.size(), 2U);
+  expect_rejected("word.obj", points + "f 1 2 3 x 4\n", "in which line 5 is no face");
+  expect_rejected("joined.obj", points + "f 1 2 3-4 1\n", "in which line 5 is no face");
+  expect_rejected("curved.obj", points + "f 1 2 3\nsurf 0 1 0 1 1 2 3 4\n", "a curved surface in line 6");
+  // One corner of the second triangle is no number.
+  std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0};
+  EXPECT_EQ(load("good.stl", binary_stl(2, corners)).mesh.triangles.size(), 2U);
+  corners[10] = std::numeric_limits<float>::quiet_NaN();
+  expect_rejected("nan.stl", binary_stl(2, corners), "a coordinate of triangle 2 is no number");
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  std::string other = facet;
+  other.replace(other.find("facet"), 5, "Facet");
+  EXPECT_EQ(load("a.stl", "solid s\n" + facet + "endsolid s\n").mesh.triangles.size(), 1U);
+  expect_rejected("b.stl", "solid s\n" + facet + other + "endsolid s\n", "which is no whole stl file");
+  const auto ply = [](const std::string& z, const std::string& more) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty float y\n" + z +
+           "element face 1\nproperty list uchar int vertex_indices\n" + more + "end_header\n";
+  };
+  EXPECT_EQ(load("a.ply", ply("property double z\n", "") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").mesh.triangles.size(), 1U);
+  expect_rejected("z.ply", ply("", "") + "0 0\n1 0\n0 1\n3 0 1 2\n", "no floating-point number 'z'");
+  expect_rejected("int.ply", ply("property int z\n", "") + "0 0 0\n1 0 0\n0 1 5\n3 0 1 2\n", "number 'z'");
+  expect_rejected("strip.ply",
+                  ply("property double z\n", "element tristrips 1\nproperty list int int vertex_indices\n") +
+                      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
+                  "elements that are called 'tristrips'");
 }
 
 TEST(MeshLimits, AreOnTriangles) {

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/summary/bodies_statement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/plural.h"
+#include "problem/expression.h"
+#include "problem/rational.h"
+#include "reports/summary/load_statement.h"
+#include "reports/summary/numbers.h"
+
+namespace taut {
+namespace {
+
+using ExactPoint = std::array<Rational, 3>;
+
+ExactPoint exact_point(const PointText& point) {
+  return {parse_rational(point[0]), parse_rational(point[1]), parse_rational(point[2])};
+}
+
+/// Lengths from 1 m on are in m, smaller ones in mm; all are exact.
+struct LengthUnit {
+  const char* name;
+  int per_metre;
+  explicit LengthUnit(const Rational& largest)
+      : name(largest == 0 || largest >= 1 ? "m" : "mm"), per_metre(largest == 0 || largest >= 1 ? 1 : 1000) {}
+  [[nodiscard]] std::string text(const Rational& metres) const { return rational_text(metres * per_metre); }
+};
+
+/// "200 mm", "0 m"
+std::string exact_length(const Rational& metres) {
+  const LengthUnit unit(abs(metres));
+  return fmt::format("{} {}", unit.text(metres), unit.name);
+}
+std::string exact_length(const DecimalText& metres) { return exact_length(parse_rational(metres)); }
+
+Rational largest_of(const ExactPoint& point) {
+  return std::max({Rational(abs(point[0])), Rational(abs(point[1])), Rational(abs(point[2]))});
+}
+
+/// "(0, 1, 1.3) m"
+std::string exact_place(const ExactPoint& point) {
+  const LengthUnit unit(largest_of(point));
+  return fmt::format("({}, {}, {}) {}", unit.text(point[0]), unit.text(point[1]), unit.text(point[2]), unit.name);
+}
+
+/// "2.4 × 6.1 × 2.6 m"
+std::string exact_sides(const ExactPoint& sides) {
+  const LengthUnit unit(largest_of(sides));
+  return fmt::format("{} × {} × {} {}", unit.text(sides[0]), unit.text(sides[1]), unit.text(sides[2]), unit.name);
+}
+
+bool is_turned(const BodyText& body) {
+  return std::ranges::any_of(body.rotation_rad,
+                             [](const ExpressionText& angle) { return evaluate_constant<double>(angle) != 0; });
+}
+
+/// " at (0, 1, 1.3) m, turned by yaw 10°"; empty where the body is not moved. Angles are rounded.
+std::string placement_text(const BodyText& body) {
+  std::string text;
+  const ExactPoint at = exact_point(body.at_m);
+  if (at != ExactPoint{}) text = " at " + exact_place(at);
+  constexpr std::array<const char*, 3> kAngles = {"roll", "pitch", "yaw"};
+  std::vector<std::string> turns;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = evaluate_constant<double>(body.rotation_rad[k]);
+    if (angle != 0) turns.push_back(fmt::format("{} {:.6g}°", kAngles[k], degrees(angle)));
+  }
+  return turns.empty() ? text : fmt::format("{}, turned by {}", text, fmt::join(turns, ", "));
+}
+
+struct ExtentOfPoints {
+  ExactPoint lower, upper;
+  [[nodiscard]] ExactPoint sides() const { return {upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}; }
+};
+
+ExtentOfPoints extent_of(const std::vector<ExactPoint>& points) {
+  ExtentOfPoints extent{points.front(), points.front()};
+  for (const ExactPoint& point : points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      extent.lower[k] = std::min(extent.lower[k], point[k]);
+      extent.upper[k] = std::max(extent.upper[k], point[k]);
+    }
+  }
+  return extent;
+}
+
+/// Whether the points are the eight corners of a box along the axes.
+bool are_corners_of_box(const std::vector<ExactPoint>& points, const ExtentOfPoints& extent) {
+  const auto is_corner = [&](const ExactPoint& point) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (point[k] != extent.lower[k] && point[k] != extent.upper[k]) return false;
+    }
+    return true;
+  };
+  const bool is_thick = std::ranges::none_of(extent.sides(), [](const Rational& side) { return side == 0; });
+  return is_thick && points.size() == 8 && std::ranges::all_of(points, is_corner) &&
+         std::set<ExactPoint>(points.begin(), points.end()).size() == 8;
+}
+
+std::string hull_text(const BodyText& body, const HullText& hull) {
+  std::vector<ExactPoint> points;
+  for (const PointText& point : hull.points_m) points.push_back(exact_point(point));
+  const Rational radius = parse_rational(hull.radius_m);
+  std::string placement = placement_text(body);
+  if (points.size() <= 2 && !is_turned(body)) {  // named by where it is
+    const ExactPoint at = exact_point(body.at_m);
+    for (ExactPoint& point : points) {
+      for (std::size_t k = 0; k < 3; ++k) point[k] += at[k];
+    }
+    placement.clear();
+  }
+  const std::string around = radius == 0 ? "" : fmt::format("all within {} of ", exact_length(radius));
+  if (points.size() == 1) {
+    if (radius == 0) return fmt::format("the point {}{}", exact_place(points[0]), placement);
+    return fmt::format("a ball of radius {} around {}{}", exact_length(radius), exact_place(points[0]), placement);
+  }
+  if (points.size() == 2) {
+    return fmt::format("{}the segment from {} to {}{}", around, exact_place(points[0]), exact_place(points[1]),
+                       placement);
+  }
+  const ExtentOfPoints extent = extent_of(points);
+  if (are_corners_of_box(points, extent)) {
+    ExactPoint middle;
+    for (std::size_t k = 0; k < 3; ++k) middle[k] = (extent.lower[k] + extent.upper[k]) / 2;
+    const std::string centre = middle == ExactPoint{} ? "" : fmt::format(" around {}", exact_place(middle));
+    return fmt::format("{}a box of {}{}{}", around, exact_sides(extent.sides()), centre, placement);
+  }
+  return fmt::format("{}the convex hull of {} points from {} to {}{}", around, points.size(), exact_place(extent.lower),
+                     exact_place(extent.upper), placement);
+}
+
+/// "(0, 0, 1)"
+std::string normal_text(const PointText& normal) {
+  const ExactPoint n = exact_point(normal);
+  return fmt::format("({}, {}, {})", rational_text(n[0]), rational_text(n[1]), rational_text(n[2]));
+}
+
+std::string body_text(const BodyText& body, bool is_obstacle) {
+  std::string text = is_obstacle ? "obstacle: " : "on the platform: ";
+  if (const auto* hull = std::get_if<HullText>(&body.shape)) {
+    text += hull_text(body, *hull);
+  } else if (const auto* half_space = std::get_if<HalfSpaceText>(&body.shape)) {
+    text += fmt::format("all behind the plane through {}, which faces along {}", exact_place(exact_point(body.at_m)),
+                        normal_text(half_space->normal));
+  } else {
+    const auto& mesh = std::get<MeshText>(body.shape);
+    text += fmt::format("the mesh {}, whose unit is {}{}", quoted_name(mesh.file), exact_length(mesh.unit_m),
+                        placement_text(body));
+  }
+  if (body.clearance_m) text += fmt::format("; clearance {}", exact_length(*body.clearance_m));
+  return text;
+}
+
+const char* words_of(PairClass kind) {
+  switch (kind) {
+    case PairClass::kPlatformObstacles: return "platform and obstacles";
+    case PairClass::kCablesObstacles: return "cables and obstacles";
+    case PairClass::kCablesCables: return "cables among each other";
+    case PairClass::kCablesPlatform: break;
+  }
+  return "cables and platform";
+}
+
+std::string checked_text(const BodiesText& bodies) {
+  std::array<std::size_t, kPairClasses> counts{};
+  for (const BodyPair& pair : pairs(bodies)) ++counts[static_cast<std::size_t>(pair.kind)];
+  std::vector<std::string> checked, others;
+  for (const PairClass kind : all_pair_classes()) {
+    const auto k = static_cast<std::size_t>(kind);
+    if (!bodies.clearance_m[k]) {
+      others.emplace_back(words_of(kind));
+      continue;
+    }
+    checked.push_back(
+        fmt::format("{}, {}, {}", words_of(kind), plural(counts[k], "pair"), exact_length(*bodies.clearance_m[k])));
+  }
+  std::string text = checked.empty() ? "" : fmt::format("Pairs and their clearances: {}.", fmt::join(checked, "; "));
+  if (others.empty()) return text;
+  return fmt::format("{}{}Not checked: {}.", text, text.empty() ? "" : " ", fmt::join(others, ", "));
+}
+
+std::string cables_text(const BodiesText& bodies) {
+  const bool are_checked = bodies.clearance_m[1] || bodies.clearance_m[2] || bodies.clearance_m[3];
+  if (!are_checked) return "";
+  const CableBodiesText& cables = bodies.cables;
+  const auto one = [&](std::size_t i) {
+    return fmt::format("{} thick, not checked on the {} near the base and the {} near the platform",
+                       exact_length(cables.diameter_m[i]), exact_length(cables.free_ends_m[i][0]),
+                       exact_length(cables.free_ends_m[i][1]));
+  };
+  std::vector<std::string> each;
+  for (std::size_t i = 0; i < kCables; ++i) each.push_back(one(i));
+  if (std::ranges::all_of(each, [&](const std::string& text) { return text == each[0]; })) {
+    return fmt::format("Cables: {}.", each[0]);
+  }
+  for (std::size_t i = 0; i < kCables; ++i) each[i] = fmt::format("{}: {}", i + 1, each[i]);
+  return fmt::format("Cables: {}.", fmt::join(each, "; "));
+}
+
+/// What was repaired, and whether there is an inside.
+std::string mesh_note(const std::string& body, const LoadedMesh& loaded, const Rational& unit_m) {
+  const MeshReport& report = loaded.report;
+  const auto millimetres_of = [&](double x) {
+    return fmt::format("{:.6g}", x * Rational(unit_m * 1000).convert_to<double>() + 0.0);
+  };
+  const auto corner = [&](const std::array<double, 3>& p) {
+    return fmt::format("({}, {}, {})", millimetres_of(p[0]), millimetres_of(p[1]), millimetres_of(p[2]));
+  };
+  std::string text =
+      fmt::format("{}: {}, from {} to {} mm in its own axes", quoted_name(body),
+                  plural(loaded.mesh.triangles.size(), "triangle"), corner(report.lower), corner(report.upper));
+  text += report.is_watertight() ? fmt::format(", watertight, {}", plural(report.closed_components, "closed part"))
+                                 : fmt::format(", not watertight: {} of one triangle, {} of more than two",
+                                               plural(report.edges_of_one, "edge"), report.edges_of_many);
+  std::vector<std::string> repairs;
+  const auto add = [&](std::size_t count, const char* what, const char* done) {
+    if (count > 0) repairs.push_back(fmt::format("{} {}", plural(count, what), done));
+  };
+  add(report.split_faces, "face", "split into triangles");
+  add(report.merged_points, "point", "merged with an equal one");
+  add(report.unused_points, "unused point", "left out");
+  add(report.dropped_triangles, "triangle", "left out, as it is there twice or has no area");
+  add(report.flat_triangles, "triangle", "without area kept");
+  return repairs.empty() ? text : fmt::format("{}; {}", text, fmt::join(repairs, ", "));
+}
+
+const BodyText* find_body(const BodiesText& bodies, const std::string& name) {
+  for (const auto* list : {&bodies.platform, &bodies.obstacles}) {
+    const auto found = std::ranges::find(*list, name, &BodyText::name);
+    if (found != list->end()) return &*found;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+BodiesStatement bodies_statement(const BodiesText& bodies) {
+  BodiesStatement result;
+  result.checked = checked_text(bodies);
+  result.cables = cables_text(bodies);
+  for (const BodyText& body : bodies.platform) result.bodies.emplace_back(body.name, body_text(body, false));
+  for (const BodyText& body : bodies.obstacles) result.bodies.emplace_back(body.name, body_text(body, true));
+  for (const auto& [pair, clearance] : bodies.pair_clearances_m) {
+    result.notes.push_back(
+        fmt::format("{} and {}: clearance {}", quoted_name(pair[0]), quoted_name(pair[1]), exact_length(clearance)));
+  }
+  return result;
+}
+
+BodiesStatement bodies_statement(const CaseBodies& bodies) {
+  BodiesStatement result = bodies_statement(bodies.text);
+  for (const EnclosedCylinder& cylinder : bodies.cylinders) {
+    result.notes.push_back(fmt::format("{}: a prism takes the place of the cylinder, and reaches up to {} farther",
+                                       quoted_name(cylinder.body), exact_length(cylinder.excess_m)));
+  }
+  for (const MeshOfBody& mesh : bodies.meshes) {
+    const BodyText* body = find_body(bodies.text, mesh.body);
+    if (!body) continue;
+    result.notes.push_back(mesh_note(mesh.body, *mesh.mesh, parse_rational(std::get<MeshText>(body->shape).unit_m)));
+  }
+  return result;
+}
+
+std::vector<std::string> lines(const BodiesStatement& statement) {
+  std::vector<std::string> result;
+  for (const std::string& line : {statement.checked, statement.cables}) {
+    if (!line.empty()) result.push_back(line);
+  }
+  for (const auto& [name, words] : statement.bodies) result.push_back(fmt::format("{}, {}.", quoted_name(name), words));
+  for (const std::string& note : statement.notes) result.push_back(note + ".");
+  return result;
+}
+
+}  // namespace taut
