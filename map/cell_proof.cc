@@ -608,6 +608,7 @@ class CellProofOf final : public CellProof {
 }  // namespace
 
 std::unique_ptr<CellProof> make_cell_proof(const Problem& problem, const MapSpace& space) {
+  if (problem.bodies) throw std::logic_error("a map of a problem with bodies, which no cell is asked about");
   switch (space.size()) {
     case 2: return std::make_unique<CellProofOf<2>>(problem, space);
     case 3: return std::make_unique<CellProofOf<3>>(problem, space);
