@@ -6,7 +6,7 @@
 // errors.h, ball.h, mean_value_form.h, expression.h, linear.h, statement.h, loads.h, machine.h, zero.h, motion.h,
 // deviation.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of
 // which poses); then format/ (that the numbers are those of the file); format/signature.h if it matters who wrote it.
-// For "no path": cell_form.h, outside.h and .cc in kernel/, then no_path.h and .cc.
+// For "no path": outside.h and .cc in kernel/, then no_path.h and .cc.
 #pragma once
 
 #include <memory>
