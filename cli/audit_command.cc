@@ -352,7 +352,7 @@ void print_result(const Audit& result, const Case& the_case, const PathSource& s
   print_wrapped(taut::sentence(checked));
   print_wrapped(fmt::format("Written to {}: path.csv, {}certificate.json{}", sanitize(files.out.string()),
                             files.controller ? "controller.csv, " : "", files.report ? ", report.html" : ""));
-  if (!files.report) {
+  if (result.segments > kMostReported) {
     fmt::print("No report is made of more than {} segments unless you ask for it:\n  taut report {}\n", kMostReported,
                sanitize((files.out / "certificate.json").string()));
   }
@@ -380,6 +380,7 @@ void add_audit_options(CLI::App& command, AuditArguments& arguments) {
       ->check(CLI::Range(kLeastBits, kMostBits));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  command.add_flag("--no-report", arguments.no_report, "write no report.html");
   add_headroom_option(command, arguments.headroom_seconds);
   add_max_seconds_option(command, arguments.max_seconds);
 }
@@ -416,7 +417,7 @@ int run_audit(const AuditArguments& arguments) {
   std::optional<ReportContext> context;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {
     context.emplace(checked);
-    files.add_report(*context, date);
+    if (!arguments.no_report) files.add_report(*context, date);
   }
   files.add_controller(step, source, checked);
   files.publish(inputs);

@@ -19,6 +19,7 @@ struct AuditArguments {
   std::string key;   ///< file of the private key that signs, or empty
   long bits = 4096;  ///< of the prover's last rung
   bool json = false;
+  bool no_report = false;
   double max_seconds = kCheckSeconds;          ///< that the checker may take
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares
 };

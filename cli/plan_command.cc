@@ -218,6 +218,30 @@ void print_search(const Outcome& outcome, const DisplayUnits& units) {
   if (outcome.is_proved()) print_wrapped(length_sentence(s) + ".", 0);
 }
 
+/// Everything but the files.
+/// @param context  null where no path exists
+void print_result(const Case& the_case, const Outcome& outcome, const std::optional<ReportContext>& context,
+                  const ReportOptions& report_options) {
+  const PlannedCase& planned = outcome.planned;
+  const checker::CheckResult& checked = planned.checked;
+  const DisplayUnits units(the_case.units);
+  const std::string text = said(the_case, planned).text;
+  if (context) {
+    const Summary shown(*context, report_options);
+    print_verdict(verdict_in_full(shown), text);
+    print_key_numbers(shown.key_numbers);
+  } else {
+    print_verdict(checked.theorem ? "NO PATH EXISTS" : "UNCHECKED", text);
+  }
+  if (const std::string may_be = hint(the_case, planned.plan); !may_be.empty()) print_wrapped(may_be);
+  print_search(outcome, units);
+  if (checked.outcome != checker::Outcome::kUnchecked) {
+    if (planned.as_items) print_wrapped(sentence(*planned.as_items, units));
+    print_headroom(planned.headroom, the_case.problem, the_case.units);
+  }
+  print_wrapped(sentence(checked));
+}
+
 /// What growing the atlas will cost, at most.
 std::string growth_announcement(const GrowthEstimate& estimate, double most_seconds) {
   constexpr double kMegabyte = 1e6;
@@ -297,6 +321,7 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
       ->check(positive_number("a number of seconds above 0"));
   command.add_option("--sign", arguments.key, "sign the certificate with this Ed25519 private key (PEM)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  command.add_flag("--no-report", arguments.no_report, "write no report.html");
   add_headroom_option(command, arguments.headroom_seconds);
   command
       .add_option("--no-path", arguments.no_path_seconds,
@@ -332,9 +357,14 @@ int run_plan(const PlanArguments& arguments) {
   const ReportOptions report_options{"", "", date};
   std::optional<ReportContext> context;
   if (!is_no_path(planned)) context.emplace(checked);
-  std::vector<FileContent> files = {
-      {out / "certificate.json", planned.text},
-      {out / "report.html", context ? html_report(*context, report_options) : html_report(checked, report_options)}};
+  std::vector<FileContent> files = {{out / "certificate.json", planned.text}};
+  std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
+  if (arguments.no_report) {
+    remove_first.push_back(out / "report.html");
+  } else {
+    files.push_back(
+        {out / "report.html", context ? html_report(*context, report_options) : html_report(checked, report_options)});
+  }
   const bool saves_atlas = !arguments.save_atlas.empty() && planner.atlas().size() > 0;
   if (saves_atlas) files.push_back({arguments.save_atlas, planner.atlas_bytes()});
   if (outcome.is_proved()) {  // what is not proved is not for a machine to follow
@@ -343,7 +373,7 @@ int run_plan(const PlanArguments& arguments) {
     files.push_back({out / "controller.csv", controller_csv(case_.problem, path, step, checked.sha256)});
     files.push_back({out / "path.csv", path_csv(case_.problem, path, checked.sha256)});  // last
   }
-  write_whole(files, outdated_results(out, inputs));
+  write_whole(files, remove_first);
 
   if (arguments.json) {
     nlohmann::json result = summary(case_, outcome);
@@ -353,22 +383,10 @@ int run_plan(const PlanArguments& arguments) {
     print_json(result);
     return exit_code(checked);
   }
-  if (context) {
-    const Summary shown(*context, report_options);
-    print_verdict(verdict_in_full(shown), said(case_, planned).text);
-    print_key_numbers(shown.key_numbers);
-  } else {
-    print_verdict(checked.theorem ? "NO PATH EXISTS" : "UNCHECKED", said(case_, planned).text);
-  }
-  if (const std::string may_be = hint(case_, planned.plan); !may_be.empty()) print_wrapped(may_be);
-  print_search(outcome, DisplayUnits(case_.units));
-  if (checked.outcome != checker::Outcome::kUnchecked) {
-    if (planned.as_items) print_wrapped(sentence(*planned.as_items, DisplayUnits(case_.units)));
-    print_headroom(planned.headroom, case_.problem, case_.units);
-  }
-  print_wrapped(sentence(checked));
-  print_wrapped(fmt::format("Written to {}: {}certificate.json, report.html", sanitize(out.string()),
-                            outcome.is_proved() ? "path.csv, controller.csv, " : ""));
+  print_result(case_, outcome, context, report_options);
+  print_wrapped(fmt::format("Written to {}: {}certificate.json{}", sanitize(out.string()),
+                            outcome.is_proved() ? "path.csv, controller.csv, " : "",
+                            arguments.no_report ? "" : ", report.html"));
   if (saves_atlas) print_wrapped(atlas_sentence(planned, planner.atlas().size(), arguments.save_atlas));
   return exit_code(checked);
 }

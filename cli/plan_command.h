@@ -23,6 +23,7 @@ struct PlanArguments {
   double grow_seconds = 300;  ///< that growing the atlas may take
   double budget_seconds = 0;  ///< 0: the case's
   bool json = false;
+  bool no_report = false;
   double max_seconds = kCheckSeconds;          ///< that the checker may take
   double headroom_seconds = kHeadroomSeconds;  ///< for finding provable shares
   double no_path_seconds = kNoPathSeconds;     ///< for proving that no path exists
