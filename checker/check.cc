@@ -114,8 +114,9 @@ std::string describe_accepted(const Certificate& certificate, const CheckResult&
   const int bits = result.counts.bits;
   if (certificate.verdict == Verdict::kProved) {
     const auto& [tension, length, scale, clearance] = certificate.margins;
-    const bool has_pairs = certificate.problem.bodies && !certificate.problem.bodies->pairs.empty();
-    const std::string apart = has_pairs ? fmt::format(", clearance margin >= {} m", clearance) : "";
+    const std::size_t pairs = certificate.problem.bodies ? certificate.problem.bodies->pairs.size() : 0;
+    const std::string apart =
+        pairs == 0 ? "" : fmt::format(", clearance margin >= {} m of {}", clearance, plural(pairs, "pair"));
     return fmt::format(
         "{}proved again: {}, {}, tension margin >= {} N, length margin >= {} m, wrench scale >= {}{}; {} bits", audit,
         plural(result.counts.segments, "segment"), boxes, tension, length, scale, apart, bits);

@@ -25,8 +25,8 @@ const MeanValueForm& require_longer(const Machine& machine, const Geometry& geom
 struct Along {
   Axes axes;
   Vector3<Ball> u;
-  Ball size;                      ///< |u|
-  Vector3<MeanValueForm> turned;  ///< R' u for u of W, R u for u of P
+  Ball size;                                       ///< |u|
+  std::optional<Vector3<MeanValueForm>> turned{};  ///< R' u for u of W, R u for u of P; once it was asked for
 };
 
 class Clearances {
@@ -55,30 +55,33 @@ class Clearances {
     const auto& [kind, first, second, clearance, name] = bodies_.pairs[k];
     if (kind == PairKind::kCableCable) return between_cables(first, second, along(k, std::nullopt));
     if (kind == PairKind::kCablePlatform) {
-      const Along& u = along(k, Axes::kPlatform);
+      Along& u = along(k, Axes::kPlatform);
       return least_of_cable(first, u) - most(bodies_.platform[second], u);
     }
-    const auto from_obstacle = [&](const Along& u, const Ball& most) {
+    const auto from_obstacle = [&](Along& u, const Ball& most) {
       return (kind == PairKind::kCableObstacle ? least_of_cable(first, u) : least(bodies_.platform[first], u)) - most;
     };
     if (const auto* hull = std::get_if<PlacedHull>(&bodies_.obstacles[second])) {
-      const Along& u = along(k, Axes::kWorld);
+      Along& u = along(k, Axes::kWorld);
       return from_obstacle(u, most(*hull, u));
     }
     const auto& half_space = std::get<PlacedHalfSpace>(bodies_.obstacles[second]);
-    const Along n = along(Axes::kWorld, half_space.normal);
+    Along n = along(Axes::kWorld, half_space.normal);
     return from_obstacle(n, half_space.offset / n.size);
   }
 
   // ---- Directions ---------------------------------------------------------------------------------------------------
 
-  [[nodiscard]] Along along(Axes axes, const Vector3<Ball>& u) const {
+  [[nodiscard]] static Along along(Axes axes, const Vector3<Ball>& u) { return {axes, u, sqrt(squared_norm(u))}; }
+
+  [[nodiscard]] const Vector3<MeanValueForm>& turned(Along& along) const {
     const Matrix3<MeanValueForm>& R = geometry_.pose.R;
-    return {axes, u, sqrt(squared_norm(u)), multiply(axes == Axes::kWorld ? transposed(R) : R, u)};
+    if (!along.turned) along.turned = multiply(along.axes == Axes::kWorld ? transposed(R) : R, along.u);
+    return *along.turned;
   }
 
   /// Of pair k, in the only axes that make sense of it.
-  [[nodiscard]] const Along& along(std::size_t k, std::optional<Axes> axes) {
+  [[nodiscard]] Along& along(std::size_t k, std::optional<Axes> axes) {
     if (!apart_[k] || *apart_[k] >= directions_.size()) {
       throw Undefined("no direction is stated for a pair of bodies");
     }
@@ -100,11 +103,11 @@ class Clearances {
   }
 
   /// The first term of (1) for a body of the platform, in W.
-  [[nodiscard]] Ball least(const PlacedHull& hull, const Along& along) const {
+  [[nodiscard]] Ball least(const PlacedHull& hull, Along& along) const {
     const MeanValueForm at_p = dot(along.u, geometry_.pose.p);
     std::optional<Ball> result;
     for (const Vector3<Ball>& x : hull.points) {
-      const Ball here = (at_p + dot(along.turned, x)).range() / along.size - shift_.turn * length_bound(x);
+      const Ball here = (at_p + dot(turned(along), x)).range() / along.size - shift_.turn * length_bound(x);
       result = result ? smaller(*result, lowest(here)) : lowest(here);
     }
     return *result - hull.radius - shift_.position;
@@ -124,7 +127,7 @@ class Clearances {
   }
 
   /// u . x / |u| at both cuts.
-  [[nodiscard]] OfCuts ends(std::size_t i, const Along& along) {
+  [[nodiscard]] OfCuts ends(std::size_t i, Along& along) {
     const auto& [t_0, t_1] = cuts(i);
     const Ball unit = Ball(1) / along.size;
     if (along.axes == Axes::kWorld) {
@@ -133,12 +136,17 @@ class Clearances {
       return {at_A + t_0 * d, at_A + d - t_1 * d};
     }
     const MeanValueForm at_B(dot(along.u, machine_.platform[i]) * unit);
-    const MeanValueForm d = unit * dot(along.turned, geometry_.d[i]);
+    const MeanValueForm d = unit * dot(turned(along), geometry_.d[i]);
     return {at_B - d + t_0 * d, at_B - t_1 * d};
   }
 
   /// The table of the header.
-  [[nodiscard]] EndShift end_shift(std::size_t i, Axes axes) const {
+  [[nodiscard]] const EndShift& end_shift(std::size_t i, Axes axes) {
+    std::optional<EndShift>& known = end_shifts_[i][axes == Axes::kWorld ? 0 : 1];
+    if (!known) known = compute_end_shift(i, axes);
+    return *known;
+  }
+  [[nodiscard]] EndShift compute_end_shift(std::size_t i, Axes axes) const {
     if (!machine_.tolerances) return {};
     const Ball& beta = machine_.tolerances->base_anchors[i];
     const Ball& mu = machine_.tolerances->platform_anchors[i];
@@ -159,13 +167,13 @@ class Clearances {
             MeanValueForm(shift.platform + half_diameter) - growth * t_1};
   }
 
-  [[nodiscard]] Ball least_of_cable(std::size_t i, const Along& along) {
+  [[nodiscard]] Ball least_of_cable(std::size_t i, Along& along) {
     const OfCuts at = ends(i, along);
     const OfCuts radius = radii(i, end_shift(i, along.axes));
     return smaller(lowest((at[0] - radius[0]).range()), lowest((at[1] - radius[1]).range()));
   }
 
-  [[nodiscard]] Ball between_cables(std::size_t i, std::size_t j, const Along& along) {
+  [[nodiscard]] Ball between_cables(std::size_t i, std::size_t j, Along& along) {
     const EndShift of_i = end_shift(i, along.axes);
     const EndShift of_j = end_shift(j, along.axes);
     const std::array at = {ends(i, along), ends(j, along)};
@@ -183,10 +191,12 @@ class Clearances {
   using OfTwoCables = std::array<OfCuts, 2>;
   /// The least of all ends of one against all of the other.
   [[nodiscard]] static Ball between_cables(const OfTwoCables& at, const OfTwoCables& radius) {
+    const OfCuts first = {at[0][0] - radius[0][0], at[0][1] - radius[0][1]};
+    const OfCuts second = {at[1][0] + radius[1][0], at[1][1] + radius[1][1]};
     std::optional<Ball> result;
     for (std::size_t k = 0; k < 2; ++k) {
       for (std::size_t l = 0; l < 2; ++l) {
-        const Ball here = lowest((at[0][k] - radius[0][k] - at[1][l] - radius[1][l]).range());
+        const Ball here = lowest((first[k] - second[l]).range());
         result = result ? smaller(*result, here) : here;
       }
     }
@@ -202,6 +212,7 @@ class Clearances {
   const Apart& apart_;
   std::map<std::size_t, Along> along_;  ///< by the index of the direction
   std::array<std::optional<OfCuts>, kCables> cuts_;
+  std::array<std::array<std::optional<EndShift>, 2>, kCables> end_shifts_;  ///< in W and in P
 };
 
 // ---- Contact ---------------------------------------------------------------------------------------------------------
