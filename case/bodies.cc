@@ -167,17 +167,14 @@ class BodyReader {
   void read_mesh(const Map& map, const Field& field, BodyText& body) const {
     const std::string name = field.text(kMeshNameExpected);
     if (!is_mesh_name(name)) field.fail(kMeshNameExpected);
-    const Field unit_field = map.at("unit");
-    const std::string expected = "the unit of the mesh's coordinates, one of " + unit_names(Dimension::kLength);
-    const auto unit = find_unit(unit_field.text(expected));
-    if (!unit || unit->dimension != Dimension::kLength) unit_field.fail(expected);
+    const Unit unit = read_unit(map.at("unit"), Dimension::kLength, kMeshUnitExpected);
     std::shared_ptr<const LoadedMesh> mesh;
     try {
       mesh = std::make_shared<const LoadedMesh>(load_mesh(folder_ / name));
     } catch (const InputError& error) {
       field.complain(fmt::format("got '{}', {}", excerpt(name), error.what()));
     }
-    body.shape = MeshText{name, mesh->sha256, decimal_to_si("1", *unit)};
+    body.shape = MeshText{name, mesh->sha256, decimal_to_si("1", unit)};
     result_.meshes.push_back({body.name, std::move(mesh)});
   }
 

@@ -108,16 +108,13 @@ MeshFile read_mesh_file(const Field& field, const Units& units, const std::files
   const Field mesh = map.at("mesh");
   const std::string name = mesh.text(kMeshNameExpected);
   if (!is_mesh_name(name)) mesh.fail(kMeshNameExpected);
-  const Field unit_field = map.at("unit");
-  const std::string expected = "the unit of the mesh's coordinates, one of " + unit_names(Dimension::kLength);
-  const auto unit = find_unit(unit_field.text(expected));
-  if (!unit || unit->dimension != Dimension::kLength) unit_field.fail(expected);
+  const Unit unit = read_unit(map.at("unit"), Dimension::kLength, kMeshUnitExpected);
   MeshFile result{name, mesh.remark(""), folder / name, {}, {}};
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (const auto rotation = map.find("rotation")) turn = read_rotation(*rotation, units[Dimension::kAngle]);
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      result.turn[i][j] = metres(*unit) * turn(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      result.turn[i][j] = metres(unit) * turn(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
   }
   if (const auto at = map.find("at")) {

@@ -132,6 +132,13 @@ Decimal read_decimal(const Field& field) {
   return in_field(field, [&] { return Decimal::parse(text); });
 }
 
+Unit read_unit(const Field& field, Dimension dimension, const std::string& what) {
+  const std::string expected = what + unit_names(dimension);
+  const auto unit = find_unit(field.text(expected));
+  if (!unit || unit->dimension != dimension) field.fail(expected);
+  return *unit;
+}
+
 namespace {
 
 /// The field's text without its unit, and the unit, which is `bare` if the text has none.

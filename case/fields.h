@@ -136,6 +136,9 @@ T read_choice(const Field& field, const std::vector<std::pair<std::string, T>>& 
   field.fail(expected);
 }
 
+/// The unit of this dimension that the field names. @param what  begins what is expected, before the names of units
+[[nodiscard]] Unit read_unit(const Field& field, Dimension dimension, const std::string& what);
+
 /// The units of bare numbers.
 class Units {
  public:
@@ -145,10 +148,7 @@ class Units {
       const auto dimension = static_cast<Dimension>(i);
       const auto field = map.find(dimension_name(dimension));
       if (!field) continue;
-      const std::string expected = "one of " + unit_names(dimension);
-      const auto unit = find_unit(field->text(expected));
-      if (!unit || unit->dimension != dimension) field->fail(expected);
-      units_[i] = *unit;
+      units_[i] = read_unit(*field, dimension, "one of ");
     }
   }
   [[nodiscard]] const Unit& operator[](Dimension dimension) const {

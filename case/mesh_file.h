@@ -30,7 +30,9 @@ inline constexpr double kFarthestMesh = 1e9;  ///< of a coordinate, in the file'
 [[nodiscard]] std::string extension_of(const std::string& name);
 /// Whether the name is that of an STL, OBJ or PLY file.
 [[nodiscard]] bool is_mesh_name(const std::string& name);
+/// For messages about the name, and about the unit, whose names follow.
 inline constexpr const char* kMeshNameExpected = "the name of an STL, OBJ or PLY file";
+inline constexpr const char* kMeshUnitExpected = "the unit of the mesh's coordinates, one of ";
 
 /// The file's bytes. @throws InputError that begins "which could not be read", or for more than kMostMeshBytes
 [[nodiscard]] std::string mesh_bytes(const std::filesystem::path& path);
