@@ -71,10 +71,11 @@ def row_of(name):
 def main():
     lines = ["# What a certificate costs", "",
              f"`bench/certificates.py`: medians of {REPEATS} cold processes, milliseconds of processor time (user and",
-             "system, all threads). *plan* is `taut plan`, with its check, headroom and report; *bare* is the same with",
-             "`--max-seconds 0 --headroom 0`, for whoever has `taut-check` check all the same; *check* is `taut-check`",
-             "with the case. Processors are what a million a day take: by plan and check, or by bare and check. Memory is",
-             "the most that `taut plan` used [MB], files are all that it wrote, the certificate among them [kB].", "",
+             "system, all threads). *plan* is `taut plan`, with its check, headroom and report; *bare* is the same",
+             "with `--max-seconds 0 --headroom 0`, for whoever has `taut-check` check all the same; *check* is",
+             "`taut-check` with the case. Processors are what a million a day take: by plan and check, or by bare and",
+             "check. Memory is the most that `taut plan` used [MB], files are all that it wrote, the certificate among",
+             "them [kB].", "",
              "| case | verdict | plan | bare | check | processors | or bare | memory | files | certificate |",
              "|---|---|---|---|---|---|---|---|---|---|"]
     for name in PLANS:

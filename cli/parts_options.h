@@ -28,8 +28,8 @@ void add_parts_options(CLI::App& command, PartsArguments& arguments);
 /// The shard that was asked for. @throws InputError
 [[nodiscard]] std::optional<Shard> shard_of(const PartsArguments& arguments);
 
-/// What one process does, and rank 0 under mpirun: it alone prints and writes. It is given the other ranks, or null, and
-/// may let them go before it ends. Returns the exit code.
+/// What one process does, and rank 0 under mpirun: it alone prints and writes. It is given the other ranks, or null,
+/// and may let them go before it ends. Returns the exit code.
 using RunFirst = std::function<int(std::unique_ptr<Ranks>& ranks)>;
 /// What other ranks do: they compute. An InputError is said by rank 0.
 using ServeRanks = std::function<void(Ranks& ranks, const std::stop_token& stop)>;

@@ -26,8 +26,8 @@ class Ranks {
   /// @throws InputError where there is no module, or it is made for another MPI than mpirun is of
   [[nodiscard]] static std::unique_ptr<Ranks> join(std::function<void(const std::string&)> say);
 
-  /// Of rank 0: lets the others go. All of them: ends MPI, unless a rank has died, which MPI would wait for. Where rank 0
-  /// fell silent, ends at once.
+  /// Of rank 0: lets the others go. All of them: ends MPI, unless a rank has died, which MPI would wait for. Where
+  /// rank 0 fell silent, ends at once.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;

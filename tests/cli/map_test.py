@@ -136,7 +136,8 @@ class Map(InFolder):
         said = run(TAUT, "map", case)
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertIn("there are as many cells as there may be", said.stdout)
-        self.assertIn("Of three coordinates a map ends at 1000000 cells unless something else is asked for", said.stdout)
+        self.assertIn("Of three coordinates a map ends at 1000000 cells unless something else is asked for",
+                      said.stdout)
         cells = int(re.search(r"^(\d+) cells from", said.stdout, re.M).group(1))
         self.assertGreater(cells, 990000)
         self.assertLessEqual(cells, 1000000)

@@ -256,7 +256,8 @@ class UnderMpi(Parts):
         self.assertEqual(jobs["hung"].wait(60), 0)
         jobs["headless"].wait(60)
         self.assertRegex(text_of(self.path("hung.err")),
-                         r"taut: rank 1 on \S+ is lost, because it was not heard of for 60 s; \d of its parts dealt again")
+                         r"taut: rank 1 on \S+ is lost, because it was not heard of for 60 s; "
+                         r"\d of its parts dealt again")
         self.assertEqual((without_times(text_of(self.path("hung.out"))), content(self.path("hung", "map.html"))),
                          (one[0], one[1][0]))
         self.assertRegex(text_of(self.path("headless.err")),
