@@ -51,7 +51,7 @@ constexpr double kResolution = 0.001;
 constexpr double kBitStarSeconds = 1.0;  // of the processor, so that a busy machine takes nothing from it
 /// Real parameters without a range: theta, which may pass through 0 to either side; both goals are reachable.
 constexpr double kThetaBound = 2.2;
-/// A* over six parameters is an anytime search; it would take seconds to its end.
+/// A* over six parameters is an anytime search; as found, it would take seconds to its end.
 constexpr double kBudgetSeconds = 0.15;
 
 struct Rounds {
