@@ -88,6 +88,10 @@ TEST(Agreement, OnWhatCertificatesSay) {
     if (file.stem().string().starts_with("attack_tower")) continue;  // numbers that the prover refuses
     const std::string text = checker::read_text(file);
     json certificate = parse_certificate(text, file);
+    if (certificate["version"] != kCertificateVersion) {  // of bodies, which reports can't show yet
+      EXPECT_THROW((void)read_certificate(certificate), InputError);
+      continue;
+    }
     json written = json::parse(certificate_text(read_certificate(certificate)));
     for (const char* key : {"footer", "generator", "signature"}) {
       certificate.erase(key);
