@@ -74,8 +74,8 @@ struct SearchOptions {
   void validate() const;
 };
 
-/// A chart's centre, or a detour's point, as a vertex of the path. `base` is its coordinates bit for bit (the query's own
-/// for start and goal); `image` says exactly by how many half turns they were shifted to make the path continuous.
+/// A chart's centre, or a detour's point, as a vertex of the path. `base` is its coordinates bit for bit (the query's
+/// own for start and goal); `image` says exactly by how many half turns they were shifted to make the path continuous.
 /// The first vertex is the start, unshifted; the last is the image of the goal that was reached.
 struct PathVertex {
   Coordinates base;

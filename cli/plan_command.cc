@@ -108,7 +108,7 @@ std::string length_sentence(const PlanStatistics& s) {
                                        s.budget_spent ? "; the budget is spent" : "", s.cost_measure);
   if (s.factor == 1) return "The path found is the shortest" + rest;
   if (!std::isfinite(s.factor)) return "The path found is the first, not the shortest," + rest;
-  return fmt::format("The path found is at most {:.4g} times as long as the shortest{}", s.factor, rest);
+  return fmt::format("The path found is at most {:.6g} times as long as the shortest{}", s.factor, rest);
 }
 
 /// Checks that no file that is written is one that is read.
