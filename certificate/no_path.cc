@@ -51,7 +51,7 @@ std::optional<OutsideReason> proved_reason(checker::OutsideProof& proof, const O
 OutsideCells::OutsideCells(const Problem& problem)
     : problem_(to_kernel(problem)), space_(checker::cell_space(problem_)), machine_([&] {
         const checker::WorkingPrecision precision(kBits);
-        return checker::Machine(problem_);
+        return checker::StatedMachine(problem_);
       }()) {}
 
 std::string OutsideCells::tree(const std::vector<checker::CellPart>& cell, const OutsideReason& first) const {
@@ -61,7 +61,7 @@ std::string OutsideCells::tree(const std::vector<checker::CellPart>& cell, const
 
 std::string OutsideCells::halved(std::vector<checker::CellPart> cell, const OutsideReason& first, int halvings) const {
   try {
-    checker::OutsideProof proof(machine_, problem_, checker::parameters(space_.axes, cell));
+    checker::OutsideProof proof(machine_, checker::parameters(space_.axes, cell));
     if (const auto reason = proved_reason(proof, first)) return {letter(*reason)};
   } catch (const checker::Undefined&) {
     // the poses of so large a cell are not enclosed

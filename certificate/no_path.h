@@ -36,7 +36,7 @@ class OutsideCells {
 
   checker::Problem problem_;
   checker::CellSpace space_;
-  checker::Machine machine_;
+  checker::StatedMachine machine_;
 };
 
 /// What such a certificate states.

@@ -7,7 +7,7 @@
 // zero.h, motion.h, deviation.h, clearance.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and
 // confirm.cc (what is proved of which poses); then format/ (that the numbers are those of the file);
 // format/signature.h if it matters who wrote it.
-// For "no path": outside.h and .cc in kernel/, then no_path.h and .cc.
+// For "no path": cell_form.h, outside.h and .cc in kernel/, then no_path.h and .cc.
 #pragma once
 
 #include <memory>

@@ -22,7 +22,7 @@ void require_near(const Machine& machine, const Problem& problem, const Path& pa
   const auto stated = controls.subspan(end < 0 ? 0 : others, controls.size() - others);
   const auto near = path.law == Law::kCubicBSpline ? stated : end < 0 ? stated.first(1) : stated.last(1);
   std::vector<MeanValueForm> there = parameters(problem, path, k, box);
-  for (MeanValueForm& x : there) x = MeanValueForm(x.at + Ball(end) * x.slope[0]);
+  for (MeanValueForm& x : there) x = MeanValueForm(x.at + Ball(end) * x.slope);
   const Vector6<MeanValueForm> reached = coordinates(problem, there);
   std::vector<Vector6<MeanValueForm>> asked;
   for (const Waypoint& waypoint : near) asked.push_back(coordinates(problem, stated_parameters(waypoint)));

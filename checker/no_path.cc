@@ -278,10 +278,10 @@ void collect(const CellTree& tree, const OutsideCell& at, std::vector<OutsideCel
   }
 }
 
-void require_outside(const NoPathCertificate& certificate, const Machine& machine, const OutsideCell& cell) {
+void require_outside(const NoPathCertificate& certificate, const StatedMachine& machine, const OutsideCell& cell) {
   const std::string name = fmt::format("the cell at node {}", cell.node);
   try {
-    OutsideProof proof(machine, certificate.problem, parameters(certificate.axes, cell.parts));
+    OutsideProof proof(machine, parameters(certificate.axes, cell.parts));
     const std::optional<OutsideReason> reason = certificate.tree.reason(cell.node);
     if (!proof.holds(reason.value())) throw Undefined("its reason is not proved");
   } catch (const Undefined& why) {
@@ -306,10 +306,10 @@ Theorem::Counts confirm(const NoPathCertificate& certificate, const ConfirmOptio
   }
   std::vector<OutsideCell> cells;
   collect(certificate.tree, {}, cells);
-  std::unique_ptr<Machine> machine;
+  std::unique_ptr<StatedMachine> machine;
   const auto prepare = [&] {
     const WorkingPrecision precision(certificate.bits);
-    machine = std::make_unique<Machine>(certificate.problem);
+    machine = std::make_unique<StatedMachine>(certificate.problem);
   };
   try {
     prepare();

@@ -74,7 +74,7 @@ Frame deviated_pose(const Machine& machine, const Geometry& stated, const Witnes
   for (const Box& box : by.boxes) {
     pose = forward_kinematics(growing_deviation(machine, stated, by, box), box.near.value());
   }
-  const auto end = [](const MeanValueForm& f) { return MeanValueForm(f.at + f.slope[0]); };  // tau = 1
+  const auto end = [](const MeanValueForm& f) { return MeanValueForm(f.at + f.slope); };  // tau = 1
   for (std::size_t i = 0; i < 3; ++i) {
     pose.p[i] = end(pose.p[i]);
     for (MeanValueForm& x : pose.R[i]) x = end(x);

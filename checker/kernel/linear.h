@@ -106,14 +106,6 @@ Vector6<T> multiply(const Matrix6<Ball>& A, const Vector6<T>& x) {
   return result;
 }
 [[nodiscard]] Matrix6<Ball> multiply(const Matrix6<Ball>& A, const Matrix6<Ball>& B);
-/// The row y' A.
-inline Vector6<Ball> multiply(const Vector6<Ball>& y, const Matrix6<Ball>& A) {
-  Vector6<Ball> result;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) result[k].add_product(y[i], A[i][k]);
-  }
-  return result;
-}
 
 /// A bound of the largest row sum of magnitudes.
 [[nodiscard]] Ball norm(const Matrix6<Ball>& A);

@@ -76,6 +76,16 @@ void Load::set(const LoadCases& cases) {
   set_ = std::move(corners);
 }
 
+Vector6<MeanValueForm> Load::nominal_about_load_point(const Matrix3<MeanValueForm>& R) const {
+  const auto in_W = [&](const Vector3<Ball>& x) {
+    return turns_ ? multiply(R, x)
+                  : Vector3<MeanValueForm>{MeanValueForm(x[0]), MeanValueForm(x[1]), MeanValueForm(x[2])};
+  };
+  const Vector3<MeanValueForm> F = in_W(nominal_.force);
+  const Vector3<MeanValueForm> M = in_W(nominal_.moment) + cross(arm(R), F);
+  return {F[0], F[1], F[2], M[0], M[1], M[2]};
+}
+
 MeanValueForm Load::above(const Lever<MeanValueForm>& y) const {
   const auto of_mass = [&](const Mass& x) {
     const Vector3<MeanValueForm> gamma = {MeanValueForm(x.gravity[0]), MeanValueForm(x.gravity[1]),

@@ -78,19 +78,10 @@ class Load {
     if (!turns_) return {g, m};
     return {multiply(transposed(R), g), multiply(transposed(R), m)};
   }
-  /// About the load point and in axes of W, a wrench about c in the item's axes.
-  template <class T>
-  [[nodiscard]] Vector6<T> about_load_point(const Matrix3<T>& R, const Wrench& w) const {
-    const auto in_W = [&](const Vector3<Ball>& x) {
-      return turns_ ? multiply(R, x) : Vector3<T>{T(x[0]), T(x[1]), T(x[2])};
-    };
-    const Vector3<T> F = in_W(w.force);
-    const Vector3<T> M = in_W(w.moment) + cross(arm(R), F);
-    return {F[0], F[1], F[2], M[0], M[1], M[2]};
-  }
+  /// w_nominal about the load point, in axes of W.
+  [[nodiscard]] Vector6<MeanValueForm> nominal_about_load_point(const Matrix3<MeanValueForm>& R) const;
   [[nodiscard]] MeanValueForm above(const Lever<MeanValueForm>& y) const;
-  /// Wrenches about c, in the item's axes, of which one attains max_S, for each y in the balls. Each of them holds a
-  /// wrench of S.
+  /// Wrenches about c, in the item's axes, of which one attains max_S, for each y in the balls.
   [[nodiscard]] std::vector<Wrench> maximizers(const Lever<Ball>& y) const;
   /// T for the row of which `y` is. @param R  of the pose
   [[nodiscard]] Vector3<Ball> turning(const Matrix3<Ball>& R, const Vector6<Ball>& y, const Wrench& w) const;

@@ -41,7 +41,7 @@ Tolerances<Ball, Ball> enclosed(const ToleranceBounds& exact) {
 
 Inverse::Inverse(const Matrix6<MeanValueForm>& D) {
   const Matrix6<Ball> at = map(D, [](const MeanValueForm& f) { return f.at; });
-  const Matrix6<Ball> slope = map(D, [](const MeanValueForm& f) { return f.slope[0]; });
+  const Matrix6<Ball> slope = map(D, [](const MeanValueForm& f) { return f.slope; });
   C_ = approximate_inverse(at);
   const Matrix6<Ball> CD = multiply(C_, at);
   const Matrix6<Ball> CD_slope = multiply(C_, slope);
@@ -69,7 +69,7 @@ Vector6<MeanValueForm> Inverse::times_P(const Vector6<Ball>& y) const {
     Ball slope;
     for (std::size_t j = 0; j < 6; ++j) {
       at -= A_[i][j].at * y[j];
-      slope -= A_[i][j].slope[0] * y[j];
+      slope -= A_[i][j].slope * y[j];
     }
     result[i] = {plus_minus(at, rest[i]), std::move(slope)};
   }
@@ -156,7 +156,7 @@ void Machine::add_items(const Matrix3<MeanValueForm>& R, const Inverse& inverse,
   Vector6<MeanValueForm> nominal;
   for (std::size_t k = 0; k < 6; ++k) nominal[k] = MeanValueForm(wrench[k]);
   for (const Load& item : items) {
-    const Vector6<MeanValueForm> w = item.about_load_point(R, item.nominal());
+    const Vector6<MeanValueForm> w = item.nominal_about_load_point(R);
     for (std::size_t k = 0; k < 6; ++k) nominal[k] += w[k];
   }
   Vector6<Ball> centre;

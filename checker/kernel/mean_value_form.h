@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A real function of n variables u_k in [-1, 1], enclosed to first order; and numbers with their partial derivatives.
+// A real function of one variable u in [-1, 1], enclosed to first order; and numbers with their partial derivatives.
 //
-// A FirstOrderForm says of a function f, continuous on [-1, 1]^n:
-//     for every u there are x in `at` and y_k in `slope[k]` with f(u) = x + sum_k y_k u_k.
+// A MeanValueForm says of a function f, continuous on [-1, 1]:
+//     for every u there are x in `at` and y in `slope` with f(u) = x + y u.
 // So what is known of f beyond first order, of the size of the square of what f varies by, widens `at`. Each operation
 // keeps the statement:
 //     f + g   by adding both;
-//     f g     (x + sum y_k u_k)(v + sum w_k u_k) = x v + sum (x w_k + y_k v) u_k + sum y_k w_k u_k^2
-//             + sum_{k<l} (y_k w_l + y_l w_k) u_k u_l, with u_k^2 in [0, 1] and u_k u_l in [-1, 1];
-//     f^2     x^2 + 2 x sum y_k u_k + h^2, h = sum y_k u_k;
-//     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + sum y_k u_k, by
-//             Taylor's theorem, for F twice differentiable on the range of f.
+//     f g     (x + y u)(v + w u) = x v + (x w + y v) u + y w u^2, and u^2 is in [0, 1];
+//     F(f)    F(c + h) = F(c) + F'(c) h + F''(xi) h^2 / 2 with c the middle of `at`, h = (x - c) + y u, by Taylor's
+//             theorem, for F twice differentiable on the range of f.
 //     max_j f_j   lies between (max_j x_j) + y_j u for the least and the greatest y_j u.
 // An operation throws Undefined unless its result is defined, and F differentiable, on the whole range. So the
-// existence of a form also proves that its function is continuous. Where the slopes are exactly 0, f is known as a
+// existence of a MeanValueForm also proves that its function is continuous. Where `slope` is exactly 0, f is known as a
 // constant (in `at`); its F(f) is one too, and F need not be differentiable.
 //
 // A Jet holds, for every point of a box of variables, the value of a function and its partial derivatives.
@@ -27,94 +25,65 @@
 
 namespace taut::checker {
 
-template <std::size_t kVariables>
-struct FirstOrderForm {
+struct MeanValueForm {
   Ball at;
-  std::array<Ball, kVariables> slope;
+  Ball slope;
 
-  FirstOrderForm() = default;  ///< the constant 0
-  explicit FirstOrderForm(Ball constant) : at(std::move(constant)) {}
-  FirstOrderForm(Ball at_zero, Ball by_u) requires(kVariables == 1) : at(std::move(at_zero)), slope{std::move(by_u)} {}
+  MeanValueForm() = default;  ///< the constant 0
+  explicit MeanValueForm(Ball constant) : at(std::move(constant)) {}
+  MeanValueForm(Ball at_zero, Ball by_u) : at(std::move(at_zero)), slope(std::move(by_u)) {}
 
-  [[nodiscard]] bool is_constant() const { return std::ranges::all_of(slope, &Ball::is_zero); }
-  /// The most by which the slopes move f.
-  [[nodiscard]] Ball reach() const {
-    Ball sum = magnitude(slope[0]);
-    for (std::size_t k = 1; k < kVariables; ++k) sum += magnitude(slope[k]);
-    return sum;
-  }
+  [[nodiscard]] bool is_constant() const { return slope.is_zero(); }
   /// f(u) for every u.
-  [[nodiscard]] Ball range() const { return is_constant() ? at : plus_minus(at, reach()); }
-
-  FirstOrderForm& operator+=(const FirstOrderForm& b) {
-    at += b.at;
-    for (std::size_t k = 0; k < kVariables; ++k) slope[k] += b.slope[k];
-    return *this;
-  }
-  FirstOrderForm& operator-=(const FirstOrderForm& b) {
-    at -= b.at;
-    for (std::size_t k = 0; k < kVariables; ++k) slope[k] -= b.slope[k];
-    return *this;
-  }
-  friend FirstOrderForm operator+(FirstOrderForm a, const FirstOrderForm& b) { return std::move(a += b); }
-  friend FirstOrderForm operator-(FirstOrderForm a, const FirstOrderForm& b) { return std::move(a -= b); }
-  friend FirstOrderForm operator-(FirstOrderForm a) {
-    a.at = -a.at;
-    for (Ball& y : a.slope) y = -y;
-    return a;
-  }
-  friend FirstOrderForm operator*(const Ball& a, const FirstOrderForm& b) { return {a * b.at, a, b}; }
-  friend FirstOrderForm operator*(const FirstOrderForm& a, const Ball& b) { return b * a; }
-  friend FirstOrderForm operator*(const FirstOrderForm& a, const FirstOrderForm& b) {
-    if (a.is_constant()) return a.at * b;
-    if (b.is_constant()) return b.at * a;
-    FirstOrderForm result = a.at * b;
-    for (std::size_t k = 0; k < kVariables; ++k) {
-      result.slope[k].add_product(a.slope[k], b.at);
-      result.at += from_zero_to(a.slope[k] * b.slope[k]);
-      for (std::size_t l = 0; l < k; ++l) {
-        const Ball crossed = (a.slope[k] * b.slope[l]).add_product(a.slope[l], b.slope[k]);
-        result.at = plus_minus(result.at, crossed);
-      }
-    }
-    return result;
-  }
-  friend FirstOrderForm sqr(const FirstOrderForm& f) {
-    if (f.is_constant()) return FirstOrderForm(sqr(f.at));
-    return {sqr(f.at) + from_zero_to(sqr(f.reach())), Ball(2) * f.at, f};
-  }
-  friend FirstOrderForm apply(Function F, const FirstOrderForm& f) {
-    if (f.is_constant()) return FirstOrderForm(value(F, f.at));
-    const Ball centre = middle(f.at);
-    return f.taylor(value(F, centre), first_derivative(F, centre), second_derivative(F, f.range()));
-  }
-  friend FirstOrderForm power(const FirstOrderForm& f, int n) {
-    if (n == 0) return FirstOrderForm(Ball(1));
-    if (n == 1) return f;
-    if (f.is_constant()) return FirstOrderForm(power(f.at, n));
-    const Ball centre = middle(f.at);
-    return f.taylor(power(centre, n), Ball(n) * power(centre, n - 1), Ball(n) * Ball(n - 1) * power(f.range(), n - 2));
-  }
-  friend Ball range(const FirstOrderForm& f) { return f.range(); }
-
- private:
-  /// x + b sum_k y_k u_k with the slopes of `f`.
-  FirstOrderForm(Ball x, const Ball& b, const FirstOrderForm& f) : at(std::move(x)) {
-    for (std::size_t k = 0; k < kVariables; ++k) {
-      if (!f.slope[k].is_zero()) slope[k] = b * f.slope[k];
-    }
-  }
-  /// F(f) from F and F' at the middle of `at` and F'' on the range.
-  [[nodiscard]] FirstOrderForm taylor(const Ball& value, const Ball& first, const Ball& second) const {
-    const Ball off = at - middle(at);
-    const Ball h = magnitude(plus_minus(off, reach()));
-    return {value + first * off + second * from_zero_to(half(sqr(h))), first, *this};
-  }
+  [[nodiscard]] Ball range() const { return is_constant() ? at : plus_minus(at, magnitude(slope)); }
 };
 
-using MeanValueForm = FirstOrderForm<1>;  ///< over a box of the path
-inline constexpr std::size_t kCellAxes = 3;
-using CellForm = FirstOrderForm<kCellAxes>;  ///< over a cell of a map
+inline MeanValueForm operator+(const MeanValueForm& a, const MeanValueForm& b) {
+  return {a.at + b.at, a.slope + b.slope};
+}
+inline MeanValueForm operator-(const MeanValueForm& a, const MeanValueForm& b) {
+  return {a.at - b.at, a.slope - b.slope};
+}
+inline MeanValueForm operator-(const MeanValueForm& a) { return {-a.at, -a.slope}; }
+inline MeanValueForm& operator+=(MeanValueForm& a, const MeanValueForm& b) {
+  a.at += b.at;
+  a.slope += b.slope;
+  return a;
+}
+inline MeanValueForm operator*(const Ball& a, const MeanValueForm& b) {
+  return {a * b.at, b.is_constant() ? Ball() : a * b.slope};
+}
+inline MeanValueForm operator*(const MeanValueForm& a, const Ball& b) { return b * a; }
+inline MeanValueForm operator*(const MeanValueForm& a, const MeanValueForm& b) {
+  if (a.is_constant()) return a.at * b;
+  if (b.is_constant()) return b.at * a;
+  Ball slope = a.at * b.slope;
+  slope.add_product(a.slope, b.at);
+  return {a.at * b.at + from_zero_to(a.slope * b.slope), std::move(slope)};
+}
+
+/// F(f) from F and F' at the middle of `at` and F'' on the range.
+inline MeanValueForm taylor(const MeanValueForm& f, const Ball& value, const Ball& first, const Ball& second) {
+  const Ball off = f.at - middle(f.at);
+  const Ball largest = magnitude(plus_minus(off, magnitude(f.slope)));
+  return {value + first * off + second * from_zero_to(half(sqr(largest))), first * f.slope};
+}
+inline MeanValueForm apply(Function F, const MeanValueForm& f) {
+  if (f.is_constant()) return MeanValueForm(value(F, f.at));
+  const Ball centre = middle(f.at);
+  return taylor(f, value(F, centre), first_derivative(F, centre), second_derivative(F, f.range()));
+}
+inline MeanValueForm sqr(const MeanValueForm& f) {
+  return f.is_constant() ? MeanValueForm(sqr(f.at))
+                         : MeanValueForm{sqr(f.at) + from_zero_to(sqr(f.slope)), Ball(2) * f.at * f.slope};
+}
+inline MeanValueForm power(const MeanValueForm& f, int n) {
+  if (n == 0) return MeanValueForm(Ball(1));
+  if (n == 1) return f;
+  if (f.is_constant()) return MeanValueForm(power(f.at, n));
+  const Ball centre = middle(f.at);
+  return taylor(f, power(centre, n), Ball(n) * power(centre, n - 1), Ball(n) * Ball(n - 1) * power(f.range(), n - 2));
+}
 
 /// The largest of one or more functions, which may be another one at another u. Those that never are the largest are
 /// left out.
@@ -131,7 +100,7 @@ inline MeanValueForm maximum(std::span<const MeanValueForm> forms) {
       continue;
     }
     result.at = hull(larger(lowest(result.at), lowest(f.at)), larger(highest(result.at), highest(f.at)));
-    result.slope[0] = hull(result.slope[0], f.slope[0]);
+    result.slope = hull(result.slope, f.slope);
   }
   return result;
 }
@@ -167,12 +136,11 @@ inline Jet power(const Jet& a, int n) {
   return {power(a.value, n), a, Ball(n) * power(a.value, n - 1), Jet(), Ball()};
 }
 
+inline Ball range(const MeanValueForm& f) { return f.range(); }
 inline Ball range(const Jet& f) { return f.value; }
 
 template <class T>
-concept Differentiable = std::same_as<T, MeanValueForm> || std::same_as<T, CellForm> || std::same_as<T, Jet>;
-template <Differentiable T>
-T operator/(const T& a, const T& b) {
+T operator/(const T& a, const T& b) requires(std::same_as<T, MeanValueForm> || std::same_as<T, Jet>) {
   return a * apply(Function::kInverse, b);
 }
 /// The angle of (x, y) in (-pi, pi]. @throws Undefined where (x, y) may be the origin or cross the cut y = 0, x < 0.

@@ -6,16 +6,101 @@
 namespace taut::checker {
 namespace {
 
+using Force = Vector3<Ball>;
+
+/// A force and a moment.
+struct ChosenWrench {
+  Force force, moment;
+};
+
 /// The numbers in the middle of the balls.
-Vector6<Ball> middles(Vector6<Ball> x) {
+template <std::size_t N>
+std::array<Ball, N> middles(std::array<Ball, N> x) {
   for (Ball& entry : x) entry = middle(entry);
   return x;
 }
 
+/// v / |v| for numbers v; 0 if v is.
+Force unit(const Force& v) {
+  const Ball squared = squared_norm(v);
+  return certainly_positive(squared) ? Ball(1) / sqrt(squared) * v : Force{};
+}
+
+ChosenWrench along(const Force& vector, bool is_moment) {
+  return is_moment ? ChosenWrench{{}, vector} : ChosenWrench{vector, {}};
+}
+
+/// A wrench of an item, about its point and in its axes, for which g . F + m . M is about as large as it gets. In the
+/// set whatever the numbers g and m are.
+class Choice {
+ public:
+  Choice(Force g, Force m, const ExactVector& gravity) : g_(std::move(g)), m_(std::move(m)), gravity_(gravity) {}
+
+  ChosenWrench operator()(const Weight& x) const {
+    const Force gravity = balls(gravity_);
+    const Force e = Ball(x.offset) * unit(middles(cross(gravity, m_)));  // |e| <= offset
+    const bool is_most = certainly_positive(middle(dot(g_, gravity) + dot(e, cross(gravity, m_))));
+    const Force weight = Ball(is_most ? x.mass.upper : x.mass.lower) * gravity;
+    return {weight, cross(e, weight)};
+  }
+  ChosenWrench operator()(const BallOrDisc& x) const {
+    Force v = x.is_moment ? m_ : g_;
+    if (x.normal) {
+      const Force normal = balls(*x.normal);
+      // v need not be quite in the plane: what is chosen is the unit vector along its part there.
+      const Force exact = middles(v);
+      v = exact - dot(exact, normal) / Ball(dot(*x.normal, *x.normal)) * normal;
+      return along(Ball(x.radius) * unit(v), x.is_moment);
+    }
+    return along(Ball(x.radius) * unit(middles(v)), x.is_moment);
+  }
+  ChosenWrench operator()(const LineSegment& x) const {
+    const Ball towards = dot(x.is_moment ? m_ : g_, balls(x.direction));
+    const mpq_class& f = certainly_positive(middle(towards)) ? x.range.upper : x.range.lower;
+    return along(Ball(f) / sqrt(Ball(dot(x.direction, x.direction))) * balls(x.direction), x.is_moment);
+  }
+  ChosenWrench operator()(const LoadCases& x) const {
+    ChosenWrench best;
+    Ball most;
+    for (const ExactWrench& w : x.wrenches) {
+      const ChosenWrench one = {{Ball(w[0]), Ball(w[1]), Ball(w[2])}, {Ball(w[3]), Ball(w[4]), Ball(w[5])}};
+      const Ball value = middle(dot(g_, one.force) + dot(m_, one.moment));
+      if (&w != x.wrenches.data() && !certainly_positive(value - most)) continue;
+      best = one;
+      most = value;
+    }
+    return best;
+  }
+
+ private:
+  Force g_, m_;
+  const ExactVector& gravity_;
+};
+
 }  // namespace
 
-OutsideProof::OutsideProof(const Machine& machine, const Problem& problem, std::span<const CellForm> parameters)
-    : machine_(machine) {
+StatedMachine::StatedMachine(const Problem& stated) : problem(stated), wrench(balls(stated.wrench)) {
+  for (std::size_t i = 0; i < kCables; ++i) {
+    base[i] = balls(stated.base_anchors[i]);
+    platform[i] = balls(stated.platform_anchors[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      arms[i][c] = Ball(mpq_class(stated.platform_anchors[i][c] - stated.load_point[c]));
+    }
+    tension_limits[i] = {Ball(stated.tension[i].lower), Ball(stated.tension[i].upper)};
+  }
+  if (stated.ellipsoid) {
+    Ellipsoid& K = ellipsoid.emplace();
+    for (std::size_t i = 0; i < 6; ++i) K.E[i] = balls((*stated.ellipsoid)[i]);
+    K.near_inverse = approximate_inverse(K.E);
+  }
+  for (const LoadItem& item : stated.items) {
+    Force& arm = item_arms.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) arm[c] = Ball(mpq_class(item.at[c] - stated.load_point[c]));
+  }
+}
+
+OutsideProof::OutsideProof(const StatedMachine& machine, std::span<const CellForm> parameters) : machine_(machine) {
+  const Problem& problem = machine.problem;
   Vector6<CellForm> pose;
   for (std::size_t c = 0; c < 6; ++c) pose[c] = problem.pose[c].evaluate<CellForm>(parameters);
   R_ = orientation(problem, pose);
@@ -32,7 +117,8 @@ bool OutsideProof::holds(const OutsideReason& reason) {
 }
 
 bool OutsideProof::is_beyond_length(std::size_t cable, std::size_t side) const {
-  const Ball limit = sqr(machine_.length_limits[cable][side]);
+  const Limits& limits = machine_.problem.length[cable];
+  const Ball limit(side == 0 ? mpq_class(limits.lower * limits.lower) : mpq_class(limits.upper * limits.upper));
   const Ball squared = squared_[cable].range();
   return certainly_nonnegative(side == 0 ? limit - squared : squared - limit);
 }
@@ -65,34 +151,56 @@ Vector6<CellForm> OutsideProof::row(const OutsideReason& reason) const {
   Vector6<CellForm> result;
   for (std::size_t c = 0; c < 6; ++c) result[c].at = row[c];
   for (std::size_t k = 0; k < kCellAxes && reason.kind == OutsideReason::Kind::kFollowing; ++k) {
-    const Vector6<Ball> change = middles(multiply(multiply(row, S_[k]), C_));
-    for (std::size_t c = 0; c < 6; ++c) result[c].slope[k] = -change[c];
+    Vector6<Ball> by_S, change;
+    for (std::size_t c = 0; c < 6; ++c) {
+      for (std::size_t l = 0; l < 6; ++l) by_S[c].add_product(row[l], S_[k][l][c]);
+    }
+    for (std::size_t c = 0; c < 6; ++c) {
+      for (std::size_t l = 0; l < 6; ++l) change[c] -= by_S[l] * C_[l][c];
+    }
+    change = middles(change);
+    for (std::size_t c = 0; c < 6; ++c) result[c].slope[k] = change[c];
   }
   return result;
 }
 
 /// y . w for a w of K, one at each u.
 CellForm OutsideProof::work(const Vector6<CellForm>& y) const {
-  Vector6<Ball> in_middle;  // numbers
+  Vector6<Ball> in_middle;
+  for (std::size_t c = 0; c < 6; ++c) in_middle[c] = y[c].at;  // numbers
   Vector6<CellForm> w;
-  for (std::size_t c = 0; c < 6; ++c) {
-    in_middle[c] = y[c].at;
-    w[c] = CellForm(machine_.wrench[c]);
-  }
+  for (std::size_t c = 0; c < 6; ++c) w[c] = CellForm(machine_.wrench[c]);
   if (machine_.ellipsoid) {
-    const Vector6<Ball> z = middles(multiply(in_middle, *machine_.ellipsoid));
-    const Ball size = length_range(z);
-    const Vector6<Ball> Lz = multiply(*machine_.ellipsoid, z);
-    for (std::size_t c = 0; c < 6 && certainly_positive(size); ++c) w[c].at += Lz[c] / size;
+    const auto& [E, near_inverse] = *machine_.ellipsoid;
+    const Vector6<Ball> e = middles(multiply(near_inverse, in_middle));
+    const Vector6<Ball> Ee = multiply(E, e);
+    Ball squared;
+    for (std::size_t c = 0; c < 6; ++c) squared.add_product(e[c], Ee[c]);
+    // w0 + e / sqrt(e' E e) is in K.
+    for (std::size_t c = 0; c < 6 && certainly_positive(squared); ++c) w[c].at += e[c] / sqrt(squared);
   }
   Matrix3<Ball> R;  // numbers, close to the rotation in the middle: only to choose with
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) R[i][j] = middle(R_[i][j].at);
   }
-  for (const Load& item : machine_.items) {
-    const Wrench chosen = item.maximizers(item.lever(R, in_middle)).front();
-    const Vector6<CellForm> about_load_point = item.about_load_point(R_, chosen);
-    for (std::size_t c = 0; c < 6; ++c) w[c] += about_load_point[c];
+  const Problem& problem = machine_.problem;
+  for (std::size_t n = 0; n < problem.items.size(); ++n) {
+    const LoadItem& item = problem.items[n];
+    const bool turns = item.axes == Axes::kPlatform;
+    const Force y_M = {in_middle[3], in_middle[4], in_middle[5]};
+    const Force g = Force{in_middle[0], in_middle[1], in_middle[2]} + cross(y_M, multiply(R, machine_.item_arms[n]));
+    const Matrix3<Ball> back = transposed(R);
+    const auto in_its_axes = [&](const Force& x) { return middles(turns ? multiply(back, x) : x); };
+    const ChosenWrench chosen = std::visit(Choice(in_its_axes(g), in_its_axes(y_M), problem.gravity), item.set);
+    const auto in_W = [&](const Force& x) {
+      return turns ? multiply(R_, x) : Vector3<CellForm>{CellForm(x[0]), CellForm(x[1]), CellForm(x[2])};
+    };
+    const Vector3<CellForm> force = in_W(chosen.force);
+    const Vector3<CellForm> moment = in_W(chosen.moment) + cross(multiply(R_, machine_.item_arms[n]), force);
+    for (std::size_t c = 0; c < 3; ++c) {
+      w[c] += force[c];
+      w[3 + c] += moment[c];
+    }
   }
   CellForm result;
   for (std::size_t c = 0; c < 6; ++c) result += y[c] * w[c];

@@ -13,13 +13,15 @@
 // inverse of D in the middle of the cell, y is row i of C, or minus that (kFixed); or that row and its first-order
 // change, -(row i) S_k C with S_k the slopes of D (kFollowing). The latter y . J_j is 1/d_i or 0 but for terms of
 // second order, so that (1) says that tension i is beyond its limit; the former is for cells next to det J = 0. w is a
-// sum of one wrench of the ellipsoid, w0 + L z / |z| (machine.h) with z close to L' y, and one of each item, constant in
-// the item's axes, such that y . w is about as large as it gets in the middle of the cell.
+// sum of one wrench of the ellipsoid and one of each item, constant in the item's axes, such that y . w is about as
+// large as it gets in the middle of the cell.
 #pragma once
 
 #include <span>
 
-#include "checker/kernel/machine.h"
+#include "checker/kernel/cell_form.h"
+#include "checker/kernel/linear.h"
+#include "checker/kernel/statement.h"
 
 namespace taut::checker {
 
@@ -32,12 +34,30 @@ struct OutsideReason {
   bool operator==(const OutsideReason&) const = default;
 };
 
+/// The machine exactly as a problem states it, at the working precision. Refers to the problem.
+struct StatedMachine {
+  /// @throws Undefined where the ellipsoid's matrix has no inverse.
+  explicit StatedMachine(const Problem& problem);
+
+  const Problem& problem;
+  std::array<Vector3<Ball>, kCables> base;      ///< a_i
+  std::array<Vector3<Ball>, kCables> platform;  ///< b_i
+  std::array<Vector3<Ball>, kCables> arms;      ///< b_i - p_m
+  std::array<std::array<Ball, 2>, kCables> tension_limits;
+  Vector6<Ball> wrench;  ///< w0
+  struct Ellipsoid {
+    Matrix6<Ball> E;
+    Matrix6<Ball> near_inverse;  ///< numbers
+  };
+  std::optional<Ellipsoid> ellipsoid;
+  std::vector<Vector3<Ball>> item_arms;  ///< c - p_m of each item
+};
+
 /// One cell, at the working precision of `machine`, which outlives it.
 class OutsideProof {
  public:
-  /// @param machine  of `problem`
   /// @throws Undefined where the poses of the cell can't be enclosed.
-  OutsideProof(const Machine& machine, const Problem& problem, std::span<const CellForm> parameters);
+  OutsideProof(const StatedMachine& machine, std::span<const CellForm> parameters);
 
   /// Claim, if true. For every pose of the cell: a cable's length is not inside its open limits, or no tensions inside
   /// their limits balance some wrench of K. @throws Undefined where that can't be told.
@@ -50,7 +70,7 @@ class OutsideProof {
   [[nodiscard]] Vector6<CellForm> row(const OutsideReason& reason) const;
   [[nodiscard]] CellForm work(const Vector6<CellForm>& y) const;
 
-  const Machine& machine_;
+  const StatedMachine& machine_;
   Matrix3<CellForm> R_;
   std::array<Vector3<CellForm>, kCables> d_;    ///< [m]
   std::array<CellForm, kCables> squared_;       ///< |d_i|^2

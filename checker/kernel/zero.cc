@@ -41,7 +41,7 @@ Vector6<MeanValueForm> only_zero(const Equations& equations, const Ball& tube, c
       }
       K[i] = c[i] - moved[i];
       K[i].at = plus_minus(K[i].at, left[i]);
-      c[i] = {middle(K[i].at), middle(K[i].slope[0])};
+      c[i] = {middle(K[i].at), middle(K[i].slope)};
       w[i] = magnitude((K[i] - c[i]).range());
     }
   }

@@ -37,7 +37,7 @@ inline bool holds(const Ball& ball, const BigFloat& value, double error = 1e-40)
 /// Whether the form may have the value at u.
 inline bool holds(const MeanValueForm& form, double u, const BigFloat& value, double error = 1e-40) {
   const WorkingPrecision precision(4096);
-  return holds(form.at + form.slope[0] * Ball(u), value, error);
+  return holds(form.at + form.slope * Ball(u), value, error);
 }
 
 inline double width(const Ball& x) { return 2 * mag_get_d(arb_radref(x.get())); }

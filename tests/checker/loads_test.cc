@@ -35,15 +35,15 @@ TEST(Norm, HoldsAlsoWhereItVanishes) {
       }
       EXPECT_TRUE(holds(length, u, campaign::root(square))) << trial << " at " << u;
     }
-    EXPECT_LE(approx(magnitude(length.slope[0])), 2) << "no steeper than the vector";
+    EXPECT_LE(approx(magnitude(length.slope)), 2) << "no steeper than the vector";
   }
 }
 
 TEST(Norm, IsAsSteepAsTheVectorAlongItself) {
   const WorkingPrecision precision(64);
   const MeanValueForm length = norm({line(3, 0.003), line(4, 0.004), line(0, 0)});
-  EXPECT_TRUE(holds(length.slope[0], big(0.005), 1e-4));
-  EXPECT_LT(width(length.slope[0]), 1e-4);
+  EXPECT_TRUE(holds(length.slope, big(0.005), 1e-4));
+  EXPECT_LT(width(length.slope), 1e-4);
   EXPECT_LT(width(length.at), 1e-15);
 }
 
@@ -77,10 +77,10 @@ TEST(Maximum, LeavesOutWhatIsNeverTheLargest) {
   const WorkingPrecision precision(64);
   const MeanValueForm largest = maximum(std::array{line(0, 5), line(10, 1), line(3, -5)});
   EXPECT_TRUE(is_within(largest.at, Ball(10)));
-  EXPECT_TRUE(is_within(largest.slope[0], Ball(1)));
+  EXPECT_TRUE(is_within(largest.slope, Ball(1)));
   const MeanValueForm size = absolute(line(-2, 1));
   EXPECT_TRUE(is_within(size.at, Ball(2)));
-  EXPECT_TRUE(is_within(size.slope[0], Ball(-1)));
+  EXPECT_TRUE(is_within(size.slope, Ball(-1)));
 }
 
 /// A row of D^-1 along u, exactly: at + slope u.
@@ -140,7 +140,7 @@ TEST(Load, AboveAndBelowHoldTheWorstLoad) {
     const Lever<MeanValueForm> y = load.lever(identity, row.forms());
     const MeanValueForm above = load.above(y);
     const MeanValueForm below = load.above(-y);
-    const Vector6<MeanValueForm> nominal = load.about_load_point(identity, load.nominal());
+    const Vector6<MeanValueForm> nominal = load.nominal_about_load_point(identity);
     const std::vector<Wrench> best = load.maximizers({range(y.g), range(y.m)});
     ASSERT_FALSE(best.empty());
     for (const double u : samples(random, 6)) {
@@ -159,7 +159,7 @@ TEST(Load, AboveAndBelowHoldTheWorstLoad) {
       Ball attained;
       for (std::size_t k = 0; k < best.size(); ++k) {
         Vector6<Ball> now;
-        for (std::size_t c = 0; c < 6; ++c) now[c] = row.forms()[c].at + row.forms()[c].slope[0] * Ball(u);
+        for (std::size_t c = 0; c < 6; ++c) now[c] = row.forms()[c].at + row.forms()[c].slope * Ball(u);
         const Ball one = of(load.lever(range(identity), now), best[k]);
         attained = k == 0 ? one : hull(attained, one);
       }

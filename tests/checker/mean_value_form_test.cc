@@ -94,7 +94,7 @@ bool expect_enclosed(const std::string& text, std::mt19937_64& random) {
     const double scale = std::min(1e290, 1e-30 * (1 + std::abs(value.to_double())));
     EXPECT_TRUE(holds(*form, u, value, scale))
         << text << " at u = " << u << ": " << testing::digits(value) << " is not in " << print(form->at) << " + u ("
-        << print(form->slope[0]) << ")";
+        << print(form->slope) << ")";
     EXPECT_TRUE(holds(form->range(), value, scale)) << text << " at u = " << u;
     if (::testing::Test::HasFailure()) return true;
   }

@@ -76,7 +76,7 @@ Given circles(double a, double r, double q, double rate, double from_y) {
 
 bool may_be(const MeanValueForm& form, double u, const BigFloat& value) {
   const WorkingPrecision precision(1024);
-  return arb_overlaps((form.at + form.slope[0] * Ball(u)).get(), plus_minus(exactly(value), Ball(1e-50)).get()) != 0;
+  return arb_overlaps((form.at + form.slope * Ball(u)).get(), plus_minus(exactly(value), Ball(1e-50)).get()) != 0;
 }
 double width(const Ball& x) { return 2 * mag_get_d(arb_radref(x.get())); }
 
