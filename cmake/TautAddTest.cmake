@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # taut_add_test(<folder> <header> LABELS <label>… LIBS <target>… [PROGRAM <name>] [SHARDS <count>] [COST <seconds>]
-#   [TIMEOUT <seconds>] [TOGETHER])
+#   [TIMEOUT <seconds>] [TOGETHER] [OPTIMIZED])
 # compiles tests/<folder>/<header>_test.cc into the folder's test program, <folder>_test, and registers its tests as one
 # ctest entry, <folder>.<header>. SHARDS makes it so many entries that run in parallel: <folder>.<header>.1 and so on.
 # Files labelled laws are left out without TAUT_LAWS.
 #
 # Each file is an object library, so that it is compiled with the flags of what it links and of nothing else: the files
 # that compute intervals with taut_rounding, the others without. Most tests take longer to compile than to run, so they
-# are compiled with -O1; those of laws compute much and are optimized in full. Files that are TOGETHER, which all link
-# the same, are one object library and compiled several at a time.
+# are compiled with -O1, unless they compute much themselves (OPTIMIZED): the checker's computing is FLINT's and MPFR's.
+# Files that are TOGETHER, which all link the same, are one object library and compiled several at a time.
 function(taut_add_test folder name)
-  cmake_parse_arguments(ARG "TOGETHER" "PROGRAM;SHARDS;COST;TIMEOUT" "LABELS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER;OPTIMIZED" "PROGRAM;SHARDS;COST;TIMEOUT" "LABELS;LIBS" ${ARGN})
   if(laws IN_LIST ARG_LABELS AND NOT TAUT_LAWS)
     return()
   endif()
@@ -31,7 +31,7 @@ function(taut_add_test folder name)
   target_link_libraries(${objects} PRIVATE taut_common ${ARG_LIBS} GTest::gtest GTest::gmock)
   target_compile_definitions(${objects} PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TAUT_CERTIFICATES="${TAUT_CERTIFICATES}")
-  if(NOT laws IN_LIST ARG_LABELS)
+  if(NOT ARG_OPTIMIZED)
     target_compile_options(${objects} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if(NOT TARGET ${ARG_PROGRAM})
@@ -67,12 +67,17 @@ function(taut_add_test folder name)
   endwhile()
 endfunction()
 
-# taut_add_script_test(<folder> <name> LABELS <label>… ARGUMENTS <argument>… [COST <seconds>] [TIMEOUT <seconds>])
-# registers tests/<folder>/<name>_test.py as the ctest entry <folder>.<name>.
+# taut_add_script_test(<folder> <name> LABELS <label>… ARGUMENTS <argument>… [COST <seconds>] [TIMEOUT <seconds>]
+#   [SCRIPT <script>])
+# registers tests/<folder>/<script>_test.py, of that name unless another is given, as the ctest entry <folder>.<name>.
 function(taut_add_script_test folder name)
-  cmake_parse_arguments(ARG "" "COST;TIMEOUT" "LABELS;ARGUMENTS" ${ARGN})
+  cmake_parse_arguments(ARG "" "COST;TIMEOUT;SCRIPT" "LABELS;ARGUMENTS" ${ARGN})
+  if(NOT ARG_SCRIPT)
+    set(ARG_SCRIPT ${name})
+  endif()
   add_test(NAME ${folder}.${name}
-    COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${name}_test.py ${ARG_ARGUMENTS})
+    COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${ARG_SCRIPT}_test.py
+      ${ARG_ARGUMENTS})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()

@@ -21,5 +21,5 @@ taut_add_test(kinematics waypoint_maker LABELS unit LIBS taut::case taut::path_i
 taut_add_test(kinematics segment LABELS unit LIBS taut::kinematics)
 taut_add_test(kinematics margin_budget LABELS unit LIBS taut::case taut::kinematics fmt::fmt)
 foreach(header model statics jet navigation_manifold)
-  taut_add_test(kinematics ${header} LABELS unit laws LIBS taut::case taut::certify)
+  taut_add_test(kinematics ${header} LABELS unit laws LIBS taut::case taut::certify OPTIMIZED)
 endforeach()
