@@ -18,8 +18,7 @@ namespace {
 
 using testing::AtlasFilePlaces;
 using testing::coordinates;
-
-constexpr double kGreedy = std::numeric_limits<double>::infinity();
+using testing::kGreedy;
 
 AtlasKey key() {
   AtlasKey key;

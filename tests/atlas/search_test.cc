@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <queue>
 #include <set>
 
@@ -13,16 +12,9 @@ namespace taut {
 namespace {
 
 using testing::coordinates;
+using testing::kGreedy;
 using testing::kPi;
-
-constexpr double kGreedy = std::numeric_limits<double>::infinity();
-
-AtlasOptions options(double radius, double epsilon) {
-  AtlasOptions result;
-  result.radius = radius;
-  result.epsilon = epsilon;
-  return result;
-}
+using testing::options;
 
 double euclidean(const Coordinates& a, const Coordinates& b) { return (a - b).norm(); }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -15,6 +16,8 @@
 namespace taut::testing {
 
 inline constexpr double kPi = std::numbers::pi;
+/// The weight of a greedy search.
+inline constexpr double kGreedy = std::numeric_limits<double>::infinity();
 
 inline Coordinates coordinates(std::initializer_list<double> values) {
   Coordinates result(values.size());

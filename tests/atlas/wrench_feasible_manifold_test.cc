@@ -5,16 +5,13 @@
 
 #include "base/input_error.h"
 #include "kinematics/constraint_functions.h"
+#include "tests/atlas/surfaces.h"
 #include "tests/support/robots.h"
 
 namespace taut {
 namespace {
 
-Coordinates coordinates(std::initializer_list<double> values) {
-  Coordinates q(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), q.data());
-  return q;
-}
+using testing::coordinates;
 
 /// A pose of Robot 2 on the sphere.
 Coordinates on_sphere(double phi, double theta) {

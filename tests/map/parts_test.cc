@@ -4,18 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "tests/map/problems.h"
 
 namespace taut::testing {
 namespace {
-
-bool are_same(const CellMap& a, const CellMap& b) {
-  return a.nodes.size() == b.nodes.size() && a.judged == b.judged && a.end == b.end && a.share == b.share &&
-         a.tolerance_share == b.tolerance_share &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(MapNode)) == 0;
-}
 
 /// All parts, divided by so many halvings at a time.
 std::vector<std::string> trees_of(const MapParts& parts, int first, int step) {

@@ -2,6 +2,7 @@
 // Problems whose spaces are mapped, and their poses in 200 bits.
 #pragma once
 
+#include <cstring>
 #include <string>
 
 #include "map/subdivision.h"
@@ -9,6 +10,13 @@
 #include "tests/support/robots.h"
 
 namespace taut::testing {
+
+/// Bit for bit.
+inline bool are_same(const CellMap& a, const CellMap& b) {
+  return a.nodes.size() == b.nodes.size() && a.judged == b.judged && a.end == b.end && a.share == b.share &&
+         a.tolerance_share == b.tolerance_share &&
+         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(MapNode)) == 0;
+}
 
 /// Robot 1 on the slice, with a load of items in place of its ellipsoid, or around it.
 inline Problem robot1_with_items(bool with_ellipsoid) {

@@ -16,11 +16,6 @@ CellMap map_of(const Problem& problem, const SubdivisionOptions& options) {
   return subdivide(problem, make_map_space(problem.space), options);
 }
 
-bool are_same(const CellMap& a, const CellMap& b) {
-  return a.nodes.size() == b.nodes.size() && a.judged == b.judged && a.end == b.end && a.share == b.share &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(MapNode)) == 0;
-}
-
 TEST(Subdivision, CoversTheSpaceOnceAndCountsItsShares) {
   const CellMap map = map_of(robot1_slice(), {.undecided_share = 0.05});
   EXPECT_EQ(map.end, CellMap::End::kShare);
