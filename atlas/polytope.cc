@@ -47,6 +47,97 @@ double squared_norm(const Polytope::Vertex& vertex, int dimension) {
   return sum;
 }
 
+// Index of the new vertex f: that of a removed vertex, or one behind the `count` old ones.
+int place_of(int f, int count) {
+  const int removed = static_cast<int>(scratch.outside.size());
+  return f < removed ? scratch.outside[f] : count + f - removed;
+}
+
+// New vertices on all edges that the cut crosses, into the scratch.
+void cut_edges(std::vector<Polytope::Vertex>& vertices, int dimension, double tolerance, int facet) {
+  const std::vector<double>& excess = scratch.excess;
+  std::vector<Polytope::Vertex>& fresh = scratch.fresh;
+  const int count = static_cast<int>(vertices.size());
+  fresh.clear();
+  for (const int v : scratch.outside) {
+    for (int k = 0; k < dimension; ++k) {
+      const int w = vertices[v].neighbours[k];
+      if (excess[w] > tolerance) continue;
+      const double t = std::min(1.0, std::max(0.0, -excess[w] / (excess[v] - excess[w])));  // w + t (v - w)
+      Polytope::Vertex vertex = vertices[v];
+      vertex.marked = false;
+      for (int j = 0; j < dimension; ++j) {
+        const double at_w = vertices[w].position[j];
+        vertex.position[j] = at_w + t * (vertex.position[j] - at_w);
+      }
+      vertex.squared_norm = squared_norm(vertex, dimension);
+      vertex.facets[k] = facet;  // the edge to w is the one that leaves it
+      const int place = place_of(static_cast<int>(fresh.size()), count);
+      fresh.push_back(vertex);
+      // w's edges inside the cut still name vertices of the old polytope: negative until all are found.
+      Polytope::Vertex& inside = vertices[w];
+      inside.neighbours[slot_of(inside.neighbours, v)] = -1 - place;
+    }
+  }
+  for (const Polytope::Vertex& vertex : fresh) {
+    const int k = slot_of(vertex.facets, facet);
+    Polytope::Vertex& inside = vertices[vertex.neighbours[k]];
+    for (int j = 0; j < dimension; ++j) {
+      if (inside.neighbours[j] < 0) inside.neighbours[j] = -1 - inside.neighbours[j];
+    }
+  }
+}
+
+// Edges within the new facet: the two new vertices on the same 2-face of the old polytope.
+void join_in_facet(int facet, int dimension, int count) {
+  std::vector<Polytope::Vertex>& fresh = scratch.fresh;
+  std::vector<OpenEnd>& ends = scratch.ends;
+  ends.clear();
+  for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
+    const auto& facets = fresh[f].facets;
+    std::uint64_t all = 0;
+    for (int k = 0; k < dimension; ++k) all += scatter(facets[k]);
+    for (int slot = 0; slot < dimension; ++slot) {
+      if (facets[slot] != facet) ends.push_back({all - scatter(facets[slot]), f, slot});
+    }
+  }
+  std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {
+    return a.face != b.face ? a.face < b.face : a.vertex < b.vertex;
+  });
+  for (std::size_t e = 0; e + 1 < ends.size(); e += 2) {
+    fresh[ends[e].vertex].neighbours[ends[e].slot] = place_of(ends[e + 1].vertex, count);
+    fresh[ends[e + 1].vertex].neighbours[ends[e + 1].slot] = place_of(ends[e].vertex, count);
+  }
+}
+
+// Puts the new vertices in the places of those outside, and moves the last ones to places that are left open.
+void replace_vertices(std::vector<Polytope::Vertex>& vertices, int dimension) {
+  const std::vector<int>& outside = scratch.outside;
+  const std::vector<Polytope::Vertex>& fresh = scratch.fresh;
+  const int count = static_cast<int>(vertices.size());
+  for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
+    const int place = place_of(f, count);
+    if (place < count) {
+      vertices[place] = fresh[f];
+    } else {
+      vertices.push_back(fresh[f]);
+    }
+  }
+  // Fewer new vertices than removed ones: fill each hole with the last vertex.
+  for (int hole = static_cast<int>(outside.size()) - 1; hole >= static_cast<int>(fresh.size()); --hole) {
+    const int from = static_cast<int>(vertices.size()) - 1;
+    const int to = outside[hole];
+    if (to != from) {
+      vertices[to] = vertices[from];
+      for (int k = 0; k < dimension; ++k) {
+        Polytope::Vertex& neighbour = vertices[vertices[to].neighbours[k]];
+        neighbour.neighbours[slot_of(neighbour.neighbours, from)] = to;
+      }
+    }
+    vertices.pop_back();
+  }
+}
+
 }  // namespace
 
 Polytope::Polytope(int dimension, double half_side) : dimension_(dimension), half_side_(half_side) {
@@ -71,99 +162,22 @@ void Polytope::measure() {
 }
 
 bool Polytope::clip(const TangentVector& normal, double offset, int facet) {
-  // References, not a structured binding: clang's lambdas can't capture those.
-  std::vector<double>& excess = scratch.excess;
-  std::vector<int>& outside = scratch.outside;
-  std::vector<Vertex>& fresh = scratch.fresh;
-  std::vector<OpenEnd>& ends = scratch.ends;
-  const int n = dimension_;
   const int count = static_cast<int>(vertices_.size());
   const double length = normal.norm();
   if (offset >= circumradius_ * length) return false;
   const double tolerance = kOnTheCut * half_side_ * length;
-  outside.clear();
-  excess.resize(vertices_.size());
+  scratch.outside.clear();
+  scratch.excess.resize(vertices_.size());
   for (int v = 0; v < count; ++v) {
     double value = -offset;
-    for (int k = 0; k < n; ++k) value += normal[k] * vertices_[v].position[k];
-    excess[v] = value;
-    if (value > tolerance) outside.push_back(v);
+    for (int k = 0; k < dimension_; ++k) value += normal[k] * vertices_[v].position[k];
+    scratch.excess[v] = value;
+    if (value > tolerance) scratch.outside.push_back(v);
   }
-  if (outside.empty()) return false;
-
-  // A new vertex on each edge that the cut crosses. It takes the place of a removed vertex, or a new one at the end.
-  fresh.clear();
-  const auto place_of = [&](int f) {
-    return f < static_cast<int>(outside.size()) ? outside[f] : count + f - static_cast<int>(outside.size());
-  };
-  for (const int v : outside) {
-    for (int k = 0; k < n; ++k) {
-      const int w = vertices_[v].neighbours[k];
-      if (excess[w] > tolerance) continue;
-      const double t = std::min(1.0, std::max(0.0, -excess[w] / (excess[v] - excess[w])));  // w + t (v - w)
-      Vertex vertex = vertices_[v];
-      vertex.marked = false;
-      for (int j = 0; j < n; ++j) {
-        const double at_w = vertices_[w].position[j];
-        vertex.position[j] = at_w + t * (vertex.position[j] - at_w);
-      }
-      vertex.squared_norm = squared_norm(vertex, n);
-      vertex.facets[k] = facet;  // the edge to w is the one that leaves it
-      const int place = place_of(static_cast<int>(fresh.size()));
-      fresh.push_back(vertex);
-      // w's edges inside the cut still name vertices of the old polytope: negative until all are found.
-      Vertex& inside = vertices_[w];
-      inside.neighbours[slot_of(inside.neighbours, v)] = -1 - place;
-    }
-  }
-  for (const Vertex& vertex : fresh) {
-    const int k = slot_of(vertex.facets, facet);
-    Vertex& inside = vertices_[vertex.neighbours[k]];
-    for (int j = 0; j < n; ++j) {
-      if (inside.neighbours[j] < 0) inside.neighbours[j] = -1 - inside.neighbours[j];
-    }
-  }
-
-  // Edges within the new facet: the two new vertices on the same 2-face of the old polytope.
-  ends.clear();
-  for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
-    const auto& facets = fresh[f].facets;
-    std::uint64_t all = 0;
-    for (int k = 0; k < n; ++k) all += scatter(facets[k]);
-    for (int slot = 0; slot < n; ++slot) {
-      if (facets[slot] != facet) ends.push_back({all - scatter(facets[slot]), f, slot});
-    }
-  }
-  std::sort(ends.begin(), ends.end(), [](const OpenEnd& a, const OpenEnd& b) {
-    return a.face != b.face ? a.face < b.face : a.vertex < b.vertex;
-  });
-  for (std::size_t e = 0; e + 1 < ends.size(); e += 2) {
-    fresh[ends[e].vertex].neighbours[ends[e].slot] = place_of(ends[e + 1].vertex);
-    fresh[ends[e + 1].vertex].neighbours[ends[e + 1].slot] = place_of(ends[e].vertex);
-  }
-
-  for (int f = 0; f < static_cast<int>(fresh.size()); ++f) {
-    const int place = place_of(f);
-    if (place < count) {
-      vertices_[place] = fresh[f];
-    } else {
-      vertices_.push_back(fresh[f]);
-    }
-  }
-  // Fewer new vertices than removed ones: fill each hole with the last vertex.
-  for (int hole = static_cast<int>(outside.size()) - 1; hole >= static_cast<int>(fresh.size()); --hole) {
-    const int from = static_cast<int>(vertices_.size()) - 1;
-    const int to = outside[hole];
-    if (to != from) {
-      vertices_[to] = vertices_[from];
-      for (int k = 0; k < n; ++k) {
-        Vertex& neighbour = vertices_[vertices_[to].neighbours[k]];
-        neighbour.neighbours[slot_of(neighbour.neighbours, from)] = to;
-      }
-    }
-    vertices_.pop_back();
-  }
-
+  if (scratch.outside.empty()) return false;
+  cut_edges(vertices_, dimension_, tolerance, facet);
+  join_in_facet(facet, dimension_, count);
+  replace_vertices(vertices_, dimension_);
   measure();
   return true;
 }

@@ -358,6 +358,21 @@ MotionEnclosure<I> undisturbed_motion(const ProofModel<I>& problem, const Segmen
   return enclose_motion(problem.motion, segment, s.range, s.mid, offset);
 }
 
+/// What deviations within the tolerances change, where that is enclosed.
+template <class I>
+void add_disturbance(const ProofModel<I>& problem, UndisturbedBox<I> undisturbed, int continuation_steps,
+                     BoxEnclosure<I>& result) {
+  result.disturbance = disturbance<I>(undisturbed, *problem.tolerance, continuation_steps);
+  if (!result.disturbance) return;
+  disturb(result);
+  if (!may_be_sharpened(problem, result)) return;
+  undisturbed.is_item_by_item = true;
+  const auto sharper = disturbance<I>(undisturbed, *problem.tolerance, continuation_steps);
+  if (!sharper) return;
+  result.disturbance = sharper;
+  disturb(result);
+}
+
 template <class I>
 BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box,
                             int continuation_steps) {
@@ -398,28 +413,10 @@ BoxEnclosure<I> enclose_box(const ProofModel<I>& problem, const Segment& segment
   set_tensions(result);
   add_tension_margins(model, result);
   if (!problem.tolerance || !result.margins.are_positive()) return result;
-
-  UndisturbedBox<I> undisturbed{model,
-                                problem.item_rows,
-                                motion,
-                                geometry,
-                                result.length,
-                                result.density,
-                                densities.radius,
-                                densities.root,
-                                inverse.c(),
-                                inverse.q(),
-                                is_length_controlled(problem, segment)};
-  result.disturbance = disturbance<I>(undisturbed, *problem.tolerance, continuation_steps);
-  if (!result.disturbance) return result;
-  disturb(result);
-  if (may_be_sharpened(problem, result)) {
-    undisturbed.is_item_by_item = true;
-    const auto sharper = disturbance<I>(undisturbed, *problem.tolerance, continuation_steps);
-    if (!sharper) return result;
-    result.disturbance = sharper;
-    disturb(result);
-  }
+  add_disturbance(problem,
+                  {model, problem.item_rows, motion, geometry, result.length, result.density, densities.radius,
+                   densities.root, inverse.c(), inverse.q(), is_length_controlled(problem, segment)},
+                  continuation_steps, result);
   return result;
 }
 
@@ -471,6 +468,33 @@ I disturbed_reach(const I& undisturbed, std::size_t cable, std::size_t side, con
 /// More than this is not claimed of the factor by which K may grow.
 constexpr double kMostGrowth = 1e6;
 
+/// By which factor K may grow at least before this tension, whose margin is at least `bound` > 0, reaches its limit:
+/// (f0 − f_lo)/v = 1 + (f0 − v − f_lo)/v, and likewise above.
+template <class I>
+double wrench_scale(const BoxEnclosure<I>& enclosure, MarginId id, double bound) {
+  const auto n = static_cast<std::size_t>(id.cable);
+  const bool is_low = id.kind == MarginKind::kTensionMin;
+  I reach = enclosure.length[n].range * (is_low ? enclosure.below[n] : enclosure.above[n]).range;
+  if (enclosure.disturbance) reach = disturbed_reach(reach, n, is_low ? 0 : 1, *enclosure.disturbance);
+  const double most = upper_bound(reach);
+  if (!(most > bound / (2 * kMostGrowth))) return kMostGrowth;  // K is nearly a single wrench
+  return lower_bound(I(1.0) + I(bound) / I(most));
+}
+
+/// The verdict on a box in which not every pose is known to exist and to be in range.
+template <class I>
+std::optional<BoxVerdict::Kind> kind_without_motion(typename MotionEnclosure<I>::Status motion) {
+  using Status = typename MotionEnclosure<I>::Status;
+  switch (motion) {
+    case Status::kSpansKnot: return BoxVerdict::Kind::kSpansKnot;
+    case Status::kUnproved: return BoxVerdict::Kind::kNoMotion;
+    case Status::kOutOfRange: return BoxVerdict::Kind::kOutOfRange;
+    case Status::kRangeWide:
+    case Status::kKnown: break;
+  }
+  return std::nullopt;
+}
+
 template <class I>
 BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const DyadicBox& box, double clearance,
                  int continuation_steps) {
@@ -478,22 +502,15 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
   using Status = typename MotionEnclosure<I>::Status;
   const BoxEnclosure<I> enclosure = enclose_box(problem, segment, box, continuation_steps);
   BoxVerdict verdict;
-  switch (enclosure.motion) {
-    case Status::kSpansKnot: verdict.kind = Kind::kSpansKnot; return verdict;
-    case Status::kUnproved: verdict.kind = Kind::kNoMotion; return verdict;
-    case Status::kOutOfRange: verdict.kind = Kind::kOutOfRange; return verdict;
-    case Status::kRangeWide:
-    case Status::kKnown: break;
+  if (const auto kind = kind_without_motion<I>(enclosure.motion)) {
+    verdict.kind = *kind;
+    return verdict;
   }
-
   verdict.tension_N = verdict.length_m = std::numeric_limits<double>::infinity();
   verdict.wrench_scale = kMostGrowth;
-  bool all_positive = true;
-  bool midpoint_positive = true;
-  bool refuted = false;
-  bool too_close = false;
+  bool all_positive = true, midpoint_positive = true, all_positive_undisturbed = true;
+  bool refuted = false, too_close = false;
   MarginId refuted_id;
-  bool all_positive_undisturbed = true;
   bool within_tolerance = !problem.tolerance || enclosure.disturbance;
   for (const auto& [id, value, disturbed] : enclosure.margins) {
     const double bound = lower_bound(disturbed);
@@ -517,17 +534,7 @@ BoxVerdict judge(const ProofModel<I>& problem, const Segment& segment, const Dya
     }
     if (is_tension(id.kind)) {
       verdict.tension_N = std::min(verdict.tension_N, bound);
-      if (bound > 0) {
-        // (f0 − f_lo)/v = 1 + (f0 − v − f_lo)/v, and likewise above.
-        const auto n = static_cast<std::size_t>(id.cable);
-        const bool is_low = id.kind == MarginKind::kTensionMin;
-        I reach = enclosure.length[n].range * (is_low ? enclosure.below[n] : enclosure.above[n]).range;
-        if (enclosure.disturbance) reach = disturbed_reach(reach, n, is_low ? 0 : 1, *enclosure.disturbance);
-        const double most = upper_bound(reach);
-        if (!(most > bound / (2 * kMostGrowth))) continue;  // K is nearly a single wrench
-        const I scale = I(1.0) + I(bound) / I(most);
-        verdict.wrench_scale = std::min(verdict.wrench_scale, lower_bound(scale));
-      }
+      if (bound > 0) verdict.wrench_scale = std::min(verdict.wrench_scale, wrench_scale(enclosure, id, bound));
     } else {
       verdict.length_m = std::min(verdict.length_m, bound);
     }

@@ -6,32 +6,25 @@
 
 namespace taut {
 
+/// Y = D^-1 with its slopes −Y D' Y, from D with its own. @returns whether D could be inverted
 template <class S>
-bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTangent<S>& result) {
-  using J = Jet<S, 6>;
-  using Layout = NavigationLayout;
-  const Pose<J> jet_pose{Vector3<J>(J(pose.p_WP(0), 0), J(pose.p_WP(1), 1), J(pose.p_WP(2), 2)),
-                         {J(pose.angles[0], 3), J(pose.angles[1], 4), J(pose.angles[2], 5)}};
-  const CableGeometry<J> geometry = cable_geometry(model, jet_pose);
-
-  // Y = D^-1 with its slopes −Y D' Y.
+bool invert_with_slopes(const Matrix6<Jet<S, 6>>& D, Matrix6<Jet<S, 6>>& inverse) {
   Matrix6<S> d;
   for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) d(i, j) = geometry.force_density(i, j).value;
+    for (int j = 0; j < 6; ++j) d(i, j) = D(i, j).value;
   }
   Matrix6<S> y;
   S determinant;
   if (!invert(d, y, determinant)) return false;
-  Matrix6<J> inverse;
   for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) inverse(i, j) = J(y(i, j));
+    for (int j = 0; j < 6; ++j) inverse(i, j) = Jet<S, 6>(y(i, j));
   }
   for (std::size_t k = 0; k < 6; ++k) {
     Matrix6<S> product;  // D' Y
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j < 6; ++j) {
         S sum = S(0.0);
-        for (int l = 0; l < 6; ++l) sum = sum + geometry.force_density(i, l).partial[k] * y(l, j);
+        for (int l = 0; l < 6; ++l) sum = sum + D(i, l).partial[k] * y(l, j);
         product(i, j) = sum;
       }
     }
@@ -43,6 +36,19 @@ bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTa
       }
     }
   }
+  return true;
+}
+
+template <class S>
+bool navigation_tangent(const Model<S>& model, const Pose<S>& pose, NavigationTangent<S>& result) {
+  using J = Jet<S, 6>;
+  using Layout = NavigationLayout;
+  const Pose<J> jet_pose{Vector3<J>(J(pose.p_WP(0), 0), J(pose.p_WP(1), 1), J(pose.p_WP(2), 2)),
+                         {J(pose.angles[0], 3), J(pose.angles[1], 4), J(pose.angles[2], 5)}};
+  const CableGeometry<J> geometry = cable_geometry(model, jet_pose);
+
+  Matrix6<J> inverse;
+  if (!invert_with_slopes(geometry.force_density, inverse)) return false;
 
   const auto put = [&](int row, const J& x) {
     result.point(row) = x.value;

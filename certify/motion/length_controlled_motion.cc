@@ -293,22 +293,34 @@ std::optional<PoseEnclosure> only_pose(const Model<MpInterval>& model, const Ref
   return PoseEnclosure{found.p_WP.unaryExpr(at_mid), found.r_WP.unaryExpr(at_mid)};
 }
 
+/// |d_i| at a pose.
+std::array<MpInterval, kCables> lengths_at(const Model<MpInterval>& model, const PoseEnclosure& pose) {
+  std::array<MpInterval, kCables> result;
+  for (std::size_t i = 0; i < kCables; ++i) {
+    const Vector3<MpInterval> reach = apply(pose.r_WP, model.p_PB[i]);
+    MpInterval square(0.0);
+    for (int k = 0; k < 3; ++k) square = square + sqr(MpInterval(pose.p_WP(k) + reach(k) - model.p_WA[i](k)));
+    result[i] = sqrt(square);
+  }
+  return result;
+}
+
+/// The largest coordinate of a platform anchor.
+double platform_size(const Model<MpInterval>& model) {
+  double size = 0;
+  for (const Vector3<MpInterval>& b : model.p_PB) {
+    for (int k = 0; k < 3; ++k) size = std::max(size, std::abs(upper_bound(b(k))));
+  }
+  return size;
+}
+
 }  // namespace
 
 std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const PoseEnclosure& pose,
                                            const Model<MpInterval>& deviated,
                                            const std::array<MpInterval, kCables>& length_error) {
-  std::array<MpInterval, kCables> stated_lengths;
-  double size = 0;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    const Vector3<MpInterval> reach = apply(pose.r_WP, model.p_PB[i]);
-    MpInterval square(0.0);
-    for (int k = 0; k < 3; ++k) {
-      square = square + sqr(MpInterval(pose.p_WP(k) + reach(k) - model.p_WA[i](k)));
-      size = std::max(size, std::abs(upper_bound(model.p_PB[i](k))));
-    }
-    stated_lengths[i] = sqrt(square);
-  }
+  const std::array<MpInterval, kCables> stated_lengths = lengths_at(model, pose);
+  const double size = platform_size(model);
   if (!(size > 0 && std::isfinite(size))) return std::nullopt;
   // The only pose in a tube around `here` of all machines that deviate τ times as much, τ in `part`.
   const auto pose_in_tube = [&](const PoseEnclosure& here, const PoseTube& tube, const MpInterval& part) {
@@ -345,8 +357,7 @@ std::optional<PoseEnclosure> deviated_pose(const Model<MpInterval>& model, const
     return std::nullopt;
   };
   PoseEnclosure here = pose;
-  int halvings = 0;
-  int steady = 0;
+  int halvings = 0, steady = 0;
   for (double at = 0; at < 1;) {  // all of these are dyadic, hence exact
     const double next = std::min(1.0, at + std::ldexp(1.0, -halvings));
     if (auto found = follow(here, at, next, halvings)) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
 
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
@@ -156,6 +157,12 @@ json cables(const ReportContext& scene) {
           {"length", cable_uses(use.length, true, is_proved)}};
 }
 
+json json_columns(std::span<const std::vector<double>> list) {
+  json result = json::array();
+  for (const std::vector<double>& column : list) result.push_back(numbers(column));
+  return result;
+}
+
 /// The nominal force's components at the samples; none of a load whose nominal force is the same at all of them.
 json forces(const ReportContext& scene) {
   const Model<double>& model = scene.sampler.model();
@@ -170,11 +177,34 @@ json forces(const ReportContext& scene) {
     is_same = is_same && (force - level).norm() <= 1e-9 * level.norm();
     for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(force(static_cast<Eigen::Index>(c)));
   }
-  json result = json::array();
-  if (is_same) return result;
-  for (const std::vector<double>& column : columns) result.push_back(numbers(column));
-  return result;
+  return is_same ? json::array() : json_columns(columns);
 }
+
+/// The angles of one sample after another, as they are shown: those of poses go on from the last ones.
+class ShownAngleSequence {
+ public:
+  ShownAngleSequence(AngleKind kind, bool is_of_poses) : kind_(kind), is_of_poses_(is_of_poses) {}
+
+  std::array<double, 3> next(const std::array<double, 3>& stated, const Eigen::Quaterniond& q) {
+    if (!is_of_poses_) return stated;  // else they are wrapped
+    std::array<double, 3> shown{};
+    if (kind_ == AngleKind::kTiltAndTorsion) {
+      tilt_ = tilt_and_torsion(q, tilt_);
+      for (std::size_t c = 0; c < 3; ++c) shown[c] = tilt_->value(c);
+      return shown;
+    }
+    shown = angles_of(kind_, q.toRotationMatrix());
+    if (before_) shown = nearest_angles(kind_, shown, *before_);
+    before_ = shown;
+    return shown;
+  }
+
+ private:
+  AngleKind kind_;
+  bool is_of_poses_;
+  std::optional<TiltAndTorsion> tilt_;
+  std::optional<std::array<double, 3>> before_;
+};
 
 /// Columns with one entry for each sample.
 json samples(const ReportContext& scene) {
@@ -188,8 +218,7 @@ json samples(const ReportContext& scene) {
   std::array<std::vector<double>, kCables> tension, tension_below, tension_above, length;
   std::vector<std::vector<double>> parameters;
   json time = json::array();
-  std::optional<TiltAndTorsion> tilt;
-  std::optional<std::array<double, 3>> before;
+  ShownAngleSequence shown_angles_of(kind, has_poses(scene.certificate.path.interpolation));
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   for (const PathSample& sample : scene.samples) {
@@ -200,19 +229,8 @@ json samples(const ReportContext& scene) {
     RigidPose pose = scene.sampler.rigid_pose(sample);
     if (pose.q.dot(last) < 0) pose.q.coeffs() *= -1;
     last = pose.q;
-    std::array<double, 3> shown = sample.pose.angles;
-    const bool is_of_poses = has_poses(scene.certificate.path.interpolation);  // its angles are wrapped
-    if (is_of_poses && kind != AngleKind::kTiltAndTorsion) {
-      shown = angles_of(kind, pose.q.toRotationMatrix());
-      if (before) shown = nearest_angles(kind, shown, *before);
-      before = shown;
-    } else if (is_of_poses) {
-      tilt = tilt_and_torsion(pose.q, tilt);
-      for (std::size_t c = 0; c < 3; ++c) shown[c] = tilt->value(c);
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      p[c].push_back(pose.p(static_cast<Eigen::Index>(c)));
-    }
+    const std::array<double, 3> shown = shown_angles_of.next(sample.pose.angles, pose.q);
+    for (std::size_t c = 0; c < 3; ++c) p[c].push_back(pose.p(static_cast<Eigen::Index>(c)));
     for (std::size_t c = 0; c < angles.size(); ++c) angles[c].push_back(shown[c]);
     for (std::size_t c = 0; c < 4; ++c) q[c].push_back(pose.q.coeffs()(static_cast<Eigen::Index>(c)));
     const Statics<double>& s = sample.statics;
@@ -229,27 +247,22 @@ json samples(const ReportContext& scene) {
       for (std::size_t j = 0; j < 2; ++j) parameters[j].push_back(sample.parameters[j]);
     }
   }
-  const auto columns = [](const auto& list) {
-    json result = json::array();
-    for (const std::vector<double>& column : list) result.push_back(numbers(column));
-    return result;
-  };
   return {{"position", numbers(position)},
           {"distance", numbers(distance)},
           {"turned", numbers(turned)},
           {"time", time},
-          {"p", columns(p)},
-          {"q", columns(q)},
-          {"angles", columns(angles)},
+          {"p", json_columns(p)},
+          {"q", json_columns(q)},
+          {"angles", json_columns(angles)},
           {"angle_names", symbols},
-          {"length", columns(length)},
-          {"tension", columns(tension)},
-          {"tension_below", columns(tension_below)},
-          {"tension_above", columns(tension_above)},
+          {"length", json_columns(length)},
+          {"tension", json_columns(tension)},
+          {"tension_below", json_columns(tension_below)},
+          {"tension_above", json_columns(tension_above)},
           {"force", forces(scene)},
           {"wrench_scale", numbers(scale)},
           {"sign", numbers(sign)},
-          {"parameters", columns(parameters)}};
+          {"parameters", json_columns(parameters)}};
 }
 
 /// Consecutive boxes, and the ranges of tensions and lengths on them.
