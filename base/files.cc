@@ -212,6 +212,10 @@ std::string read_whole(const std::filesystem::path& path, std::size_t max_bytes)
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path, "read", errno != 0 ? errno : ENOENT);
   std::string content;
+  std::error_code unknown;
+  if (const std::uintmax_t size = std::filesystem::file_size(path, unknown); !unknown && size <= max_bytes) {
+    content.reserve(size);
+  }
   std::vector<char> piece(std::size_t{1} << 16U);
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
     content.append(piece.data(), static_cast<std::size_t>(file.gcount()));

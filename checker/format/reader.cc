@@ -98,6 +98,14 @@ class Reader {
     return count;
   }
 
+  /// How many objects there are in a list whose elements are objects of plain values; more are not made room for.
+  [[nodiscard]] std::size_t objects_in(const char* key) const {
+    constexpr std::size_t kLeastBytes = 24;  // {"half_turns":[],"x":[]}
+    const auto list = outline_.lists.find(key);
+    if (list == outline_.lists.end()) return 0;
+    return std::min<std::size_t>(std::ranges::count(list->second, '{'), list->second.size() / kLeastBytes);
+  }
+
   static void require_size(const Cursor& json, std::size_t size, std::size_t expected) {
     if (size != expected) json.fail("an array of " + std::to_string(expected));
   }
@@ -112,6 +120,7 @@ class Reader {
     json.object(
         "interpolation", [&](const Cursor& law) { path.law = law.one_of<Law>(kLaws, "a law of the format"); },
         "pose_tubes", is_list, "times", is_list_or_null, "tubes", is_list, "waypoints", is_list);
+    path.waypoints.reserve(objects_in("waypoints"));
     for_each("waypoints", "path.waypoints", [&](const Cursor& here, std::string_view /*text*/) {
       path.waypoints.push_back(read_waypoint(here, path.law));
       if (!has_poses(path.law)) require_waypoint(here, path.waypoints.back());
@@ -223,6 +232,7 @@ class Reader {
         is_proved || (result_.verdict == Verdict::kRefuted && has_stretches) ? result_.path.segments() : 0;
     (void)json.size();
     Parts gaps;
+    result_.segment_texts.reserve(expected);
     for_each("segments", "segments", [&](const Cursor& here, std::string_view text) {
       const std::size_t k = result_.segment_texts.size();
       here.require(k < result_.path.segments(), "no more segments than the path has");
