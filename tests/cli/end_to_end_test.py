@@ -142,11 +142,11 @@ class EndToEnd(InFolder):
         self.assertTrue(said.stdout.endswith(": path.csv, controller.csv, certificate.json\n"), said.stdout)
         self.assertEqual(sorted(os.listdir(self.out)), ["certificate.json", "controller.csv", "path.csv"],
                          "none of an earlier plan stays")
-        run(TAUT, "plan", case, "--out", self.out)
-        again = run(TAUT, "audit", case, self.path("path.csv"), "--no-report", "--out", self.out)
-        self.assertEqual(again.returncode, 0, again.stderr)
-        self.assertTrue(again.stdout.endswith(": path.csv, certificate.json\n"), again.stdout)
-        self.assertEqual(sorted(os.listdir(self.out)), ["certificate.json", "path.csv"])
+        for options, report in (([], ["report.html"]), (["--no-report"], [])):
+            said = run(TAUT, "audit", case, self.path("path.csv"), *options, "--out", self.path("audited"))
+            self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertTrue(said.stdout.endswith(", ".join([": path.csv", "certificate.json", *report]) + "\n"))
+            self.assertEqual(sorted(os.listdir(self.path("audited"))), ["certificate.json", "path.csv", *report])
 
     def test_the_report_is_made_again_from_the_certificate_alone(self):
         run(TAUT, "plan", os.path.join(CASES, "robot1-slice-qs1-qg.yaml"), "--out", self.out)
