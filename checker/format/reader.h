@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a certificate and checks its form: docs/certificate-format.md, versions 4 and 5. Proves nothing about the robot.
+// Reads a certificate and checks its form: docs/certificate-format.md, versions 4 and 5. Proves nothing about the
+// robot.
 #pragma once
 
 #include <array>
@@ -42,7 +43,8 @@ struct Certificate {
   Problem problem;
   nlohmann::json problem_json;  ///< `problem` as the file states it
   Path path;
-  /// Of the whole path, as written: tension_N, length_m, wrench_scale, and clearance_m, empty where there are no bodies.
+  /// Of the whole path, as written: tension_N, length_m, wrench_scale, and clearance_m, which is empty where there are
+  /// no bodies.
   std::array<std::string, 4> margins;
   std::optional<Witness> witness;
   std::string undecided_reason;
@@ -61,7 +63,8 @@ struct Certificate {
 /// Checks all rules of form: keys and their order, types, counts, digests, the signature, the claim's text; limits in
 /// order, E symmetric, periodic parameters along which pose and constraints close; sizes of waypoints and tubes, tubes
 /// that contain one another; boxes and stretches that tile the path, no box across an inner pose; directions for
-/// all pairs of bodies, in axes that may be; values of witnesses beyond their limits, weights of points whose sum is 1; the top-level margins those of the worst segments.
+/// all pairs of bodies, in axes that may be; values of witnesses beyond their limits, weights of points whose sum is 1;
+/// the top-level margins those of the worst segments.
 /// @param text  must outlive the certificate, which refers to it.
 /// @throws Malformed naming the key.
 [[nodiscard]] Certificate read_certificate(std::string_view text);

@@ -14,7 +14,8 @@ namespace taut::checker {
 /// `apart` of a segment and, unless there are none, of a box.
 [[nodiscard]] nlohmann::json apart_to_json(const Apart& apart);
 [[nodiscard]] nlohmann::json apart_to_json(const ApartChanges& changes);
-/// Without `apart`. @param has_tolerances  whether the problem has tolerances: then a box of a segment has `parts` and `guesses`.
+/// Without `apart`.
+/// @param has_tolerances  whether the problem has tolerances: then a box of a segment has `parts` and `guesses`.
 [[nodiscard]] nlohmann::json to_json(const Box& box, bool has_tolerances);
 /// The `proof` of a witness: a box without its ends.
 [[nodiscard]] nlohmann::json proof_to_json(const Box& box);

@@ -215,7 +215,7 @@ class Clearances {
   std::array<std::array<std::optional<EndShift>, 2>, kCables> end_shifts_;  ///< in W and in P
 };
 
-// ---- Contact ---------------------------------------------------------------------------------------------------------
+// ---- Contact --------------------------------------------------------------------------------------------------------
 
 /// The point of a hull, or of a cable between its cuts, in W, and the radius around it.
 struct ContactPoint {

@@ -855,8 +855,10 @@ def corners(x, y, z):
 BODIES = {
     'platform': [
         {'name': 'plate', 'at_m': ['0', '0', '0.03'],
-         'hull': {'points_m': [['-0.09', '0.05', '0'], ['0.09', '0.05', '0'], ['0', '-0.1', '0']], 'radius_m': '0.005'}},
-        {'name': 'tool', 'clearance_m': '0.004', 'at_m': ['0', '0', '0.06'], 'rotation_rad': ['0', 'pi/6', '-(20)*pi/180'],
+         'hull': {'points_m': [['-0.09', '0.05', '0'], ['0.09', '0.05', '0'], ['0', '-0.1', '0']],
+                  'radius_m': '0.005'}},
+        {'name': 'tool', 'clearance_m': '0.004', 'at_m': ['0', '0', '0.06'],
+         'rotation_rad': ['0', 'pi/6', '-(20)*pi/180'],
          'hull': {'points_m': corners('0.02', '0.01', '0.03'), 'radius_m': '0'}}],
     'obstacles': [
         {'name': 'ground', 'at_m': ['0.1', '-3', '-0.05'], 'half_space': {'normal': ['0.01', '0', '3']}},

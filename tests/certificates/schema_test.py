@@ -42,7 +42,8 @@ proof_missing proof_with_ends proof_with_parts proof_of_a_singular_pose motion_m
 way_of_one_pose version_3
 bodies_of_version_4 version_5_without_bodies bodies_without_directions directions_without_bodies direction_too_large
 direction_of_other_axes bodies_without_apart margins_without_clearance body_without_a_shape body_of_two_shapes
-body_of_no_point mesh half_space_of_the_platform half_space_turned clearance_of_no_class apart_of_a_box_that_changes_nothing
+body_of_no_point mesh half_space_of_the_platform half_space_turned clearance_of_no_class
+apart_of_a_box_that_changes_nothing
 """.split()
 caught = set()
 for path in certificates('malformed'):

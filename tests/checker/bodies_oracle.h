@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies for the tests of the clause "clearance", and where they are by a route of its own: points turned by
-// quaternions in double and in 200 bits, and distances of convex hulls by Gilbert, Johnson and Keerthi's method, none of
-// which the checker has. In double it searches; the distance of the two points that it finds, in 200 bits, is at least
-// that of the bodies.
+// quaternions in double and in 200 bits, and distances of convex hulls by Gilbert, Johnson and Keerthi's method, which
+// the checker does not have. In double it searches; the distance of the two points that it finds, in 200 bits, is at
+// least that of the bodies.
 #pragma once
 
 #include <algorithm>

@@ -479,7 +479,7 @@ TEST(Clearance, CountsTheDeviationOfOneAnchorOnce) {
   EXPECT_LT(approx(two), approx(none) - 0.005);
 }
 
-// ---- Contact ---------------------------------------------------------------------------------------------------------
+// ---- Contact --------------------------------------------------------------------------------------------------------
 
 TEST(Contact, IsAsDeepAsTheTwoPointsSay) {
   const PrecisionScope oracle(kOracleBits);

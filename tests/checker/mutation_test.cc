@@ -79,10 +79,10 @@ void for_each_mutant(const Json& original, const std::function<void(const Mutant
 }
 
 TEST(Mutation, WithoutNewDigestsNothingPasses) {
-  for (const char* name :
-       {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped", "implied_start_is_goal",
-        "refuted_implied_singular", "geodesic_still", "lengths_still", "lengths_inner_still", "tight_position",
-        "refuted_by_a_deviation", "refuted_by_held_anchors_and_lengths", "loads_exact", "refuted_by_loads", "contact"}) {
+  for (const char* name : {"robot1_start_is_goal", "robot2_sphere", "refuted_singular", "spline_flipped",
+                           "implied_start_is_goal", "refuted_implied_singular", "geodesic_still", "lengths_still",
+                           "lengths_inner_still", "tight_position", "refuted_by_a_deviation",
+                           "refuted_by_held_anchors_and_lengths", "loads_exact", "refuted_by_loads", "contact"}) {
     int mutants = 0;
     for_each_mutant(accepted(name), [&](const Mutant& mutant) {
       EXPECT_EQ(check(mutant.json.dump()).outcome, Outcome::kMalformed) << name << mutant.what;
