@@ -537,7 +537,7 @@ double wrench_scale(const BoxEnclosure<I>& enclosure, MarginId id, double bound,
   if (enclosure.disturbance) reach = disturbed_reach(reach, n, is_low ? 0 : 1, *enclosure.disturbance);
   const double most = upper_bound(reach);
   if (!(most > bound / (2 * kMostGrowth))) return known;  // K is nearly a single wrench
-  if constexpr (std::is_same_v<I, Interval>) {  // rounding upward: 1 + bound/most is not below what is known
+  if constexpr (std::is_same_v<I, Interval>) {            // rounding upward: 1 + bound/most is not below what is known
     if (bound >= (known - 1) * most) return known;
   }
   return std::min(known, lower_bound(I(1.0) + I(bound) / I(most)));

@@ -170,7 +170,7 @@ SegmentSurvey SegmentWalk::run() {
 
 bool SegmentWalk::prove_in_strides() {
   if (directions_) return false;  // which change along the way
-  constexpr int kDeepest = 12;  // what takes smaller boxes is next to a limit, where the loop looks more closely
+  constexpr int kDeepest = 12;    // what takes smaller boxes is next to a limit, where the loop looks more closely
   const int most_boxes = std::min(1000, prover_.options().max_boxes / 2);  // little that a failure can waste
   SegmentSurvey proved = survey_;
   std::vector<DyadicBox> open = {DyadicBox{}};

@@ -47,9 +47,9 @@ class SegmentWalk {
   /// A box that is still to be judged, and how.
   struct Task {
     DyadicBox box;
-    std::size_t rung = 0;        ///< of the ladder; 0: binary64
-    bool is_hopeless = false;    ///< no higher rung is worth trying
-    int continuation_steps = 1;  ///< of deviations (tolerance.h)
+    std::size_t rung = 0;          ///< of the ladder; 0: binary64
+    bool is_hopeless = false;      ///< no higher rung is worth trying
+    int continuation_steps = 1;    ///< of deviations (tolerance.h)
     std::size_t redirections = 0;  ///< how often it was judged again with other directions of pairs
   };
   /// What to do with a box.

@@ -16,8 +16,8 @@ class SampledMotionValidator {
   SampledMotionValidator(const PoseSampler& sampler, double clearance, const BodySampler* bodies = nullptr)
       : sampler_(sampler), clearance_(clearance), bodies_(bodies) {}
 
-  /// Whether all sampled poses of the motion from a to b (edge_motion.h) keep the clearance, with one sign of det J, and
-  /// bodies theirs.
+  /// Whether all sampled poses of the motion from a to b (edge_motion.h) keep the clearance, with one sign of det J,
+  /// and bodies theirs.
   /// The ends are sampled first, then the middle and ever finer points, because the middle often shows that an edge is
   /// unsafe.
   [[nodiscard]] bool operator()(const Coordinates& a, const Coordinates& b) const;

@@ -428,7 +428,7 @@ class EndToEnd(InFolder):
         self.assertEqual(os.listdir(self.out), ["a"])
 
     def test_an_interrupted_anytime_plan_gives_its_best_path(self):
-        case = self.budgeted("strategy: astar, max_seconds: 1000, radius: 0.05, epsilon: 0.05")
+        case = self.budgeted("strategy: astar, max_seconds: 1000, radius: 0.05, epsilon: 0.05, smooth: none")
         process = subprocess.Popen([TAUT, "plan", "--no-report", case, "--out", self.out, "--json"],
                                    stdout=subprocess.PIPE, text=True)
         interrupt(process, 2)
