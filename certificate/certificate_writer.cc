@@ -194,7 +194,7 @@ json to_json(const Witness& witness) {
     const auto& [pair, points] = *violation.contact;
     result["kind"] = "contact";
     result["pair"] = pair;
-    result["weights"] = {rationals(points.first), rationals(points.second)};
+    result["weights"] = json::array({rationals(points.first), rationals(points.second)});
     result["proof"] = checker::proof_to_json(witness.at_box);
     return result;
   }
