@@ -489,6 +489,8 @@ BodiesBox<I> bodies_box(const ProofModel<I>& problem, const BoxEnclosure<I>& box
 template <class I>
 void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure, const PairDirections& directions,
                   BoxVerdict& verdict) {
+  if (directions.size() != problem.bodies->pairs.size()) throw std::logic_error("directions of other pairs");
+  if (problem.tolerance && !enclosure.disturbance) throw std::logic_error("a proved box without its deviations");
   const BodiesBox<I> box = bodies_box(problem, enclosure);
   const BodyGaps<I> gaps(box);
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;

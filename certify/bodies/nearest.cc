@@ -150,8 +150,11 @@ std::vector<std::int64_t> rounded_shares(const std::vector<double>& shares) {
   return result;
 }
 
+/// @returns one along z where `along` has no direction.
 Direction rounded_direction(const Point& along, bool in_platform, int largest) {
-  const Point scaled = along * (largest / along.cwiseAbs().maxCoeff());
+  const double size = along.cwiseAbs().maxCoeff();
+  if (!along.allFinite() || !(size > 0)) return {in_platform, {0, 0, 1}};
+  const Point scaled = (along / size) * largest;
   Direction result{in_platform, {}};
   int divisor = 0;
   for (int k = 0; k < 3; ++k) {
@@ -285,7 +288,6 @@ Direction BodySampler::rough_direction(const Model<double>& model, const RigidPo
   const bool in_platform = is_best_in_platform(pair);
   Point along = between_segments(first, second());
   if (in_platform) along = r.transpose() * along;
-  if (!(along.cwiseAbs().maxCoeff() > 0)) along = Point::UnitZ();
   return rounded_direction(along, in_platform, Direction::kCoarse);
 }
 

@@ -41,8 +41,11 @@ inline constexpr const char* kBodiesClause =
     " Obstacles do not move, and bodies of the platform move with it; their shapes are exactly as stated. The body of "
     "a "
     "cable is all points within half its diameter of the straight line between its anchors, but for what is nearer to "
-    "an anchor than the stated free end; every cable of a checked pair is longer than its free ends together. Anchors "
-    "of cables that are stated at the same place and with the same tolerance are one point, which deviates as one.";
+    "an anchor than the stated free end; every cable of a checked pair is longer than its free ends together. As far "
+    "as "
+    "distances of bodies are concerned, anchors of cables that are stated at the same place and with the same "
+    "tolerance "
+    "are one point, which deviates as one.";
 
 /// The classes of pairs, in the order in which certificates count them.
 inline constexpr std::array kPairClassNames = {"platform-obstacles", "cables-obstacles", "cables-cables",

@@ -101,8 +101,9 @@ class NoPath(InFolder):
 
     def test_cells_too_fine_to_be_drawn_are_said_to_be_joined(self):
         tree = self.certificate["map"]["tree"]
-        page = self.page_of(self.certificate)
-        self.assertIn("edges are edges of cells. What has no colour", page)
+        run(TAUT, "plan", os.path.join(CASES, "maps", "robot2-sphere-apart.yaml"), "--out", self.path("coarse"))
+        self.assertIn("edges are edges of cells. What has no colour",
+                      text_of(self.path(os.path.join("coarse", "report.html"))))
         wall = next(n for n, c in enumerate(tree) if c.isalpha())
         halved = "0" * 11 + tree[wall] * 12  # the halves of a cell have its reason
         page = self.page_of(self.with_tree(tree[:wall] + halved + tree[wall + 1:]))

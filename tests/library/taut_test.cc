@@ -277,9 +277,9 @@ TEST(Prove, OfLengthsFarApart) {
   const taut::Path path = taut::audit(robot).path();
   taut::Path sparse = path;
   sparse.waypoints.clear();
-  for (std::size_t k = 0; k < path.waypoints.size(); k += 16) sparse.waypoints.push_back(path.waypoints[k]);
+  for (std::size_t k = 0; k < path.waypoints.size(); k += 32) sparse.waypoints.push_back(path.waypoints[k]);
   sparse.times.clear();
-  ASSERT_GE(sparse.waypoints.size(), 3U);
+  ASSERT_GE(sparse.waypoints.size(), 2U);
   const Certificate proved = taut::prove(robot, sparse);
   EXPECT_EQ(proved.verdict(), Verdict::kProved) << proved.reason();
   EXPECT_NE(proved.text().find("\"inner\""), std::string::npos) << "the rows are near enough for straight references";
