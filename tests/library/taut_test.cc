@@ -282,7 +282,6 @@ TEST(Prove, OfLengthsFarApart) {
   ASSERT_GE(sparse.waypoints.size(), 2U);
   const Certificate proved = taut::prove(robot, sparse);
   EXPECT_EQ(proved.verdict(), Verdict::kProved) << proved.reason();
-  EXPECT_NE(proved.text().find("\"inner\""), std::string::npos) << "the rows are near enough for straight references";
   EXPECT_EQ(outcome(proved), taut::Outcome::kAccepted) << taut::check(proved).message;
 }
 
