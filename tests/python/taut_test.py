@@ -422,7 +422,7 @@ class Running(unittest.TestCase):
             taut.audit(case, values, columns=["phi[rad]", "theta[rad]"], progress=fail)
 
     def test_the_interpreter_is_released(self):
-        case = taut.Case.parse(long_case())
+        case = taut.Case(long_case())
         counted = 0
         finished = threading.Event()
 
@@ -451,7 +451,7 @@ class Running(unittest.TestCase):
 
     def test_interruption(self):
         script = ("import sys, taut\n"
-                  "case = taut.Case.parse(sys.argv[1])\n"
+                  "case = taut.Case(sys.argv[1])\n"
                   "print('ready', flush=True)\n"
                   "try:\n"
                   "    taut.plan(case, budget_seconds=100)\n"
