@@ -18,6 +18,8 @@ from command_line import CASES, ROBOT1, TAUT, InFolder, main, run, text_of
 SLICE = (ROBOT1, "--cell", "0.004")
 # Some seconds of one processor.
 LONG = (os.path.join(CASES, "robot2-sphere-sigma-free-q2-q3.yaml"), "--undecided", "25%")
+# Longer, so that every one of several ranks has begun long before they end.
+LONGER = (LONG[0], "--undecided", "12%")
 SPHERE = (os.path.join(CASES, "robot2-sphere-sigma-free-q2-q3.yaml"), "--cell", "0.02", "--undecided", "30%")
 # As root, and with more ranks than cores.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
@@ -227,9 +229,9 @@ class UnderMpi(Parts):
                                        env=self.environment), one)
 
     def test_a_rank_that_dies_is_reported_and_its_parts_are_dealt_again(self):
-        one = self.made("one", *LONG)
+        one = self.made("one", *LONGER)
         out = self.path("ranks")
-        with subprocess.Popen(["mpirun", "--enable-recovery", "-n", "3", TAUT, "map", *LONG, "--json", "--out",
+        with subprocess.Popen(["mpirun", "--enable-recovery", "-n", "3", TAUT, "map", *LONGER, "--json", "--out",
                                out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env=self.environment) as process:
             os.kill(self.working_rank(process, "2"), signal.SIGKILL)
@@ -239,12 +241,12 @@ class UnderMpi(Parts):
 
     def test_a_minute_of_silence_is_taken_for_death(self):
         """A rank that hangs, and rank 0 that dies: both take a minute, so that they are tried at once."""
-        one = self.made("one", *LONG)
+        one = self.made("one", *LONGER)
         jobs = {}
         for name in ("hung", "headless"):
             with open(self.path(name + ".out"), "w") as out, open(self.path(name + ".err"), "w") as err:
                 jobs[name] = subprocess.Popen(
-                    ["mpirun", "--enable-recovery", "-n", "2", TAUT, "map", *LONG, "--json", "--out", self.path(name)],
+                    ["mpirun", "--enable-recovery", "-n", "2", TAUT, "map", *LONGER, "--json", "--out", self.path(name)],
                     stdout=out, stderr=err, env=self.environment)
         pids = {(name, rank): self.working_rank(jobs[name], rank) for name in jobs for rank in ("0", "1")}
         os.kill(pids["hung", "1"], signal.SIGSTOP)
@@ -385,7 +387,7 @@ def is_ready(pid):
             ticks = int(file.read().rsplit(")", 1)[1].split()[11])
     except OSError:
         return False
-    return len(threads) > 2 and ticks > 40
+    return len(threads) > 2 and ticks > 15
 
 
 if __name__ == "__main__":
