@@ -3,58 +3,11 @@
 
 #include <stdexcept>
 
+#include "certify/bodies/body_gaps_detail.h"
+
 namespace taut {
-namespace {
 
-template <class I>
-UpperOf<I> above(const I& x) {
-  return UpperOf<I>(magnitude(x));
-}
-
-template <class I>
-UpperOf<I> norm_above(const Vector3<I>& x) {
-  const UpperOf<I> a = above(x(0)), b = above(x(1)), c = above(x(2));
-  return ProofScalarTraits<I>::root(a * a + b * b + c * c);
-}
-
-template <class I>
-SlopeForm<I> lesser(const SlopeForm<I>& a, const SlopeForm<I>& b) {
-  return -larger(-a, -b);
-}
-
-template <class I>
-I lesser(const I& a, const I& b) {
-  return -larger(-a, -b);
-}
-
-/// The constant x·y.
-template <class I>
-I dot(const std::array<I, 3>& x, const Vector3<I>& y) {
-  return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
-}
-
-template <class I>
-SlopeForm<I> dot(const std::array<SlopeForm<I>, 3>& x, const Vector3<I>& y) {
-  return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
-}
-
-template <class I>
-bool is_of_obstacle(const CheckedPair<I>& pair) {
-  return pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
-}
-
-template <class I>
-const HalfSpace<I>* half_space(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
-  return is_of_obstacle(pair) ? std::get_if<HalfSpace<I>>(&bodies.obstacles[pair.second]) : nullptr;
-}
-
-/// The second body of a pair that is a hull.
-template <class I>
-const ConvexBody<I>& second_hull(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
-  return is_of_obstacle(pair) ? std::get<ConvexBody<I>>(bodies.obstacles[pair.second]) : bodies.platform[pair.second];
-}
-
-}  // namespace
+using namespace body_gaps_detail;
 
 template <class I>
 BodyGaps<I>::BodyGaps(const BodiesBox<I>& box) : box_(box) {
@@ -253,9 +206,10 @@ GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& dire
   return result.value();
 }
 
-/// The points of a body over T, in W; of a cable the ends of its checked part.
+/// The points of a body over T, in W; of a cable the ends of its checked part, of a mesh those of an element.
 template <class I>
-std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pair, bool is_first) const {
+std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pair, bool is_first,
+                                                       const std::optional<std::uint32_t>& element) const {
   const auto of_platform = [&](const Vector3<I>& x) {
     Vector3<Form> y;
     for (int k = 0; k < 3; ++k) {
@@ -280,12 +234,16 @@ std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pai
     }
     return {ends[0], ends[1]};
   }
-  if (is_first || pair.kind == PairClass::kCablesPlatform) {
-    for (const Vector3<I>& x : box_.bodies.platform[n].points) result.push_back(of_platform(x));
+  const bool is_of_platform = is_first || pair.kind == PairClass::kCablesPlatform;
+  const ConvexBody<I>& body =
+      is_of_platform ? box_.bodies.platform[n] : std::get<ConvexBody<I>>(box_.bodies.obstacles[n]);
+  const auto add = [&](const Vector3<I>& x) {
+    result.push_back(is_of_platform ? of_platform(x) : Vector3<Form>{Form(x(0)), Form(x(1)), Form(x(2))});
+  };
+  if (body.mesh != nullptr) {
+    for (const auto& corner : body.mesh->mesh->points(element.value())) add(body.mesh->place(corner));
   } else {
-    for (const Vector3<I>& x : std::get<ConvexBody<I>>(box_.bodies.obstacles[n]).points) {
-      result.push_back({Form(x(0)), Form(x(1)), Form(x(2))});
-    }
+    for (const Vector3<I>& x : body.points) add(x);
   }
   return result;
 }
@@ -293,7 +251,7 @@ std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pai
 template <class I>
 I BodyGaps<I>::distance(const CheckedPair<I>& pair, const PointPair& shares, bool only_at_mid) const {
   const auto mean = [&](bool is_first) {
-    const std::vector<Vector3<Form>> all = points(pair, is_first);
+    const std::vector<Vector3<Form>> all = points(pair, is_first, shares.elements[is_first ? 0 : 1]);
     const std::vector<std::int64_t>& weights = is_first ? shares.first : shares.second;
     if (weights.size() != all.size()) throw std::logic_error("shares of other points");
     Vector3<Form> sum(Form(0.0), Form(0.0), Form(0.0));
