@@ -21,6 +21,7 @@
 #include "base/labels.h"
 #include "base/sanitize.h"
 #include "case/around_items.h"
+#include "case/bodies.h"
 #include "case/decoration_fields.h"
 #include "case/fields.h"
 #include "case/load.h"
@@ -528,7 +529,7 @@ DocumentFields read_document_fields(const Map& map) {
 /// @param typed   a further waypoint, which is read where the space is known
 Case read_case(const Field& root, const std::filesystem::path& folder, const std::function<void(const Space&)>& typed) {
   const Map map = root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot",
-                            "load", "tolerances", "space", "query", "planner", "audit", "decoration", "expect"});
+                            "load", "tolerances", "bodies", "space", "query", "planner", "audit", "decoration", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }
@@ -544,6 +545,10 @@ Case read_case(const Field& root, const std::filesystem::path& folder, const std
   if (const auto field = map.find("decoration")) result.decoration = read_decoration(*field, units, folder);
   if (const auto field = map.find("tolerances")) {
     result.problem.tolerances = read_tolerances(*field, map.at("load"), units);
+  }
+  if (const auto field = map.find("bodies")) {
+    result.bodies = read_bodies(*field, units, folder, result.problem.robot);
+    result.problem.bodies = result.bodies->text;
   }
   result.problem.space = coordinate_space();
   result.units = units.all();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "case/bodies.h"
 #include "case/decoration.h"
 #include "case/document_fields.h"
 #include "problem/problem.h"
@@ -70,6 +71,8 @@ struct Case {
   std::optional<AuditedPath> audit;
   /// The items as the case states them, where problem.load is an ellipsoid around them.
   std::optional<LoadText> items_in_ellipsoid;
+  /// How problem.bodies was made, if the case states bodies.
+  std::optional<CaseBodies> bodies;
   /// What may not be meant as it was typed, each with its place; for people, before a verdict.
   std::vector<std::string> warnings;
   DocumentFields document_fields;  ///< for the head of a report
