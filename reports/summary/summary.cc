@@ -10,6 +10,7 @@
 #include "reports/summary/around_items.h"
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/headroom_summary.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
