@@ -10,7 +10,7 @@ const Limits& limits_of(const RobotText& robot, MarginId margin) {
 }
 
 double severity(const PathWitness& witness, const RobotText& robot) {
-  if (witness.singular) return std::numeric_limits<double>::infinity();
+  if (witness.singular || witness.contact) return std::numeric_limits<double>::infinity();
   const auto number = [](const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); };
   const Limits& limits = limits_of(robot, witness.margin);
   const double beyond = is_upper(witness.margin) ? number(witness.value_lower) - number(limits.upper)

@@ -315,8 +315,10 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     const auto read_weights = [&](const Cursor& weights) {
       witness.weights = read_contact_weights(weights, witness.pair, problem);
     };
-    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "at",
-                witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n), "motion", read_motion);
+    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "depth_m",
+                witness.depth, "at", witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n),
+                "motion", read_motion);
+    json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
     return witness;
   }
   mpq_class limit;
