@@ -32,7 +32,6 @@ class BatchWriter {
       : elaborator_(elaborator),
         gravest_(prover, elaborator),
         problem_(source.problem()),
-        law_(source.law()),
         tightens_(source.segments() <= kMostReported),
         has_times_(source.has_times()),
         has_lines_(source.counts_lines()),
@@ -56,7 +55,7 @@ class BatchWriter {
       const Segment& segment = result.segment;
       if (has_tubes_) certificate_.add_tube(segment.tube);
       if (has_pose_tubes_) certificate_.add_pose_tube(segment.pose_tube, segment.inner_poses);
-      if (!tightens_) certificate_.add_segment(result.text, result.boxes.size());
+      if (!tightens_) add_segment(result, batch.first_segment + i);
       result_.boxes += result.boxes.size();
       result_.boxes_judged += result.boxes_judged;
       least_.add(result.boxes);
@@ -98,6 +97,14 @@ class BatchWriter {
     return place;
   }
 
+  void add_segment(const SegmentResult& result, std::size_t k) {
+    if (problem_.bodies) {
+      certificate_.add_segment(make_segment(result.boxes), k);
+    } else {
+      certificate_.add_segment(result.text, result.boxes.size());
+    }
+  }
+
   /// Writes the segments of a path that is short enough to be looked at once more: with tighter margins, if it is
   /// proved.
   void write_kept() {
@@ -106,7 +113,7 @@ class BatchWriter {
       for (const SegmentResult& segment : batch->segments) all.push_back(&segment);
     }
     if (result_.stretches_violated + result_.stretches_open > 0) {
-      for (const SegmentResult* segment : all) certificate_.add_segment(segment->text, segment->boxes.size());
+      for (std::size_t k = 0; k < all.size(); ++k) add_segment(*all[k], k);
       return;
     }
     std::vector<std::vector<KernelBox>> boxes;
@@ -116,9 +123,8 @@ class BatchWriter {
     least_ = {};
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       least_.add(boxes[k]);
-      const std::size_t number = boxes[k].size();
-      result_.boxes += number;
-      certificate_.add_segment(segment_text(make_segment(std::move(boxes[k])), k, problem_, law_), number);
+      result_.boxes += boxes[k].size();
+      certificate_.add_segment(make_segment(std::move(boxes[k])), k);
     }
   }
 
@@ -206,7 +212,6 @@ class BatchWriter {
   const Elaborator& elaborator_;
   GravestWitness gravest_;
   const Problem& problem_;
-  Interpolation law_;
   bool has_witness_ = false;             ///< whether there was a violation that may refute
   bool is_followed_ = true;              ///< by proved boxes and `way_`, up to now
   std::vector<checker::MotionBox> way_;  ///< of stretches before the first witness, where the motion is implied

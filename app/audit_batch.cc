@@ -105,7 +105,9 @@ SegmentResult BatchProver::prove(const Batch& batch, std::size_t i, const std::s
   const std::size_t number = batch.first_segment + i;
   for (SurveyedBox& box : survey.boxes) {
     if (box.kind != SurveyedBox::Kind::kProved) continue;
-    const auto confirmed = elaborator_.boxes(result.segment, std::span(&box.box, 1));
+    const bool has_bodies = box.directions != nullptr;
+    const auto confirmed =
+        elaborator_.boxes(result.segment, std::span(&box.box, 1), std::span(&box.directions, has_bodies ? 1 : 0));
     if (confirmed) {
       result.boxes.insert(result.boxes.end(), confirmed->begin(), confirmed->end());
     } else {
@@ -114,7 +116,7 @@ SegmentResult BatchProver::prove(const Batch& batch, std::size_t i, const std::s
     }
   }
   for (const Gap& gap : gaps(survey)) result.stretches.push_back(stretch(result.segment, number, gap));
-  result.text = segment_text(make_segment(result.boxes), number, problem_, law_);
+  if (!problem_.bodies) result.text = segment_text(make_segment(result.boxes), number, problem_, law_);
   return result;
 }
 
@@ -151,6 +153,12 @@ SampledViolations BatchProver::sampled(const Segment& segment, const Gap& gap) c
   if (gap.singular) {
     const DyadicBox& box = gap.singular->box;
     result.singular = SuspectedViolation{true, {}, box.lower(), box.lower(), box.upper(), 0};
+  }
+  for (const auto* end : {&gap.first, &gap.last}) {
+    if (!*end || !(*end)->contact) continue;
+    const auto deepest = deepest_contact(prover_.sampler(), *prover_.bodies(), segment, (*end)->contact->pair,
+                                         gap.begin, gap.end, samples_);
+    if (deepest && (!result.contact || deepest->gap < result.contact->gap)) result.contact = deepest;
   }
   return result;
 }

@@ -34,7 +34,7 @@ struct SegmentResult {
   long boxes_judged = 0;
   std::vector<KernelBox> boxes;  ///< proved
   std::vector<SegmentStretch> stretches;
-  std::string text;
+  std::string text;  ///< of `boxes`; empty where the problem has bodies, whose directions the writer numbers
 };
 
 /// Some successive segments.

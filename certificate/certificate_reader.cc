@@ -12,6 +12,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <system_error>
 
 #include "base/input_error.h"
@@ -185,6 +186,48 @@ PathPoint read_point(const JsonCursor& point, const Path& path) {
   return {true, read_index(point.at("segment"), path.segments()), read_dyadic(point.at("s"))};
 }
 
+// ---- Bodies ---------------------------------------------------------------------------------------------------------
+
+Direction direction_from_json(const JsonCursor& entry) {
+  const std::vector<JsonCursor> parts = entry.elements(4);
+  const std::string& axes = parts[0].text();
+  if (axes != "W" && axes != "P") parts[0].fail("\"W\" or \"P\"");
+  Direction result;
+  result.in_platform = axes == "P";
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.u[k] = static_cast<int>(parts[k + 1].integer(-Direction::kLargest, Direction::kLargest));
+  }
+  if (result.u == std::array<int, 3>{}) entry.fail("a vector that is not 0");
+  return result;
+}
+
+/// The direction of one pair: an index of the table, or null against a half-space.
+Direction read_apart(const JsonCursor& entry, std::span<const Direction> table) {
+  if (entry.is_null()) return {};
+  if (table.empty()) entry.fail("none, as the path states no direction");
+  return table[static_cast<std::size_t>(entry.integer(0, static_cast<std::int64_t>(table.size()) - 1))];
+}
+
+/// `apart` of a segment and of its boxes.
+std::vector<PairDirections> read_directions(const JsonCursor& segment, std::span<const Direction> table) {
+  std::vector<PairDirections> result;
+  const std::vector<JsonCursor> boxes = segment.at("boxes").elements();
+  if (boxes.empty()) return result;
+  PairDirections of_all;
+  for (const JsonCursor& entry : segment.at("apart").elements()) of_all.push_back(read_apart(entry, table));
+  for (const JsonCursor& box : boxes) {
+    PairDirections& of_box = result.emplace_back(of_all);
+    if (!box.contains("apart")) continue;
+    for (const JsonCursor& change : box.at("apart").elements()) {
+      const std::vector<JsonCursor> parts = change.elements(2);
+      if (of_all.empty()) parts[0].fail("none, as no pair is checked");
+      const auto pair = parts[0].integer(0, static_cast<std::int64_t>(of_all.size()) - 1);
+      of_box[static_cast<std::size_t>(pair)] = read_apart(parts[1], table);
+    }
+  }
+  return result;
+}
+
 // ---- How it is proved -----------------------------------------------------------------------------------------------
 
 checker::NearZero read_near(const JsonCursor& near) {
@@ -246,7 +289,10 @@ void read_way(const JsonCursor& way, Witness& witness) {
 // ---- What is claimed ------------------------------------------------------------------------------------------------
 
 Margins read_margins(const JsonCursor& margins) {
-  return {decimal(margins.at("tension_N")), decimal(margins.at("length_m")), decimal(margins.at("wrench_scale"))};
+  Margins result{decimal(margins.at("tension_N")), decimal(margins.at("length_m")),
+                 decimal(margins.at("wrench_scale"))};
+  if (margins.contains("clearance_m")) result.clearance_m = decimal(margins.at("clearance_m"));
+  return result;
 }
 
 template <std::size_t N>
@@ -310,13 +356,41 @@ checker::LoadChoice read_load(const JsonCursor& load) {
   return checker::CaseChoice{static_cast<std::size_t>(load.at("case").integer(0, kMostIndex))};
 }
 
+std::vector<std::int64_t> read_shares(const JsonCursor& weights) {
+  std::vector<std::int64_t> result;
+  for (const JsonCursor& weight : weights.elements()) {
+    const mpq_class share = rational(weight) * static_cast<long>(PointPair::kWhole);
+    if (share.get_den() != 1 || share < 0 || share > static_cast<long>(PointPair::kWhole)) {
+      weight.fail("a multiple of 1/2^30 from 0 to 1");
+    }
+    result.push_back(share.get_num().get_si());
+  }
+  return result;
+}
+
+/// What `witness` says of two bodies that are too near.
+void read_contact(const JsonCursor& witness, Witness& result) {
+  const std::vector<JsonCursor> weights = witness.at("weights").elements(2);
+  constexpr std::int64_t kMostPairs = std::numeric_limits<int>::max();
+  PairContact& contact = result.violation.contact.emplace();
+  contact.pair = static_cast<std::size_t>(witness.at("pair").integer(0, kMostPairs));
+  contact.points = {read_shares(weights[0]), read_shares(weights[1])};
+  result.violation.depth_m = decimal(witness.at("depth_m"));
+  result.at_box = read_proof_at(witness.at("proof"), result.violation.at);
+}
+
 Witness read_witness(const JsonCursor& witness, const Path& path) {
   Witness result;
   PathWitness& violation = result.violation;
-  const std::optional<MarginKind> limit = read_kind(witness.at("kind"));
+  const bool is_contact = witness.at("kind").text() == "contact";
+  const std::optional<MarginKind> limit = is_contact ? std::nullopt : read_kind(witness.at("kind"));
   violation.at = read_point(witness.at("at"), path);
   for (const JsonCursor& box : witness.at("motion").elements()) {
     result.motion.push_back({static_cast<std::size_t>(read_index(box.at("segment"), path.segments())), read_box(box)});
+  }
+  if (is_contact) {
+    read_contact(witness, result);
+    return result;
   }
   if (!limit) {
     violation.singular = true;
@@ -343,8 +417,11 @@ Witness read_witness(const JsonCursor& witness, const Path& path) {
   return result;
 }
 
-CertificateSegment read_segment(const JsonCursor& segment, std::size_t k, Interpolation law) {
+/// @param directions  of the path's table; null where the problem has no bodies
+CertificateSegment read_segment(const JsonCursor& segment, std::size_t k, Interpolation law,
+                                const std::vector<Direction>* directions) {
   CertificateSegment result;
+  if (directions != nullptr) result.directions = read_directions(segment, *directions);
   result.boxes = read_boxes(segment.at("boxes"));
   const auto require = [&](const char* key, std::size_t waypoint) {
     constexpr std::int64_t kMostIndex = std::numeric_limits<int>::max();
@@ -455,9 +532,10 @@ Certificate read_certificate(const json& certificate) {
   const JsonCursor whole(certificate, "certificate");
   const auto member = [&](const char* key) -> JsonCursor { return {whole.at(key).value(), key}; };
   if (member("format").value() != "taut-certificate") member("format").fail("\"taut-certificate\"");
-  if (const JsonCursor version = member("version"); version.value() != kCertificateVersion) {
-    version.fail(
-        fmt::format("{}: only the taut that made it can make its report, or one of that time", kCertificateVersion));
+  const JsonCursor version = member("version");
+  if (version.value() != kCertificateVersion && version.value() != kCertificateVersionWithBodies) {
+    version.fail(fmt::format("{} or {}: only the taut that made it can make its report, or one of that time",
+                             kCertificateVersion, kCertificateVersionWithBodies));
   }
   Certificate result;
   result.generator = read_generator(member("generator"));
@@ -468,8 +546,16 @@ Certificate read_certificate(const json& certificate) {
   result.problem_sha256 = member("problem_sha256").text();
   result.path_sha256 = member("path_sha256").text();
   result.footer_sha256 = member("footer").at("sha256").text();
+  std::vector<Direction> directions;
+  const bool has_bodies = result.problem.bodies.has_value();
+  if (has_bodies) {
+    for (const JsonCursor& entry : member("path").at("directions").elements()) {
+      directions.push_back(direction_from_json(entry));
+    }
+  }
   for (const JsonCursor& segment : member("segments").elements()) {
-    result.segments.push_back(read_segment(segment, result.segments.size(), result.path.interpolation));
+    result.segments.push_back(
+        read_segment(segment, result.segments.size(), result.path.interpolation, has_bodies ? &directions : nullptr));
   }
   const bool is_proved = result.verdict == Verdict::kProved;
   if (is_proved && result.path.segments() == 0) {

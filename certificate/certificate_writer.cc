@@ -193,6 +193,7 @@ json to_json(const Witness& witness) {
   if (violation.contact) {
     const auto& [pair, points] = *violation.contact;
     result["kind"] = "contact";
+    result["depth_m"] = violation.depth_m;
     result["pair"] = pair;
     result["weights"] = json::array({rationals(points.first), rationals(points.second)});
     const auto& [first, second] = points.elements;

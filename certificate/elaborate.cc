@@ -290,6 +290,7 @@ class Elaborator::Search {
 
   std::optional<Witness> contact(const PathWitness& found) {
     checker::Witness witness = statement(found);
+    PathWitness deeper = found;
     const bool touches = at_some_precision([&](int bits) {
       const checker::Machine& machine = elaborator_.machine(bits);
       if (!place_pose(witness.at.s, bits, witness.at_box)) return false;
@@ -300,11 +301,15 @@ class Elaborator::Search {
         arb_mul_2exp_si(r, r, 24 - bits);
       });
       const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
-      const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements);
-      return certainly_nonnegative(depth - slack);
+      const Ball depth =
+          contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements) - slack;
+      if (!certainly_nonnegative(depth)) return false;
+      constexpr int kDigits = 6;
+      deeper.depth_m = BigFloat(lower_bound(depth)).to_decimal(kDigits, MPFR_RNDD);
+      return true;
     });
     if (!touches) return std::nullopt;
-    return Witness{found, witness.at_box, {}, {}, {}, {}};
+    return Witness{deeper, witness.at_box, {}, {}, {}, {}};
   }
 
   std::optional<Witness> violation(const PathWitness& found) {

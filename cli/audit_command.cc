@@ -50,7 +50,7 @@ std::string text(const PathPoint& point, const FilePlace& place, const char* pla
 const PathPoint& end_of(const PathWitness& violation) { return violation.singular ? violation.to : violation.at; }
 
 std::string text(const AuditedStretch& audited, const Case& the_case, const char* place_name) {
-  const RobotText& robot = the_case.problem.robot;
+  const Problem& problem = the_case.problem;
   const DisplayUnits units(the_case.units);
   const Stretch& stretch = audited.stretch;
   std::string lines = fmt::format("  from {}\n    to {}\n", text(stretch.begin, audited.begin, place_name),
@@ -59,9 +59,9 @@ std::string text(const AuditedStretch& audited, const Case& the_case, const char
   const PathWitness& first = stretch.violations->first.violation;
   const PathWitness& last = stretch.violations->second.violation;
   lines += fmt::format("    violated from {}: {}\n", text(first.at, audited.first, place_name),
-                       violation_text(first, robot, units));
+                       violation_text(first, problem, units));
   return lines + fmt::format("              to {}: {}", text(end_of(last), audited.last, place_name),
-                             violation_text(last, robot, units));
+                             violation_text(last, problem, units));
 }
 
 /// The violation that the certificate's witness is about: the gravest, or where poses are implied the one to which the
@@ -70,7 +70,7 @@ std::string witness_text(const Audit& audit, const Case& the_case, const char* p
   const PathWitness& witness = audit.witness->violation;
   return fmt::format("{}: {}: {}.", audit.witness_is_gravest ? "Gravest" : "Proved of the move",
                      text(witness.at, audit.witness_place, place_name),
-                     violation_text(witness, the_case.problem.robot, DisplayUnits(the_case.units)));
+                     violation_text(witness, the_case.problem, DisplayUnits(the_case.units)));
 }
 
 /// Whether constraints or lengths of cables imply the poses.

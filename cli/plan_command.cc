@@ -87,7 +87,7 @@ Said said(const Case& the_case, const PlannedCase& planned) {
                                 : w.at.on_segment ? fmt::format("on segment {} of the path", w.at.index)
                                                   : fmt::format("at waypoint {} of the path", w.at.index);
       return {"refuted",
-              fmt::format("{} {}.{}", where, violation_text(w, the_case.problem.robot, DisplayUnits(the_case.units)),
+              fmt::format("{} {}.{}", where, violation_text(w, the_case.problem, DisplayUnits(the_case.units)),
                           load_that_breaks(the_case.problem.load, checked))};
     }
     case Verdict::kUndecided: break;

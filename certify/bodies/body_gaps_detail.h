@@ -17,8 +17,8 @@ UpperOf<I> norm_above(const Vector3<I>& x) {
   return ProofScalarTraits<I>::root(a * a + b * b + c * c);
 }
 
-template <class I>
-SlopeForm<I> lesser(const SlopeForm<I>& a, const SlopeForm<I>& b) {
+template <class I, class Slope>
+SlopeForm<I, Slope> lesser(const SlopeForm<I, Slope>& a, const SlopeForm<I, Slope>& b) {
   return -larger(-a, -b);
 }
 
@@ -33,8 +33,8 @@ I dot(const std::array<I, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
 }
 
-template <class I>
-SlopeForm<I> dot(const std::array<SlopeForm<I>, 3>& x, const Vector3<I>& y) {
+template <class I, class Slope>
+SlopeForm<I, Slope> dot(const std::array<SlopeForm<I, Slope>, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
 }
 

@@ -15,8 +15,8 @@ namespace taut {
 using namespace body_gaps_detail;
 
 /// Gaps between parts of two bodies, along some directions.
-template <class I>
-class BodyGaps<I>::MeshGaps {
+template <class I, class Slope>
+class BodyGaps<I, Slope>::MeshGaps {
  public:
   MeshGaps(const BodyGaps& gaps, const CheckedPair<I>& pair, std::span<const Direction> directions, Where where)
       : gaps_(gaps), pair_(pair), where_(where), first_(gaps.mesh(pair, true)), second_(gaps.mesh(pair, false)) {
@@ -154,8 +154,8 @@ class BodyGaps<I>::MeshGaps {
   std::vector<Sides> sides_;
 };
 
-template <class I>
-const PlacedMesh<I>* BodyGaps<I>::mesh(const CheckedPair<I>& pair, bool is_first) const {
+template <class I, class Slope>
+const PlacedMesh<I>* BodyGaps<I, Slope>::mesh(const CheckedPair<I>& pair, bool is_first) const {
   if (is_first) {
     return pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].mesh.get() : nullptr;
   }
@@ -163,14 +163,14 @@ const PlacedMesh<I>* BodyGaps<I>::mesh(const CheckedPair<I>& pair, bool is_first
   return second_hull(box_.bodies, pair).mesh.get();
 }
 
-template <class I>
-bool BodyGaps<I>::has_mesh(const CheckedPair<I>& pair) const {
+template <class I, class Slope>
+bool BodyGaps<I, Slope>::has_mesh(const CheckedPair<I>& pair) const {
   return mesh(pair, true) != nullptr || mesh(pair, false) != nullptr;
 }
 
-template <class I>
-double BodyGaps<I>::of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
-                            double enough) const {
+template <class I, class Slope>
+double BodyGaps<I, Slope>::of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
+                                   double enough) const {
   return MeshGaps(*this, pair, directions, where).least(enough);
 }
 

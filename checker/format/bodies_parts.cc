@@ -250,11 +250,12 @@ std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const 
     return {};
   }
   std::vector<std::size_t> result;
+  const bool has_mesh = bodies.has_mesh(of);
   const auto add = [&](const Cursor& here) {
     const auto index = static_cast<std::size_t>(here.integer(0, static_cast<std::int64_t>(path.directions.size()) - 1));
     const Axes axes = path.directions[index].axes;
-    if (of.kind != PairKind::kCableCable) {
-      const bool is_of_platform = of.kind == PairKind::kCablePlatform;
+    const bool is_of_platform = of.kind == PairKind::kCablePlatform;
+    if (is_of_platform || of.kind == PairKind::kCableObstacle || has_mesh) {
       here.require(axes == (is_of_platform ? Axes::kPlatform : Axes::kWorld),
                    is_of_platform ? "a direction in the axes of P" : "a direction in the axes of W");
     }
@@ -264,7 +265,7 @@ std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const 
     add(json);
     return result;
   }
-  json.require(bodies.has_mesh(of), "one index, as neither body is a mesh");
+  json.require(has_mesh, "one index, as neither body is a mesh");
   json.require(json.size() >= 2 && json.size() <= kMaxList, "one index, or a list of 2 to 256");
   json.elements([&](const Cursor& here, std::size_t) { add(here); });
   return result;

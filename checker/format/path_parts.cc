@@ -319,8 +319,9 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
       witness.elements = read_contact_elements(elements, witness.pair, problem);
     };
     json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "elements?",
-                read_elements, "at", witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n),
-                "motion", read_motion);
+                read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
+                proof(witness.at_box, witness.at, n), "motion", read_motion);
+    json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
     const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);
     json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");
     return witness;

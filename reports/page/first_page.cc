@@ -147,10 +147,9 @@ Html cables_note(const ReportContext& scene, const Summary& s) {
 
 // ---- What is broken.
 
-Html what(const BrokenLimit& broken) {
+Html what(const ReportContext& scene, const BrokenLimit& broken) {
   const std::string text = what_text(broken);
-  if (!broken.is_singular) return html("<b>Cable {}</b> {}", broken.margin.cable + 1, text);
-  return html("<b>Singular pose</b>{}{}", text.empty() ? "" : " ", text);
+  return html("<b><bdi>{}</bdi></b>{}{}", subject_text(scene, broken), text.empty() ? "" : " ", text);
 }
 
 /// All that are proved, and of the sampled ones as many as fill the table; then how many there are besides.
@@ -162,7 +161,7 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
   for (std::size_t k = 0; k < shown; ++k) {
     const BrokenLimit& broken = all[k];
     const bool is_plain = broken.is_proved() && broken.is_reached;
-    rows += html("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", what(broken),
+    rows += html("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", what(scene, broken),
                  with_minus_signs(amount_text(scene, broken)), where_text(scene, broken),
                  is_plain ? html("<b>{}</b>", known_by(broken)) : html("{}", known_by(broken)));
   }
@@ -189,7 +188,7 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
 CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
   const BrokenLimit& gravest = all.front();
   CablePlot plot{0, false, gravest.position, gravest.proof && gravest.proof->deviation};
-  const auto named = std::ranges::find_if(all, [](const BrokenLimit& broken) { return !broken.is_singular; });
+  const auto named = std::ranges::find_if(all, &BrokenLimit::is_of_cable);
   if (named != all.end()) {
     plot.cable = static_cast<std::size_t>(named->margin.cable);
     plot.is_length = is_length(named->margin);
@@ -287,7 +286,7 @@ std::array<Nearness, kCables> nearness_there(const ReportContext& scene, const S
   const PathSample sample = scene.sampler.at(scene.certificate.path, position);
   std::array<Nearness, kCables> nearness = nearness_at(scene.sampler.model(), sample.statics);
   for (const BrokenLimit& broken : broken_limits(scene)) {  // perhaps of another machine within the tolerances
-    if (broken.is_proved() && !broken.is_singular && std::abs(broken.position - position) < kThere) {
+    if (broken.is_proved() && broken.is_of_cable() && std::abs(broken.position - position) < kThere) {
       nearness[static_cast<std::size_t>(broken.margin.cable)] = Nearness::kOut;
     }
   }

@@ -345,7 +345,7 @@ Html stretches(const ReportContext& scene) {
   if (certificate.stretches.empty()) return {};
   const auto place = [&](const PathPoint& point) { return html("{}", place_text(scene, position(point))); };
   const auto violation = [&](const PathWitness& end) {
-    return html("{}, {}", violation_text(end, certificate.problem.robot, scene.illustration.units),
+    return html("{}, {}", violation_text(end, certificate.problem, scene.illustration.units),
                 place_text(scene, position(end.at)));
   };
   const std::size_t shown = std::min(certificate.stretches.size(), kMostRows);

@@ -125,6 +125,10 @@ std::optional<Witness> gravest_of(const Certificate& certificate) {
   return *gravest;
 }
 
+std::optional<BodyDistances> distances_of(const Problem& problem) {
+  return problem.bodies ? std::optional<BodyDistances>(problem) : std::nullopt;
+}
+
 }  // namespace
 
 ReportContext::ReportContext(const checker::CheckResult& checked)
@@ -139,11 +143,13 @@ ReportContext::ReportContext(Certificate stated, Recheck checked)
       boxes(boxes_of(certificate)),
       sampler(certificate.problem),
       samples(sampler.along(certificate.path, kPathSamples)),
+      bodies(distances_of(certificate.problem)),
       travel(sampler, certificate.path),
       ranges(tightened(ranges_of(certificate, boxes), certificate)) {
   ranges_are_whole = !certificate.segments.empty() && certificate.segments.size() == certificate.path.segments() &&
                      ranges.missing == 0 && std::ranges::all_of(boxes, is_covered);
   gravest = gravest_of(certificate);
+  if (bodies) distances = distances_along(*bodies, sampler, samples);
 }
 
 bool found_no_path(const Certificate& certificate) {

@@ -68,6 +68,21 @@ Decoration decoration_from_json(const nlohmann::json& decoration) {
   return result;
 }
 
+nlohmann::json to_json(const std::map<std::string, ShownBody>& meshes) {
+  nlohmann::json result = nlohmann::json::object();
+  for (const auto& [name, body] : meshes) result[name] = to_json(body);
+  return result;
+}
+
+std::map<std::string, ShownBody> meshes_from_json(const nlohmann::json& meshes) {
+  std::map<std::string, ShownBody> result;
+  if (!meshes.is_object()) return result;
+  for (const auto& [name, json] : meshes.items()) {
+    if (auto body = shown_body_from_json(json)) result.emplace(name, *std::move(body));
+  }
+  return result;
+}
+
 std::vector<std::array<Corner, 2>> feature_edges(const ShownBody& body) {
   // Corners by their places: STL files give every triangle its own.
   struct Sides {

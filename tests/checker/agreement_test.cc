@@ -81,6 +81,18 @@ TEST(Agreement, OnEveryPathOfTheCertificatesOfTheTests) {
   EXPECT_GT(decided, read / 2);
 }
 
+/// Takes away what a writer may number in another order: directions, which the checker compares by proving with them.
+void erase_directions(json& certificate) {
+  if (!certificate["problem"].contains("bodies")) return;
+  certificate["path"].erase("directions");
+  certificate.erase("path_sha256");
+  for (json& segment : certificate["segments"]) {
+    segment.erase("apart");
+    for (json& box : segment["boxes"]) box.erase("apart");
+  }
+  if (certificate["witness"].contains("weights")) certificate["witness"].erase("weights");  // rationals, or dyadics
+}
+
 /// But for who wrote them.
 TEST(Agreement, OnWhatCertificatesSay) {
   for (const auto& file : checker::certificates("accepted")) {
@@ -88,11 +100,12 @@ TEST(Agreement, OnWhatCertificatesSay) {
     if (file.stem().string().starts_with("attack_tower")) continue;  // numbers that the prover refuses
     const std::string text = checker::read_text(file);
     json certificate = parse_certificate(text, file);
-    if (certificate["version"] != kCertificateVersion) {  // of bodies, which reports can't show yet
-      EXPECT_THROW((void)read_certificate(certificate), InputError);
-      continue;
+    const std::string rewritten = certificate_text(read_certificate(certificate));
+    json written = json::parse(rewritten);
+    if (certificate["problem"].contains("bodies")) {
+      EXPECT_EQ(checker::check(rewritten).outcome, Outcome::kAccepted);
     }
-    json written = json::parse(certificate_text(read_certificate(certificate)));
+    for (json* of : {&certificate, &written}) erase_directions(*of);
     for (const char* key : {"footer", "generator", "signature"}) {
       certificate.erase(key);
       written.erase(key);
