@@ -176,7 +176,7 @@ class BodyReader {
     }
     body.shape =
         MeshText{name, mesh->sha256, decimal_to_si("1", unit), std::make_shared<const IndexedMesh>(mesh->mesh)};
-    result_.meshes.push_back({body.name, std::move(mesh)});
+    result_.meshes.push_back({body.name, std::move(mesh), folder_ / name});
   }
 
   const Unit& length_;

@@ -33,12 +33,22 @@ void append_hex_floats(std::string& text, std::span<const double> values) {
   text += ']';
 }
 
-std::string claim_of(Verdict verdict, bool has_items, const std::optional<std::array<bool, kPairClasses>>& checked) {
+/// Whether a body of a problem is a mesh.
+bool has_meshes(const json& problem) {
+  if (!problem.contains("bodies")) return false;
+  const auto is_mesh = [](const json& body) { return body.contains("mesh"); };
+  const json& bodies = problem["bodies"];
+  return std::ranges::any_of(bodies["platform"], is_mesh) || std::ranges::any_of(bodies["obstacles"], is_mesh);
+}
+
+std::string claim_of(Verdict verdict, const json& problem,
+                     const std::optional<std::array<bool, kPairClasses>>& checked) {
   if (verdict == Verdict::kUndecided) return checker::kUndecidedClaim;
   const bool is_proved = verdict == Verdict::kProved;
   std::string claim = is_proved ? checker::kProvedClaim : checker::kRefutedClaim;
-  if (has_items) claim += checker::kItemsClause;
+  if (problem["load"].contains("items")) claim += checker::kItemsClause;
   if (checked) claim += checker::bodies_clause(is_proved, *checked);
+  if (has_meshes(problem)) claim += checker::kMeshClause;
   return claim;
 }
 
@@ -365,7 +375,7 @@ void CertificateWriter::emit_path(const Write& write) const {
 /// Writes all but the footer, the signature and the brace at the end.
 void CertificateWriter::emit(const Certificate& rest, const Write& write, const std::string& path_digest) const {
   const bool is_undecided = rest.verdict == Verdict::kUndecided;
-  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_["load"].contains("items"), checked_)));
+  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_, checked_)));
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical({{"name", "taut"}, {"version", TAUT_VERSION}}));
   write(",\"illustration\":" + canonical(rest.illustration));
   write(",\"margins\":" + canonical(rest.margins ? to_json(*rest.margins) : json::object()));

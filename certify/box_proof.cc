@@ -543,6 +543,14 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
     verdict.kind = BoxVerdict::Kind::kNear;
     verdict.near.push_back({n, bound.at_mid});
   }
+  for (std::size_t n = 0; verdict.kind == BoxVerdict::Kind::kProved && n < directions.single.size(); ++n) {
+    const CheckedPair<I>& pair = problem.bodies->pairs[n];
+    const MeshSide side = gaps.has_mesh(pair) ? gaps.side_at_mid(pair) : MeshSide::kOutside;
+    if (side == MeshSide::kOutside) continue;
+    const bool is_inside = side == MeshSide::kInside;
+    verdict.kind = is_inside ? BoxVerdict::Kind::kInside : BoxVerdict::Kind::kNear;
+    verdict.near.push_back({n, AtMid::kUnknown});
+  }
 }
 
 /// BoxVerdict::strain.

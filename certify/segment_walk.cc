@@ -231,6 +231,10 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
       ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps, directions_.get());
   switch (verdict.kind) {
     case Kind::kNear: return examine_bodies(task, verdict);
+    case Kind::kInside: {
+      const std::string where = " " + pair_name(verdict.near.front().pair) + " (inside)";
+      return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, where}};
+    }
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};
     case Kind::kTooClose: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kClearance};

@@ -187,7 +187,7 @@ ConfirmOptions confirm_options(const CheckOptions& options, std::chrono::steady_
 }
 
 /// Takes the meshes that the problem names. @throws Rejected where one is not supplied
-void supply_meshes(Problem& problem, const CheckOptions& options) {
+void supply_meshes(Problem& problem, const CheckOptions& options, CheckResult& result) {
   if (!problem.bodies) return;
   std::map<std::string, std::shared_ptr<const Surface>> known;  // by digest
   for (auto* bodies : {&problem.bodies->platform, &problem.bodies->obstacles}) {
@@ -200,6 +200,7 @@ void supply_meshes(Problem& problem, const CheckOptions& options) {
         if (!options.meshes) throw Rejected(name + " was not supplied");
         SuppliedMesh supplied = options.meshes(mesh->file, mesh->sha256);
         if (supplied.sha256 != mesh->sha256) throw Rejected(name + " is another one: its SHA-256 differs");
+        if (options.keeps_certificate) result.meshes.push_back(supplied);
         try {
           surface = std::make_shared<const Surface>(std::move(supplied.points), std::move(supplied.triangles),
                                                     supplied.needles);
@@ -223,13 +224,14 @@ std::optional<Theorem::Verdict> check_path(const std::string& bytes, Outline out
   result.is_audit = certificate.problem.query.empty();
   result.counts = {certificate.segment_texts.size(), certificate.boxes, 0};
   require_asked_for(certificate, options, result);
+  if (options.meshes) supply_meshes(certificate.problem, options, result);
   if (certificate.verdict == Verdict::kUndecided) {
     result.outcome = Outcome::kUndecided;
     result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
     return std::nullopt;
   }
   const ConfirmOptions how = confirm_options(options, start);
-  supply_meshes(certificate.problem, options);
+  if (!options.meshes) supply_meshes(certificate.problem, options, result);
   result.counts = confirm(certificate, how);
   result.message = describe_accepted(certificate, result);
   return theorem_verdict(certificate.verdict);

@@ -89,6 +89,7 @@ struct CheckResult {
   std::shared_ptr<const nlohmann::json> certificate;
   std::string sha256;                     ///< of the bytes
   std::string signer;                     ///< public key whose signature was verified, or empty
+  std::vector<SuppliedMesh> meshes;       ///< that were supplied, each once, if `certificate` is kept
   bool is_trusted = false;                ///< whether the signer is one of those asked for
   bool is_audit = false;                  ///< the path itself is what was asked about
   Theorem::Counts counts;                 ///< as far as the check went

@@ -126,6 +126,9 @@ struct BodyPair {
 /// wrong with a body is named "bodies.obstacles[NAME].radius". @throws FieldError
 void validate(const BodiesText& bodies);
 
+/// Whether each mesh of the bodies was read.
+[[nodiscard]] bool are_meshes_read(const BodiesText& bodies);
+
 /// The member `bodies` of a problem: "platform" and "obstacles", lists of bodies, "cables", "clearance_m", an object
 /// with a member for each class that is checked, and, unless there are none, "pair_clearances_m".
 [[nodiscard]] nlohmann::json to_json(const BodiesText& bodies);

@@ -24,6 +24,7 @@
 #include "certify/arithmetic/gradient.h"
 #include "certify/arithmetic/neumann.h"
 #include "certify/arithmetic/slope_form.h"
+#include "certify/bodies/mesh_side.h"
 #include "certify/tolerance/tolerance.h"
 #include "kinematics/bodies.h"
 
@@ -117,6 +118,9 @@ class BodyGaps {
   /// @param enough  no larger bound than this is needed
   [[nodiscard]] double of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
                                double enough) const;
+  /// Of a pair whose surfaces do not touch: kOutside if at m, of the undisturbed machine, no part of either body is
+  /// inside of the other, where that is a watertight mesh; kInside if a part certainly is.
+  [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair) const;
   /// Whether one of its bodies is a mesh.
   [[nodiscard]] bool has_mesh(const CheckedPair<I>& pair) const;
   /// The same from ranges alone, of balls around bodies and of whole cables: a lower bound, for pairs that are far
@@ -163,6 +167,7 @@ class BodyGaps {
                                                   const std::optional<std::uint32_t>& element) const;
   [[nodiscard]] const PlacedMesh<I>* mesh(const CheckedPair<I>& pair, bool is_first) const;
   class MeshGaps;
+  [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair, bool first_is_solid) const;
   /// The sum of shares times points.
   [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
                                           const std::vector<std::int64_t>& shares);

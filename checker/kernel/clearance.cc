@@ -5,6 +5,7 @@
 #include <map>
 
 #include "checker/kernel/mesh_clearance.h"
+#include "checker/kernel/mesh_inside.h"
 
 namespace taut::checker {
 namespace {
@@ -92,7 +93,41 @@ class Clearances {
       const Axes axes = pair.kind == PairKind::kCablePlatform ? Axes::kPlatform : Axes::kWorld;
       for (const std::size_t index : apart_[k]) along_all.push_back(both_along(pair, along_direction(index, axes)));
     }
+    if (half_space_of(pair) == nullptr) {
+      require_outside(pair, false);
+      require_outside(pair, true);
+    }
     return mesh_margin(first, second, along_all, {shift_.position, shift_.turn}, bodies_.clearance[k], enough_);
+  }
+
+  /// In the middle of the box, no part of the other body is inside of the first one, or of the second, if that is a
+  /// closed mesh. A part that hangs together stays on its side of a surface that it does not touch: so one point of each
+  /// is enough, at one pose.
+  void require_outside(const CheckedPair& pair, bool of_first) {
+    const PlacedSurface* const mesh = bodies_.mesh(pair, of_first);
+    if (mesh == nullptr || !mesh->surface->is_closed()) return;
+    const bool is_carried = of_first || pair.kind == PairKind::kCablePlatform;
+    const Matrix3<Ball> R = middle(geometry_.pose.R);
+    const Vector3<Ball> p = middle(geometry_.pose.p);
+    const auto require = [&](const Vector3<Ball>& x) {  // of W
+      const Vector3<Ball> here = is_carried ? multiply(transposed(R), x - p) : x;
+      if (side_of(*mesh->surface, in_unit_of(*mesh, here)) == Side::kOutside) return;
+      throw Undefined("a body may be inside of a mesh: " + pair.name);
+    };
+    if (pair.kind != PairKind::kPlatformObstacle) {  // then the other one is the cable
+      const Ball t = cuts(pair.first)[0].at;
+      return require(machine_.base[pair.first] + t * middle(geometry_.d[pair.first]));
+    }
+    const PlacedHull& other = *bodies_.hull(pair, !of_first);
+    const auto in_world = [&](const Vector3<Ball>& x) { return of_first ? x : p + multiply(R, x); };
+    if (!other.mesh) return require(in_world(other.points.front()));
+    for (const Surface::Point& part : other.mesh->surface->parts()) require(in_world(other.mesh->place(part)));
+  }
+
+  /// What is known of forms at u = 0.
+  [[nodiscard]] static Vector3<Ball> middle(const Vector3<MeanValueForm>& x) { return {x[0].at, x[1].at, x[2].at}; }
+  [[nodiscard]] static Matrix3<Ball> middle(const Matrix3<MeanValueForm>& x) {
+    return {middle(x[0]), middle(x[1]), middle(x[2])};
   }
 
   [[nodiscard]] const PlacedHalfSpace* half_space_of(const CheckedPair& pair) const {

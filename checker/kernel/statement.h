@@ -7,6 +7,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -167,6 +168,11 @@ struct Bodies {
   }
   [[nodiscard]] bool has_mesh(const CheckedPair& pair) const {
     return mesh(pair, true) != nullptr || mesh(pair, false) != nullptr;
+  }
+
+  [[nodiscard]] bool has_meshes() const {
+    const auto is_mesh = [](const RigidBody& body) { return std::holds_alternative<MeshShape>(body.shape); };
+    return std::ranges::any_of(platform, is_mesh) || std::ranges::any_of(obstacles, is_mesh);
   }
 
   /// Whether the second body of a pair is a half-space.
