@@ -37,6 +37,7 @@
 #include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/robot_drawing.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/case_summary.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/illustration.h"
@@ -56,18 +57,19 @@ struct Theorem::Content {
   std::string claim;
   std::optional<taut::Margins> margins;
   std::optional<PathWitness> witness;
+  Problem problem;
 };
 
 struct TheoremMaker {
   static Theorem make(const checker::Theorem& theorem) {
     if (theorem.verdict() == checker::Theorem::Verdict::kNoPath) {
-      return Theorem(std::make_shared<const Theorem::Content>(Theorem::Content{theorem, theorem.claim(), {}, {}}));
+      return Theorem(std::make_shared<const Theorem::Content>(Theorem::Content{theorem, theorem.claim(), {}, {}, {}}));
     }
     const taut::Certificate certificate = read_certificate(theorem.certificate());
     std::optional<PathWitness> witness;
     if (certificate.witness) witness = certificate.witness->violation;
     return Theorem(std::make_shared<const Theorem::Content>(
-        Theorem::Content{theorem, certificate.claim, certificate.margins, std::move(witness)}));
+        Theorem::Content{theorem, certificate.claim, certificate.margins, std::move(witness), certificate.problem}));
   }
 };
 
@@ -251,12 +253,18 @@ Place outer(const PathPoint& point) {
   return place;
 }
 
-Witness outer(const PathWitness& witness) {
+Witness outer(const PathWitness& witness, const Problem& problem) {
   Witness result;
   result.at = outer(witness.at);
   if (witness.singular) {
     result.kind = "singular";
     result.to = outer(witness.to);
+    return result;
+  }
+  if (witness.contact) {
+    result.kind = "contact";
+    result.bodies = names(*problem.bodies, pairs(*problem.bodies).at(witness.contact->pair));
+    result.depth_m = below(witness.depth_m);
     return result;
   }
   result.kind = name(witness.margin.kind);
@@ -431,6 +439,13 @@ std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
   return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
 }
 
+std::vector<std::string> Case::bodies_statement() const {
+  return within(ErrorCode::kCase, [&]() -> std::vector<std::string> {
+    const std::optional<CaseBodies>& bodies = content_->the_case.bodies;
+    return bodies ? lines(taut::bodies_statement(*bodies)) : std::vector<std::string>();
+  });
+}
+
 std::vector<std::string> Case::load_statement() const {
   return within(ErrorCode::kCase, [&] { return lines(taut::load_statement(content_->the_case)); });
 }
@@ -505,13 +520,16 @@ std::optional<Margins> Theorem::margins() const {
   const std::optional<taut::Margins>& margins = content_->margins;
   if (!margins) return std::nullopt;
   return within(ErrorCode::kCertificate, [&] {
-    return Margins{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale)};
+    Margins result{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale), {}};
+    const std::optional<BodiesText>& bodies = content_->problem.bodies;
+    if (bodies && margins->clearance_m && !pairs(*bodies).empty()) result.clearance_m = below(*margins->clearance_m);
+    return result;
   });
 }
 
 std::optional<Witness> Theorem::witness() const {
   if (!content_->witness) return std::nullopt;
-  return within(ErrorCode::kCertificate, [&] { return outer(*content_->witness); });
+  return within(ErrorCode::kCertificate, [&] { return outer(*content_->witness, content_->problem); });
 }
 
 std::vector<Stretch> Certificate::stretches() const {
@@ -523,7 +541,8 @@ std::vector<Stretch> Certificate::stretches() const {
       copy.begin = outer(stretch.begin);
       copy.end = outer(stretch.end);
       if (const auto& found = stretch.violations) {
-        copy.violations = {outer(found->first.violation), outer(found->second.violation)};
+        const Problem& problem = content_->stated.problem;
+        copy.violations = {outer(found->first.violation, problem), outer(found->second.violation, problem)};
       }
       copy.reason = stretch.reason;
       copy.reason_code = code_of(stretch.reason);

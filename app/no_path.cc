@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <map>
 
 #include "app/as_items.h"
@@ -24,15 +25,16 @@ namespace {
 using checker::OutsideReason;
 
 /// The kernel's reason that is closest to the prover's.
-OutsideReason first_reason(const MapNode& leaf) {
+FirstReason first_reason(const MapNode& leaf) {
   using Kind = OutsideReason::Kind;
+  if (leaf.kind == CellKind::kContact) return {{}, leaf.reason};
   if (leaf.kind == CellKind::kUnbalanced) {
-    return {Kind::kFixed, static_cast<std::size_t>(leaf.reason / 2), leaf.reason % 2 == 0 ? std::size_t{1} : 0};
+    return {{Kind::kFixed, static_cast<std::size_t>(leaf.reason / 2), leaf.reason % 2 == 0 ? std::size_t{1} : 0}};
   }
   const MarginId margin = all_margins().at(leaf.reason);
   const bool is_most = margin.kind == MarginKind::kTensionMax || margin.kind == MarginKind::kLengthMax;
   const Kind kind = leaf.kind == CellKind::kLength ? Kind::kLength : Kind::kFollowing;
-  return {kind, static_cast<std::size_t>(margin.cable), is_most ? std::size_t{1} : 0};
+  return {{kind, static_cast<std::size_t>(margin.cable), is_most ? std::size_t{1} : 0}};
 }
 
 /// Makes the certificate's tree of a map: reasons have the outside cells next to all that hangs together with one of
@@ -43,14 +45,14 @@ class Wall {
       : outside_(problem), map_(std::move(map)), places_{widened(std::move(from)), widened(std::move(to))} {}
 
   /// Empty where the kernel does not prove enough of the cells.
-  std::string tree() {
+  OutsidePart cells() {
     constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
       const auto first = cells_around(places_[0], places_[1]), second = cells_around(places_[1], places_[0]);
-      if (!first || !second) return "";
-      if (prove(first->size() <= second->size() ? *first : *second)) return text(0);
+      if (!first || !second) return {};
+      if (prove(first->size() <= second->size() ? *first : *second)) return part(0);
     }
-    return "";
+    return {};
   }
 
  private:
@@ -94,45 +96,47 @@ class Wall {
 
   /// Those that the kernel does not prove are undecided from then on. @returns whether it proves all
   bool prove(const std::vector<Leaf>& wall) {
-    std::vector<std::string> trees(wall.size());
+    std::vector<OutsidePart> parts_of_wall(wall.size());
     tbb::parallel_for(std::size_t{0}, wall.size(), [&](std::size_t n) {
       const auto& [cell, node] = wall[n];
       if (const auto known = proved_.find(node); known != proved_.end()) {
-        trees[n] = known->second;
+        parts_of_wall[n] = known->second;
         return;
       }
       std::vector<checker::CellPart> parts;
       for (std::size_t k = 0; k < map_.space.size(); ++k) parts.push_back({cell.k[k], cell.depth[k]});
-      trees[n] = outside_.tree(parts, first_reason(map_.nodes[node]));
+      parts_of_wall[n] = outside_.tree(parts, first_reason(map_.nodes[node]));
     });
     bool is_whole = true;
     for (std::size_t n = 0; n < wall.size(); ++n) {
-      if (trees[n].empty()) {
+      if (parts_of_wall[n].tree.empty()) {
         map_.nodes[wall[n].node].kind = CellKind::kUndecided;
         is_whole = false;
       } else {
-        proved_[wall[n].node] = trees[n];
+        proved_[wall[n].node] = std::move(parts_of_wall[n]);
       }
     }
     return is_whole;
   }
 
-  [[nodiscard]] std::string text(std::uint32_t node) const {
-    const std::string open(1, checker::kOpenLeaf);
+  [[nodiscard]] OutsidePart part(std::uint32_t node) const {
+    const OutsidePart open{std::string(1, checker::kOpenLeaf), {}};
     const MapNode& here = map_.nodes[node];
     if (here.axis == MapNode::kLeaf) {
       const auto found = proved_.find(node);
       return found == proved_.end() ? open : found->second;
     }
-    const std::string lower = text(here.child), upper = text(here.child + 1);
-    if (lower == open && upper == open) return open;
-    return static_cast<char>('0' + here.axis) + lower + upper;
+    OutsidePart lower = part(here.child), upper = part(here.child + 1);
+    if (lower.tree == open.tree && upper.tree == open.tree) return open;
+    lower.tree = static_cast<char>('0' + here.axis) + lower.tree + upper.tree;
+    std::ranges::move(upper.contacts, std::back_inserter(lower.contacts));
+    return lower;
   }
 
   OutsideCells outside_;
   CellMap map_;
   std::array<std::vector<MapBox>, 2> places_;
-  std::map<std::uint32_t, std::string> proved_;  ///< parts of the tree, by node
+  std::map<std::uint32_t, OutsidePart> proved_;  ///< parts of the tree, by node
 };
 
 }  // namespace
@@ -171,6 +175,7 @@ NoPathAttempt seek_no_path(const Case& the_case, const SeparationOptions& option
   const Problem& problem = the_case.problem;
   NoPathAttempt result;
   try {
+    require_no_meshes(problem);
     result.space = make_map_space(problem.space);
   } catch (const FieldError& error) {
     result.why = error.what();
@@ -185,10 +190,10 @@ NoPathAttempt seek_no_path(const Case& the_case, const SeparationOptions& option
     if (found.answer == Separation::Answer::kApart) {
       Wall wall(problem, found.map, place_of(*result.space, problem.query[from]),
                 place_of(*result.space, problem.query[from + 1]));
-      NoPath no_path{from, wall.tree(), {}};
+      NoPath no_path{from, wall.cells(), {}};
       no_path.illustration = {{"kind", "no path"}};
       add_stated(no_path.illustration, the_case);
-      if (!no_path.tree.empty()) {
+      if (!no_path.cells.tree.empty()) {
         result.answer = NoPathAttempt::Answer::kApart;
         result.from = from;
         result.certificate = certificate_text(problem, no_path, key);

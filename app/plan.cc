@@ -76,7 +76,6 @@ bool is_exhausted(const Plan& plan) {
 bool try_no_path(const Case& the_case, const PlannedCaseOptions& options, const std::stop_token& stop,
                  PlannedCase& result) {
   if (!(options.no_path_seconds > 0) || stop.stop_requested() || !is_exhausted(result.plan)) return false;
-  if (the_case.problem.bodies) return false;  // which maps don't know
   SeparationOptions separation;
   separation.seconds = options.no_path_seconds;
   separation.stop = stop;

@@ -554,8 +554,8 @@ Certificate read_certificate(const json& certificate) {
     }
   }
   for (const JsonCursor& segment : member("segments").elements()) {
-    result.segments.push_back(read_segment(segment, result.segments.size(), result.path.interpolation,
-                                           has_bodies ? &directions : nullptr));
+    result.segments.push_back(
+        read_segment(segment, result.segments.size(), result.path.interpolation, has_bodies ? &directions : nullptr));
   }
   const bool is_proved = result.verdict == Verdict::kProved;
   if (is_proved && result.path.segments() == 0) {

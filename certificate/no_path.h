@@ -4,14 +4,29 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "certificate/signature.h"
+#include "certify/bodies/nearest.h"
 #include "checker/no_path.h"
+#include "kinematics/pose_sampler.h"
 #include "problem/problem.h"
 
 namespace taut {
+
+/// A part of a certificate's tree.
+struct OutsidePart {
+  std::string tree;
+  std::vector<checker::ContactReason> contacts;  ///< of its leaves that are in contact, in their order
+};
+
+/// The reason to try first: that of a limit, or a pair of bodies.
+struct FirstReason {
+  checker::OutsideReason limit;
+  std::optional<std::size_t> pair = {};
+};
 
 /// Runs the checker's kernel on cells. Thread-safe.
 class OutsideCells {
@@ -27,13 +42,24 @@ class OutsideCells {
   /// The part of a certificate's tree that is this cell: a leaf with the reason that the kernel proves, or halves.
   /// Empty where the kernel does not prove it with a few halvings.
   /// @param cell   its part of each axis
-  /// @param first  the reason to try first
-  [[nodiscard]] std::string tree(const std::vector<checker::CellPart>& cell, const checker::OutsideReason& first) const;
+  [[nodiscard]] OutsidePart tree(const std::vector<checker::CellPart>& cell, const FirstReason& first) const;
 
  private:
-  [[nodiscard]] std::string halved(std::vector<checker::CellPart> cell, const checker::OutsideReason& first,
-                                   int halvings) const;
+  using Parameters = std::vector<checker::CellForm>;
+  [[nodiscard]] OutsidePart halved(std::vector<checker::CellPart> cell, const FirstReason& first, int halvings) const;
+  /// A leaf, or nothing.
+  [[nodiscard]] OutsidePart leaf(checker::OutsideProof& proof, const Parameters& parameters,
+                                 const FirstReason& first) const;
+  /// The contact of a pair, if it is proved.
+  [[nodiscard]] std::optional<checker::ContactReason> contact(const checker::OutsideProof& proof, const RigidPose& pose,
+                                                              std::size_t pair) const;
 
+  /// Where the problem has bodies: proposes the points that touch.
+  struct Proposer {
+    PoseSampler poses;
+    BodySampler bodies;
+  };
+  std::optional<Proposer> proposer_;
   checker::Problem problem_;
   checker::CellSpace space_;
   checker::StatedMachine machine_;
@@ -42,7 +68,7 @@ class OutsideCells {
 /// What such a certificate states.
 struct NoPath {
   std::size_t from = 0;         ///< the waypoint of the query; the other is the next
-  std::string tree;             ///< of halvings
+  OutsidePart cells;            ///< the whole space
   nlohmann::json illustration;  ///< proves nothing
 };
 

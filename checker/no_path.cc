@@ -73,7 +73,7 @@ class Flood {
     // Children come behind their parents.
     open_.resize(tree_.size());
     for (std::size_t node = tree_.size(); node-- > 0;) {
-      open_[node] = tree_.is_leaf(node) ? std::uint32_t{!tree_.reason(node)}
+      open_[node] = tree_.is_leaf(node) ? std::uint32_t{!tree_.is_outside(node)}
                                         : open_[CellTree::lower(node)] + open_[tree_.upper(node)];
     }
   }
@@ -165,7 +165,7 @@ class Flood {
 
   [[nodiscard]] bool is_flooded(const Poses& poses, std::size_t node, const CellBox& box) const {
     if (!may_share(poses, box)) return false;
-    if (tree_.is_leaf(node)) return open_[node] == 0 && !tree_.reason(node);
+    if (tree_.is_leaf(node)) return open_[node] == 0 && !tree_.is_outside(node);
     const std::size_t axis = tree_.axis(node);
     return is_flooded(poses, CellTree::lower(node), half(box, axis, false)) ||
            is_flooded(poses, tree_.upper(node), half(box, axis, true));
@@ -262,11 +262,18 @@ std::vector<CellBox> places(const NoPathCertificate& certificate, std::size_t wa
 struct OutsideCell {
   std::size_t node = 0;
   std::array<CellPart, kCellAxes> parts;
+  const ContactReason* contact = nullptr;  ///< if that is it
 };
 
-void collect(const CellTree& tree, const OutsideCell& at, std::vector<OutsideCell>& cells) {
+/// @param contacts  how many leaves before this node are in contact
+void collect(const NoPathCertificate& certificate, const OutsideCell& at, std::size_t& contacts,
+             std::vector<OutsideCell>& cells) {
+  const CellTree& tree = certificate.tree;
   if (tree.is_leaf(at.node)) {
-    if (tree.reason(at.node)) cells.push_back(at);
+    if (tree.is_outside(at.node)) cells.push_back(at);
+    if (tree.is_contact(at.node)) {
+      cells.back().contact = &certificate.contacts.at(certificate.contact_of_leaf.at(contacts++));
+    }
     return;
   }
   for (const std::uint32_t side : {0U, 1U}) {
@@ -274,7 +281,7 @@ void collect(const CellTree& tree, const OutsideCell& at, std::vector<OutsideCel
     CellPart& part = below.parts.at(tree.axis(at.node));
     part = {2 * part.k + side, part.depth + 1};
     below.node = side == 0 ? CellTree::lower(at.node) : tree.upper(at.node);
-    collect(tree, below, cells);
+    collect(certificate, below, contacts, cells);
   }
 }
 
@@ -282,8 +289,9 @@ void require_outside(const NoPathCertificate& certificate, const StatedMachine& 
   const std::string name = fmt::format("the cell at node {}", cell.node);
   try {
     OutsideProof proof(machine, parameters(certificate.axes, cell.parts));
-    const std::optional<OutsideReason> reason = certificate.tree.reason(cell.node);
-    if (!proof.holds(reason.value())) throw Undefined("its reason is not proved");
+    const bool holds =
+        cell.contact != nullptr ? proof.holds(*cell.contact) : proof.holds(certificate.tree.reason(cell.node).value());
+    if (!holds) throw Undefined("its reason is not proved");
   } catch (const Undefined& why) {
     throw Rejected("not confirmed: " + name + ": " + why.what());
   }
@@ -305,7 +313,8 @@ Theorem::Counts confirm(const NoPathCertificate& certificate, const ConfirmOptio
     throw Rejected(std::string("not confirmed: the waypoints: ") + why.what());
   }
   std::vector<OutsideCell> cells;
-  collect(certificate.tree, {}, cells);
+  std::size_t contacts = 0;
+  collect(certificate, {}, contacts, cells);
   std::unique_ptr<StatedMachine> machine;
   const auto prepare = [&] {
     const WorkingPrecision precision(certificate.bits);

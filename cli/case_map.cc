@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -39,7 +40,10 @@ std::optional<MapStart> numbered_start(const Problem& problem, const std::string
 }  // namespace
 
 MappedCase::MappedCase(const std::string& case_path, const std::string& from) {
-  const auto set_space = [&](const Case& read) { space = make_map_space(read.problem.space); };
+  const auto set_space = [&](const Case& read) {
+    require_no_meshes(read.problem);
+    space = make_map_space(read.problem.space);
+  };
   if (from.find_first_not_of("0123456789") == std::string::npos) {
     the_case = load_case(case_path, set_space);
     start = numbered_start(the_case.problem, from);
@@ -128,6 +132,33 @@ void print_components(const char* what, const std::vector<MapComponent>& compone
              components.size() > kMost ? ", …" : "");
 }
 
+/// Shares of the volume in which a pair of bodies is too near, the largest first. A cell is counted for one pair, even
+/// where others touch, too.
+std::vector<std::pair<double, std::string>> contact_shares(const Problem& problem, const CellMap& map) {
+  const std::vector<BodyPair> all = pairs(*problem.bodies);
+  std::vector<double> sums(all.size());
+  map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
+    if (map.nodes[node].kind == CellKind::kContact) sums.at(map.nodes[node].reason) += cell.volume();
+  });
+  std::vector<std::pair<double, std::string>> shares;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    if (sums[n] > 0) shares.emplace_back(sums[n], name(*problem.bodies, all[n]));
+  }
+  std::ranges::stable_sort(shares, std::ranges::greater(), &std::pair<double, std::string>::first);
+  return shares;
+}
+
+void print_contacts(const Problem& problem, const CellMap& map) {
+  constexpr std::size_t kMost = 4;
+  const auto shares = contact_shares(problem, map);
+  for (std::size_t n = 0; n < std::min(shares.size(), kMost); ++n) {
+    fmt::print("                   {:>9}  {} are too near\n", percent(shares[n].first), sanitize(shares[n].second));
+  }
+  if (shares.size() > kMost) {
+    fmt::print("                   {:>9}  and {}\n", "", plural(shares.size() - kMost, "other pair"));
+  }
+}
+
 double down(double x) { return std::floor(x); }
 double up(double x) { return std::ceil(x); }
 
@@ -167,11 +198,15 @@ void print(const Case& the_case, const CaseMap& made) {
     fmt::print("  {}\n", sanitize(axis_text(made.result().axes[k], map.space.axes[k])));
   }
   const double tension = share(map, CellKind::kTension), length = share(map, CellKind::kLength);
-  const double unbalanced = share(map, CellKind::kUnbalanced);
-  fmt::print("  inside, proved   {:>9}  every pose holds every load{}\n", percent(share(map, CellKind::kInside)),
-             the_case.problem.tolerances ? " with every deviation within the tolerances" : "");
-  fmt::print("  outside, proved  {:>9}  a tension beyond a limit {}, a length {}, some load not balanced {}\n",
-             percent(tension + length + unbalanced), percent(tension), percent(length), percent(unbalanced));
+  const double unbalanced = share(map, CellKind::kUnbalanced), contact = share(map, CellKind::kContact);
+  fmt::print("  inside, proved   {:>9}  every pose holds every load{}{}\n", percent(share(map, CellKind::kInside)),
+             the_case.problem.tolerances ? " with every deviation within the tolerances" : "",
+             the_case.problem.bodies ? ", and bodies stay clear" : "");
+  const bool has_bodies = the_case.problem.bodies.has_value();
+  fmt::print("  outside, proved  {:>9}  a tension beyond a limit {}, a length {}, some load not balanced {}{}\n",
+             percent(tension + length + unbalanced + contact), percent(tension), percent(length), percent(unbalanced),
+             has_bodies ? fmt::format(", bodies too near {}", percent(contact)) : "");
+  if (has_bodies) print_contacts(the_case.problem, map);
   fmt::print(
       "  undecided        {:>9}  {}{}\n", percent(map.share[0]), text(map.end),
       map.tolerance_share > 0 ? fmt::format("; {} because of the tolerances", percent(map.tolerance_share)) : "");
@@ -239,6 +274,12 @@ nlohmann::json to_json(const Case& the_case, const CaseMap& made) {
     axes.push_back(
         {{"name", axis.name}, {"kind", axis_kind_name(axis.kind)}, {"lower", axis.lower}, {"upper", axis.upper}});
   }
+  nlohmann::json contacts = nlohmann::json::array();
+  if (the_case.problem.bodies) {
+    for (const auto& [share, pair] : contact_shares(the_case.problem, map)) {
+      contacts.push_back({{"pair", pair}, {"share", share}});
+    }
+  }
   nlohmann::json connections = nlohmann::json::array();
   for (const Connection connection : made.connections()) connections.push_back(name(connection));
   return {{"command", "map"},
@@ -249,6 +290,7 @@ nlohmann::json to_json(const Case& the_case, const CaseMap& made) {
             {"tension", share(map, CellKind::kTension)},
             {"length", share(map, CellKind::kLength)},
             {"unbalanced", share(map, CellKind::kUnbalanced)},
+            {"contact", share(map, CellKind::kContact)},
             {"undecided", map.share[0]},
             {"undecided_by_tolerances", map.tolerance_share}}},
           {"cells", map.leaves()},
@@ -257,6 +299,7 @@ nlohmann::json to_json(const Case& the_case, const CaseMap& made) {
           {"inside", to_json(made.result().topology.inside())},
           {"possible", to_json(made.result().topology.possible())},
           {"connections", connections},
+          {"contacts", contacts},
           {"region", region_json(made)},
           {"map_seconds", made.seconds()},
           {"warnings", the_case.warnings}};

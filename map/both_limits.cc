@@ -23,9 +23,10 @@ constexpr std::uint32_t length_margins() {
 
 class BothLimits {
  public:
-  BothLimits(const Problem& problem, const CellMap& map, double width)
-      : space_(map.space), width_(width), lengths_(make_cell_proof(problem, map.space)) {
+  BothLimits(const Problem& problem, const CellMap& map, double width) : space_(map.space), width_(width) {
     Problem without_lengths = problem;
+    without_lengths.bodies.reset();
+    lengths_ = make_cell_proof(without_lengths, map.space);
     without_lengths.robot.length_m.fill({"1e-9", "1e9"});
     tensions_ = make_cell_proof(without_lengths, map.space);
   }
@@ -66,7 +67,8 @@ std::vector<Cell> cells_beyond_both(const Problem& problem, const CellMap& map, 
   const BothLimits both(problem, map, width);
   std::vector<std::pair<Cell, CellKind>> outside;
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
-    if (is_outside(map.nodes[node].kind)) outside.emplace_back(cell, map.nodes[node].kind);
+    const CellKind kind = map.nodes[node].kind;
+    if (is_outside(kind) && kind != CellKind::kContact) outside.emplace_back(cell, kind);
   });
   std::vector<std::vector<Cell>> parts(outside.size());
   tbb::parallel_for(std::size_t{0}, outside.size(), [&](std::size_t n) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "certify/bodies/nearest.h"
 #include "certify/box_proof.h"
 #include "certify/motion/forms_in_lanes.h"
 #include "map/cell_inverse.h"
@@ -26,17 +27,40 @@ constexpr bool is_numbered_by_kind() {
 }
 static_assert(is_numbered_by_kind());
 
+constexpr std::uint64_t kAllMargins = (std::uint64_t{1} << kMargins.size()) - 1;
+static_assert(CellVerdict::kFirstPairBit == kMargins.size());
+
+/// What proposes directions and points for pairs of bodies.
+struct BodyProposer {
+  explicit BodyProposer(const Problem& problem)
+      : bodies(problem), model(make_model_without_ellipsoid<double>(problem)) {}
+
+  BodySampler bodies;
+  Model<double> model;
+};
+
 /// The problem ready for cells of N coordinates.
 template <std::size_t N>
 struct CellModel {
   ProofModel<Interval> proof;
   Evaluator<CellForm<N>> pose;
-  std::array<Interval, N> lower, extent;  ///< λ_k = lower_k + t_k extent_k
+  std::array<Interval, N> lower, extent;   ///< λ_k = lower_k + t_k extent_k
+  std::optional<BodyProposer> proposer;    ///< where the problem has bodies
+  std::uint64_t all_proved = kAllMargins;  ///< CellVerdict::proved where the machine as typed is feasible
 };
+
+std::uint64_t pair_bit(std::size_t pair) {
+  return std::uint64_t{1} << (CellVerdict::kFirstPairBit + pair % CellVerdict::kPairBits);
+}
 
 template <std::size_t N>
 CellModel<N> make_cell_model(const Problem& problem, const MapSpace& space) {
-  CellModel<N> model{make_proof_model(problem), Evaluator<CellForm<N>>(pose_tape(problem)), {}, {}};
+  CellModel<N> model{make_proof_model(problem), Evaluator<CellForm<N>>(pose_tape(problem)), {}, {}, {}};
+  if (problem.bodies) {
+    model.proposer.emplace(problem);
+    const std::size_t pairs = model.proof.bodies->pairs.size();
+    for (std::size_t n = 0; n < pairs; ++n) model.all_proved |= pair_bit(n);
+  }
   const bool is_bounded = run_upward([&] {
     for (std::size_t k = 0; k < N; ++k) {
       model.lower[k] = evaluate_constant<Interval>(space.axes[k].lower);
@@ -126,8 +150,10 @@ class Judgement {
     }
     verdict_.regular = inverse_.is_regular();
     prepare_columns();
-    if (inverse_.is_regular() && is_decided_by_tensions()) return;
-    if (is_unbalanced()) return;
+    if (inverse_.is_regular() && is_outside_by_tension()) return;
+    if (!are_proved(kAllMargins) && is_unbalanced()) return;
+    if (is_decided_by_bodies()) return;
+    if (is_inside()) return;
     suggest_axis([&](std::size_t axis) { return inverse_.reach(axis); });
   }
 
@@ -136,7 +162,7 @@ class Judgement {
 
   /// decide() for a machine with neither items nor tolerances, for all cables at once (certify/lanes).
   void decide_in_lanes();
-  bool is_decided_by_tensions(LanesBox& box);
+  bool is_outside_by_tension(LanesBox& box);
   bool is_unbalanced(const LanesBox& box);
   /// Numbers in which the wrench of the kernel is.
   using LanesWrench = lanes::Ends[6];
@@ -148,17 +174,20 @@ class Judgement {
   [[nodiscard]] bool set_densities(std::array<Interval, kCables>& density) const;
 
   [[nodiscard]] bool is_proved(std::size_t margin) const { return (verdict_.proved >> margin & 1U) != 0; }
+  [[nodiscard]] bool are_proved(std::uint64_t bits) const { return (verdict_.proved & bits) == bits; }
   void end(CellKind kind, std::size_t reason) {
     verdict_.kind = kind;
-    verdict_.reason = static_cast<std::uint8_t>(reason);
+    verdict_.reason = static_cast<std::uint16_t>(reason);
   }
 
   void enclose_pose();
   void enclose_geometry();
   bool is_outside_by_length();
   void prepare_columns();
-  bool is_decided_by_tensions();
+  bool is_outside_by_tension();
   bool is_unbalanced();
+  bool is_decided_by_bodies();
+  bool is_inside();
   /// @param reach  how much the cell's extent along an axis adds to the row sums of N
   template <class F>
   void suggest_axis(const F& reach);
@@ -167,7 +196,7 @@ class Judgement {
   bool examine(std::size_t margin, const Form& value) {
     if (certainly_nonpositive(value.range)) return true;
     if (certainly_positive(value.range)) {
-      verdict_.proved |= 1U << margin;
+      verdict_.proved |= std::uint64_t{1} << margin;
     } else {
       weigh(value);
     }
@@ -193,6 +222,27 @@ class Judgement {
   /// f_i − f_lo and f_hi − f_i of the least and the greatest tension.
   [[nodiscard]] std::array<Form, 2> tension_margins(std::size_t i, const Density& density) const;
   [[nodiscard]] bool holds_for_deviations();
+
+  using Gaps = BodyGaps<Interval, Gradient<Interval, N>>;
+  using Gap = GapBound<Interval, Gradient<Interval, N>>;
+  [[nodiscard]] BodiesBox<Interval, Gradient<Interval, N>> bodies_box(const DeviationBounds<Interval>* change) const {
+    return {*problem_.proof.bodies,
+            model_,
+            p_WP_,
+            r_WP_,
+            length_,
+            offset_,
+            change != nullptr ? &*problem_.proof.tolerance : nullptr,
+            change};
+  }
+  /// The pose in the middle of the cell, in floating point.
+  [[nodiscard]] RigidPose middle_pose() const;
+  /// Whether a pair is shown to be apart, for every deviation that `gaps` knows of. @param best  if not: the best bound
+  [[nodiscard]] bool is_apart(const Gaps& gaps, std::size_t pair, const RigidPose& pose,
+                              std::optional<Gap>& best) const;
+  [[nodiscard]] bool is_touching(const Gaps& gaps, std::size_t pair, const RigidPose& pose) const;
+  /// Whether all pairs are apart for these deviations. @param at_mid  what is known at the midpoint alone, if it is
+  [[nodiscard]] bool are_apart(const DeviationBounds<Interval>& change, const DeviationBounds<Interval>* at_mid);
 
   /// The values that y·w takes over K at one pose, for y row i of C: from at most `least` to at least `greatest`.
   struct Work {
@@ -346,8 +396,7 @@ auto Judgement<N>::tension_margins(std::size_t i, const Density& density) const 
 }
 
 template <std::size_t N>
-bool Judgement<N>::is_decided_by_tensions() {
-  constexpr std::uint32_t kAll = (1U << kMargins.size()) - 1;
+bool Judgement<N>::is_outside_by_tension() {
   for (std::size_t i = 0; i < kCables; ++i) {
     const std::array<std::size_t, 2> both = {number(MarginKind::kTensionMin, i), number(MarginKind::kTensionMax, i)};
     if (is_proved(both[0]) && is_proved(both[1])) continue;
@@ -360,7 +409,14 @@ bool Judgement<N>::is_decided_by_tensions() {
       return true;
     }
   }
-  if (verdict_.proved != kAll || (problem_.proof.tolerance && !holds_for_deviations())) return false;
+  return false;
+}
+
+/// @pre all else is asked of the machine as typed
+template <std::size_t N>
+bool Judgement<N>::is_inside() {
+  if (!verdict_.regular || !are_proved(problem_.all_proved)) return false;
+  if (problem_.proof.tolerance && !holds_for_deviations()) return false;
   end(CellKind::kInside, 0);
   return true;
 }
@@ -424,14 +480,99 @@ bool Judgement<N>::holds_for_deviations() {
     holds = false;
     weigh(margins[n]);
   }
-  if (holds) return true;
+  if (holds && (!problem_.proof.bodies || are_apart(*bounds, nullptr))) return true;
   const auto at_mid = deviations_at_mid(problem_, cell_);
   verdict_.is_tolerance = !at_mid && cell_.halvings() >= kManyHalvings;
+  if (at_mid && bounds && problem_.proof.bodies) (void)are_apart(*bounds, &*at_mid);
   for (std::size_t n = 0; at_mid && n < margins.size(); ++n) {
     verdict_.is_tolerance = verdict_.is_tolerance || certainly_nonpositive(left(n, *at_mid));
   }
   return false;
 }
+
+// ---- Bodies ---------------------------------------------------------------------------------------------------------
+
+template <std::size_t N>
+RigidPose Judgement<N>::middle_pose() const {
+  RigidPose pose;
+  Matrix3<double> r;
+  for (int i = 0; i < 3; ++i) {
+    pose.p(i) = midpoint_approx(p_WP_(i).at_mid);
+    for (int j = 0; j < 3; ++j) r(i, j) = midpoint_approx(r_WP_(i, j).at_mid);
+  }
+  pose.q = Eigen::Quaterniond(r).normalized();
+  return pose;
+}
+
+template <std::size_t N>
+bool Judgement<N>::is_apart(const Gaps& gaps, std::size_t pair, const RigidPose& pose, std::optional<Gap>& best) const {
+  const auto& [bodies, model] = *problem_.proposer;
+  const CheckedPair<Interval>& checked = problem_.proof.bodies->pairs[pair];
+  if (gaps.rough(checked, bodies.rough_direction(model, pose, pair)) > 0) return true;
+  const std::optional<Direction> direction = bodies.direction(model, pose, pair, Direction::kFine);
+  if (!direction) return false;
+  best = gaps.along(checked, *direction);
+  return certainly_positive(best->disturbed);
+}
+
+template <std::size_t N>
+bool Judgement<N>::is_touching(const Gaps& gaps, std::size_t pair, const RigidPose& pose) const {
+  const auto& [bodies, model] = *problem_.proposer;
+  const std::optional<BodySampler::Touching> found = bodies.touching(model, pose, pair);
+  if (!found) return false;
+  const CheckedPair<Interval>& checked = problem_.proof.bodies->pairs[pair];
+  constexpr bool kOnlyAtMid = false;
+  if (certainly_nonpositive(gaps.distance(checked, found->nearest, kOnlyAtMid))) return true;
+  return found->around && gaps.meet(checked, *found->around);
+}
+
+/// Notes which pairs are apart. @returns whether two bodies touch throughout
+template <std::size_t N>
+bool Judgement<N>::is_decided_by_bodies() {
+  if (!problem_.proof.bodies || are_proved(problem_.all_proved & ~kAllMargins)) return false;
+  const auto box = bodies_box(nullptr);
+  const Gaps gaps(box);
+  if (!gaps.have_cables_length()) return false;
+  const RigidPose pose = middle_pose();
+  const std::size_t pairs = problem_.proof.bodies->pairs.size();
+  std::uint64_t near = 0;
+  for (std::size_t n = 0; n < pairs; ++n) {
+    std::optional<Gap> best;
+    if (are_proved(pair_bit(n)) || is_apart(gaps, n, pose, best)) continue;
+    near |= pair_bit(n);
+    if (best) weigh(best->value);
+    if (!is_touching(gaps, n, pose)) continue;
+    end(CellKind::kContact, n);
+    return true;
+  }
+  verdict_.proved |= problem_.all_proved & ~kAllMargins & ~near;
+  return false;
+}
+
+template <std::size_t N>
+bool Judgement<N>::are_apart(const DeviationBounds<Interval>& change, const DeviationBounds<Interval>* at_mid) {
+  const auto box = bodies_box(&change);
+  const Gaps gaps(box);
+  if (!gaps.have_cables_length()) return false;
+  const auto at_mid_box = bodies_box(at_mid != nullptr ? at_mid : &change);
+  const Gaps gaps_at_mid(at_mid_box);
+  const RigidPose pose = middle_pose();
+  bool all = true;
+  for (std::size_t n = 0; n < problem_.proof.bodies->pairs.size(); ++n) {
+    std::optional<Gap> best;
+    if (is_apart(gaps, n, pose, best)) continue;
+    all = false;
+    if (best) weigh(best->value);
+    if (at_mid == nullptr || !gaps_at_mid.have_cables_length() || is_apart(gaps_at_mid, n, pose, best) || !best)
+      continue;
+    // What is lost to deviations is no less anywhere on the cell.
+    const double lost = lower_bound(best->value.range) - lower_bound(best->disturbed);
+    verdict_.is_tolerance = verdict_.is_tolerance || upper_bound(best->value.range) <= lost;
+  }
+  return all;
+}
+
+// ---- Balance --------------------------------------------------------------------------------------------------------
 
 template <std::size_t N>
 auto Judgement<N>::work(std::size_t i) const -> Work {
@@ -521,8 +662,10 @@ void Judgement<N>::decide_in_lanes() {
     return;
   }
   verdict_.regular = kernel.bound_inverse(box) == Outcome::kYes;
-  if (verdict_.regular && is_decided_by_tensions(box)) return;
-  if (is_unbalanced(box)) return;
+  if (verdict_.regular && is_outside_by_tension(box)) return;
+  if (!are_proved(kAllMargins) && is_unbalanced(box)) return;
+  if (is_decided_by_bodies()) return;
+  if (is_inside()) return;
   suggest_axis([&](std::size_t axis) {
     double most = 0;
     for (std::size_t i = 0; i < 6; ++i) {
@@ -535,11 +678,10 @@ void Judgement<N>::decide_in_lanes() {
 }
 
 template <std::size_t N>
-bool Judgement<N>::is_decided_by_tensions(LanesBox& box) {
-  constexpr std::uint32_t kAll = (1U << kMargins.size()) - 1;
-  constexpr std::uint32_t kTensions = (1U << 2 * kCables) - 1;
+bool Judgement<N>::is_outside_by_tension(LanesBox& box) {
+  constexpr std::uint64_t kTensions = (std::uint64_t{1} << 2 * kCables) - 1;
   static_assert(number(MarginKind::kTensionMin, 0) == 0 && number(MarginKind::kTensionMax, 0) == kCables);
-  if ((verdict_.proved & kTensions) != kTensions) {
+  if (!are_proved(kTensions)) {
     LanesWrench wrench;
     set_wrench(wrench);
     if (cell_kernel<N>().enclose_tensions(*problem_.proof.lanes, wrench, box) != lanes::Outcome::kYes) {
@@ -559,9 +701,7 @@ bool Judgement<N>::is_decided_by_tensions(LanesBox& box) {
       return true;
     }
   }
-  if (verdict_.proved != kAll) return false;
-  end(CellKind::kInside, 0);
-  return true;
+  return false;
 }
 
 template <std::size_t N>
@@ -588,7 +728,7 @@ class CellProofOf final : public CellProof {
  public:
   CellProofOf(const Problem& problem, const MapSpace& space) : model_(make_cell_model<N>(problem, space)) {}
 
-  [[nodiscard]] CellVerdict judge(const Cell& cell, std::uint32_t proved) const override {
+  [[nodiscard]] CellVerdict judge(const Cell& cell, std::uint64_t proved) const override {
     CellVerdict verdict;
     const bool is_valid = run_upward([&] {
       verdict.proved = proved;
@@ -607,8 +747,20 @@ class CellProofOf final : public CellProof {
 
 }  // namespace
 
+void require_no_meshes(const Problem& problem) {
+  if (!problem.bodies) return;
+  for (const auto* list : {&problem.bodies->platform, &problem.bodies->obstacles}) {
+    for (const BodyText& body : *list) {
+      if (!std::holds_alternative<MeshText>(body.shape)) continue;
+      const char* const where = list == &problem.bodies->platform ? "platform" : "obstacles";
+      throw FieldError("bodies." + std::string(where) + "[" + body.name + "]", "a mesh",
+                       "expected hulls and half-spaces for a map");
+    }
+  }
+}
+
 std::unique_ptr<CellProof> make_cell_proof(const Problem& problem, const MapSpace& space) {
-  if (problem.bodies) throw std::logic_error("a map of a problem with bodies, which no cell is asked about");
+  require_no_meshes(problem);
   switch (space.size()) {
     case 2: return std::make_unique<CellProofOf<2>>(problem, space);
     case 3: return std::make_unique<CellProofOf<3>>(problem, space);

@@ -12,18 +12,24 @@
 namespace taut {
 namespace {
 
-constexpr unsigned kKindBits = 0x07, kAxisShift = 3, kAxisBits = 0x03, kRegularBit = 0x20, kReasonBit = 0x40;
-constexpr unsigned kToleranceKind = 5, kNotJudgedKind = 6, kHalvedKind = 7;
-constexpr std::size_t kProvedBytes = 4;
+constexpr unsigned kKindBits = 0x0F, kAxisShift = 4, kAxisBits = 0x03, kRegularBit = 0x40, kReasonBit = 0x80;
+constexpr unsigned kToleranceKind = 6, kNotJudgedKind = 7, kHalvedKind = 8;
+static_assert(kToleranceKind == kCellKinds);
+constexpr std::size_t kReasonBytes = 2, kProvedBytes = 8;
 
 /// One node as the bytes tell it.
 struct TreeNode {
   unsigned kind = kNotJudgedKind;  ///< of a leaf CellKind, or one of the above
   std::uint8_t axis = 0;
   bool regular = false;
-  std::uint8_t reason = 0;
-  std::uint32_t proved = 0;
+  std::uint16_t reason = 0;
+  std::uint64_t proved = 0;
 };
+
+/// The lowest byte first.
+void append(std::string& bytes, std::uint64_t number, std::size_t size) {
+  for (std::size_t n = 0; n < size; ++n) bytes += static_cast<char>((number >> (8 * n)) & 0xFFU);
+}
 
 void append(std::string& bytes, const TreeNode& node) {
   unsigned head = node.kind;
@@ -31,9 +37,8 @@ void append(std::string& bytes, const TreeNode& node) {
   if (node.regular) head |= kRegularBit;
   if (node.reason != 0) head |= kReasonBit;
   bytes += static_cast<char>(head);
-  if (node.reason != 0) bytes += static_cast<char>(node.reason);
-  if (node.kind != kNotJudgedKind) return;
-  for (std::size_t n = 0; n < kProvedBytes; ++n) bytes += static_cast<char>((node.proved >> (8 * n)) & 0xFFU);
+  if (node.reason != 0) append(bytes, node.reason, kReasonBytes);
+  if (node.kind == kNotJudgedKind) append(bytes, node.proved, kProvedBytes);
 }
 
 TreeNode node_of(const CellVerdict& verdict, std::optional<std::size_t> axis) {
@@ -60,13 +65,13 @@ class TreeReader {
     node.axis = static_cast<std::uint8_t>((head >> kAxisShift) & kAxisBits);
     node.regular = (head & kRegularBit) != 0;
     if ((head & kReasonBit) != 0) {
-      node.reason = static_cast<std::uint8_t>(byte());
+      node.reason = static_cast<std::uint16_t>(number(kReasonBytes));
       if (node.reason == 0) refuse(first, "a reason that is 0");
     }
-    if (head > 0x7F) refuse(first, "a byte above 127");
+    if (node.kind > kHalvedKind) refuse(first, "a kind that there is not");
     if (node.kind != kHalvedKind && node.axis != 0) refuse(first, "an axis of a cell that is not halved");
     if (node.kind == kNotJudgedKind) {
-      for (std::size_t n = 0; n < kProvedBytes; ++n) node.proved |= byte() << (8 * n);
+      node.proved = number(kProvedBytes);
       if (node.regular || node.reason != 0) refuse(first, "a verdict on a cell that is not judged");
     }
     require_halving(first, cell, node);
@@ -88,6 +93,12 @@ class TreeReader {
     } else if (node.kind == static_cast<unsigned>(CellKind::kUndecided) && rule_.axis(cell, verdict)) {
       refuse(at, "an undecided cell that may be halved");
     }
+  }
+
+  std::uint64_t number(std::size_t size) {
+    std::uint64_t result = 0;
+    for (std::size_t n = 0; n < size; ++n) result |= std::uint64_t{byte()} << (8 * n);
+    return result;
   }
 
   unsigned byte() {
@@ -129,7 +140,7 @@ class Refinement {
     for (unsigned side = 0; side < 2; ++side) copy(cell.half(node.axis, side));
   }
 
-  void judge(const Cell& cell, std::uint32_t proved) {
+  void judge(const Cell& cell, std::uint64_t proved) {
     if (cell.halvings() >= halvings_) {
       TreeNode leaf;
       leaf.proved = proved;
@@ -235,7 +246,7 @@ void count(TreeExtent& extent, const Cell& cell, const TreeNode& node) {
   }
 }
 
-std::string not_judged(std::uint32_t proved) {
+std::string not_judged(std::uint64_t proved) {
   std::string bytes;
   TreeNode leaf;
   leaf.proved = proved;

@@ -6,12 +6,12 @@
 // make the same map, bit for bit, whoever divides them, and in whatever order.
 //
 // The tree of a part is told in preorder, lower halves first, one byte a node:
-//   bits 0 to 2   0 to 4: a leaf of that CellKind; 5: undecided because of tolerances; 6: not judged; 7: halved
-//   bits 3 and 4  if halved: along which axis
-//   bit 5         CellVerdict::regular
-//   bit 6         a byte follows: CellVerdict::reason; otherwise the reason is 0
-// Four bytes follow a leaf that is not judged: what is proved of the cell around it (CellVerdict::proved), the lowest
-// first.
+//   bits 0 to 3   0 to 5: a leaf of that CellKind; 6: undecided because of tolerances; 7: not judged; 8: halved
+//   bits 4 and 5  if halved: along which axis
+//   bit 6         CellVerdict::regular
+//   bit 7         two bytes follow: CellVerdict::reason; otherwise the reason is 0
+// Eight bytes follow a leaf that is not judged: what is proved of the cell around it (CellVerdict::proved). The lowest
+// byte of a number comes first.
 #pragma once
 
 #include <array>
@@ -88,7 +88,7 @@ class MapParts {
  private:
   struct Part {
     Cell cell;
-    std::uint32_t proved = 0;
+    std::uint64_t proved = 0;
   };
 
   MapSpace space_;

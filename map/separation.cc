@@ -66,7 +66,7 @@ class Separator {
   [[nodiscard]] const MapNode& node(std::uint32_t n) const { return result_.map.nodes[n]; }
   [[nodiscard]] bool is_leaf(std::uint32_t n) const { return node(n).axis == MapNode::kLeaf; }
 
-  void add_node(const Cell& cell, std::uint32_t proved) {
+  void add_node(const Cell& cell, std::uint64_t proved) {
     result_.map.nodes.emplace_back();
     cells_.push_back(cell);
     verdicts_.emplace_back();

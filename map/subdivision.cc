@@ -22,7 +22,7 @@ namespace {
 struct Pending {
   Cell cell;
   std::uint32_t node = 0;
-  std::uint32_t proved = 0;  ///< of a cell that contains it
+  std::uint64_t proved = 0;  ///< of a cell that contains it
   std::uint32_t known = 0;   ///< its node in KnownVerdicts
 };
 

@@ -21,10 +21,10 @@ struct MapNode {
   static constexpr std::uint8_t kLeaf = 0xFF;
 
   std::uint32_t child = 0;    ///< the lower half; the upper one is the next node
+  std::uint16_t reason = 0;   ///< CellVerdict::reason
   std::uint8_t axis = kLeaf;  ///< that was halved, or kLeaf
-  CellKind kind = CellKind::kUndecided;
-  std::uint8_t reason = 0;  ///< CellVerdict::reason
-  bool regular = false;     ///< CellVerdict::regular
+  CellKind kind : 7 = CellKind::kUndecided;
+  bool regular : 1 = false;  ///< CellVerdict::regular
 };
 static_assert(sizeof(MapNode) == 8);
 

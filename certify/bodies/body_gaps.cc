@@ -17,8 +17,8 @@ UpperOf<I> norm_above(const Vector3<I>& x) {
   return ProofScalarTraits<I>::root(a * a + b * b + c * c);
 }
 
-template <class I>
-SlopeForm<I> lesser(const SlopeForm<I>& a, const SlopeForm<I>& b) {
+template <class I, class Slope>
+SlopeForm<I, Slope> lesser(const SlopeForm<I, Slope>& a, const SlopeForm<I, Slope>& b) {
   return -larger(-a, -b);
 }
 
@@ -33,8 +33,8 @@ I dot(const std::array<I, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
 }
 
-template <class I>
-SlopeForm<I> dot(const std::array<SlopeForm<I>, 3>& x, const Vector3<I>& y) {
+template <class I, class Slope>
+SlopeForm<I, Slope> dot(const std::array<SlopeForm<I, Slope>, 3>& x, const Vector3<I>& y) {
   return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
 }
 
@@ -56,8 +56,8 @@ const ConvexBody<I>& second_hull(const BodyModel<I>& bodies, const CheckedPair<I
 
 }  // namespace
 
-template <class I>
-BodyGaps<I>::BodyGaps(const BodiesBox<I>& box) : box_(box) {
+template <class I, class Slope>
+BodyGaps<I, Slope>::BodyGaps(const BodiesBox<I, Slope>& box) : box_(box) {
   if (box.tolerance != nullptr) {
     position_ = box.deviations->position;
     turn_ = box.deviations->turn;
@@ -84,8 +84,8 @@ BodyGaps<I>::BodyGaps(const BodiesBox<I>& box) : box_(box) {
   }
 }
 
-template <class I>
-typename BodyGaps<I>::Turned BodyGaps<I>::turned(const std::array<I, 3>& u, bool in_platform) const {
+template <class I, class Slope>
+typename BodyGaps<I, Slope>::Turned BodyGaps<I, Slope>::turned(const std::array<I, 3>& u, bool in_platform) const {
   Turned result;
   result.u = u;
   for (int k = 0; k < 3; ++k) {
@@ -102,8 +102,9 @@ typename BodyGaps<I>::Turned BodyGaps<I>::turned(const std::array<I, 3>& u, bool
 
 /// How far deviations move the ends of a cable, base and platform, in the axes chosen. What two cables with a common
 /// anchor share is counted at their other ends.
-template <class I>
-std::array<UpperOf<I>, 2> BodyGaps<I>::end_shifts(const CheckedPair<I>& pair, std::size_t i, bool in_platform) const {
+template <class I, class Slope>
+std::array<UpperOf<I>, 2> BodyGaps<I, Slope>::end_shifts(const CheckedPair<I>& pair, std::size_t i,
+                                                         bool in_platform) const {
   if (box_.tolerance == nullptr) return {Upper(0.0), Upper(0.0)};
   const Upper reach = norm_above(box_.model.p_PB[i]);
   if (in_platform) {
@@ -117,9 +118,9 @@ std::array<UpperOf<I>, 2> BodyGaps<I>::end_shifts(const CheckedPair<I>& pair, st
   return {base_[i], platform};
 }
 
-template <class I>
-std::array<typename BodyGaps<I>::Projection, 2> BodyGaps<I>::cable(std::size_t i, const Turned& u, bool in_platform,
-                                                                   const std::array<Upper, 2>& shifts) const {
+template <class I, class Slope>
+std::array<typename BodyGaps<I, Slope>::Projection, 2> BodyGaps<I, Slope>::cable(
+    std::size_t i, const Turned& u, bool in_platform, const std::array<Upper, 2>& shifts) const {
   const Vector3<I>& a = box_.model.p_WA[i];
   const Vector3<I>& b = box_.model.p_PB[i];
   const Form base = in_platform ? dot(u.other, a) - u.of_origin : Form(dot(u.u, a));
@@ -136,9 +137,9 @@ std::array<typename BodyGaps<I>::Projection, 2> BodyGaps<I>::cable(std::size_t i
   return ends;
 }
 
-template <class I>
-std::vector<typename BodyGaps<I>::Projection> BodyGaps<I>::platform_points(const ConvexBody<I>& body,
-                                                                           const Turned& u) const {
+template <class I, class Slope>
+std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::platform_points(const ConvexBody<I>& body,
+                                                                                         const Turned& u) const {
   std::vector<Projection> result;
   result.reserve(body.points.size());
   for (const Vector3<I>& x : body.points) {
@@ -149,16 +150,17 @@ std::vector<typename BodyGaps<I>::Projection> BodyGaps<I>::platform_points(const
   return result;
 }
 
-template <class I>
-std::vector<typename BodyGaps<I>::Projection> BodyGaps<I>::first(const CheckedPair<I>& pair, const Turned& u,
-                                                                 bool in_platform) const {
+template <class I, class Slope>
+std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::first(const CheckedPair<I>& pair,
+                                                                               const Turned& u,
+                                                                               bool in_platform) const {
   if (pair.kind == PairClass::kPlatformObstacles) return platform_points(box_.bodies.platform[pair.first], u);
   const auto ends = cable(pair.first, u, in_platform, end_shifts(pair, pair.first, in_platform));
   return {ends[0], ends[1]};
 }
 
-template <class I>
-std::array<I, 3> BodyGaps<I>::vector(const CheckedPair<I>& pair, const Direction& direction) const {
+template <class I, class Slope>
+std::array<I, 3> BodyGaps<I, Slope>::vector(const CheckedPair<I>& pair, const Direction& direction) const {
   if (const auto* half = half_space(box_.bodies, pair)) return {half->normal(0), half->normal(1), half->normal(2)};
   if (pair.kind == PairClass::kCablesPlatform && !direction.in_platform) {
     throw std::logic_error("a cable and the platform are compared in the platform's axes");
@@ -167,8 +169,8 @@ std::array<I, 3> BodyGaps<I>::vector(const CheckedPair<I>& pair, const Direction
   return {component(0), component(1), component(2)};
 }
 
-template <class I>
-double BodyGaps<I>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
+template <class I, class Slope>
+double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
   const bool in_platform = !is_of_obstacle(pair) && direction.in_platform;
   const std::array<I, 3> u = vector(pair, direction);
   std::array<I, 3> other;
@@ -211,8 +213,8 @@ double BodyGaps<I>::rough(const CheckedPair<I>& pair, const Direction& direction
   return lower_bound(I(gap + ProofScalarTraits<I>::symmetric(lost)));
 }
 
-template <class I>
-GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& direction) const {
+template <class I, class Slope>
+GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const Direction& direction) const {
   const auto* half = half_space(box_.bodies, pair);
   const bool in_platform = !is_of_obstacle(pair) && direction.in_platform;
   const std::array<I, 3> u = vector(pair, direction);
@@ -240,22 +242,22 @@ GapBound<I> BodyGaps<I>::along(const CheckedPair<I>& pair, const Direction& dire
     radii = radii + body.radius;
   }
 
-  std::optional<GapBound<I>> result;
+  std::optional<GapBound<I, Slope>> result;
   for (const Projection& a : first(pair, turned_u, in_platform)) {
     for (const Projection& b : second) {
       Form value = (a.at - b.at) * inverse_norm - radii - pair.clearance;
       value.tighten(box_.offset);
       const I disturbed = value.range + ProofScalarTraits<I>::symmetric(a.shift + b.shift);
-      result = result ? GapBound<I>{lesser(result->value, value), lesser(result->disturbed, disturbed)}
-                      : GapBound<I>{value, disturbed};
+      result = result ? GapBound<I, Slope>{lesser(result->value, value), lesser(result->disturbed, disturbed)}
+                      : GapBound<I, Slope>{value, disturbed};
     }
   }
   return result.value();
 }
 
 /// The points of a body over T, in W; of a cable the ends of its checked part.
-template <class I>
-std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pair, bool is_first) const {
+template <class I, class Slope>
+std::vector<Vector3<SlopeForm<I, Slope>>> BodyGaps<I, Slope>::points(const CheckedPair<I>& pair, bool is_first) const {
   const auto of_platform = [&](const Vector3<I>& x) {
     Vector3<Form> y;
     for (int k = 0; k < 3; ++k) {
@@ -290,25 +292,26 @@ std::vector<Vector3<SlopeForm<I>>> BodyGaps<I>::points(const CheckedPair<I>& pai
   return result;
 }
 
-template <class I>
-I BodyGaps<I>::distance(const CheckedPair<I>& pair, const PointPair& shares, bool only_at_mid) const {
-  const auto mean = [&](bool is_first) {
-    const std::vector<Vector3<Form>> all = points(pair, is_first);
-    const std::vector<std::int64_t>& weights = is_first ? shares.first : shares.second;
-    if (weights.size() != all.size()) throw std::logic_error("shares of other points");
-    Vector3<Form> sum(Form(0.0), Form(0.0), Form(0.0));
-    for (std::size_t n = 0; n < all.size(); ++n) {
-      if (weights[n] == 0) continue;
-      const I weight(static_cast<double>(weights[n]) / static_cast<double>(PointPair::kWhole));  // exact
-      for (int k = 0; k < 3; ++k) sum(k) = sum(k) + all[n](k) * weight;
-    }
-    return sum;
-  };
+template <class I, class Slope>
+Vector3<SlopeForm<I, Slope>> BodyGaps<I, Slope>::mean(const std::vector<Vector3<Form>>& points,
+                                                      const std::vector<std::int64_t>& shares) {
+  if (shares.size() != points.size()) throw std::logic_error("shares of other points");
+  Vector3<Form> sum(Form(0.0), Form(0.0), Form(0.0));
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (shares[n] == 0) continue;
+    const I share(static_cast<double>(shares[n]) / static_cast<double>(PointPair::kWhole));  // exact
+    for (int k = 0; k < 3; ++k) sum(k) = sum(k) + points[n](k) * share;
+  }
+  return sum;
+}
+
+template <class I, class Slope>
+I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shares, bool only_at_mid) const {
   const auto known = [&](Form& x) {
     x.tighten(box_.offset);
     return only_at_mid ? x.at_mid : x.range;
   };
-  const Vector3<Form> a = mean(true);
+  const Vector3<Form> a = mean(points(pair, true), shares.first);
   I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
                                                        : box_.bodies.cable_radius[pair.first];
   if (const auto* half = half_space(box_.bodies, pair)) {
@@ -318,13 +321,41 @@ I BodyGaps<I>::distance(const CheckedPair<I>& pair, const PointPair& shares, boo
   }
   radii = radii + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
                                                          : second_hull(box_.bodies, pair).radius);
-  const Vector3<Form> b = mean(false);
+  const Vector3<Form> b = mean(points(pair, false), shares.second);
   Vector3<Form> apart;
   for (int k = 0; k < 3; ++k) apart(k) = a(k) - b(k);
   return euclidean_norm(known(apart(0)), known(apart(1)), known(apart(2))) - radii - pair.clearance;
 }
 
+/// With v_k the four vectors, Σ_k c_k v_k = 0 for c_0 = det(v_1 v_2 v_3), c_1 = −det(v_0 v_2 v_3) and so on. If all c_k
+/// have one sign, 0 is a convex combination of the v_k, and the same one of either body's points is a common point.
+template <class I, class Slope>
+bool BodyGaps<I, Slope>::meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& shares) const {
+  const std::vector<Vector3<Form>> first = points(pair, true), second = points(pair, false);
+  std::array<Vector3<Form>, 4> v;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const Vector3<Form> a = mean(first, shares[n].first), b = mean(second, shares[n].second);
+    for (int k = 0; k < 3; ++k) {
+      v[n](k) = a(k) - b(k);
+      v[n](k).tighten(box_.offset);
+    }
+  }
+  int positive = 0, negative = 0;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const Vector3<Form>&a = v[n == 0 ? 1 : 0], &b = v[n <= 1 ? 2 : 1], &c = v[n <= 2 ? 3 : 2];
+    Form determinant =
+        a(0) * (b(1) * c(2) - b(2) * c(1)) + a(1) * (b(2) * c(0) - b(0) * c(2)) + a(2) * (b(0) * c(1) - b(1) * c(0));
+    determinant.tighten(box_.offset);
+    const I share = n % 2 == 0 ? determinant.range : I(-determinant.range);
+    positive += certainly_positive(share) ? 1 : 0;
+    negative += certainly_positive(I(-share)) ? 1 : 0;
+  }
+  return positive == 4 || negative == 4;
+}
+
 template class BodyGaps<Interval>;
 template class BodyGaps<MpInterval>;
+template class BodyGaps<Interval, Gradient<Interval, 2>>;
+template class BodyGaps<Interval, Gradient<Interval, 3>>;
 
 }  // namespace taut

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether two bodies stay apart over a box of a segment: the gap along a given direction, and the distance of two
+// Whether two bodies stay apart over a box of a segment, or over a cell of a map: the gap along a given direction, and the distance of two
 // given points.
 //
 // For every vector u and all points a_k, b_l and radii of two bodies,
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "certify/arithmetic/dyadic.h"
+#include "certify/arithmetic/gradient.h"
 #include "certify/arithmetic/neumann.h"
 #include "certify/arithmetic/slope_form.h"
 #include "certify/tolerance/tolerance.h"
@@ -48,33 +49,34 @@ struct PointPair {
 /// A share as a number in [0, 1].
 [[nodiscard]] inline Dyadic dyadic_share(std::int64_t share) { return {share, 30}; }
 
-/// Where everything is over a box T with midpoint m, of the undisturbed machine but for `deviations`.
-template <class I>
+/// Where everything is over a box T with midpoint m, of the undisturbed machine but for `deviations`. Over a cell of
+/// several variables, Slope is a Gradient.
+template <class I, class Slope = I>
 struct BodiesBox {
   const BodyModel<I>& bodies;
   const Model<I>& model;
-  const Vector3<SlopeForm<I>>& p_WP;
-  const Matrix3<SlopeForm<I>>& r_WP;
-  const std::array<SlopeForm<I>, kCables>& length;  ///< |d_i|
-  const I& offset;                                  ///< contains t − m for all t in T
-  const ToleranceModel<I>* tolerance = nullptr;     ///< null: no deviations; else all of its, with their bounds on T:
+  const Vector3<SlopeForm<I, Slope>>& p_WP;
+  const Matrix3<SlopeForm<I, Slope>>& r_WP;
+  const std::array<SlopeForm<I, Slope>, kCables>& length;  ///< |d_i|
+  const Slope& offset;                                     ///< contains t − m for all t in T
+  const ToleranceModel<I>* tolerance = nullptr;  ///< null: no deviations; else all of its, with their bounds on T:
   const DeviationBounds<I>* deviations = nullptr;
 };
 
 /// A lower bound of how much farther than its clearance a pair is apart [m].
-template <class I>
+template <class I, class Slope = I>
 struct GapBound {
-  SlopeForm<I> value;  ///< of the undisturbed machine
-  I disturbed;         ///< over all of T, for every deviation
+  SlopeForm<I, Slope> value;  ///< of the undisturbed machine
+  I disturbed;                ///< over all of T, for every deviation
 };
 
 /// Evaluates pairs over one box. For Interval: only under run_upward(). Void if a fault was raised.
-template <class I>
+template <class I, class Slope = I>
 class BodyGaps {
  public:
   using Upper = UpperOf<I>;
 
-  explicit BodyGaps(const BodiesBox<I>& box);
+  explicit BodyGaps(const BodiesBox<I, Slope>& box);
 
   /// Whether every cable is certainly longer than both its free ends, on T, for every deviation: what follows is void
   /// for cables else.
@@ -82,7 +84,7 @@ class BodyGaps {
 
   /// Claim: for every t in T and every deviation the bodies of the pair are farther apart than its clearance by at
   /// least `disturbed`.
-  [[nodiscard]] GapBound<I> along(const CheckedPair<I>& pair, const Direction& direction) const;
+  [[nodiscard]] GapBound<I, Slope> along(const CheckedPair<I>& pair, const Direction& direction) const;
   /// The same from ranges alone, of balls around bodies and of whole cables: a lower bound, for pairs that are far
   /// apart.
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
@@ -91,9 +93,12 @@ class BodyGaps {
   /// machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not apart by more than its
   /// clearance there. @pre as many shares as either body has points
   [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& points, bool only_at_mid) const;
+  /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T. The
+  /// vectors from the second to the first of these four pairs of points are around 0. @pre neither is a half-space
+  [[nodiscard]] bool meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& points) const;
 
  private:
-  using Form = SlopeForm<I>;
+  using Form = SlopeForm<I, Slope>;
   /// A point of a body projected on a direction, and by how much deviations may move it.
   struct Projection {
     Form at;
@@ -119,8 +124,11 @@ class BodyGaps {
   [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t cable, bool in_platform) const;
   [[nodiscard]] std::vector<Projection> first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
   [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first) const;
+  /// The sum of shares times points.
+  [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
+                                          const std::vector<std::int64_t>& shares);
 
-  const BodiesBox<I>& box_;
+  const BodiesBox<I, Slope>& box_;
   Upper position_{}, turn_{};                       ///< of the platform, by deviations
   std::array<Upper, kCables> base_{}, platform_{};  ///< tolerances of anchors
   std::array<Cut, kCables> cut_;
@@ -129,5 +137,7 @@ class BodyGaps {
 
 extern template class BodyGaps<Interval>;
 extern template class BodyGaps<MpInterval>;
+extern template class BodyGaps<Interval, Gradient<Interval, 2>>;
+extern template class BodyGaps<Interval, Gradient<Interval, 3>>;
 
 }  // namespace taut

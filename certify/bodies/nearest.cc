@@ -185,6 +185,7 @@ struct BodySampler::Found {
   NearestPoints nearest;
   double needed = 0;  ///< radii and clearance
   bool is_half_space = false;
+  std::array<std::vector<Point>, 2> points;  ///< of either body; not against a half-space
 };
 
 const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair) const {
@@ -195,7 +196,7 @@ const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair
 BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
   const bool is_of_platform = pair.kind == PairClass::kPlatformObstacles;
-  const std::vector<Point> first =
+  std::vector<Point> first =
       is_of_platform ? carried(bodies_.platform[pair.first], pose) : cable_ends(bodies_, model, pose, pair.first);
   Found found;
   found.needed =
@@ -228,6 +229,7 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
     }
   }
   found.nearest = nearest_points(first, second);
+  found.points = {std::move(first), std::move(second)};
   return found;
 }
 
@@ -296,6 +298,89 @@ PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose
   PointPair points{rounded_shares(found.nearest.first), {}};
   if (!found.is_half_space) points.second = rounded_shares(found.nearest.second);
   return points;
+}
+
+namespace {
+
+using FourVertices = std::array<Vertex, 4>;
+
+/// How far 0 is inside of a tetrahedron, negative where it is outside: the least of its heights over the faces. Where
+/// that is the least, `outward` is the face's normal.
+double depth(const FourVertices& v, Point& outward) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point& a = v[(k + 1) % 4].at;
+    Point normal = (v[(k + 2) % 4].at - a).cross(v[(k + 3) % 4].at - a);
+    const double size = normal.norm();
+    const double towards = normal.dot(v[k].at - a);
+    if (!(size > 0) || towards == 0) return -std::numeric_limits<double>::infinity();  // flat
+    normal *= (towards > 0 ? -1 : 1) / size;
+    const double height = normal.dot(a);
+    if (height >= least) continue;
+    least = height;
+    outward = normal;
+  }
+  return least;
+}
+
+/// Vertices of the difference of two hulls with 0 well inside of their own hull, if such are found: from four far ones,
+/// again and again one is replaced by the farthest beyond the face that is nearest to 0.
+std::optional<FourVertices> around_zero(std::span<const Point> first, std::span<const Point> second) {
+  constexpr int kMostSteps = 16;
+  const auto beyond = [&](const Point& along) {
+    const std::size_t i = farthest(first, along), j = farthest(second, -along);
+    return Vertex{first[i] - second[j], i, j};
+  };
+  for (const double sign : {1.0, -1.0}) {
+    FourVertices best{beyond(sign * Point(1, 1, 1)), beyond(sign * Point(1, -1, -1)), beyond(sign * Point(-1, 1, -1)),
+                      beyond(sign * Point(-1, -1, 1))};
+    Point outward(0, 0, 0);
+    double deepest = depth(best, outward);
+    for (int step = 0; step < kMostSteps && std::isfinite(deepest); ++step) {
+      const Vertex next = beyond(outward);
+      const FourVertices before = best;
+      const double reached = deepest;
+      for (std::size_t k = 0; k < 4; ++k) {
+        FourVertices changed = before;
+        changed[k] = next;
+        Point normal(0, 0, 0);
+        const double here = depth(changed, normal);
+        if (!(here > deepest)) continue;
+        deepest = here;
+        best = changed;
+        outward = normal;
+      }
+      if (!(deepest > reached)) break;
+    }
+    if (deepest > 0) return best;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::int64_t> one_of(std::size_t size, std::size_t index) {
+  std::vector<std::int64_t> shares(size, 0);
+  shares[index] = PointPair::kWhole;
+  return shares;
+}
+
+}  // namespace
+
+std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& model, const RigidPose& pose,
+                                                           std::size_t pair) const {
+  const Found found = find(model, pose, pair);
+  if (found.nearest.distance > found.needed) return std::nullopt;
+  Touching result{{rounded_shares(found.nearest.first), {}}, {}};
+  if (found.is_half_space) return result;
+  result.nearest.second = rounded_shares(found.nearest.second);
+  const auto& [first, second] = found.points;
+  if (found.nearest.distance > 0 || first.size() * second.size() < 4) return result;
+  if (const auto vertices = around_zero(first, second)) {
+    auto& around = result.around.emplace();
+    for (std::size_t k = 0; k < 4; ++k) {
+      around[k] = {one_of(first.size(), (*vertices)[k].first), one_of(second.size(), (*vertices)[k].second)};
+    }
+  }
+  return result;
 }
 
 bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const {

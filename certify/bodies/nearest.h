@@ -2,6 +2,8 @@
 // Where two bodies come nearest, in floating point: what proposes directions and points. Nothing here is proved.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,15 @@ class BodySampler {
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Its nearest points there.
   [[nodiscard]] PointPair nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+
+  /// What may show that a pair touches at a pose, and at those near it.
+  struct Touching {
+    PointPair nearest;                               ///< its nearest points
+    std::optional<std::array<PointPair, 4>> around;  ///< pairs of points, the vectors between which are around 0
+  };
+  /// Nothing where the pair is farther apart than its clearance.
+  [[nodiscard]] std::optional<Touching> touching(const Model<double>& model, const RigidPose& pose,
+                                                 std::size_t pair) const;
 
   /// How far pairs were apart when last measured: a pair stays apart while no point of it has moved as far.
   struct Carried {

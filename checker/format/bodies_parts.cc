@@ -238,7 +238,7 @@ std::optional<std::size_t> read_apart(const Cursor& json, std::size_t pair, cons
   }
   const auto index = static_cast<std::size_t>(json.integer(0, static_cast<std::int64_t>(path.directions.size()) - 1));
   const Axes axes = path.directions[index].axes;
-  if (of.kind != PairKind::kCableCable) {
+  if (of.kind == PairKind::kCableObstacle || of.kind == PairKind::kCablePlatform) {
     const bool is_of_platform = of.kind == PairKind::kCablePlatform;
     json.require(axes == (is_of_platform ? Axes::kPlatform : Axes::kWorld),
                  is_of_platform ? "a direction in the axes of P" : "a direction in the axes of W");

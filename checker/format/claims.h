@@ -51,9 +51,8 @@ inline constexpr const char* kBodiesClause =
 inline constexpr std::array kPairClassNames = {"platform-obstacles", "cables-obstacles", "cables-cables",
                                                "cables-platform"};
 
-/// Follows the claim of a verdict but "undecided", and the clause of items, where the problem states bodies.
 /// @param checked  by class
-inline std::string bodies_clause(bool is_proved, const std::array<bool, 4>& checked) {
+inline std::string checked_classes(const std::array<bool, 4>& checked) {
   const auto list = [&](bool is_checked) {
     std::string names;
     for (std::size_t k = 0; k < checked.size(); ++k) {
@@ -61,8 +60,23 @@ inline std::string bodies_clause(bool is_proved, const std::array<bool, 4>& chec
     }
     return names.empty() ? std::string("none") : names;
   };
-  return std::string(is_proved ? kClearClause : kContactClause) + kBodiesClause +
-         " Pairs that are checked: " + list(true) + ". Pairs that are not checked: " + list(false) + ".";
+  return " Pairs that are checked: " + list(true) + ". Pairs that are not checked: " + list(false) + ".";
+}
+
+/// Follows the claim of "proved" or "refuted", and the clause of items, where the problem states bodies.
+/// @param checked  by class
+inline std::string bodies_clause(bool is_proved, const std::array<bool, 4>& checked) {
+  return std::string(is_proved ? kClearClause : kContactClause) + kBodiesClause + checked_classes(checked);
+}
+
+/// Follows the claim of "no path", and the clause of items, where the problem states bodies.
+/// @param checked  by class
+inline std::string no_path_bodies_clause(const std::array<bool, 4>& checked) {
+  return " What is more, a pose is feasible only if the two bodies of every checked pair are farther apart than the "
+         "pair's clearance. Obstacles do not move, and bodies of the platform move with it; their shapes are exactly "
+         "as stated. The body of a cable is all points within half its diameter of the straight line between its "
+         "anchors, but for what is nearer to an anchor than the stated free end." +
+         checked_classes(checked);
 }
 
 inline constexpr const char* kRefutedClaim =

@@ -40,6 +40,9 @@ std::optional<OutsideReason> CellTree::reason(std::size_t leaf) const {
   return std::nullopt;
 }
 
+bool CellTree::is_outside(std::size_t leaf) const { return text_[leaf] != kOpenLeaf; }
+bool CellTree::is_contact(std::size_t leaf) const { return text_[leaf] == kContactLeaf; }
+
 CellTree::CellTree(std::string text, std::size_t axes) : text_(std::move(text)) {
   const auto fail = [](const std::string& what) { throw Malformed("map.tree: expected " + what); };
   if (text_.size() > kMaxNodes) fail("at most 2^30 nodes");
@@ -52,7 +55,8 @@ CellTree::CellTree(std::string text, std::size_t axes) : text_(std::move(text)) 
   std::array<int, kCellAxes> depth{};
   for (std::uint32_t node = 0; node < text_.size(); ++node) {
     if (node > 0 && open.empty()) fail("nothing behind the tree's last leaf");
-    const bool is_known = !is_leaf(node) ? axis(node) < axes : text_[node] == kOpenLeaf || reason(node).has_value();
+    const bool is_known =
+        !is_leaf(node) ? axis(node) < axes : !is_outside(node) || is_contact(node) || reason(node).has_value();
     if (!is_known) fail("an axis of the space, '.' or the letter of a reason, at node " + std::to_string(node));
     if (!is_leaf(node)) {
       if (++depth.at(axis(node)) > kMaxDepth) fail("no axis to be halved more than 30 times");
@@ -131,12 +135,61 @@ auto is_digest(std::string_view digest) {
 
 void require_version(const Cursor& top) {
   const Json version = top.json().value("version", Json());
-  if (!version.is_number_integer() || version == kNoPathVersion) return;
-  top["version"].fail(std::to_string(kNoPathVersion) + ", got " + version.dump() +
-                      ": only the taut-check that came with the taut that made it can check it");
+  if (!version.is_number_integer() || version == kNoPathVersion || version == kNoPathVersionWithBodies) return;
+  top["version"].fail(std::to_string(kNoPathVersion) + " or " + std::to_string(kNoPathVersionWithBodies) + ", got " +
+                      version.dump() + ": only the taut-check that came with the taut that made it can check it");
+}
+
+ContactReason read_contact(const Cursor& json, const Problem& problem) {
+  const Bodies& bodies = problem.bodies.value();
+  json.require(!bodies.pairs.empty(), "no contact where no pair is checked");
+  ContactReason result;
+  const auto read_pair = [&](const Cursor& pair) {
+    result.pair = static_cast<std::size_t>(pair.integer(0, static_cast<std::int64_t>(bodies.pairs.size()) - 1));
+  };
+  const auto read_points = [&](const Cursor& points) {
+    const bool may_be_four = !bodies.is_against_half_space(bodies.pairs[result.pair]);
+    points.require(points.size() == 1 || (may_be_four && points.size() == 4),
+                   may_be_four ? "the points of one or four places" : "the points of one place");
+    points.elements([&](const Cursor& weights, std::size_t) {
+      result.points.push_back(read_contact_weights(weights, result.pair, problem));
+    });
+  };
+  json.object("pair", read_pair, "points", read_points);
+  return result;
+}
+
+/// `map`, where the problem has been read.
+std::string read_map(const Cursor& json, NoPathCertificate& result) {
+  std::string tree;
+  const bool has_bodies = result.problem.bodies.has_value();
+  const auto read_contacts = [&](const Cursor& contacts) {
+    contacts.elements(
+        [&](const Cursor& contact, std::size_t) { result.contacts.push_back(read_contact(contact, result.problem)); });
+  };
+  const auto read_indices = [&](const Cursor& indices) {
+    const auto last = static_cast<std::int64_t>(result.contacts.size()) - 1;
+    indices.elements([&](const Cursor& index, std::size_t) {
+      result.contact_of_leaf.push_back(static_cast<std::size_t>(index.integer(0, last)));
+    });
+  };
+  json.object("bits", integer(result.bits, 32, 4096), "tree", tree, has_bodies ? "contacts" : nullptr, read_contacts,
+              has_bodies ? "contact_of_leaf" : nullptr, read_indices);
+  const auto leaves = static_cast<std::size_t>(std::ranges::count(tree, kContactLeaf));
+  if (leaves != result.contact_of_leaf.size()) {
+    throw Malformed("map.contact_of_leaf: expected a number for each leaf of the tree with the letter of contact");
+  }
+  return tree;
 }
 
 }  // namespace
+
+std::string no_path_claim(const Problem& problem) {
+  std::string claim = kNoPathClaim;
+  if (!problem.items.empty()) claim += kItemsClause;
+  if (problem.bodies) claim += no_path_bodies_clause(problem.bodies->checks);
+  return claim;
+}
 
 NoPathCertificate read_no_path(Outline outline) {
   const Cursor top(outline.json, "");
@@ -147,8 +200,8 @@ NoPathCertificate read_no_path(Outline outline) {
   const auto read_problem_and_digest = [&](const Cursor& json) {
     is_digest(sha256(json.json()))(top["problem_sha256"]);
     result.problem = read_problem(json);
-    const std::string claim = kNoPathClaim + std::string(result.problem.items.empty() ? "" : kItemsClause);
-    exactly(claim, "the text that belongs to the verdict")(top["claim"]);
+    exactly(result.problem.bodies ? kNoPathVersionWithBodies : kNoPathVersion)(top["version"]);
+    exactly(no_path_claim(result.problem), "the text that belongs to the verdict")(top["claim"]);
   };
   const auto read_waypoints = [&](const Cursor& json) {
     json.require_size(2);
@@ -158,13 +211,13 @@ NoPathCertificate read_no_path(Outline outline) {
     (void)json.at(1).integer(from + 1, from + 1);
     result.from = static_cast<std::size_t>(from);
   };
-  const auto read_map = [&](const Cursor& json) { json.object("bits", integer(result.bits, 32, 4096), "tree", tree); };
+  const auto read_cells = [&](const Cursor& json) { tree = read_map(json, result); };
   top.object(
-      "format", exactly(kNoPathFormat, "'taut-no-path-certificate'"), "version", exactly(std::size_t{kNoPathVersion}),
-      "footer", [&](const Cursor& footer) { footer.object("sha256", is_digest(outline.body_sha256), "nodes", later); },
+      "format", exactly(kNoPathFormat, "'taut-no-path-certificate'"), "version", later, "footer",
+      [&](const Cursor& footer) { footer.object("sha256", is_digest(outline.body_sha256), "nodes", later); },
       "generator", [](const Cursor& json) { json.require(json.json().is_object(), "an object"); }, "illustration",
       later, "claim", later, "verdict", exactly("no path", "'no path'"), "problem", read_problem_and_digest,
-      "problem_sha256", later, "waypoints", read_waypoints, "map", read_map, "signature?",
+      "problem_sha256", later, "waypoints", read_waypoints, "map", read_cells, "signature?",
       [&](const Cursor& json) { result.signer = verify_signature(json, outline.body_sha256); });
   const Cursor footer = top["footer"];
   exactly(tree.size())(footer["nodes"]);

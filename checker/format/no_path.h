@@ -16,7 +16,8 @@
 namespace taut::checker {
 
 inline constexpr std::string_view kNoPathFormat = "taut-no-path-certificate";
-inline constexpr int kNoPathVersion = 1;  ///< of the format
+inline constexpr int kNoPathVersion = 1;            ///< of the format
+inline constexpr int kNoPathVersionWithBodies = 2;  ///< where the problem states bodies
 
 /// One coordinate of the space, lambda = lower + t (upper - lower) with t in [0, 1].
 struct CellAxis {
@@ -49,7 +50,11 @@ class CellTree {
   [[nodiscard]] std::size_t axis(std::size_t node) const { return static_cast<std::size_t>(text_[node] - '0'); }
   [[nodiscard]] static std::size_t lower(std::size_t node) { return node + 1; }
   [[nodiscard]] std::size_t upper(std::size_t node) const { return upper_[node]; }
-  /// Why no pose of a leaf is feasible; nothing where that is not said.
+  /// Whether it is said of a leaf why none of its poses is feasible.
+  [[nodiscard]] bool is_outside(std::size_t leaf) const;
+  /// Whether what is said is that two bodies touch: the next one of NoPathCertificate::contact_of_leaf tells more.
+  [[nodiscard]] bool is_contact(std::size_t leaf) const;
+  /// What is said; nothing where is_contact() or where nothing is.
   [[nodiscard]] std::optional<OutsideReason> reason(std::size_t leaf) const;
 
  private:
@@ -60,6 +65,7 @@ class CellTree {
 /// The letter of a leaf: 'A' to 'L' for lengths, 'a' to 'l' and 'm' to 'x' for balances that follow or are fixed.
 [[nodiscard]] char letter(const OutsideReason& reason);
 inline constexpr char kOpenLeaf = '.';
+inline constexpr char kContactLeaf = 'y';
 
 struct NoPathCertificate {
   Problem problem;
@@ -67,7 +73,9 @@ struct NoPathCertificate {
   std::size_t from = 0;         ///< the waypoint of the query; the other is the next
   int bits = 64;                ///< working precision of all reasons
   CellTree tree{".", 2};
-  std::vector<CellAxis> axes;  ///< one a parameter
+  std::vector<ContactReason> contacts;         ///< where the problem has bodies, as the next
+  std::vector<std::size_t> contact_of_leaf{};  ///< of each leaf that is_contact(), in the tree's order
+  std::vector<CellAxis> axes;                  ///< one a parameter
   std::optional<CellFlip> flip;
   std::string signer;  ///< the public key, 64 hex digits; empty where there is no signature
 };
@@ -79,6 +87,9 @@ struct CellSpace {
 };
 /// @throws Malformed where the space has not two or three parameters, has constraints, or is not bounded.
 [[nodiscard]] CellSpace cell_space(const Problem& problem);
+
+/// The text that states "no path" of a problem.
+[[nodiscard]] std::string no_path_claim(const Problem& problem);
 
 /// @throws Malformed naming the key.
 [[nodiscard]] NoPathCertificate read_no_path(Outline outline);

@@ -56,14 +56,15 @@ class Clearances {
     if (kind == PairKind::kCableCable) return between_cables(first, second, along(k, std::nullopt));
     if (kind == PairKind::kCablePlatform) {
       Along& u = along(k, Axes::kPlatform);
-      return least_of_cable(first, u) - most(bodies_.platform[second], u);
+      return least_of_cable(first, u) - most(bodies_.platform[second], Axes::kPlatform, u);
     }
+    const bool is_cable = kind == PairKind::kCableObstacle;
     const auto from_obstacle = [&](Along& u, const Ball& most) {
-      return (kind == PairKind::kCableObstacle ? least_of_cable(first, u) : least(bodies_.platform[first], u)) - most;
+      return (is_cable ? least_of_cable(first, u) : least(bodies_.platform[first], Axes::kPlatform, u)) - most;
     };
     if (const auto* hull = std::get_if<PlacedHull>(&bodies_.obstacles[second])) {
-      Along& u = along(k, Axes::kWorld);
-      return from_obstacle(u, most(*hull, u));
+      Along& u = along(k, is_cable ? std::optional(Axes::kWorld) : std::nullopt);
+      return from_obstacle(u, most(*hull, Axes::kWorld, u));
     }
     const auto& half_space = std::get<PlacedHalfSpace>(bodies_.obstacles[second]);
     Along n = along(Axes::kWorld, half_space.normal);
@@ -95,22 +96,47 @@ class Clearances {
 
   // ---- Bodies -------------------------------------------------------------------------------------------------------
 
-  /// The second term of (1) for a body that stands still.
-  [[nodiscard]] static Ball most(const PlacedHull& hull, const Along& along) {
-    Ball result = highest(dot(along.u, hull.points.front()));
-    for (const Vector3<Ball>& x : hull.points) result = larger(result, highest(dot(along.u, x)));
-    return result / along.size + hull.radius;
-  }
-
-  /// The first term of (1) for a body of the platform, in W.
-  [[nodiscard]] Ball least(const PlacedHull& hull, Along& along) const {
-    const MeanValueForm at_p = dot(along.u, geometry_.pose.p);
+  /// The first term of (1) for a body that stands still in `axes`.
+  [[nodiscard]] Ball least(const PlacedHull& hull, Axes axes, Along& along) const {
     std::optional<Ball> result;
     for (const Vector3<Ball>& x : hull.points) {
-      const Ball here = (at_p + dot(turned(along), x)).range() / along.size - shift_.turn * length_bound(x);
-      result = result ? smaller(*result, lowest(here)) : lowest(here);
+      const auto [at, shift] = project(x, axes, along);
+      const Ball here = lowest(at - shift);
+      result = result ? smaller(*result, here) : here;
     }
-    return *result - hull.radius - shift_.position;
+    return *result - hull.radius;
+  }
+  /// The second term, likewise.
+  [[nodiscard]] Ball most(const PlacedHull& hull, Axes axes, Along& along) const {
+    std::optional<Ball> result;
+    for (const Vector3<Ball>& x : hull.points) {
+      const auto [at, shift] = project(x, axes, along);
+      const Ball here = highest(at + shift);
+      result = result ? larger(*result, here) : here;
+    }
+    return *result + hull.radius;
+  }
+
+  struct Projected {
+    Ball at;     ///< u . x / |u|
+    Ball shift;  ///< by how much deviations may change it
+  };
+  /// Of a point that stands still in `axes`.
+  [[nodiscard]] Projected project(const Vector3<Ball>& x, Axes axes, Along& along) const {
+    if (axes == along.axes) return {dot(along.u, x) / along.size, Ball()};
+    if (axes == Axes::kPlatform) {
+      return {(dot(along.u, geometry_.pose.p) + dot(turned(along), x)).range() / along.size,
+              shift_.position + shift_.turn * length_bound(x)};
+    }
+    const Vector3<MeanValueForm> from_p = from_origin(x);
+    return {dot(turned(along), from_p).range() / along.size,
+            shift_.position + shift_.turn * length_bound(range(from_p))};
+  }
+  /// x - p, of a point that stands still in W.
+  [[nodiscard]] Vector3<MeanValueForm> from_origin(const Vector3<Ball>& x) const {
+    Vector3<MeanValueForm> result;
+    for (std::size_t c = 0; c < 3; ++c) result[c] = MeanValueForm(x[c]) - geometry_.pose.p[c];
+    return result;
   }
 
   // ---- Cables -------------------------------------------------------------------------------------------------------
@@ -153,9 +179,8 @@ class Clearances {
     if (axes == Axes::kWorld) {
       return {beta, shift_.position + shift_.turn * length_bound(machine_.platform[i]) + mu};
     }
-    Vector3<MeanValueForm> from_a = geometry_.pose.p;
-    for (std::size_t c = 0; c < 3; ++c) from_a[c] += MeanValueForm(-machine_.base[i][c]);
-    return {beta + shift_.position + shift_.turn * length_bound(range(from_a)), mu};
+    const Vector3<MeanValueForm> from_p = from_origin(machine_.base[i]);
+    return {beta + shift_.position + shift_.turn * length_bound(range(from_p)), mu};
   }
 
   /// Radii of the balls around both cuts.

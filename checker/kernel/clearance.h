@@ -9,9 +9,9 @@
 // second. That of a half-space {x : n . x <= c} is c / |n| for u = n. Any u will do: a poor one proves less.
 //
 // Where bodies are.  Along u of W, with v = R' u,
-//     platform's point x:   u . p + v . x
+//     platform's point x:   u . p + v . x                    an obstacle's point q:   u . q
 //     cable i:              at A_i u . a_i, at B_i that plus u . d_i;
-// along u of P, for which what the platform carries stands still,
+// along u of P, for which what the platform carries stands still, an obstacle's point q is at (R u) . (q - p), and
 //     cable i:              at B_i u . b_i, at A_i that minus (R u) . d_i.
 // A cable's body begins delta_0 from A_i and ends delta_1 from B_i. Let e bound what deviations change |d_i| by, and
 // let |d_i| - e > delta_0 + delta_1. The point at the share t of the way from A_i' to B_i' is part of the body of the
@@ -23,6 +23,7 @@
 //                      in W                         in P'
 //     platform's x     P + Omega |x|                0
 //     A_i'             beta_i                       beta_i + P + Omega |a_i - p|   (A_i' is at R'' (a_i' - p'))
+//     obstacle's q     0                            P + Omega |q - p|              (likewise)
 //     B_i'             P + Omega |b_i| + mu_i       mu_i
 // and the point at the share t of a cable is within that share of what its ends are: (1 - t) x + t y, say. Both point
 // and bound being linear in t, every point of the body that deviates is in the hull of the balls with these radii, plus
@@ -44,7 +45,7 @@ namespace taut::checker {
 /// machine and pose within the tolerances [m].
 /// @param loss  what tolerances take away; of length and pose only
 /// @throws Undefined where a cable may not be longer than its free ends, and where `apart` has no direction that may be
-/// used for a pair: of W against obstacles, of P for a cable against a body of the platform, either for two cables.
+/// used for a pair: of W for a cable against an obstacle, of P for a cable against a body of the platform, else either.
 /// @pre machine.bodies
 [[nodiscard]] std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry,
                                                   const MarginLoss& loss, std::span<const Direction> directions,

@@ -97,12 +97,14 @@ StatedMachine::StatedMachine(const Problem& stated) : problem(stated), wrench(ba
     Force& arm = item_arms.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) arm[c] = Ball(mpq_class(item.at[c] - stated.load_point[c]));
   }
+  if (stated.bodies) bodies.emplace(stated);
 }
 
 OutsideProof::OutsideProof(const StatedMachine& machine, std::span<const CellForm> parameters) : machine_(machine) {
   const Problem& problem = machine.problem;
   Vector6<CellForm> pose;
   for (std::size_t c = 0; c < 6; ++c) pose[c] = problem.pose[c].evaluate<CellForm>(parameters);
+  p_ = {pose[0], pose[1], pose[2]};
   R_ = orientation(problem, pose);
   for (std::size_t i = 0; i < kCables; ++i) {
     d_[i] = multiply(R_, machine.platform[i]);
@@ -225,6 +227,89 @@ bool OutsideProof::is_unbalanced(const OutsideReason& reason) {
     }
   }
   return certainly_positive(left.range());
+}
+
+// ---- Contact --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+Vector3<Ball> mean(const std::vector<Vector3<Ball>>& points, const std::vector<mpq_class>& weights) {
+  Vector3<Ball> result;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (weights.at(k) != 0) result = result + Ball(weights[k]) * points[k];
+  }
+  return result;
+}
+
+CellForm determinant(const Vector3<CellForm>& a, const Vector3<CellForm>& b, const Vector3<CellForm>& c) {
+  return dot(a, cross(b, c));
+}
+
+/// Whether 0 is certainly in the hull of these, everywhere.
+bool is_around_zero(const std::array<Vector3<CellForm>, 4>& v) {
+  const std::array<Ball, 4> shares = {determinant(v[1], v[2], v[3]).range(), -determinant(v[0], v[2], v[3]).range(),
+                                      determinant(v[0], v[1], v[3]).range(), -determinant(v[0], v[1], v[2]).range()};
+  return std::ranges::all_of(shares, certainly_positive) || std::ranges::all_of(shares, certainly_negative);
+}
+
+}  // namespace
+
+Vector3<CellForm> OutsideProof::of_platform(const PlacedHull& hull, const std::vector<mpq_class>& weights) const {
+  return p_ + multiply(R_, mean(hull.points, weights));
+}
+
+Vector3<CellForm> OutsideProof::of_cable(std::size_t i, const std::vector<mpq_class>& weights) const {
+  const CellForm length = apply(Function::kSqrt, squared_[i]);
+  const auto& [at_base, at_platform] = machine_.bodies->free_ends[i];
+  if (!certainly_positive(length.range() - at_base - at_platform)) {
+    throw Undefined("a cable may not be longer than its free ends");
+  }
+  const CellForm inverse = apply(Function::kInverse, length);
+  const CellForm share =
+      Ball(weights.at(0)) * at_base * inverse + Ball(weights.at(1)) * (CellForm(Ball(1)) - at_platform * inverse);
+  Point result = share * d_[i];
+  for (std::size_t c = 0; c < 3; ++c) result[c] += CellForm(machine_.base[i][c]);
+  return result;
+}
+
+Vector3<CellForm> OutsideProof::first_point(const CheckedPair& pair, const ContactWeights& weights) const {
+  const bool is_platform = pair.kind == PairKind::kPlatformObstacle;
+  return is_platform ? of_platform(machine_.bodies->platform[pair.first], weights[0])
+                     : of_cable(pair.first, weights[0]);
+}
+
+Vector3<CellForm> OutsideProof::second_point(const CheckedPair& pair, const ContactWeights& weights) const {
+  if (pair.kind == PairKind::kCableCable) return of_cable(pair.second, weights[1]);
+  if (pair.kind == PairKind::kCablePlatform) {
+    return of_platform(machine_.bodies->platform[pair.second], weights[1]);
+  }
+  const Vector3<Ball> x = mean(std::get<PlacedHull>(machine_.bodies->obstacles[pair.second]).points, weights[1]);
+  return {CellForm(x[0]), CellForm(x[1]), CellForm(x[2])};
+}
+
+bool OutsideProof::holds(const ContactReason& reason) const {
+  const PlacedBodies& bodies = machine_.bodies.value();
+  const CheckedPair& pair = bodies.pairs.at(reason.pair);
+  const bool is_platform = pair.kind == PairKind::kPlatformObstacle;
+  Ball allowed = bodies.clearance[reason.pair] +
+                 (is_platform ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first]);
+  if (is_platform || pair.kind == PairKind::kCableObstacle) {
+    const auto& obstacle = bodies.obstacles[pair.second];
+    if (const auto* half_space = std::get_if<PlacedHalfSpace>(&obstacle)) {
+      const CellForm height =
+          dot(half_space->normal, first_point(pair, reason.points.at(0))) - CellForm(half_space->offset);
+      return certainly_nonnegative(allowed * sqrt(squared_norm(half_space->normal)) - height.range());
+    }
+    allowed += std::get<PlacedHull>(obstacle).radius;
+  } else {
+    allowed +=
+        pair.kind == PairKind::kCableCable ? bodies.cable_radius[pair.second] : bodies.platform[pair.second].radius;
+  }
+  const auto apart = [&](std::size_t k) {
+    return first_point(pair, reason.points.at(k)) - second_point(pair, reason.points.at(k));
+  };
+  if (reason.points.size() == 4) return is_around_zero({apart(0), apart(1), apart(2), apart(3)});
+  return certainly_nonnegative(allowed * allowed - squared_norm(apart(0)).range());
 }
 
 }  // namespace taut::checker

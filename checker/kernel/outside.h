@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "outside": that no pose of a cell is feasible, for the machine exactly as the problem states it.
 //
-// A cell is a box of the parameters; over it every quantity is a CellForm. Two kinds of reasons:
+// A cell is a box of the parameters; over it every quantity is a CellForm. Three kinds of reasons:
 //
 //   length     at every pose |d_i| >= d_hi,i, or |d_i| <= d_lo,i (limits are open).
 //   balance    for a row y(u) of numbers and a wrench w(u) of K at each u,
@@ -15,10 +15,18 @@
 // second order, so that (1) says that tension i is beyond its limit; the former is for cells next to det J = 0. w is a
 // sum of one wrench of the ellipsoid and one of each item, constant in the item's axes, such that y . w is about as
 // large as it gets in the middle of the cell.
+//
+//   contact    of a pair of bodies, points x_k of the first and y_k of the second at each u, convex combinations with
+//              constant weights, and v_k = x_k - y_k. Either one of them, and at every pose
+//                  |v| <= both radii + clearance;                                                                 (2)
+//              or four, and at every pose 0 is in their hull: then a convex combination of all x_k is that of all y_k,
+//              and the bodies meet. As det(v1 v2 v3) v0 - det(v0 v2 v3) v1 + det(v0 v1 v3) v2 - det(v0 v1 v2) v3 = 0
+//              for all vectors, 0 is in the hull if these four coefficients are positive, or if all are negative.
 #pragma once
 
 #include <span>
 
+#include "checker/kernel/bodies.h"
 #include "checker/kernel/cell_form.h"
 #include "checker/kernel/linear.h"
 #include "checker/kernel/statement.h"
@@ -34,9 +42,15 @@ struct OutsideReason {
   bool operator==(const OutsideReason&) const = default;
 };
 
+/// That two bodies are not farther apart than their clearance.
+struct ContactReason {
+  std::size_t pair = 0;
+  std::vector<ContactWeights> points;  ///< one, or four where neither body is a half-space
+};
+
 /// The machine exactly as a problem states it, at the working precision. Refers to the problem.
 struct StatedMachine {
-  /// @throws Undefined where the ellipsoid's matrix has no inverse.
+  /// @throws Undefined where the ellipsoid's matrix has no inverse, or a body has no place.
   explicit StatedMachine(const Problem& problem);
 
   const Problem& problem;
@@ -51,6 +65,7 @@ struct StatedMachine {
   };
   std::optional<Ellipsoid> ellipsoid;
   std::vector<Vector3<Ball>> item_arms;  ///< c - p_m of each item
+  std::optional<PlacedBodies> bodies;
 };
 
 /// One cell, at the working precision of `machine`, which outlives it.
@@ -62,8 +77,18 @@ class OutsideProof {
   /// Claim, if true. For every pose of the cell: a cable's length is not inside its open limits, or no tensions inside
   /// their limits balance some wrench of K. @throws Undefined where that can't be told.
   [[nodiscard]] bool holds(const OutsideReason& reason);
+  /// Claim, if true. For every pose of the cell: the two bodies of the pair are not farther apart than the pair's
+  /// clearance. @throws Undefined where that can't be told, such as where a cable may not be longer than its free ends.
+  /// @pre the problem has this pair, and the weights are as many as either body has points
+  [[nodiscard]] bool holds(const ContactReason& reason) const;
 
  private:
+  using Point = Vector3<CellForm>;
+  [[nodiscard]] Point of_platform(const PlacedHull& hull, const std::vector<mpq_class>& weights) const;
+  [[nodiscard]] Point of_cable(std::size_t i, const std::vector<mpq_class>& weights) const;
+  /// x_k of (2), and y_k unless it is of a half-space.
+  [[nodiscard]] Point first_point(const CheckedPair& pair, const ContactWeights& weights) const;
+  [[nodiscard]] Point second_point(const CheckedPair& pair, const ContactWeights& weights) const;
   [[nodiscard]] bool is_beyond_length(std::size_t cable, std::size_t side) const;
   [[nodiscard]] bool is_unbalanced(const OutsideReason& reason);
   void set_columns();
@@ -71,6 +96,7 @@ class OutsideProof {
   [[nodiscard]] CellForm work(const Vector6<CellForm>& y) const;
 
   const StatedMachine& machine_;
+  Vector3<CellForm> p_;
   Matrix3<CellForm> R_;
   std::array<Vector3<CellForm>, kCables> d_;    ///< [m]
   std::array<CellForm, kCables> squared_;       ///< |d_i|^2

@@ -20,7 +20,17 @@ constexpr double kWidth = 960, kLeft = 64, kTop = 64, kBottom = 136, kRight = 24
 constexpr double kLeastPart = 0.1;
 
 /// What a part of the picture is shown as: kinds of cells, and two that are drawn on top of them.
-enum Look : std::size_t { kUndecidedLook, kInsideLook, kLengthLook, kTensionLook, kUnbalancedLook, kBothLook, kLooks };
+enum Look : std::size_t {
+  kUndecidedLook,
+  kInsideLook,
+  kLengthLook,
+  kTensionLook,
+  kUnbalancedLook,
+  kContactLook,
+  kBothLook,
+  kLooks
+};
+static_assert(kContactLook == static_cast<std::size_t>(CellKind::kContact) && kBothLook == kCellKinds);
 
 struct Style {
   Look look;
@@ -32,6 +42,7 @@ constexpr std::array<Style, kLooks> kStyles = {{
     {kInsideLook, "inside", "#7fbc7a", "inside (proved)"},
     {kTensionLook, "tension", "#8fbce6", "a tension limit is violated"},
     {kUnbalancedLook, "unbalanced", "url(#unbalanced)", "some load can't be balanced"},
+    {kContactLook, "contact", "#c9a3d4", "bodies are too near"},
     {kLengthLook, "length", "#f6b26b", "a length limit is violated"},
     {kBothLook, "both", "url(#both)", "both kinds of limits are violated"},
     {kUndecidedLook, "undecided", "#4d4d4d", "undecided"},

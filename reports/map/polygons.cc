@@ -25,6 +25,7 @@ const char* kind_meaning(CellKind kind) {
     case CellKind::kLength: return "no pose is feasible: a length is beyond a limit (proved)";
     case CellKind::kTension: return "no pose is feasible: a tension is beyond a limit for some load (proved)";
     case CellKind::kUnbalanced: return "no pose is feasible: no tensions within the limits balance some load (proved)";
+    case CellKind::kContact: return "no pose is feasible: two bodies are too near (proved)";
     case CellKind::kUndecided: break;
   }
   return "nothing is proved of these poses";
@@ -74,11 +75,15 @@ nlohmann::json feature_json(const MapResult& result, const FeatureKey& key, cons
 
 std::vector<std::string> meaning(const MapResult& result) {
   const bool has_tolerances = result.problem.tolerances.has_value();
+  const bool has_bodies = result.problem.bodies.has_value();
   std::vector<std::string> sentences = {
       std::string("Inside: at every pose of the closed cell, every load ") +
           (has_tolerances ? "and every deviation within the tolerances leave" : "leaves") +
-          " all cable tensions and lengths strictly within their limits (proved).",
-      "Outside: at every pose of the closed cell the machine as typed breaks a limit for some load (proved).",
+          " all cable tensions and lengths strictly within their limits" +
+          (has_bodies ? ", and the bodies of every checked pair farther apart than its clearance (proved)."
+                      : " (proved)."),
+      std::string("Outside: at every pose of the closed cell the machine as typed breaks a limit for some load") +
+          (has_bodies ? ", or two bodies are no farther apart than their clearance (proved)." : " (proved)."),
       "Undecided: nothing is proved.",
       "What is proved here is proved by taut, in interval arithmetic. No certificate states it, so taut-check has not "
       "confirmed it.",

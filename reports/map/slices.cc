@@ -11,9 +11,10 @@ namespace {
 
 constexpr std::size_t kMostNodes = 1'500'000;  ///< of the page, a digit each
 
-/// A node in the page is a digit: the axis that was halved, or kLeafDigit and what is shown of a leaf.
+/// A node in the page is a digit, or the character behind '9': the axis that was halved, or kLeafDigit and what is shown of a leaf.
 constexpr int kLeafDigit = 3;
-enum Shown { kUndecided, kInside, kLength, kTension, kUnbalanced, kReachable, kInsideCutOff };
+enum Shown { kUndecided, kInside, kLength, kTension, kUnbalanced, kContact, kReachable, kInsideCutOff };
+static_assert(kContact == static_cast<int>(CellKind::kContact));
 
 int shown(const MapResult& result, std::uint32_t node) {
   const CellKind kind = result.map.nodes[node].kind;
@@ -211,6 +212,7 @@ nlohmann::json looks(bool has_region) {
   add("a length limit is violated (proved)", "#f6b26b", "");
   add("a tension limit is violated (proved)", "#8fbce6", "");
   add("some load can't be balanced (proved)", "#8fbce6", "#4a86b8");
+  add("bodies are too near (proved)", "#c9a3d4", "");
   add("reachable from the start (proved)", "#7fbc7a", "");
   add("inside, but no motion from the start leads there (proved)", "#b5d8a8", "#204020");
   return result;

@@ -27,6 +27,7 @@ const char* cell_kind_name(CellKind kind) {
     case CellKind::kLength: return "length";
     case CellKind::kTension: return "tension";
     case CellKind::kUnbalanced: return "unbalanced";
+    case CellKind::kContact: return "contact";
     case CellKind::kUndecided: break;
   }
   return "undecided";

@@ -28,7 +28,7 @@ struct ShownAxis {
 
 /// "range", "turn" or "tilt".
 [[nodiscard]] const char* axis_kind_name(MapAxis::Kind kind);
-/// "undecided", "inside", "length", "tension" or "unbalanced".
+/// "undecided", "inside", "length", "tension", "unbalanced" or "contact".
 [[nodiscard]] const char* cell_kind_name(CellKind kind);
 
 /// All axes of a map of a problem's space.

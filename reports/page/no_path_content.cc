@@ -11,6 +11,7 @@
 #include "certify/path_proof.h"
 #include "kinematics/pose_conversion.h"
 #include "problem/expression.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/summary.h"
 #include "reports/summary/wording.h"
 
@@ -117,6 +118,12 @@ std::vector<Statement> statements_of(const NoPathContent& content) {
   std::vector<Statement> result = {{"move", "Move", move_text(content)},
                                    {"space", "Space", space_text(content)},
                                    {"limits", "Limits", limits_text(problem.robot, units)}};
+  if (problem.bodies) {
+    const BodiesStatement bodies = bodies_statement(*problem.bodies);
+    std::string text = bodies.checked;
+    for (const auto& [name, words] : bodies.bodies) text += fmt::format(" {}: {}.", name, words);
+    result.push_back({"clearance", "Clearance", text});
+  }
   if (problem.tolerances) {
     result.push_back({"tolerances", "Tolerances",
                       "The machine is taken exactly as stated. So no path is feasible for every machine within the "

@@ -16,9 +16,10 @@ namespace {
 constexpr MapFrameSize kSize = {.left = 62, .top = 30, .right = 14, .width = 640};
 constexpr double kBelow = 48;
 
-/// What a letter of a certificate's tree says (docs/certificate-format.md): a length, a tension, the balance.
+/// What a letter of a certificate's tree says (docs/certificate-format.md): a length, a tension, the balance, contact.
 CellKind kind_of(char letter) {
   if (letter == '.') return CellKind::kUndecided;
+  if (letter == 'y') return CellKind::kContact;
   if (letter <= 'L') return CellKind::kLength;
   return letter <= 'l' ? CellKind::kTension : CellKind::kUnbalanced;
 }
@@ -52,7 +53,7 @@ struct Look {
   const char* legend;
   std::vector<Cell> cells = {};
 };
-enum : std::size_t { kFromStart, kFromGoal, kTensionWall, kUnbalancedWall, kLengthWall };
+enum : std::size_t { kFromStart, kFromGoal, kTensionWall, kUnbalancedWall, kLengthWall, kContactWall, kLooks };
 
 /// Cells by look.
 class Looks {
@@ -65,7 +66,7 @@ class Looks {
     gather(Cell(), 0);
   }
 
-  [[nodiscard]] const std::array<Look, 5>& all() const { return looks_; }
+  [[nodiscard]] const std::array<Look, kLooks>& all() const { return looks_; }
   /// Whether some cells are too fine to be drawn one by one.
   [[nodiscard]] bool are_joined() const { return are_joined_; }
 
@@ -76,6 +77,7 @@ class Looks {
       case CellKind::kLength: return kLengthWall;
       case CellKind::kTension: return kTensionWall;
       case CellKind::kUnbalanced: return kUnbalancedWall;
+      case CellKind::kContact: return kContactWall;
       case CellKind::kInside:
       case CellKind::kUndecided: break;
     }
@@ -106,11 +108,13 @@ class Looks {
   CellMap map_;
   std::vector<bool> from_start_, from_goal_;  ///< by node
   bool are_joined_ = false;
-  std::array<Look, 5> looks_ = {{{"from-start", "what no feasible motion from the start leaves"},
-                                 {"from-goal", "what no feasible motion from the goal leaves"},
-                                 {"wall-tension", "no feasible pose: a tension is beyond its limit (proved)"},
-                                 {"wall-unbalanced", "no feasible pose: some load can't be balanced (proved)"},
-                                 {"wall-length", "no feasible pose: a cable's length is beyond its limit (proved)"}}};
+  std::array<Look, kLooks> looks_ = {
+      {{"from-start", "what no feasible motion from the start leaves"},
+       {"from-goal", "what no feasible motion from the goal leaves"},
+       {"wall-tension", "no feasible pose: a tension is beyond its limit (proved)"},
+       {"wall-unbalanced", "no feasible pose: some load can't be balanced (proved)"},
+       {"wall-length", "no feasible pose: a cable's length is beyond its limit (proved)"},
+       {"wall-contact", "no feasible pose: two bodies are too near (proved)"}}};
 };
 
 std::array<double, 2> middle(const MapBox& box) {

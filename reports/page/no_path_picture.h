@@ -17,12 +17,12 @@ namespace taut {
 inline constexpr const char* kNoPathStyle = R"css(
 :root {
   --from-start: #d8eadb; --from-goal: #f3e6c8;
-  --wall-tension: #2a6ab0; --wall-unbalanced: #6b4aa3; --wall-length: #c56a00;
+  --wall-tension: #2a6ab0; --wall-unbalanced: #6b4aa3; --wall-length: #c56a00; --wall-contact: #a03070;
 }
 @media screen and (prefers-color-scheme: dark) {
   :root {
     --from-start: #22402d; --from-goal: #4a3d1c; --wall-tension: #6fb1f0; --wall-unbalanced: #b79af0;
-    --wall-length: #f0a044;
+    --wall-length: #f0a044; --wall-contact: #e58fc0;
   }
 }
 .walls { margin: 16px 0; }
@@ -37,6 +37,7 @@ inline constexpr const char* kNoPathStyle = R"css(
 .walls svg .wall-tension { fill: var(--wall-tension); stroke: var(--wall-tension); }
 .walls svg .wall-unbalanced { fill: var(--wall-unbalanced); stroke: var(--wall-unbalanced); }
 .walls svg .wall-length { fill: var(--wall-length); stroke: var(--wall-length); }
+.walls svg .wall-contact { fill: var(--wall-contact); stroke: var(--wall-contact); }
 .walls .keys { display: flex; flex-wrap: wrap; gap: 4px 20px; margin: 6px 0; }
 .walls .keys .key svg { width: 14px; height: 14px; }
 .walls .keys .key { white-space: normal; }

@@ -12,7 +12,7 @@ inline constexpr const char* kStyle = R"css(
   --proved: #1b7a4b; --refuted: #b3261e; --undecided: #8a5a00;
   --band: #9cc3e6; --curve: #1f5f99; --limit: #b3261e; --forbidden: #f9ece9; --mark: #b3261e;
   --c1: #c2570c; --c2: #5b4a9e;
-  --inside: #84c99a; --tension: #92b8e6; --length: #f5b14c; --singular: #c4161c; --chart: #26323b;
+  --inside: #84c99a; --tension: #92b8e6; --length: #f5b14c; --contact: #c9a3d4; --singular: #c4161c; --chart: #26323b;
   --path: #101418; --casing: #ffffff; --start: #ffffff; --goal: #101418; --open-cell: #4d545c;
   --base: #8b949e; --platform: #cfe0f1;
   --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
@@ -23,7 +23,7 @@ inline constexpr const char* kStyle = R"css(
     --proved: #58c48e; --refuted: #ff8a80; --undecided: #f0b94d;
     --band: #2b5378; --curve: #8cc4f5; --limit: #ff8a80; --forbidden: #2c1f20; --mark: #ff8a80;
     --c1: #f0a35e; --c2: #b3a4f0;
-    --inside: #2f7d52; --tension: #2b4f7d; --length: #96621a; --singular: #ff6b62; --chart: #dfe6ec;
+    --inside: #2f7d52; --tension: #2b4f7d; --length: #96621a; --contact: #6d4a7d; --singular: #ff6b62; --chart: #dfe6ec;
     --path: #ffffff; --casing: #101418; --start: #101418; --goal: #ffffff; --open-cell: #06080a;
     --base: #77818b; --platform: #2b5378;
     --calm: #aeb8c2; --near: #e0a030; --near-ink: #f0b94d; --close: #ff8f5c; --out: #ff8a80;

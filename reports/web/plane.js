@@ -20,6 +20,7 @@ const AREAS = [
   ["unbalanced", "some load can't be balanced (proved)"],
   ["length", "a length out of limits (proved)"],
   ["both", "tensions and lengths out of limits (proved)"],
+  ["contact", "bodies are too near (proved)"],
   ["undecided", "undecided"],
   ["cut_off", "inside, but no motion from the start leads there (proved)"],
   ["singular", "encloses det J = 0"],
