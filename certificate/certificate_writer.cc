@@ -196,6 +196,10 @@ json to_json(const Witness& witness) {
     result["depth_m"] = violation.depth_m;
     result["pair"] = pair;
     result["weights"] = json::array({rationals(points.first), rationals(points.second)});
+    const auto& [first, second] = points.elements;
+    if (first || second) {
+      result["elements"] = {first ? json(*first) : json(), second ? json(*second) : json()};
+    }
     result["proof"] = checker::proof_to_json(witness.at_box);
     return result;
   }
@@ -304,12 +308,15 @@ std::size_t CertificateWriter::index_of(const Direction& direction) {
   return at->second;
 }
 
-/// An entry of `apart` for each pair: null against a half-space.
+/// An entry of `apart` for each pair.
 json CertificateWriter::apart(const PairDirections& directions) {
   json result = json::array();
-  for (const Direction& direction : directions) {
-    const bool is_of_half_space = direction.u == std::array<int, 3>{};
-    result.push_back(is_of_half_space ? json() : json(index_of(direction)));
+  for (std::size_t pair = 0; pair < directions.single.size(); ++pair) {
+    std::vector<std::size_t> indices;
+    for (const Direction& direction : directions.of(pair)) {
+      if (!is_of_half_space(direction)) indices.push_back(index_of(direction));
+    }
+    result.push_back(checker::apart_to_json(indices));
   }
   return result;
 }

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@
 
 #include "base/json_cursor.h"
 #include "problem/text.h"
+#include "problem/triangle_mesh.h"
 
 namespace taut {
 
@@ -44,7 +46,12 @@ struct MeshText {
   std::string file;    ///< as the case names it
   std::string sha256;  ///< of the file's bytes: 64 lower-case hex digits
   DecimalText unit_m;  ///< > 0 [m]
-  bool operator==(const MeshText&) const = default;
+  /// What the file holds; null until it was read (case/mesh_file.h). No part of the problem's text, in which the digest
+  /// stands for it.
+  std::shared_ptr<const IndexedMesh> mesh = nullptr;
+  bool operator==(const MeshText& other) const {
+    return file == other.file && sha256 == other.sha256 && unit_m == other.unit_m;
+  }
 };
 
 struct BodyText {
