@@ -301,8 +301,7 @@ class Elaborator::Search {
         arb_mul_2exp_si(r, r, 24 - bits);
       });
       const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
-      const Ball depth =
-          contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements) - slack;
+      const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements) - slack;
       if (!certainly_nonnegative(depth)) return false;
       constexpr int kDigits = 6;
       deeper.depth_m = BigFloat(lower_bound(depth)).to_decimal(kDigits, MPFR_RNDD);

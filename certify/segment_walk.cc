@@ -322,7 +322,7 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
     return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
   }
   const double s = task.box.mid().approx();
-  if (task.redirections < kMostRedirections && redirect(verdict, s, task.redirections)) {
+  if (task.redirections < kMostRedirections && redirect(task.box, verdict, task.redirections)) {
     return {Step::Kind::kRedirect, verdict};
   }
 
@@ -345,17 +345,19 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
   return give_up;
 }
 
-/// Takes the directions along which the near pairs are farthest apart at s, with more digits and for meshes more of
+/// Takes the directions along which the near pairs are farthest apart at the middle of a box, with more digits and for meshes more of
 /// them each time. @returns whether any is another one.
-bool SegmentWalk::redirect(const BoxVerdict& verdict, double s, std::size_t time) {
+bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, std::size_t time) {
   constexpr std::array<int, kMostRedirections> kLargest = {Direction::kFine, Direction::kLargest};
   constexpr std::array<double, kMostRedirections> kShare = {0.5, 0.9};  // of a mesh's gap
   const PoseSampler& sampler = prover_.sampler();
-  const RigidPose pose = sampler.rigid_pose(segment_, s);
+  const auto pose_at = [&](const Dyadic& s) { return sampler.rigid_pose(segment_, s.approx()); };
+  const RigidPose pose = pose_at(box.mid());
+  const std::array<RigidPose, 2> ends{pose_at(box.lower()), pose_at(box.upper())};
   PairDirections turned = *directions_;
   for (const auto& near : verdict.near) {
     std::vector<Direction> directions =
-        prover_.bodies()->directions(sampler.model(), pose, near.pair, kLargest.at(time), kShare.at(time));
+        prover_.bodies()->directions(sampler.model(), pose, near.pair, kLargest.at(time), kShare.at(time), ends);
     if (!directions.empty()) turned.set(near.pair, std::move(directions));
   }
   if (turned == *directions_) return false;

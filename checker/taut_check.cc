@@ -30,6 +30,7 @@
 #include "checker/format/signature.h"
 #include "checker/kernel/errors.h"
 #include "checker/kernel/statement.h"
+#include "checker/stated_bodies.h"
 #include "checker/stated_load.h"
 #include "path_io/path_file.h"
 #include "path_io/waypoint_maker.h"
@@ -111,10 +112,10 @@ MeshSupplier meshes_of(const Arguments& arguments) {
   };
 }
 
-/// With the load that an accepted certificate is about, where no case says what it has to be.
+/// With the load and the bodies that an accepted certificate is about, where no case says what they have to be.
 struct CheckedFile {
   CheckResult result;
-  std::string load;
+  std::string load, bodies;
 };
 
 CheckedFile check_file(const Arguments& arguments) {
@@ -133,8 +134,11 @@ CheckedFile check_file(const Arguments& arguments) {
     }
     const std::string bytes = read_whole(arguments.certificate_path, kMaxFileSize);
     if (arguments.case_path.empty()) {
-      CheckedFile checked{check(bytes, options), ""};
-      if (checked.result.outcome == Outcome::kAccepted) checked.load = stated_load(bytes);
+      CheckedFile checked{check(bytes, options), "", ""};
+      if (checked.result.outcome == Outcome::kAccepted) {
+        checked.load = stated_load(bytes);
+        checked.bodies = stated_bodies(bytes);
+      }
       return checked;
     }
     const taut::Problem problem = load_case(arguments.case_path).problem;
@@ -146,13 +150,13 @@ CheckedFile check_file(const Arguments& arguments) {
                                 arguments.interpolation);
       options.path = &*path;
     }
-    return {check(bytes, options), ""};
+    return {check(bytes, options), "", ""};
   } catch (const Malformed& error) {
     malformed.message = error.what();
   } catch (const InputError& error) {
     malformed.message = error.what();
   }
-  return {malformed, ""};
+  return {malformed, "", ""};
 }
 
 /// "; path file not compared; not compared: the case's query", or nothing.
@@ -251,6 +255,7 @@ int run(int argc, char** argv) {
     std::cout << name(result.outcome) << ": " << sanitize(result.message) << describe_not_compared(result)
               << fmt::format("; {:.2f} s; ", seconds) << describe_signer(result) << std::endl;
     if (!checked.load.empty()) std::cout << sanitize(checked.load) << std::endl;
+    if (!checked.bodies.empty()) std::cout << sanitize(checked.bodies) << std::endl;
   }
   if (!arguments.quiet && is_malformed)
     std::cerr << name(result.outcome) << ": " << sanitize(result.message) << std::endl;

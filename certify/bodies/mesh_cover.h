@@ -95,7 +95,7 @@ template <class Gap>
     MeshPart first, second;
     double gap;
   };
-  LeastGap least;          // of what was looked into
+  LeastGap least;             // of what was looked into
   double result = kInfinity;  // of all
   std::size_t evaluated = 0, likely = 0;
   const auto evaluate = [&](const MeshPart& a, const MeshPart& b) {

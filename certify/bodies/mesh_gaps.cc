@@ -230,6 +230,8 @@ template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&) 
 template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&) const;
 template bool BodyGaps<Interval>::has_mesh(const CheckedPair<Interval>&) const;
 template bool BodyGaps<MpInterval>::has_mesh(const CheckedPair<MpInterval>&) const;
+template bool BodyGaps<Interval, Gradient<Interval, 2>>::has_mesh(const CheckedPair<Interval>&) const;
+template bool BodyGaps<Interval, Gradient<Interval, 3>>::has_mesh(const CheckedPair<Interval>&) const;
 template double BodyGaps<Interval>::of_mesh(const CheckedPair<Interval>&, std::span<const Direction>, Where,
                                             double) const;
 template double BodyGaps<MpInterval>::of_mesh(const CheckedPair<MpInterval>&, std::span<const Direction>, Where,

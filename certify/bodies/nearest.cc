@@ -187,8 +187,8 @@ struct BodySampler::Found {
   NearestPoints nearest;
   double needed = 0;  ///< radii and clearance
   bool is_half_space = false;
+  std::array<std::vector<Point>, 2> points;                   ///< of either body; of neither a half-space nor a mesh
   std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes
-  std::array<std::vector<Point>, 2> points;  ///< of either body; not against a half-space, nor with a mesh
 };
 
 const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair) const {
@@ -249,7 +249,7 @@ std::array<BodyInFrame, 2> BodySampler::in_world(const Model<double>& model, con
 
 BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
+  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
   Found found;
   found.needed = pair.clearance + (pair.kind == PairClass::kPlatformObstacles ? bodies_.platform[pair.first].radius
                                                                               : bodies_.cable_radius[pair.first]);
@@ -277,7 +277,7 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
   }
   if (bodies[0].mesh == nullptr && bodies[1].mesh == nullptr) {
     found.nearest = nearest_points(bodies[0].points, bodies[1].points);
-    found.points = {std::move(bodies[0].points), std::move(bodies[1].points)};
+    found.points = {bodies[0].points, bodies[1].points};
     return found;
   }
   NearestElements nearest = nearest_elements(bodies[0], bodies[1]);
@@ -291,24 +291,50 @@ double BodySampler::gap(const Model<double>& model, const RigidPose& pose, std::
   return found.nearest.distance - found.needed;
 }
 
+namespace {
+
+/// How far apart along a unit vector.
+double gap_along(const Point& u, const std::vector<Point>& first, const std::vector<Point>& second) {
+  return u.dot(first[farthest(first, -u)]) - u.dot(second[farthest(second, u)]);
+}
+
+}  // namespace
+
+/// Whether a body of the platform and an obstacle stay farther apart along a vector of P than along the same of W.
+bool BodySampler::is_better_in_platform(const CheckedPair<double>& pair, const Point& along, const RigidPose& pose,
+                                        std::span<const RigidPose> around) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Point u = along.normalized();
+  const Point v = pose.q.toRotationMatrix().transpose() * u;
+  const std::vector<Point>& obstacle = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).points;
+  double of_world = kInfinity, of_platform = kInfinity;
+  for (const RigidPose& there : around) {
+    const std::vector<Point> body = carried(bodies_.platform[pair.first], there);
+    of_world = std::min(of_world, gap_along(u, body, obstacle));
+    of_platform = std::min(of_platform, gap_along(there.q.toRotationMatrix() * v, body, obstacle));
+  }
+  return of_platform > of_world;
+}
+
 std::optional<Direction> BodySampler::direction(const Model<double>& model, const RigidPose& pose, std::size_t n,
-                                                int largest) const {
+                                                int largest, std::span<const RigidPose> around) const {
   const Found found = find(model, pose, n);
   if (found.is_half_space) return Direction{};
   const CheckedPair<double>& pair = bodies_.pairs[n];
-  const bool in_platform = is_best_in_platform(pair);
   if (!(found.nearest.distance > 0)) return std::nullopt;
   Point along = found.nearest.apart;
+  const bool in_platform = is_best_in_platform(pair) || (pair.kind == PairClass::kPlatformObstacles &&
+                                                         is_better_in_platform(pair, along, pose, around));
   if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
   return rounded_direction(along, in_platform, largest);
 }
 
 std::vector<Direction> BodySampler::directions(const Model<double>& model, const RigidPose& pose, std::size_t n,
-                                               int largest, double share) const {
+                                               int largest, double share, std::span<const RigidPose> around) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
   std::vector<Direction> result;
   if (!needs_list(n)) {
-    if (const auto one = direction(model, pose, n, largest)) result.push_back(*one);
+    if (const auto one = direction(model, pose, n, largest, around)) result.push_back(*one);
     return result;
   }
   const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);

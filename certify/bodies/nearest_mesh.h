@@ -27,7 +27,7 @@ struct BodyInFrame {
                                                      const std::optional<std::uint32_t>& element);
 
 struct NearestElements {
-  NearestPoints nearest;                                ///< of the points of the bodies, or of their elements
+  NearestPoints nearest;                                 ///< of the points of the bodies, or of their elements
   std::array<std::optional<std::uint32_t>, 2> elements;  ///< of meshes
 };
 /// @pre one of them is a mesh

@@ -11,7 +11,7 @@ constexpr std::size_t kMaxBodies = 64;        ///< of the platform, and as many 
 constexpr std::size_t kMaxHullPoints = 1000;  ///< bounds the work of a box, as kMaxBodies does
 constexpr std::size_t kMaxBodyName = 120;     ///< characters
 constexpr std::size_t kMaxDirections = 10'000'000;
-constexpr int kMaxComponent = 32767;  ///< of a direction
+constexpr int kMaxComponent = 32767;   ///< of a direction
 constexpr std::size_t kMaxList = 256;  ///< directions of a pair with a mesh
 
 /// "cable 3" of i = 2.
@@ -254,8 +254,9 @@ std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const 
   const auto add = [&](const Cursor& here) {
     const auto index = static_cast<std::size_t>(here.integer(0, static_cast<std::int64_t>(path.directions.size()) - 1));
     const Axes axes = path.directions[index].axes;
-    const bool is_of_platform = of.kind == PairKind::kCablePlatform;
-    if (is_of_platform || of.kind == PairKind::kCableObstacle || has_mesh) {
+    const bool may_be_either = of.kind == PairKind::kCableCable || of.kind == PairKind::kPlatformObstacle;
+    if (!may_be_either || has_mesh) {
+      const bool is_of_platform = of.kind == PairKind::kCablePlatform;
       here.require(axes == (is_of_platform ? Axes::kPlatform : Axes::kWorld),
                    is_of_platform ? "a direction in the axes of P" : "a direction in the axes of W");
     }

@@ -44,7 +44,8 @@ struct PlacedBodies {
   [[nodiscard]] const PlacedHull* hull(const CheckedPair& pair, bool is_first) const {
     if (is_first) return pair.kind == PairKind::kPlatformObstacle ? &platform[pair.first] : nullptr;
     if (pair.kind == PairKind::kCableCable) return nullptr;
-    return pair.kind == PairKind::kCablePlatform ? &platform[pair.second] : std::get_if<PlacedHull>(&obstacles[pair.second]);
+    return pair.kind == PairKind::kCablePlatform ? &platform[pair.second]
+                                                 : std::get_if<PlacedHull>(&obstacles[pair.second]);
   }
   /// The first or the second body of a pair, if it is a mesh; else null.
   [[nodiscard]] const PlacedSurface* mesh(const CheckedPair& pair, bool is_first) const {

@@ -14,8 +14,8 @@ constexpr int kLargestScale = 1'000'000;  ///< that is stated where there is non
 constexpr int kFar = 1'000'000;           ///< likewise of a distance, where no pair is checked [m]
 
 void add_clearance(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
-                   const std::vector<Direction>& directions, const Apart& apart,
-                   const std::optional<mpq_class>& enough, Bounds& to) {
+                   const std::vector<Direction>& directions, const Apart& apart, const std::optional<mpq_class>& enough,
+                   Bounds& to) {
   to.clearance = Ball(kFar);
   const std::optional<Ball> most = enough ? std::optional(highest(Ball(*enough))) : std::nullopt;
   const std::vector<Ball> margins = clearance_margins(machine, geometry, loss, directions, apart, most);

@@ -25,7 +25,6 @@ struct Bounds {
 /// @param enough  if given, no larger clearance of a mesh is asked for [m]
 /// @throws Undefined where that is not proved at one go. The bounds may be negative: the caller asks for more.
 [[nodiscard]] Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                               const Box& box, const Apart& apart = {},
-                               const std::optional<mpq_class>& enough = {});
+                               const Box& box, const Apart& apart = {}, const std::optional<mpq_class>& enough = {});
 
 }  // namespace taut::checker

@@ -141,10 +141,12 @@ class Clearances {
     BothAlong result;
     if (const PlacedSurface* const mesh = bodies_.mesh(pair, true)) {  // on the platform, along a vector of W
       const Vector3<MeanValueForm>& v = turned(u);
-      result[0] = taut::checker::along(*mesh, unit * dot(u.u, geometry_.pose.p), {unit * v[0], unit * v[1], unit * v[2]});
+      result[0] =
+          taut::checker::along(*mesh, unit * dot(u.u, geometry_.pose.p), {unit * v[0], unit * v[1], unit * v[2]});
     } else {
-      result[0].extreme = pair.kind == PairKind::kPlatformObstacle ? least(bodies_.platform[pair.first], Axes::kPlatform, u)
-                                                                   : least_of_cable(pair.first, u);
+      result[0].extreme = pair.kind == PairKind::kPlatformObstacle
+                              ? least(bodies_.platform[pair.first], Axes::kPlatform, u)
+                              : least_of_cable(pair.first, u);
     }
     if (const PlacedSurface* const mesh = bodies_.mesh(pair, false)) {
       const auto constant = [&](std::size_t c) { return MeanValueForm(unit * u.u[c]); };

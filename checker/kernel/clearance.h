@@ -46,8 +46,8 @@ namespace taut::checker {
 /// machine and pose within the tolerances [m].
 /// @param loss  what tolerances take away; of length and pose only
 /// @throws Undefined where a cable may not be longer than its free ends, and where `apart` has no direction that may be
-/// used for a pair: of P for a cable against a body of the platform; of W for a cable against an obstacle and for a
-/// mesh against an obstacle; else either.
+/// used for a pair: of W for a cable against an obstacle, of P for a cable against a body of the platform, else either;
+/// of W for a mesh and an obstacle.
 /// @param enough  if given, no larger margin of a pair with a mesh is asked for [m]
 /// @pre machine.bodies
 [[nodiscard]] std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry,

@@ -21,9 +21,9 @@ namespace taut::checker {
 
 /// A body along one vector u, divided by |u|.
 struct SideAlong {
-  std::optional<Ball> extreme;     ///< of a body that is no mesh: its least value, or its largest; one number
-  MeanValueForm constant;          ///< of a mesh: c
-  Vector3<MeanValueForm> by;       ///< likewise: w
+  std::optional<Ball> extreme;  ///< of a body that is no mesh: its least value, or its largest; one number
+  MeanValueForm constant;       ///< of a mesh: c
+  Vector3<MeanValueForm> by;    ///< likewise: w
 };
 /// The first body's and the second's.
 using BothAlong = std::array<SideAlong, 2>;

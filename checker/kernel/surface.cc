@@ -59,9 +59,7 @@ std::uint32_t Surface::add_node(std::uint32_t begin, std::uint32_t end) {
   for (std::size_t c = 1; c < 3; ++c) {
     if (node.upper[c] - node.lower[c] > node.upper[longest] - node.lower[longest]) longest = c;
   }
-  const auto place = [&](std::uint32_t element) {
-    return std::pair(points_[elements_[element][0]][longest], element);
-  };
+  const auto place = [&](std::uint32_t element) { return std::pair(points_[elements_[element][0]][longest], element); };
   const std::uint32_t middle = begin + (end - begin) / 2;
   std::ranges::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, {}, place);
   const std::uint32_t first = add_node(begin, middle);

@@ -54,11 +54,6 @@ void set_bodies(const ReportContext& scene, BrokenLimit& broken, const BodyDista
   broken.severity = severity_of(bodies);
 }
 
-BodyDistance distance_at(const ReportContext& scene, double position, std::size_t pair) {
-  const PathSample sample = scene.sampler.at(scene.certificate.path, position);
-  return scene.bodies.value().at(scene.sampler.model(), scene.sampler.rigid_pose(sample), pair);
-}
-
 BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness) {
   BrokenLimit broken;
   broken.proof = witness;
@@ -179,6 +174,11 @@ void sort_by_severity(std::vector<BrokenLimit>& limits) {
 }
 
 }  // namespace
+
+BodyDistance distance_at(const ReportContext& scene, double position, std::size_t pair) {
+  const PathSample sample = scene.sampler.at(scene.certificate.path, position);
+  return scene.bodies.value().at(scene.sampler.model(), scene.sampler.rigid_pose(sample), pair);
+}
 
 std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
   std::vector<BrokenLimit> result = proved_limits(scene);

@@ -42,6 +42,9 @@ struct BrokenLimit {
 /// the motion.
 [[nodiscard]] std::vector<BrokenLimit> broken_limits(const ReportContext& scene);
 
+/// A pair at a place of the path, in floating point. @pre scene.bodies
+[[nodiscard]] BodyDistance distance_at(const ReportContext& scene, double position, std::size_t pair);
+
 /// "below its slack limit, on a machine within the tolerances": what is broken, after the cable's name; of a singular
 /// pose only the machine, if it is not the stated one.
 [[nodiscard]] std::string what_text(const BrokenLimit& broken);

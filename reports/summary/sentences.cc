@@ -409,9 +409,18 @@ namespace {
 std::string contact_text(const PathWitness& witness, const BodiesText& bodies, const DisplayUnits& units) {
   const BodyPair pair = pairs(bodies).at(witness.contact->pair);
   const std::string both = pair_words(bodies, pair);
-  if (Decimal::parse(pair.clearance_m).sign() == 0) return fmt::format("{} touch", both);
-  return fmt::format("{} come within {} of each other, the clearance asked for", both,
-                     quantity(pair.clearance_m, true, units));
+  const Decimal clearance = Decimal::parse(pair.clearance_m);
+  const Rational depth = witness.depth_m.empty() ? Rational(0) : Decimal::parse(witness.depth_m).rational();
+  const std::string allowed = quantity(pair.clearance_m, true, units);
+  const std::string asked = clearance.sign() == 0 ? "" : fmt::format("; the clearance asked for is {}", allowed);
+  const Rational apart = clearance.rational() - depth;
+  if (apart <= 0) return fmt::format("{} touch{}", both, asked);
+  for (const int digits : {3, 4, 6, 9, 12, 15}) {
+    const std::string shown = rounded_up(above(apart), digits);
+    if (!(Decimal::parse(shown) < clearance)) continue;
+    return fmt::format("{} come within {} of each other{}", both, quantity(shown, true, units), asked);
+  }
+  return fmt::format("{} come within {} of each other, the clearance asked for", both, allowed);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "case/bodies.h"
 #include "case/decoration.h"
 
 namespace taut {
@@ -18,6 +19,12 @@ namespace taut {
 [[nodiscard]] nlohmann::json to_json(const Decoration& decoration);
 /// Reads it. A body that a case could not state is taken as not stated: anybody can alter an illustration.
 [[nodiscard]] Decoration decoration_from_json(const nlohmann::json& decoration);
+
+/// What a picture shows of a mesh, placed as its body is: of one with too many triangles a coarser one, in which points
+/// that are next to each other are one.
+[[nodiscard]] ShownBody shown_mesh(const TriangleMesh& mesh, const BodyText& body);
+/// The meshes among the bodies of a case, by their names.
+[[nodiscard]] std::map<std::string, ShownBody> shown_meshes(const CaseBodies& bodies);
 
 /// The object `meshes` of an illustration: bodies of the platform in its axes, obstacles in the world's.
 [[nodiscard]] nlohmann::json to_json(const std::map<std::string, ShownBody>& meshes);
