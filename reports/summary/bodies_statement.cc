@@ -313,4 +313,8 @@ nlohmann::json to_json(const BodiesText& bodies, const BodiesStatement& statemen
   return {{"checked", checked}, {"not_checked", not_checked}, {"text", lines(statement)}};
 }
 
+nlohmann::json stated_bodies_json(const std::optional<CaseBodies>& bodies) {
+  return bodies ? to_json(bodies->text, bodies_statement(*bodies)) : nlohmann::json();
+}
+
 }  // namespace taut

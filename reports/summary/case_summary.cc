@@ -302,9 +302,7 @@ nlohmann::json to_json(const CaseSummary& summary) {
   return {{"problem", to_json(summary.source.problem)},
           {"document_fields", to_json(summary.source.document_fields)},
           {"load", to_json(load_statement(summary.source))},
-          {"bodies", summary.source.bodies
-                         ? to_json(summary.source.bodies->text, bodies_statement(*summary.source.bodies))
-                         : nullptr},
+          {"bodies", stated_bodies_json(summary.source.bodies)},
           {"warnings", summary.source.warnings},
           {"path_law", law_text(summary.source)},
           {"waypoints", waypoints}};
