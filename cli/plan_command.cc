@@ -28,9 +28,9 @@
 #include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/html_report.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
-#include "reports/summary/bodies_statement.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/sentences.h"
 

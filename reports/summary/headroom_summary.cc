@@ -117,7 +117,10 @@ TightPlace place_from_json(const JsonCursor& object) {
 json to_json(const PathWitness& witness) {
   if (witness.singular) return {{"segment", witness.at.index}, {"singular", true}};
   if (witness.contact) {
-    return {{"segment", witness.at.index}, {"singular", false}, {"pair", witness.contact->pair}, {"depth_m", witness.depth_m}};
+    return {{"segment", witness.at.index},
+            {"singular", false},
+            {"pair", witness.contact->pair},
+            {"depth_m", witness.depth_m}};
   }
   json result = margin_json(witness.margin);
   result.update({{"singular", false},

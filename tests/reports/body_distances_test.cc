@@ -45,7 +45,8 @@ TEST(BodyDistances, AreThoseOfTheShapes) {
   const std::vector<Vector3<double>> corners = plate_at(scene, sample);
   for (int i = 0; i <= 200; ++i) {  // another route: a grid on the plate, against the post's axis
     for (int j = 0; j <= 200; ++j) {
-      const Vector3<double> p = corners[0] + i / 200.0 * (corners[2] - corners[0]) + j / 200.0 * (corners[1] - corners[0]);
+      const Vector3<double> p =
+          corners[0] + i / 200.0 * (corners[2] - corners[0]) + j / 200.0 * (corners[1] - corners[0]);
       const double z = std::clamp(p(2), 0.0, 0.5);
       nearest = std::min(nearest, (p - Vector3<double>(0.3, 0, z)).norm());
     }
@@ -97,8 +98,7 @@ TEST(BodyDistances, FindTheNearestPairsAlongThePathThatAllPairsGive) {
   for (std::size_t k = 0; k < scene.samples.size(); ++k) {
     double here = 1e9;
     for (std::size_t n = 0; n < scene.bodies->pairs(); ++n) {
-      const double left =
-          scene.bodies->at(scene.sampler.model(), scene.sampler.rigid_pose(scene.samples[k]), n).left();
+      const double left = scene.bodies->at(scene.sampler.model(), scene.sampler.rigid_pose(scene.samples[k]), n).left();
       here = std::min(here, left);
       least[n] = std::min(least[n], left);
     }
@@ -160,8 +160,7 @@ TEST(ReportOfBodies, HasTheProvedClearanceAndTheNearestPair) {
 TEST(ReportOfBodies, NamesAContactWithPairPlaceDepthAndPoints) {
   const ReportContext scene = sample::scene(sample::contact());
   // 30 mm are asked for, and 31.5 mm are missing.
-  EXPECT_EQ(headline(scene),
-            "Refuted: on this move “plate” and “post” touch; the clearance asked for is 30 mm.");
+  EXPECT_EQ(headline(scene), "Refuted: on this move “plate” and “post” touch; the clearance asked for is 30 mm.");
   const std::vector<BrokenLimit> broken = broken_limits(scene);
   ASSERT_FALSE(broken.empty());
   ASSERT_TRUE(broken.front().bodies);
@@ -174,7 +173,8 @@ TEST(ReportOfBodies, NamesAContactWithPairPlaceDepthAndPoints) {
       << "once, though samples show it, too";
   const std::string text = to_text(Summary(scene, {}));
   EXPECT_THAT(text, AllOf(HasSubstr("Bodies too near"), HasSubstr("deep in each other")));
-  EXPECT_THAT(Summary(scene, {}).lift_plan, Contains(testing::Field(&LiftPlanItem::open, HasSubstr("proves no clearances"))));
+  EXPECT_THAT(Summary(scene, {}).lift_plan,
+              Contains(testing::Field(&LiftPlanItem::open, HasSubstr("proves no clearances"))));
 }
 
 TEST(ReportOfBodies, SaysHowFarAwayTheNearerPointsAreProvedToBe) {
