@@ -454,6 +454,7 @@ double read_bound(const Field& field, std::optional<Unit> unit) {
 std::vector<Bound> read_bounds(const Map& map, const Units& units) {
   const std::map<std::string, Dimension> dimensions = {{"tension_margin", Dimension::kForce},
                                                        {"length_margin", Dimension::kLength},
+                                                       {"clearance_margin", Dimension::kLength},
                                                        {"length", Dimension::kLength},
                                                        {"angle", Dimension::kAngle}};
   std::vector<Bound> bounds;

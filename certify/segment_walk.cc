@@ -318,7 +318,7 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
     return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
   }
   const double s = task.box.mid().approx();
-  if (task.redirections < kFineness.size() && redirect(verdict, s, kFineness[task.redirections])) {
+  if (task.redirections < kFineness.size() && redirect(task.box, verdict, kFineness[task.redirections])) {
     return {Step::Kind::kRedirect, verdict};
   }
 
@@ -341,13 +341,15 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
   return give_up;
 }
 
-/// Takes the directions along which the near pairs are farthest apart at s. @returns whether any is another one.
-bool SegmentWalk::redirect(const BoxVerdict& verdict, double s, int largest) {
+/// Takes the directions along which the near pairs are farthest apart at the middle of a box. @returns whether any is another one.
+bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, int largest) {
   const PoseSampler& sampler = prover_.sampler();
-  const RigidPose pose = sampler.rigid_pose(segment_, s);
+  const auto pose_at = [&](const Dyadic& s) { return sampler.rigid_pose(segment_, s.approx()); };
+  const RigidPose pose = pose_at(box.mid());
+  const std::array<RigidPose, 2> ends{pose_at(box.lower()), pose_at(box.upper())};
   PairDirections turned = *directions_;
   for (const auto& near : verdict.near) {
-    const auto direction = prover_.bodies()->direction(sampler.model(), pose, near.pair, largest);
+    const auto direction = prover_.bodies()->direction(sampler.model(), pose, near.pair, largest, ends);
     if (direction) turned[near.pair] = *direction;
   }
   if (turned == *directions_) return false;

@@ -80,7 +80,7 @@ class SegmentWalk {
   [[nodiscard]] Step examine_motion(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_singular(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_bodies(const Task& task, const BoxVerdict& verdict);
-  [[nodiscard]] bool redirect(const BoxVerdict& verdict, double s, int largest);
+  [[nodiscard]] bool redirect(const DyadicBox& box, const BoxVerdict& verdict, int largest);
   [[nodiscard]] std::optional<Step> refute_contact(const Task& task, const BoxVerdict& verdict, std::size_t pair);
   [[nodiscard]] std::string pair_name(std::size_t pair) const;
   [[nodiscard]] double gap(std::size_t pair, double s) const;

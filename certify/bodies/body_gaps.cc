@@ -100,6 +100,21 @@ typename BodyGaps<I, Slope>::Turned BodyGaps<I, Slope>::turned(const std::array<
   return result;
 }
 
+/// Whether a pair is told apart in the platform's axes.
+template <class I, class Slope>
+bool BodyGaps<I, Slope>::is_in_platform(const CheckedPair<I>& pair, const Direction& direction) const {
+  return direction.in_platform && pair.kind != PairClass::kCablesObstacles && half_space(box_.bodies, pair) == nullptr;
+}
+
+/// How far deviations move a point of an obstacle in the axes of the platform.
+template <class I, class Slope>
+typename BodyGaps<I, Slope>::Upper BodyGaps<I, Slope>::obstacle_shift(const Vector3<I>& x) const {
+  if (box_.tolerance == nullptr) return Upper(0.0);
+  Vector3<I> from_p;
+  for (int k = 0; k < 3; ++k) from_p(k) = x(k) - box_.p_WP(k).range;
+  return position_ + turn_ * norm_above(from_p);
+}
+
 /// How far deviations move the ends of a cable, base and platform, in the axes chosen. What two cables with a common
 /// anchor share is counted at their other ends.
 template <class I, class Slope>
@@ -139,9 +154,14 @@ std::array<typename BodyGaps<I, Slope>::Projection, 2> BodyGaps<I, Slope>::cable
 
 template <class I, class Slope>
 std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::platform_points(const ConvexBody<I>& body,
-                                                                                         const Turned& u) const {
+                                                                                         const Turned& u,
+                                                                                         bool in_platform) const {
   std::vector<Projection> result;
   result.reserve(body.points.size());
+  if (in_platform) {
+    for (const Vector3<I>& x : body.points) result.push_back({Form(dot(u.u, x)), Upper(0.0)});
+    return result;
+  }
   for (const Vector3<I>& x : body.points) {
     Upper shift(0.0);
     if (box_.tolerance != nullptr) shift = position_ + turn_ * norm_above(x);
@@ -154,7 +174,8 @@ template <class I, class Slope>
 std::vector<typename BodyGaps<I, Slope>::Projection> BodyGaps<I, Slope>::first(const CheckedPair<I>& pair,
                                                                                const Turned& u,
                                                                                bool in_platform) const {
-  if (pair.kind == PairClass::kPlatformObstacles) return platform_points(box_.bodies.platform[pair.first], u);
+  if (pair.kind == PairClass::kPlatformObstacles)
+    return platform_points(box_.bodies.platform[pair.first], u, in_platform);
   const auto ends = cable(pair.first, u, in_platform, end_shifts(pair, pair.first, in_platform));
   return {ends[0], ends[1]};
 }
@@ -171,7 +192,7 @@ std::array<I, 3> BodyGaps<I, Slope>::vector(const CheckedPair<I>& pair, const Di
 
 template <class I, class Slope>
 double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& direction) const {
-  const bool in_platform = !is_of_obstacle(pair) && direction.in_platform;
+  const bool in_platform = is_in_platform(pair, direction);
   const std::array<I, 3> u = vector(pair, direction);
   std::array<I, 3> other;
   for (int k = 0; k < 3; ++k) {
@@ -192,8 +213,10 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& di
   I first, second, radii(0.0);
   if (pair.kind == PairClass::kPlatformObstacles) {
     const ConvexBody<I>& body = box_.bodies.platform[pair.first];
-    if (box_.tolerance != nullptr) lost += position_ + turn_ * (norm_above(body.centre) + above(body.reach));
-    first = of_origin + dot(other, body.centre);
+    if (box_.tolerance != nullptr && !in_platform) {
+      lost += position_ + turn_ * (norm_above(body.centre) + above(body.reach));
+    }
+    first = in_platform ? dot(u, body.centre) : of_origin + dot(other, body.centre);
     radii = body.reach;
   } else {
     first = cable_range(pair.first);
@@ -206,7 +229,9 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& di
     radii = radii + box_.bodies.cable_radius[pair.second];
   } else {
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
-    second = dot(u, body.centre);
+    const bool is_moving = in_platform && pair.kind == PairClass::kPlatformObstacles;
+    if (is_moving && box_.tolerance != nullptr) lost += obstacle_shift(body.centre) + turn_ * above(body.reach);
+    second = is_moving ? dot(other, body.centre) - of_origin : dot(u, body.centre);
     radii = radii + body.reach;
   }
   const I gap = (first - second) / euclidean_norm(u[0], u[1], u[2]) - radii - pair.clearance;
@@ -216,7 +241,7 @@ double BodyGaps<I, Slope>::rough(const CheckedPair<I>& pair, const Direction& di
 template <class I, class Slope>
 GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const Direction& direction) const {
   const auto* half = half_space(box_.bodies, pair);
-  const bool in_platform = !is_of_obstacle(pair) && direction.in_platform;
+  const bool in_platform = is_in_platform(pair, direction);
   const std::array<I, 3> u = vector(pair, direction);
   const Turned turned_u = turned(u, in_platform);
   const I inverse_norm = reciprocal(euclidean_norm(u[0], u[1], u[2]));
@@ -231,6 +256,12 @@ GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const D
     const auto ends = cable(pair.second, turned_u, in_platform, end_shifts(pair, pair.second, in_platform));
     second.assign(ends.begin(), ends.end());
     radii = radii + box_.bodies.cable_radius[pair.second];
+  } else if (in_platform && pair.kind == PairClass::kPlatformObstacles) {
+    const ConvexBody<I>& body = second_hull(box_.bodies, pair);
+    for (const Vector3<I>& x : body.points) {
+      second.push_back({dot(turned_u.other, x) - turned_u.of_origin, obstacle_shift(x)});
+    }
+    radii = radii + body.radius;
   } else {
     const ConvexBody<I>& body = second_hull(box_.bodies, pair);
     std::optional<I> farthest;

@@ -7,8 +7,8 @@
 // Each u·a_k is a centred form over the box. Any direction will do; a good one is proposed by floating point. In the
 // axes of the world
 //   u·(p + R x) = u·p + (Rᵀu)·x,   the ends of cable i: u·a_i and u·p + (Rᵀu)·b_i,
-// and in those of the platform its points stand still and the ends of cable i are (R u)·(a_i − p) and u·b_i. A cable's
-// points at the shares λ of its length lie between them. Proofs: docs/theory.md, "Bodies".
+// and in those of the platform its points stand still, a point x of an obstacle is at (R u)·(x − p), and the ends of
+// cable i are (R u)·(a_i − p) and u·b_i. A cable's points at the shares λ of its length lie between them. Proofs: docs/theory.md, "Bodies".
 #pragma once
 
 #include <array>
@@ -117,10 +117,13 @@ class BodyGaps {
 
   /// A direction as it is used for a pair: the normal of a half-space, else that given.
   [[nodiscard]] std::array<I, 3> vector(const CheckedPair<I>& pair, const Direction& direction) const;
+  [[nodiscard]] bool is_in_platform(const CheckedPair<I>& pair, const Direction& direction) const;
+  [[nodiscard]] Upper obstacle_shift(const Vector3<I>& x) const;
   [[nodiscard]] Turned turned(const std::array<I, 3>& u, bool in_platform) const;
   [[nodiscard]] std::array<Projection, 2> cable(std::size_t i, const Turned& u, bool in_platform,
                                                 const std::array<Upper, 2>& shifts) const;
-  [[nodiscard]] std::vector<Projection> platform_points(const ConvexBody<I>& body, const Turned& u) const;
+  [[nodiscard]] std::vector<Projection> platform_points(const ConvexBody<I>& body, const Turned& u,
+                                                        bool in_platform) const;
   [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t cable, bool in_platform) const;
   [[nodiscard]] std::vector<Projection> first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
   [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first) const;

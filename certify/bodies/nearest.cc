@@ -238,14 +238,40 @@ double BodySampler::gap(const Model<double>& model, const RigidPose& pose, std::
   return found.nearest.distance - found.needed;
 }
 
+namespace {
+
+/// How far apart along a unit vector.
+double gap_along(const Point& u, const std::vector<Point>& first, const std::vector<Point>& second) {
+  return u.dot(first[farthest(first, -u)]) - u.dot(second[farthest(second, u)]);
+}
+
+}  // namespace
+
+/// Whether a body of the platform and an obstacle stay farther apart along a vector of P than along the same of W.
+bool BodySampler::is_better_in_platform(const CheckedPair<double>& pair, const Point& along, const RigidPose& pose,
+                                        std::span<const RigidPose> around) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Point u = along.normalized();
+  const Point v = pose.q.toRotationMatrix().transpose() * u;
+  const std::vector<Point>& obstacle = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).points;
+  double of_world = kInfinity, of_platform = kInfinity;
+  for (const RigidPose& there : around) {
+    const std::vector<Point> body = carried(bodies_.platform[pair.first], there);
+    of_world = std::min(of_world, gap_along(u, body, obstacle));
+    of_platform = std::min(of_platform, gap_along(there.q.toRotationMatrix() * v, body, obstacle));
+  }
+  return of_platform > of_world;
+}
+
 std::optional<Direction> BodySampler::direction(const Model<double>& model, const RigidPose& pose, std::size_t n,
-                                                int largest) const {
+                                                int largest, std::span<const RigidPose> around) const {
   const Found found = find(model, pose, n);
   if (found.is_half_space) return Direction{};
   const CheckedPair<double>& pair = bodies_.pairs[n];
-  const bool in_platform = is_best_in_platform(pair);
   if (!(found.nearest.distance > 0)) return std::nullopt;
   Point along = found.nearest.apart;
+  const bool in_platform = is_best_in_platform(pair) || (pair.kind == PairClass::kPlatformObstacles &&
+                                                         is_better_in_platform(pair, along, pose, around));
   if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
   return rounded_direction(along, in_platform, largest);
 }

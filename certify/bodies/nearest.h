@@ -32,7 +32,8 @@ class BodySampler {
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet.
   [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose, std::size_t pair,
-                                                   int largest = Direction::kLargest) const;
+                                                   int largest = Direction::kLargest,
+                                                   std::span<const RigidPose> around = {}) const;
   /// One along which a pair may well be apart there, from its bodies' axes and middles: much cheaper.
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Its nearest points there.
@@ -61,6 +62,8 @@ class BodySampler {
  private:
   /// The second body of a pair, where it is one; else null.
   [[nodiscard]] const HalfSpace<double>* half_space(const CheckedPair<double>& pair) const;
+  [[nodiscard]] bool is_better_in_platform(const CheckedPair<double>& pair, const Vector3<double>& along,
+                                           const RigidPose& pose, std::span<const RigidPose> around) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 

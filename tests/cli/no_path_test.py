@@ -14,6 +14,7 @@ import tempfile
 from command_line import CASES, CHECK, ROBOT1, TAUT, InFolder, main, run, text_of
 
 APART = os.path.join(CASES, "maps", "robot1-sigma34-apart.yaml")
+BAR = os.path.join(CASES, "maps", "robot1-bar-apart.yaml")  # with bodies
 LETTERS = "ABCDEFGHIJKLabcdefghijklmnopqrstuvwx"
 
 
@@ -31,10 +32,10 @@ def sealed(certificate):
 
 
 @functools.cache
-def planned():
+def planned(case):
     """The certificate of the case; not to be altered in place."""
     with tempfile.TemporaryDirectory() as out:
-        said = run(TAUT, "plan", APART, "--out", out)
+        said = run(TAUT, "plan", case, "--out", out)
         assert said.returncode == 1, said.stdout + said.stderr
         return json.loads(text_of(os.path.join(out, "certificate.json")))
 
@@ -48,10 +49,12 @@ def subtree(tree, node):
     return node
 
 
-class NoPath(InFolder):
+class Altered(InFolder):
+    CASE = APART
+
     @property
     def certificate(self):
-        return planned()
+        return planned(self.CASE)
 
     def check(self, certificate, *arguments):
         file = self.write("mutant.json", json.dumps(certificate, sort_keys=True))
@@ -67,6 +70,13 @@ class NoPath(InFolder):
         mutant["map"]["tree"] = tree
         return sealed(mutant)
 
+    def changed(self, change):
+        mutant = copy.deepcopy(self.certificate)
+        change(mutant)
+        return sealed(mutant)
+
+
+class NoPath(Altered):
     # ---- taut plan ---------------------------------------------------------------------------------------------------
 
     def test_what_plan_says_and_writes(self):
@@ -220,11 +230,6 @@ class NoPath(InFolder):
         for text in ("", tree[:-1], tree + ".", tree.replace(".", "y", 1), "2" + tree + ".", tree.replace(".", " ", 1)):
             self.assert_outcome(self.with_tree(text), "malformed")
 
-    def changed(self, change):
-        mutant = copy.deepcopy(self.certificate)
-        change(mutant)
-        return sealed(mutant)
-
     def test_the_problem(self):
         """What was proved of one problem does not hold of others; and with the case, no other is accepted."""
         def waypoint(n, *to):
@@ -298,6 +303,149 @@ class NoPath(InFolder):
         self.assert_outcome(self.certificate, "unchecked", "--max-seconds", "0")
         path = self.write("path.csv", "phi[rad],theta[rad]\n0,1\n1,1\n")
         self.assert_outcome(self.certificate, "rejected", APART, "--path", path)
+
+
+class Contact(Altered):
+    """Where only an obstacle parts start and goal, a certificate of version 2."""
+    CASE = BAR
+
+    def contact_of(self, change):
+        """With what each leaf of contact says changed: `change` is given a copy of its reason."""
+        def apply(c):
+            reasons = []
+            for index in c["map"]["contact_of_leaf"]:
+                reasons.append(copy.deepcopy(c["map"]["contacts"][index]))
+                change(reasons[-1])
+            c["map"]["contacts"] = reasons
+            c["map"]["contact_of_leaf"] = list(range(len(reasons)))
+        return self.changed(apply)
+
+    def test_it_is_proved_and_drawn(self):
+        out = self.path("out")
+        said = run(TAUT, "plan", BAR, "--out", out)
+        self.assertEqual(said.returncode, 1, said.stdout + said.stderr)
+        self.assertIn("NO PATH EXISTS", said.stdout)
+        page = text_of(os.path.join(out, "report.html"))
+        for expected in ('class="wall-contact"', "two bodies are too near (proved)", "platform-obstacles"):
+            self.assertIn(expected, page)
+        checked = run(CHECK, os.path.join(out, "certificate.json"), BAR, "--expect", "no path")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    def test_without_the_obstacle_there_is_a_path(self):
+        text = text_of(BAR)
+        bodies = text[text.index("bodies:"):text.index("space:")]
+        free = self.write("free.yaml", text.replace(bodies, "").replace("expect: no path", "expect: proved"))
+        said = run(TAUT, "regress", free, "--out", self.path("free"))
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+
+    def test_it_is_accepted_as_it_is(self):
+        self.assertEqual(self.certificate["version"], 2)
+        self.assertGreater(len(self.certificate["map"]["contact_of_leaf"]), 10)
+        self.assert_outcome(self.certificate, "accepted", BAR)
+        self.assert_outcome(self.contact_of(lambda reason: None), "accepted", BAR)
+
+    def test_other_points_and_pairs(self):
+        def other_pair(reason):
+            reason["pair"] = 0 if reason["pair"] != 0 else 1
+
+        def ends(reason):
+            for points in reason["points"]:
+                points[1].reverse()
+
+        def far(reason):
+            reason["points"] = [[["1", "0"], ["1", "0"]]]
+
+        def same_four(reason):
+            reason["points"] = reason["points"][:1] * 4
+        self.assertGreater(len({tuple(map(str, c["points"])) for c in self.certificate["map"]["contacts"]}), 3)
+        for change in (other_pair, ends, far, same_four):
+            self.assert_outcome(self.contact_of(change), "rejected")
+
+    def test_permuted_reasons(self):
+        self.assert_outcome(self.changed(lambda c: c["map"]["contact_of_leaf"].reverse()), "rejected")
+        self.assert_outcome(self.changed(lambda c: c["map"]["contacts"].reverse()), "rejected")
+
+    def test_cells_without_their_reasons(self):
+        tree = self.certificate["map"]["tree"]
+        leaves = [n for n, c in enumerate(tree) if c == "y"]
+        for k in range(0, len(leaves), max(1, len(leaves) // 8)):
+            def opened(c, k=k):
+                c["map"]["tree"] = tree[:leaves[k]] + "." + tree[leaves[k] + 1:]
+                del c["map"]["contact_of_leaf"][k]
+            # One thin wall: most of its cells are needed. What is still parted is still true.
+            self.check(self.changed(opened))
+
+        def all_opened(c):
+            c["map"]["tree"] = tree.replace("y", ".")
+            c["map"]["contact_of_leaf"] = []
+        self.assert_outcome(self.changed(all_opened), "rejected")
+
+    def test_contact_where_there_is_none(self):
+        tree = self.certificate["map"]["tree"]
+        for n in [n for n, c in enumerate(tree) if c == "."][::max(1, tree.count(".") // 6)]:
+            def closed(c, n=n):
+                c["map"]["tree"] = tree[:n] + "y" + tree[n + 1:]
+                c["map"]["contact_of_leaf"].insert(tree[:n].count("y"), 0)
+            self.assert_outcome(self.changed(closed), "rejected")
+        self.assert_outcome(self.changed(
+            lambda c: c["map"].update(tree="y", contact_of_leaf=[0])), "rejected")
+
+    def test_the_problem(self):
+        """Thinner bodies, smaller clearances and other places are other problems, in which these do not touch."""
+        def bodies(change):
+            return self.changed(lambda c: change(c["problem"]["bodies"]))
+
+        def thinner(b):
+            b["obstacles"][0]["hull"]["radius_m"] = "0.0001"
+
+        def closer(b):
+            b["clearance_m"] = {name: "0" for name in b["clearance_m"]}
+            thinner(b)
+
+        def moved(b):
+            b["obstacles"][0]["at_m"] = ["0", "0", "0.1"]
+
+        def turned(b):
+            b["obstacles"][0]["rotation_rad"] = ["0.5", "0", "0"]
+
+        def shorter(b):
+            b["platform"][0]["hull"]["points_m"][1] = ["0", "0", "0.05"]
+        for change in (thinner, closer, moved, turned, shorter):
+            self.assert_outcome(bodies(change), "rejected")
+        thick = self.changed(lambda c: c["problem"]["bodies"]["obstacles"][0]["hull"].update(radius_m="0.0061"))
+        self.assertIn("another problem", self.assert_outcome(thick, "rejected", BAR).stdout)
+
+    def test_form(self):
+        def at_map(change):
+            return self.changed(lambda c: change(c["map"]))
+
+        def version(n):
+            return self.changed(lambda c: c.update(version=n))
+
+        def claim_of_less(c):
+            c["claim"] = planned(APART)["claim"]
+
+        def without_bodies(c):
+            del c["problem"]["bodies"]
+            c["version"] = 1
+            claim_of_less(c)
+        one = [["1", "0"], ["1", "0"]]
+        for mutant in (version(1), version(3), self.changed(claim_of_less), self.changed(without_bodies),
+                       at_map(lambda m: m.pop("contacts")), at_map(lambda m: m.pop("contact_of_leaf")),
+                       at_map(lambda m: m["contact_of_leaf"].pop()), at_map(lambda m: m["contact_of_leaf"].append(0)),
+                       at_map(lambda m: m["contact_of_leaf"].__setitem__(0, len(m["contacts"]))),
+                       at_map(lambda m: m["contact_of_leaf"].__setitem__(0, -1)),
+                       at_map(lambda m: m.update(tree=m["tree"].replace("y", "z"))),
+                       self.contact_of(lambda r: r.update(pair=10 ** 6)), self.contact_of(lambda r: r.update(pair=-1)),
+                       self.contact_of(lambda r: r.update(points=[])),
+                       self.contact_of(lambda r: r.update(points=[one] * 2)),
+                       self.contact_of(lambda r: r.update(points=[one] * 5)),
+                       self.contact_of(lambda r: r.update(points=[[["1", "0"]]])),
+                       self.contact_of(lambda r: r.update(points=[[["1", "1"], ["1", "0"]]])),
+                       self.contact_of(lambda r: r.update(points=[[["2", "-1"], ["1", "0"]]])),
+                       self.contact_of(lambda r: r.update(points=[[["1", "0", "0"], ["1", "0"]]])),
+                       self.contact_of(lambda r: r.pop("pair")), self.contact_of(lambda r: r.update(extra=1))):
+            self.assert_outcome(mutant, "malformed")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "map/subdivision.h"
+#include "tests/map/bodies.h"
 #include "tests/map/problems.h"
 #include "tests/map/random_map.h"
 
@@ -24,7 +25,9 @@ class CellOracle {
         problem_(problem),
         poses_(problem_, space_),
         machine_(campaign::make_machine<BigFloat>(problem)),
-        tolerances_(campaign::make_tolerances<BigFloat>(problem)) {}
+        tolerances_(campaign::make_tolerances<BigFloat>(problem)) {
+    if (problem.bodies) bodies_.emplace(problem);
+  }
 
   /// Slacks of all margins; all negative where J is singular.
   [[nodiscard]] std::vector<BigFloat> slacks(const campaign::Machine<BigFloat>& machine,
@@ -57,11 +60,16 @@ class CellOracle {
       case CellKind::kUndecided: break;
       case CellKind::kInside:
         EXPECT_TRUE(is_feasible) << t[0] << ", " << t[1];
+        expect_apart(machine_, pose);
         check_deviation(random, pose);
         break;
       case CellKind::kLength:
       case CellKind::kTension: EXPECT_FALSE(slack[node.reason] > zero) << t[0] << ", " << t[1]; break;
       case CellKind::kUnbalanced: EXPECT_FALSE(is_feasible) << t[0] << ", " << t[1]; break;
+      case CellKind::kContact:
+        EXPECT_LT(bodies_->slack(machine_, pose, node.reason).to_double(), 1e-12)
+            << t[0] << ", " << t[1] << ": " << bodies_->name(node.reason);
+        break;
     }
     if (node.regular) {
       EXPECT_TRUE(abs(campaign::statics(machine_, pose).determinant) > zero);
@@ -84,6 +92,16 @@ class CellOracle {
       }
       for (double& x : block) x *= 0.999999 / std::sqrt(square);
     });
+    // Anchors that are typed as one point move as one.
+    const auto move_as_one = [&](const auto& anchors, auto& by) {
+      for (std::size_t i = 0; i < kCables; ++i) {
+        by[i] = by[static_cast<std::size_t>(std::ranges::find(anchors, anchors[i]) - anchors.begin())];
+      }
+    };
+    if (bodies_) {
+      move_as_one(problem_.robot.base_anchors_m, deviation.a);
+      move_as_one(problem_.robot.platform_anchors_m, deviation.b);
+    }
     const auto machine = campaign::deviate(machine_, tolerances_, deviation);
     campaign::RigidPose<BigFloat> pose = commanded;
     if (tolerances_.length_controlled) {
@@ -98,6 +116,13 @@ class CellOracle {
     pose.p = pose.p + campaign::scaled(tolerances_.position, deviation.position);
     pose.r = campaign::turn(campaign::scaled(tolerances_.turn, deviation.turn)) * pose.r;
     for (const BigFloat& x : slacks(machine, pose)) EXPECT_TRUE(x > BigFloat(0.0));
+    expect_apart(machine, pose);
+  }
+
+  void expect_apart(const campaign::Machine<BigFloat>& machine, const campaign::RigidPose<BigFloat>& pose) const {
+    for (std::size_t n = 0; bodies_ && n < bodies_->pairs(); ++n) {
+      EXPECT_TRUE(bodies_->slack(machine, pose, n) > BigFloat(0.0)) << bodies_->name(n);
+    }
   }
 
   MapSpace space_;
@@ -105,6 +130,7 @@ class CellOracle {
   ExactPoses poses_;
   campaign::Machine<BigFloat> machine_;
   campaign::Tolerances<BigFloat> tolerances_;
+  std::optional<BodiesOracle> bodies_;
 };
 
 /// Every kind of cell that `kinds` names is among those checked, as many of each as there are tries for it.
@@ -161,6 +187,45 @@ TEST(CellProof, AgreesWithTheOracleForDeviations) {
 TEST(CellProof, AgreesWithTheOracleInThreeCoordinates) {
   check_cells(robot1_sigma_free(), {.undecided_share = 0.4, .most_cells = 200'000}, {kInside, kTension, kUnbalanced},
               150);
+}
+
+TEST(CellProof, AgreesWithTheOracleForBodies) {
+  check_cells(with_bodies(robot1_slice()), {.undecided_share = 0.1}, {kInside, kTension, kUnbalanced, kContact});
+  check_cells(with_bodies(robot1_with_items(true)), {.undecided_share = 0.2}, {kInside, kContact}, 100);
+  check_cells(with_bodies(robot1_sigma_free()), {.undecided_share = 0.5, .most_cells = 150'000}, {kInside, kContact},
+              150);
+}
+
+TEST(CellProof, AgreesWithTheOracleForBodiesOfMachinesThatDeviate) {
+  for (const bool length_controlled : {false, true}) {
+    check_cells(with_bodies(robot1_with_tolerances(length_controlled)),
+                {.least_width = 1.0 / 256, .undecided_share = 0.2}, {kInside, kContact}, 100);
+  }
+}
+
+/// Bodies that overlap deeply are told in large cells, though no two of their points stay together there: a stick that
+/// reaches far into a box, both without thickness and clearance.
+TEST(CellProof, TellsDeepContactInLargeCells) {
+  Problem problem = robot1_slice();
+  BodiesText bodies;
+  bodies.platform = {box_body("stick", {"0.01", "0.01", "0.1"}, {"0", "0", "0.1"})};
+  bodies.obstacles = {box_body("block", {"0.2", "0.2", "0.1"}, {"0", "0", "0.45"})};
+  bodies.clearance_m[0] = "0";
+  problem.bodies = bodies;
+  validate(problem);
+  const CellMap map = subdivide(problem, make_map_space(problem.space), {.undecided_share = 0.03});
+  double largest = 0;
+  map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
+    if (map.nodes[node].kind == kContact) largest = std::max(largest, cell.volume());
+  });
+  EXPECT_GT(largest, 1.0 / 300);
+  EXPECT_LT(map.leaves(), 40'000U);
+}
+
+TEST(CellProof, RefusesMeshes) {
+  Problem problem = with_bodies(robot1_slice());
+  problem.bodies->obstacles.push_back({.name = "part", .shape = MeshText{"part.stl", std::string(64, '0'), "1"}});
+  EXPECT_THROW((void)make_cell_proof(problem, make_map_space(problem.space)), FieldError);
 }
 
 /// Cells that hold a singular pose are never inside, and never said to be regular.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/map/bodies.h"
 #include "tests/map/problems.h"
 
 namespace taut::testing {
@@ -39,6 +40,17 @@ TEST(MapParts, MakeTheMapOfTheWholeWhateverStepsTheyAreDividedIn) {
   }
   const SubdivisionOptions few{.least_width = kWidth, .undecided_share = 0, .most_cells = 10'000};
   EXPECT_TRUE(are_same(subdivide(problem, space, few), parts.assemble(trees, few)));
+}
+
+/// Reasons are numbers of pairs, and which pairs are apart is known by other bits than margins are.
+TEST(MapParts, MakeTheMapOfTheWholeWithBodies) {
+  const Problem problem = with_bodies(robot1_slice());
+  const MapSpace space = make_map_space(problem.space);
+  const MapParts parts(problem, space, kWidth);
+  const SubdivisionOptions options{.least_width = kWidth, .undecided_share = 0};
+  const CellMap map = parts.assemble(trees_of(parts, 13, 2), options);
+  EXPECT_TRUE(are_same(subdivide(problem, space, options), map));
+  EXPECT_GT(map.share[static_cast<std::size_t>(CellKind::kContact)], 0.02);
 }
 
 TEST(MapParts, KnowHowFarTheyAreEnough) {
@@ -109,13 +121,13 @@ TEST(MapParts, RefuseATreeThatIsNone) {
   for (std::size_t size = 0; size < tree.size(); ++size) refused(tree.substr(0, size));
   refused(tree + tree[0]);
   refused(tree + std::string(1, '\0'));
-  refused("\x80" + tree.substr(1));
-  refused("\x17" + tree.substr(1));                          // halved along the third of two axes
+  refused("\x0F" + tree.substr(1));                          // no kind
+  refused("\x28" + tree.substr(1));                          // halved along the third of two axes
   refused(std::string(1, '\0'));                             // undecided, and wide enough to be halved
-  refused(std::string(1, '\x41') + std::string(1, '\0'));    // a reason that is 0
-  refused(std::string("\x0B"));                              // inside, with an axis
-  refused(std::string("\x26\0\0\0\0", 5));                   // not judged, but regular
-  refused(std::string(40, '\x07') + std::string(41, '\1'));  // halved below the least width
+  refused(std::string(1, '\x81') + std::string(2, '\0'));    // a reason that is 0
+  refused(std::string("\x11"));                              // inside, with an axis
+  refused('\x47' + std::string(8, '\0'));                    // not judged, but regular
+  refused(std::string(40, '\x08') + std::string(41, '\1'));  // halved below the least width
   const auto level = static_cast<std::size_t>(parts.cell(part).halvings());
   EXPECT_EQ(parts.extent(part, "\1").decided[level], parts.cell(part).volume());  // inside as a whole
   EXPECT_EQ(parts.extent(part, parts.start(part)).first_open, level);

@@ -8,12 +8,15 @@
 #include <atomic>
 
 #include "map/subdivision.h"
+#include "tests/map/bodies.h"
 #include "tests/map/problems.h"
 
 namespace taut::testing {
 namespace {
 
-constexpr int kColumns = 2000, kRows = 1000;
+struct Raster {
+  int columns, rows;
+};
 
 /// The least slack of any cable, over half the range between the limits; negative where J is singular.
 template <class S>
@@ -49,18 +52,20 @@ CellKind kind_at(const CellMap& map, const std::array<double, 2>& t) {
 }
 
 struct Counts {
-  std::atomic<int> proved{0}, in_200_bits{0}, inside{0};
+  std::atomic<int> proved{0}, in_200_bits{0}, inside{0}, contact{0};
 };
 
-void check(const Problem& problem, const CellMap& map, int column, Counts& counts) {
+void check(const Problem& problem, const CellMap& map, const Raster& raster, int column, Counts& counts) {
   constexpr double kNear = 1e-3;
   constexpr double kPi = 3.14159265358979323846;
   const ExactPoses poses(problem, map.space);
   const campaign::Machine<double> machine = campaign::make_machine<double>(problem);
   const PrecisionScope precision(oracle::kBits);
   const campaign::Machine<BigFloat> exact_machine = campaign::make_machine<BigFloat>(problem);
-  for (int row = 0; row < kRows; ++row) {
-    const std::array<double, 2> t = {(column + 0.5) / kColumns, (row + 0.5) / kRows};
+  std::optional<BodiesOracle> bodies;
+  if (problem.bodies) bodies.emplace(problem);
+  for (int row = 0; row < raster.rows; ++row) {
+    const std::array<double, 2> t = {(column + 0.5) / raster.columns, (row + 0.5) / raster.rows};
     const CellKind kind = kind_at(map, t);
     const campaign::RigidPose<double> pose{{0, 0, 0.35},
                                            campaign::orientation((2 * t[0] - 1) * kPi, t[1] * kPi, 34 * kPi / 180)};
@@ -69,6 +74,17 @@ void check(const Problem& problem, const CellMap& map, int column, Counts& count
     if (!(std::abs(slack) > kNear)) {
       ++counts.in_200_bits;
       is_feasible = least_slack(problem, exact_machine, poses.at({t[0], t[1]})) > BigFloat(0.0);
+    }
+    if (bodies && is_feasible) {
+      constexpr double kNearBodies = 1e-7;  // [m]
+      const double clear = bodies->least_slack(machine, pose);
+      is_feasible = clear > 0;
+      if (!(std::abs(clear) > kNearBodies)) {
+        ++counts.in_200_bits;
+        // Where hulls overlap that have no thickness, the nearest points are found to so much.
+        is_feasible = bodies->least_slack(exact_machine, poses.at({t[0], t[1]})) > BigFloat(1e-12);
+      }
+      counts.contact += is_feasible ? 0 : 1;
     }
     counts.inside += is_feasible ? 1 : 0;
     if (kind == CellKind::kUndecided) continue;
@@ -81,9 +97,10 @@ TEST(Raster, ContradictsNoCellOfRobot1sSlice) {
   const Problem problem = robot1_slice();
   const CellMap map =
       subdivide(problem, make_map_space(problem.space), {.least_width = 1.0 / 8192, .undecided_share = 0.0005});
+  constexpr Raster kRaster = {2000, 1000};
   Counts counts;
-  tbb::parallel_for(0, kColumns, [&](int column) { check(problem, map, column, counts); });
-  const double all = static_cast<double>(kColumns) * kRows;
+  tbb::parallel_for(0, kRaster.columns, [&](int column) { check(problem, map, kRaster, column, counts); });
+  const double all = static_cast<double>(kRaster.columns) * kRaster.rows;
   RecordProperty("proved", std::to_string(counts.proved));
   RecordProperty("in_200_bits", std::to_string(counts.in_200_bits));
   RecordProperty("inside", std::to_string(counts.inside));
@@ -92,6 +109,23 @@ TEST(Raster, ContradictsNoCellOfRobot1sSlice) {
   EXPECT_GT(counts.proved, 0.998 * all);
   EXPECT_GT(counts.in_200_bits, 1000);
   EXPECT_NEAR(counts.inside / all, 0.4955, 0.0005);
+}
+
+/// Bodies touch in much of what limits allow.
+TEST(Raster, ContradictsNoCellWithBodies) {
+  const Problem problem = with_bodies(robot1_slice());
+  const CellMap map =
+      subdivide(problem, make_map_space(problem.space), {.least_width = 1.0 / 4096, .undecided_share = 0.004});
+  constexpr Raster kRaster = {700, 350};
+  Counts counts;
+  tbb::parallel_for(0, kRaster.columns, [&](int column) { check(problem, map, kRaster, column, counts); });
+  const double all = static_cast<double>(kRaster.columns) * kRaster.rows;
+  std::printf("%zu cells; of %.0f poses %d in proved cells, %d judged in 200 bits, %d feasible, %d in contact alone\n",
+              map.leaves(), all, counts.proved.load(), counts.in_200_bits.load(), counts.inside.load(),
+              counts.contact.load());
+  EXPECT_GT(counts.proved, 0.99 * all);
+  EXPECT_GT(counts.contact, 0.05 * all);
+  EXPECT_GT(counts.inside, 0.05 * all);
 }
 
 }  // namespace

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Problems with bodies whose spaces are mapped, and distances of their bodies in 200 bits by another route.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checker/format/exact.h"
+#include "checker/format/parts.h"
+#include "tests/checker/bodies_oracle.h"
+#include "tests/map/problems.h"
+
+namespace taut::testing {
+
+inline BodyText box_body(const std::string& name, const std::array<std::string, 3>& half, PointText place) {
+  HullText hull;
+  for (unsigned k = 0; k < 8; ++k) {
+    const auto side = [&](unsigned axis) { return ((k >> axis & 1U) != 0 ? "" : "-") + half[axis]; };
+    hull.points_m.push_back({side(0), side(1), side(2)});
+  }
+  return {.name = name, .at_m = std::move(place), .shape = hull};
+}
+
+inline BodyText capsule(const std::string& name, PointText from, PointText to, const std::string& radius) {
+  return {.name = name, .shape = HullText{{std::move(from), std::move(to)}, radius}};
+}
+
+/// Robot 1, which turns a stick and a box, beside two bars, a turned plate, a ball and a floor. Two of its pairs have no
+/// thickness at all.
+inline Problem with_bodies(Problem problem) {
+  BodiesText bodies;
+  bodies.platform = {capsule("stick", {"0", "0", "0"}, {"0", "0", "0.15"}, "0.006"),
+                     box_body("box", {"0.05", "0.03", "0.01"}, {"0.02", "0", "0.05"})};
+  bodies.obstacles = {capsule("bar", {"0.02", "0.16", "0.4"}, {"-0.14", "0.02", "0.43"}, "0.01"),
+                      box_body("plate", {"0.004", "0.06", "0.05"}, {"0.1", "-0.03", "0.4"}),
+                      capsule("post", {"-0.19", "-0.19", "0.1"}, {"-0.17", "-0.17", "0.5"}, "0.012"),
+                      {.name = "ball", .shape = HullText{{{"0.05", "-0.1", "0.45"}}, "0.02"}},
+                      {.name = "floor", .at_m = {"0", "0", "0.485"}, .shape = HalfSpaceText{{"0", "0.1", "-2"}}}};
+  bodies.obstacles[1].rotation_rad = {"0.2", "0", "0.5"};
+  bodies.obstacles[1].clearance_m = "0";
+  bodies.cables.diameter_m.fill("0.002");
+  bodies.cables.free_ends_m.fill({"0.03", "0.04"});
+  bodies.clearance_m = {"0.004", "0.003", "0.001", "0.002"};
+  bodies.pair_clearances_m = {{{"box", "plate"}, "0"}};
+  problem.bodies = bodies;
+  validate(problem);
+  return problem;
+}
+
+/// Distances of pairs of a problem's bodies.
+class BodiesOracle {
+ public:
+  explicit BodiesOracle(const Problem& problem) {
+    const nlohmann::json text = to_json(problem);
+    bodies_ = checker::read_problem(checker::Cursor(text, "problem")).bodies.value();
+    for (const auto& [from, to] :
+         {std::pair{&problem.bodies->platform, &platform_}, std::pair{&problem.bodies->obstacles, &obstacles_}}) {
+      const auto& read = to == &platform_ ? bodies_.platform : bodies_.obstacles;
+      for (std::size_t n = 0; n < from->size(); ++n) {
+        checker::TestBody body{read[n], {}};
+        for (std::size_t k = 0; k < 3; ++k) {
+          body.angles[k] = checker::parse_decimal((*from)[n].rotation_rad[k]).value();
+        }
+        to->push_back(std::move(body));
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t pairs() const { return bodies_.pairs.size(); }
+  [[nodiscard]] const std::string& name(std::size_t pair) const { return bodies_.pairs[pair].name; }
+
+  /// How much farther than its clearance a pair is apart, at least, and next to it; where hulls meet, minus radii and
+  /// clearance. @pre for BigFloat: in PrecisionScope(oracle::kBits)
+  template <class S>
+  [[nodiscard]] S slack(const campaign::Machine<S>& machine, const campaign::RigidPose<S>& pose,
+                        std::size_t pair) const {
+    const checker::CheckedPair& of = bodies_.pairs[pair];
+    const auto here = campaign::bodies_at<S>(bodies_, platform_, obstacles_, of, machine, pose);
+    const S clearance = campaign::exact<S>(of.clearance);
+    if constexpr (std::is_same_v<S, double>) {
+      return campaign::distance_at(here, here) - clearance;
+    } else {
+      campaign::Machine<double> rough;
+      campaign::RigidPose<double> rough_pose;
+      for (std::size_t k = 0; k < 3; ++k) {
+        rough_pose.p[k] = pose.p[k].to_double();
+        for (std::size_t l = 0; l < 3; ++l) rough_pose.r[k][l] = pose.r[k][l].to_double();
+        for (std::size_t i = 0; i < kCables; ++i) {
+          rough.a[i][k] = machine.a[i][k].to_double();
+          rough.b[i][k] = machine.b[i][k].to_double();
+        }
+      }
+      const auto search = campaign::bodies_at<double>(bodies_, platform_, obstacles_, of, rough, rough_pose);
+      return campaign::distance_at(here, search) - clearance;
+    }
+  }
+
+  /// The least of all pairs.
+  template <class S>
+  [[nodiscard]] S least_slack(const campaign::Machine<S>& machine, const campaign::RigidPose<S>& pose) const {
+    S least = slack(machine, pose, 0);
+    for (std::size_t n = 1; n < pairs(); ++n) {
+      const S here = slack(machine, pose, n);
+      if (here < least) least = here;
+    }
+    return least;
+  }
+
+ private:
+  checker::Bodies bodies_;
+  std::vector<checker::TestBody> platform_, obstacles_;
+};
+
+}  // namespace taut::testing
