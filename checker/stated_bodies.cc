@@ -64,11 +64,10 @@ std::string stated_bodies(const std::string& certificate) {
   constexpr std::size_t kCableCount = 6, kCablePairs = 15;
   const std::size_t platform = bodies.at("platform").size();
   const std::size_t obstacles = bodies.at("obstacles").size();
-  const std::array<std::pair<const char*, std::size_t>, 4> classes = {
-      {{"platform-obstacles", platform * obstacles},
-       {"cables-obstacles", kCableCount * obstacles},
-       {"cables-cables", kCablePairs},
-       {"cables-platform", kCableCount * platform}}};
+  const std::array<std::pair<const char*, std::size_t>, 4> classes = {{{"platform-obstacles", platform * obstacles},
+                                                                       {"cables-obstacles", kCableCount * obstacles},
+                                                                       {"cables-cables", kCablePairs},
+                                                                       {"cables-platform", kCableCount * platform}}};
   std::string checked, others;
   for (const auto& [name, pairs] : classes) {
     const std::string text = class_text(bodies, name, pairs);

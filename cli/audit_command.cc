@@ -28,6 +28,7 @@
 #include "cli/verdict_output.h"
 #include "path_io/controller_csv.h"
 #include "reports/page/html_report.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -344,6 +345,7 @@ void print_result_json(const Audit& result, const Case& the_case, const PathSour
   const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
   nlohmann::json object = summary(result, source, checked);
   object["load"] = to_json(load_statement(the_case));
+  object["bodies"] = stated_bodies_json(the_case.bodies);
   object["warnings"] = the_case.warnings;
   object["out"] = files.out.string();
   object["headroom"] = is_unchecked ? nlohmann::json() : headroom_json(result.headroom);

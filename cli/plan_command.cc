@@ -29,6 +29,7 @@
 #include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/html_report.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -189,6 +190,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"as_items", to_json(outcome.planned.as_items)},
                            {"growth", growth_json(outcome.planned.growth)},
                            {"load", to_json(load_statement(the_case))},
+                           {"bodies", stated_bodies_json(the_case.bodies)},
                            {"warnings", the_case.warnings},
                            {"out", outcome.out.string()}};
   result.update(result_json(checked));

@@ -15,10 +15,10 @@ struct BodyShape {
   bool is_obstacle = false;             ///< in W; else on the platform, and in P
   std::vector<Eigen::Vector3d> points;  ///< the body is all within the radius of their convex hull [m]
   double radius = 0;
-  bool is_half_space = false;           ///< { normal·x <= offset }, in place of both
-  Eigen::Vector3d normal{0, 0, 1};      ///< of length 1
-  double offset = 0;                    ///< [m]
-  const ShownBody* mesh = nullptr;      ///< in place of all: triangles, as the illustration has them
+  bool is_half_space = false;       ///< { normal·x <= offset }, in place of both
+  Eigen::Vector3d normal{0, 0, 1};  ///< of length 1
+  double offset = 0;                ///< [m]
+  const ShownBody* mesh = nullptr;  ///< in place of all: triangles, as the illustration has them
 
   /// The corners of a box that contains all of it, in its own axes; none of a half-space.
   [[nodiscard]] std::vector<Eigen::Vector3d> box() const;

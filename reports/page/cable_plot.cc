@@ -126,11 +126,11 @@ Html distance_plot(const ReportContext& scene, const BrokenLimit& broken) {
   const double right = kWidth - kRight;
   const double bottom = kHeight - kBottom;
   const double asked = frame.y(broken.bodies->clearance);
-  const std::string what =
-      fmt::format("Distance of {} along the move [{}]", scene.bodies->name(pair), unit.name());
+  const std::string what = fmt::format("Distance of {} along the move [{}]", scene.bodies->name(pair), unit.name());
   const Html zero = broken.bodies->clearance > 0 ? limit(frame, 0, "0") : Html();
   return html(
-      "<figure class=\"cable-plot\"><figcaption>{}, sampled; below 0: how deep in each other, about; shaded: nearer than "
+      "<figure class=\"cable-plot\"><figcaption>{}, sampled; below 0: how deep in each other, about; shaded: nearer "
+      "than "
       "the clearance; dashed: where that is broken</figcaption><svg viewBox=\"0 0 {} {}\" role=\"img\" "
       "aria-label=\"{}\"><rect class=\"forbidden\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>"
       "<path class=\"band\" d=\"{}\"/>{}{}<path class=\"mark\" d=\"M{:.1f} {:.1f}V{:.1f}\"/><rect class=\"frame\" "

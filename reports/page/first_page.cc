@@ -68,11 +68,11 @@ Html collisions(const ReportContext& scene) {
   const std::optional<BodiesText>& bodies = scene.certificate.problem.bodies;
   if (!bodies || pairs(*bodies).empty()) return html("Collisions: <b>not checked</b>");
   const std::string count = plural(pairs(*bodies).size(), "pair");
-  const Html checked = scene.verdict == "proved"
-                           ? html("Collisions: {} of bodies <b>✓</b>", count)
-                           : html("Collisions: {} of bodies looked at", count);
+  const Html checked = scene.verdict == "proved" ? html("Collisions: {} of bodies <b>✓</b>", count)
+                                                 : html("Collisions: {} of bodies looked at", count);
   std::string others;
-  for (const PairClass kind : unchecked_classes(*bodies)) others += (others.empty() ? "" : ", ") + std::string(words_of(kind));
+  for (const PairClass kind : unchecked_classes(*bodies))
+    others += (others.empty() ? "" : ", ") + std::string(words_of(kind));
   return others.empty() ? checked : checked + html("; <b>not checked</b>: {}", others);
 }
 

@@ -312,7 +312,8 @@ void Picture::nearest_bodies() {
   const Point2 b = place(nearest[0].at[1]);
   front_ += line("apart-casing", a, b) + line("apart", a, b);
   for (const Point2& end : {a, b}) {
-    front_ += html("<circle class=\"apart-end\" cx=\"{}\" cy=\"{}\" r=\"3\"/>", coordinate(end.x()), coordinate(end.y()));
+    front_ +=
+        html("<circle class=\"apart-end\" cx=\"{}\" cy=\"{}\" r=\"3\"/>", coordinate(end.x()), coordinate(end.y()));
     labels_.keep_clear({end, {4, 4}});
   }
 }
@@ -606,8 +607,10 @@ Html bodies_note(const ReportContext& scene) {
   if (bodies.platform.empty() && bodies.obstacles.empty()) return {};
   constexpr std::size_t kMostNames = 6;
   Html text;
-  if (!bodies.obstacles.empty()) text += html("Grey-blue: obstacles, <bdi>{}</bdi>. ", body_names(bodies.obstacles, kMostNames));
-  if (!bodies.platform.empty()) text += html("Green: on the platform, <bdi>{}</bdi>. ", body_names(bodies.platform, kMostNames));
+  if (!bodies.obstacles.empty())
+    text += html("Grey-blue: obstacles, <bdi>{}</bdi>. ", body_names(bodies.obstacles, kMostNames));
+  if (!bodies.platform.empty())
+    text += html("Green: on the platform, <bdi>{}</bdi>. ", body_names(bodies.platform, kMostNames));
   const bool has_line = !scene.distances.least.empty() && !found_no_path(scene.certificate);
   return html("<p class=\"note\">{}They are <b>checked</b>, as far as pairs are.{}</p>\n", text,
               has_line ? " Between two dots: the pair that is nearest to its clearance." : "");

@@ -70,8 +70,9 @@ std::optional<double> floor_height(const MachineView& view, const std::vector<Bo
   std::optional<double> height;
   for (const BodyShape& body : bodies) {
     if (!body.is_half_space || body.normal.dot(view.up) < 1 - 1e-9) continue;
-    const bool is_below = std::ranges::all_of(
-        view.swept, [&](const Vector3d& p) { return body.normal.dot(p) > body.offset - 1e-6 * std::abs(body.offset) - 1e-9; });
+    const bool is_below = std::ranges::all_of(view.swept, [&](const Vector3d& p) {
+      return body.normal.dot(p) > body.offset - 1e-6 * std::abs(body.offset) - 1e-9;
+    });
     if (is_below && (!height || body.offset > *height)) height = body.offset;
   }
   return height;

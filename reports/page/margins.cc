@@ -38,8 +38,8 @@ MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t 
     keep_least(row.tension, &Margins::tension_N);
     keep_least(row.length, &Margins::length_m);
     keep_least(row.scale, &Margins::wrench_scale);
-    if (margins.clearance_m && (row.clearance == nullptr || nearest_double(*margins.clearance_m) <
-                                                                nearest_double(*row.clearance->clearance_m))) {
+    if (margins.clearance_m && (row.clearance == nullptr ||
+                                nearest_double(*margins.clearance_m) < nearest_double(*row.clearance->clearance_m))) {
       row.clearance = &margins;
     }
   }

@@ -108,14 +108,15 @@ Html nearest_table(const ReportContext& scene) {
                     html("{}", with_minus_signs(unit.nearest(left, 3))),
                     html("{}", place_text(scene, scene.samples[along.nearest_at[n]].position))});
   }
-  return table(html("The pairs that come nearest to their clearance, in floating point; below 0: about how deep they are "
-                    "in each other"),
-               {{html("Bodies")},
-                {html("Apart [{}]", unit.name()), true},
-                {html("Clearance [{}]", unit.name()), true},
-                {html("Left [{}]", unit.name()), true},
-                {html("Where")}},
-               rows);
+  return table(
+      html("The pairs that come nearest to their clearance, in floating point; below 0: about how deep they are "
+           "in each other"),
+      {{html("Bodies")},
+       {html("Apart [{}]", unit.name()), true},
+       {html("Clearance [{}]", unit.name()), true},
+       {html("Left [{}]", unit.name()), true},
+       {html("Where")}},
+      rows);
 }
 
 Html clearances(const ReportContext& scene) {

@@ -460,8 +460,11 @@ json nearest_bodies(const DistancesAlong& along) {
       second[c].push_back(nearest.at[1](static_cast<Eigen::Index>(c)));
     }
   }
-  return {{"pair", numbers(pair)},         {"distance", numbers(distance)},  {"clearance", numbers(clearance)},
-          {"first", json_columns(first)}, {"second", json_columns(second)}};
+  return {{"pair", numbers(pair)},
+          {"distance", numbers(distance)},
+          {"clearance", numbers(clearance)},
+          {"first", json_columns(first)},
+          {"second", json_columns(second)}};
 }
 
 /// Shapes, cables as bodies, and distances at the samples; null where the problem has no bodies.
@@ -475,7 +478,8 @@ json bodies(const ReportContext& scene) {
     for (const BodyShape& body : body_shapes(scene)) shapes.push_back(shape(body, view));
   }
   json names = json::object();
-  for (const BodyDistance& nearest : along.least) names[std::to_string(nearest.pair)] = scene.bodies->name(nearest.pair);
+  for (const BodyDistance& nearest : along.least)
+    names[std::to_string(nearest.pair)] = scene.bodies->name(nearest.pair);
   json pairs = json::array();
   for (std::size_t n = 0; n < along.nearest.size(); ++n) {
     pairs.push_back({{"name", scene.bodies->name(along.nearest[n])},
@@ -485,12 +489,9 @@ json bodies(const ReportContext& scene) {
   const auto& checked = scene.certificate.problem.bodies->clearance_m;
   json free_ends = json::array();
   for (const auto& ends : model.cable_free) free_ends.push_back(numbers(ends));
-  return {{"shapes", shapes},
-          {"cable_radius", numbers(model.cable_radius)},
-          {"free_ends", free_ends},
-          {"has_cables", checked[1] || checked[2] || checked[3]},
-          {"names", names},
-          {"nearest", nearest_bodies(along)},
+  return {{"shapes", shapes},       {"cable_radius", numbers(model.cable_radius)},
+          {"free_ends", free_ends}, {"has_cables", checked[1] || checked[2] || checked[3]},
+          {"names", names},         {"nearest", nearest_bodies(along)},
           {"pairs", pairs}};
 }
 
@@ -513,7 +514,9 @@ json witness(const ReportContext& scene) {
   const bool singular = violation.singular;
   return {{"position", number(position(violation.at))},
           {"to", singular ? number(position(violation.to)) : json()},
-          {"kind", singular ? "singular" : violation.contact ? "contact" : name(violation.margin.kind)},
+          {"kind", singular            ? "singular"
+                   : violation.contact ? "contact"
+                                       : name(violation.margin.kind)},
           {"cable", singular || violation.contact ? 0 : violation.margin.cable + 1}};
 }
 

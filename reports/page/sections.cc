@@ -7,9 +7,9 @@
 #include "reports/page/table_sizes.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/around_items.h"
-#include "reports/summary/headroom_summary.h"
 #include "reports/summary/bodies_statement.h"
 #include "reports/summary/broken_limits.h"
+#include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/numbers.h"
 #include "reports/summary/scope.h"
@@ -312,10 +312,10 @@ Html bodies_tables(const Problem& problem) {
   Html notes;
   for (const std::string& note : statement.notes) notes += html(" {}.", note);
   return html("<h3>Bodies that may not touch</h3>\n<p>{} {}{}</p>\n", statement.checked, statement.cables, notes) +
-         (rows.empty() ? Html()
-                       : folded(rows.size() > kLongTable, html("{}", fmt::format("{} bodies", rows.size())),
-                                table(html("Bodies, as the case states them"), {{html("Body")}, {html("What it is")}},
-                                      rows)));
+         (rows.empty()
+              ? Html()
+              : folded(rows.size() > kLongTable, html("{}", fmt::format("{} bodies", rows.size())),
+                       table(html("Bodies, as the case states them"), {{html("Body")}, {html("What it is")}}, rows)));
 }
 
 }  // namespace
@@ -368,10 +368,10 @@ Html stretches(const ReportContext& scene) {
   const auto place = [&](const PathPoint& point) { return html("{}", place_text(scene, position(point))); };
   const auto violation = [&](const PathWitness& end) {
     const std::string about =
-        end.contact ? fmt::format(" ({} in floating point)",
-                                  apart_text(distance_at(scene, position(end.at), end.contact->pair),
-                                             scene.illustration.units.length))
-                    : "";
+        end.contact
+            ? fmt::format(" ({} in floating point)", apart_text(distance_at(scene, position(end.at), end.contact->pair),
+                                                                scene.illustration.units.length))
+            : "";
     return html("{}{}, {}", violation_text(end, certificate.problem, scene.illustration.units), about,
                 place_text(scene, position(end.at)));
   };

@@ -114,7 +114,8 @@ void add_proof(Builder& builder, const ReportContext& scene, const std::string& 
       by_boxes,
       builder.add(Kind::kJustification,
                   "Interval arithmetic with outward rounding encloses every tension and length over a whole box, and "
-                  "how far bodies are apart, for every stated load and deviation. The theorems and their proofs are in docs/theory.md.",
+                  "how far bodies are apart, for every stated load and deviation. The theorems and their proofs are in "
+                  "docs/theory.md.",
                   "Interval arithmetic with outward rounding encloses every value over a box (docs/theory.md)"));
   builder.put_in_context(
       by_boxes, builder.add(Kind::kJustification,
@@ -124,10 +125,11 @@ void add_proof(Builder& builder, const ReportContext& scene, const std::string& 
   const bool has_bodies = certificate.problem.bodies.has_value();
   const std::string each = builder.add(
       Kind::kGoal,
-      fmt::format("The boxes cover the path without gaps. Over each of them, every tension and every length is strictly "
-                  "inside its limits, {}the force Jacobian is not singular{}.",
-                  has_bodies ? "" : "and ",
-                  has_bodies ? ", and the bodies of every checked pair are farther apart than their clearance" : ""),
+      fmt::format(
+          "The boxes cover the path without gaps. Over each of them, every tension and every length is strictly "
+          "inside its limits, {}the force Jacobian is not singular{}.",
+          has_bodies ? "" : "and ",
+          has_bodies ? ", and the bodies of every checked pair are farther apart than their clearance" : ""),
       fmt::format("The boxes leave no gap; over each, tensions and lengths are inside their limits{} det J ≠ 0{}",
                   has_bodies ? "," : " and", has_bodies ? ", bodies apart" : ""));
   builder.support(by_boxes, each);

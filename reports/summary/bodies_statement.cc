@@ -302,15 +302,18 @@ nlohmann::json to_json(const BodiesText& bodies, const BodiesStatement& statemen
   for (const PairClass kind : all_pair_classes()) {
     const auto k = static_cast<std::size_t>(kind);
     if (bodies.clearance_m[k]) {
-      checked.push_back(
-          {{"class", name(kind)},
-           {"pairs", counts[k]},
-           {"clearance_m", ScalarTraits<double>::from_decimal(*bodies.clearance_m[k])}});
+      checked.push_back({{"class", name(kind)},
+                         {"pairs", counts[k]},
+                         {"clearance_m", ScalarTraits<double>::from_decimal(*bodies.clearance_m[k])}});
     } else {
       not_checked.push_back(name(kind));
     }
   }
   return {{"checked", checked}, {"not_checked", not_checked}, {"text", lines(statement)}};
+}
+
+nlohmann::json stated_bodies_json(const std::optional<CaseBodies>& bodies) {
+  return bodies ? to_json(bodies->text, bodies_statement(*bodies)) : nlohmann::json();
 }
 
 }  // namespace taut

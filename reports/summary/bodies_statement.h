@@ -5,6 +5,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,9 @@ struct BodiesStatement {
 /// For JSON: `checked`, a list of `class`, `pairs` and `clearance_m`, `not_checked`, a list of classes, and `text`, the
 /// sentences.
 [[nodiscard]] nlohmann::json to_json(const BodiesText& bodies, const BodiesStatement& statement);
+
+/// The same of a case; null where it has none.
+[[nodiscard]] nlohmann::json stated_bodies_json(const std::optional<CaseBodies>& bodies);
 
 /// A sentence each: pairs, cables, bodies, notes.
 [[nodiscard]] std::vector<std::string> lines(const BodiesStatement& statement);

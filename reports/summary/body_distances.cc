@@ -187,8 +187,8 @@ DistancesAlong distances_along(const BodyDistances& distances, const Sampler& sa
     for (const std::size_t n : order) {
       Known& last = known[n];
       // A pair that was farther apart than it can have come nearer since is not the one.
-      const bool is_out = last.is_measured && least &&
-                          last.left - moved(bodies.pairs[n], last.pose, pose, reach) > least->left();
+      const bool is_out =
+          last.is_measured && least && last.left - moved(bodies.pairs[n], last.pose, pose, reach) > least->left();
       if (is_out) continue;
       const BodyDistance now = distances.at(sampler.model(), pose, n);
       last = {now.left(), std::min(last.least, now.left()), pose, true};

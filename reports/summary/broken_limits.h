@@ -15,11 +15,11 @@ namespace taut {
 struct BrokenLimit {
   /// Proved by this witness of the certificate; nothing: only floating-point samples show it, and nothing is proved.
   std::optional<PathWitness> proof;
-  bool is_singular = false;   ///< the force Jacobian is singular between `position` and `to`; no limit is named then
+  bool is_singular = false;  ///< the force Jacobian is singular between `position` and `to`; no limit is named then
   std::optional<BodyDistance> bodies = {};  ///< which bodies are too near, in floating point; no limit is named then
-  MarginId margin;            ///< which limit of which cable; unless singular or of bodies
-  DecimalText limit;          ///< [N, m]; of bodies their clearance; unless singular
-  double value = 0;           ///< what is beyond the limit [N, m]: for proved ones the end next to it; unless singular
+  MarginId margin;                          ///< which limit of which cable; unless singular or of bodies
+  DecimalText limit;                        ///< [N, m]; of bodies their clearance; unless singular
+  double value = 0;  ///< what is beyond the limit [N, m]: for proved ones the end next to it; unless singular
   /// value − limit as a share of the width between the limits; infinite if singular; of bodies more than that of any
   /// limit, and the more the nearer they are
   double severity = 0;

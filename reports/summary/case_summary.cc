@@ -185,13 +185,14 @@ std::string bodies_text(const CaseSummary& summary, const WaypointSummary& waypo
     const bool is_in = pair.distance < 0;
     rows.push_back({summary.bodies->name(pair.pair), is_in ? "–" : fmt::format("{:.4g}", length.approx(pair.distance)),
                     length.exact(all.at(pair.pair).clearance_m), fmt::format("{:.4g}", length.approx(pair.left())),
-                    is_in ? fmt::format("in contact, {}", apart_text(pair, length))
+                    is_in             ? fmt::format("in contact, {}", apart_text(pair, length))
                     : pair.left() > 0 ? ""
                                       : "nearer than the clearance"});
   }
   const std::size_t others = summary.bodies->pairs() - waypoint.nearest.size();
-  return columns(rows) + (others == 0 ? "" : fmt::format("  and {} that {} farther apart\n", plural(others, "pair"),
-                                                         others == 1 ? "is" : "are"));
+  return columns(rows) + (others == 0 ? ""
+                                      : fmt::format("  and {} that {} farther apart\n", plural(others, "pair"),
+                                                    others == 1 ? "is" : "are"));
 }
 
 const char* law_text(const Case& the_case) {
@@ -302,9 +303,7 @@ nlohmann::json to_json(const CaseSummary& summary) {
   return {{"problem", to_json(summary.source.problem)},
           {"document_fields", to_json(summary.source.document_fields)},
           {"load", to_json(load_statement(summary.source))},
-          {"bodies", summary.source.bodies
-                         ? to_json(summary.source.bodies->text, bodies_statement(*summary.source.bodies))
-                         : nullptr},
+          {"bodies", stated_bodies_json(summary.source.bodies)},
           {"warnings", summary.source.warnings},
           {"path_law", law_text(summary.source)},
           {"waypoints", waypoints}};

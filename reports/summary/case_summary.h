@@ -37,7 +37,7 @@ struct CaseSummary {
 
   const Case& source;
   PoseSampler sampler;
-  std::optional<BodyDistances> bodies;  ///< if the case has bodies
+  std::optional<BodyDistances> bodies;     ///< if the case has bodies
   std::vector<WaypointSummary> waypoints;  ///< of the query
 };
 

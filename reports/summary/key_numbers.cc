@@ -313,7 +313,7 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
   // Beyond its clearance, at least, with what deviations take; of samples, of the machine as stated.
   const double left = has_bound ? nearest_double(*proved) : nearest.left();
   const std::string size = has_bound ? truncated(*proved) : "";
-  const std::string value = has_bound ? fmt::format("{} {} left", unit.exact(size), unit.name())
+  const std::string value = has_bound  ? fmt::format("{} {} left", unit.exact(size), unit.name())
                             : left > 0 ? fmt::format("about {} {} left", unit.down(left, kDigits), unit.name())
                                        : fmt::format("about {} {} too near", unit.nearest(-left, kDigits), unit.name());
   const std::string asked = unit.exact(pairs(*scene.certificate.problem.bodies).at(nearest.pair).clearance_m);
@@ -321,8 +321,8 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
                    left > 0 ? "Least clearance left" : "Bodies too near",
                    value,
                    fmt::format("nearest: {}, {}, clearance {} {} · {}; sampled{}", scene.bodies->name(nearest.pair),
-                               apart_text(nearest, unit), asked, unit.name(), place_text(scene, scene.samples[k].position),
-                               has_bound ? "" : ", not proved"),
+                               apart_text(nearest, unit), asked, unit.name(),
+                               place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
                    worse(nearness_of_bodies(left + nearest.clearance, nearest.clearance,
                                             machine_size(scene.certificate.problem.robot)),
                          Nearness::kCalm),

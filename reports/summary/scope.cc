@@ -12,7 +12,8 @@ namespace {
 /// Whether some length of a cable next to its ends is not checked.
 bool has_free_ends(const BodiesText& bodies) {
   const auto is_some = [](const DecimalText& x) { return Decimal::parse(x).sign() != 0; };
-  return std::ranges::any_of(bodies.cables.free_ends_m, [&](const auto& ends) { return is_some(ends[0]) || is_some(ends[1]); });
+  return std::ranges::any_of(bodies.cables.free_ends_m,
+                             [&](const auto& ends) { return is_some(ends[0]) || is_some(ends[1]); });
 }
 
 /// What of collisions is not covered: all of them, or what is no body, and the classes of pairs that are not checked.

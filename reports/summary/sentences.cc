@@ -160,12 +160,13 @@ std::string contact_details(const ReportContext& scene, const PathWitness& witne
   const BodyDistance distance =
       scene.bodies->at(scene.sampler.model(), scene.sampler.rigid_pose(sample), witness.contact->pair);
   const DisplayUnit& unit = scene.illustration.units.length;
-  const std::string points = distance.distance < 0
-                                 ? fmt::format("next to {}", point_in_space(distance.at[0], unit))
-                                 : fmt::format("at {} of the first and {} of the second",
-                                               point_in_space(distance.at[0], unit), point_in_space(distance.at[1], unit));
+  const std::string points =
+      distance.distance < 0 ? fmt::format("next to {}", point_in_space(distance.at[0], unit))
+                            : fmt::format("at {} of the first and {} of the second",
+                                          point_in_space(distance.at[0], unit), point_in_space(distance.at[1], unit));
   return fmt::format(
-      "In floating point they are {} there, {}. Where: {}. The pose there, rounded: {}. A point of either body proves it.",
+      "In floating point they are {} there, {}. Where: {}. The pose there, rounded: {}. A point of either body proves "
+      "it.",
       apart_text(distance, unit), points, place_text(scene, at), pose_text(scene, sample.pose));
 }
 
@@ -183,7 +184,7 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   const PathWitness& witness = scene.gravest->violation;
   std::vector<std::string> result = {witness.singular  ? singular_details(scene, witness)
                                      : witness.contact ? contact_details(scene, witness)
-                                                      : limit_details(scene, witness)};
+                                                       : limit_details(scene, witness)};
   if (!witness.singular && scene.gravest->loads) {
     result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
                                  witness_load_text(certificate.problem.load, to_json(*scene.gravest->loads))));
@@ -416,7 +417,8 @@ std::string contact_text(const PathWitness& witness, const BodiesText& bodies, c
   const Rational apart = clearance.rational() - depth;
   if (apart <= 0) return fmt::format("{} touch{}", both, asked);
   for (const int digits : {3, 4, 6, 9, 12, 15}) {
-    const std::string shown = rounded_up(above(apart), digits);
+    std::string shown = rounded_to_nearest(apart.convert_to<double>(), digits);
+    if (Decimal::parse(shown).rational() < apart) shown = rounded_up(above(apart), digits);
     if (!(Decimal::parse(shown) < clearance)) continue;
     return fmt::format("{} come within {} of each other{}", both, quantity(shown, true, units), asked);
   }
@@ -521,14 +523,14 @@ std::vector<Statement> statements(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const Problem& problem = certificate.problem;
   std::vector<Statement> result = {
-          {"motion", "Motion", motion_text(scene)},
-          {"load", "Loads", load_sentences(certificate)},
-          {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
-          {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
-          {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},
-          {"not_covered", "Not covered", in_full(not_covered(problem))},
-          {"proof", "Proof", proof_text(scene)},
-          {"recheck", "Re-check", recheck_text(scene.recheck)}};
+      {"motion", "Motion", motion_text(scene)},
+      {"load", "Loads", load_sentences(certificate)},
+      {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
+      {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
+      {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},
+      {"not_covered", "Not covered", in_full(not_covered(problem))},
+      {"proof", "Proof", proof_text(scene)},
+      {"recheck", "Re-check", recheck_text(scene.recheck)}};
   if (problem.bodies) result.insert(result.begin() + 3, {"clearance", "Clearance", bodies_text(problem)});
   return result;
 }
