@@ -15,6 +15,7 @@
 #include <new>
 
 #include "app/audit.h"
+#include "app/meshes.h"
 #include "app/plan.h"
 #include "app/prove.h"
 #include "app/recheck.h"
@@ -37,6 +38,7 @@
 #include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/robot_drawing.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/case_summary.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/illustration.h"
@@ -56,18 +58,19 @@ struct Theorem::Content {
   std::string claim;
   std::optional<taut::Margins> margins;
   std::optional<PathWitness> witness;
+  Problem problem;
 };
 
 struct TheoremMaker {
   static Theorem make(const checker::Theorem& theorem) {
     if (theorem.verdict() == checker::Theorem::Verdict::kNoPath) {
-      return Theorem(std::make_shared<const Theorem::Content>(Theorem::Content{theorem, theorem.claim(), {}, {}}));
+      return Theorem(std::make_shared<const Theorem::Content>(Theorem::Content{theorem, theorem.claim(), {}, {}, {}}));
     }
     const taut::Certificate certificate = read_certificate(theorem.certificate());
     std::optional<PathWitness> witness;
     if (certificate.witness) witness = certificate.witness->violation;
     return Theorem(std::make_shared<const Theorem::Content>(
-        Theorem::Content{theorem, certificate.claim, certificate.margins, std::move(witness)}));
+        Theorem::Content{theorem, certificate.claim, certificate.margins, std::move(witness), certificate.problem}));
   }
 };
 
@@ -251,12 +254,18 @@ Place outer(const PathPoint& point) {
   return place;
 }
 
-Witness outer(const PathWitness& witness) {
+Witness outer(const PathWitness& witness, const Problem& problem) {
   Witness result;
   result.at = outer(witness.at);
   if (witness.singular) {
     result.kind = "singular";
     result.to = outer(witness.to);
+    return result;
+  }
+  if (witness.contact) {
+    result.kind = "contact";
+    result.bodies = names(*problem.bodies, pairs(*problem.bodies).at(witness.contact->pair));
+    result.depth_m = below(witness.depth_m);
     return result;
   }
   result.kind = name(witness.margin.kind);
@@ -329,8 +338,9 @@ checker::CheckResult unchecked(const std::string& text, const std::string& name)
 }
 
 /// A certificate that was just made, once the checker has confirmed it.
-Certificate checked_certificate(std::string text, double max_seconds, const std::stop_token& stop) {
-  checker::CheckResult checked = recheck(text, max_seconds, stop);
+Certificate checked_certificate(std::string text, const taut::Problem& problem, double max_seconds,
+                                const std::stop_token& stop) {
+  checker::CheckResult checked = recheck(text, max_seconds, stop, meshes_of(problem));
   require_confirmed(checked);
   if (checked.outcome == checker::Outcome::kUnchecked && stop.stop_requested()) throw Interrupted("interrupted");
   return certificate_of(std::move(text), std::move(checked));
@@ -431,6 +441,13 @@ std::array<std::array<double, 2>, 6> Case::length_limits_m() const {
   return within(ErrorCode::kCase, [&] { return outer(content_->the_case.problem.robot.length_m); });
 }
 
+std::vector<std::string> Case::bodies_statement() const {
+  return within(ErrorCode::kCase, [&]() -> std::vector<std::string> {
+    const std::optional<CaseBodies>& bodies = content_->the_case.bodies;
+    return bodies ? lines(taut::bodies_statement(*bodies)) : std::vector<std::string>();
+  });
+}
+
 std::vector<std::string> Case::load_statement() const {
   return within(ErrorCode::kCase, [&] { return lines(taut::load_statement(content_->the_case)); });
 }
@@ -505,13 +522,16 @@ std::optional<Margins> Theorem::margins() const {
   const std::optional<taut::Margins>& margins = content_->margins;
   if (!margins) return std::nullopt;
   return within(ErrorCode::kCertificate, [&] {
-    return Margins{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale)};
+    Margins result{below(margins->tension_N), below(margins->length_m), below(margins->wrench_scale), {}};
+    const std::optional<BodiesText>& bodies = content_->problem.bodies;
+    if (bodies && margins->clearance_m && !pairs(*bodies).empty()) result.clearance_m = below(*margins->clearance_m);
+    return result;
   });
 }
 
 std::optional<Witness> Theorem::witness() const {
   if (!content_->witness) return std::nullopt;
-  return within(ErrorCode::kCertificate, [&] { return outer(*content_->witness); });
+  return within(ErrorCode::kCertificate, [&] { return outer(*content_->witness, content_->problem); });
 }
 
 std::vector<Stretch> Certificate::stretches() const {
@@ -523,7 +543,8 @@ std::vector<Stretch> Certificate::stretches() const {
       copy.begin = outer(stretch.begin);
       copy.end = outer(stretch.end);
       if (const auto& found = stretch.violations) {
-        copy.violations = {outer(found->first.violation), outer(found->second.violation)};
+        const Problem& problem = content_->stated.problem;
+        copy.violations = {outer(found->first.violation, problem), outer(found->second.violation, problem)};
       }
       copy.reason = stretch.reason;
       copy.reason_code = code_of(stretch.reason);
@@ -663,8 +684,8 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
     certificate.illustration = {{"kind", "proof"}};
     add_stated(certificate.illustration, about, decoration);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
-    return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
-                               options.stop);
+    return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), about.problem,
+                               options.max_check_seconds, options.stop);
   });
 }
 
@@ -706,7 +727,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
          key ? &*key : nullptr, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
-    return checked_certificate(std::move(text), options.max_check_seconds, relay.token());
+    return checked_certificate(std::move(text), content.the_case.problem, options.max_check_seconds, relay.token());
   };
   return prove_path_within(relay, work);
 }
@@ -775,6 +796,7 @@ CheckResult check(const std::string& certificate_text, const CheckOptions& optio
     if (options.the_case) {
       problem = to_json(options.the_case->content().the_case.problem);
       request.problem = &problem;
+      request.meshes = meshes_of(options.the_case->content().the_case.problem);
     }
     const checker::CheckResult checked = checker::check(certificate_text, request);
     CheckResult result;

@@ -106,8 +106,8 @@ SegmentResult BatchProver::prove(const Batch& batch, std::size_t i, const std::s
   for (SurveyedBox& box : survey.boxes) {
     if (box.kind != SurveyedBox::Kind::kProved) continue;
     const bool has_bodies = box.directions != nullptr;
-    const auto confirmed = elaborator_.boxes(result.segment, std::span(&box.box, 1),
-                                             std::span(&box.directions, has_bodies ? 1 : 0));
+    const auto confirmed =
+        elaborator_.boxes(result.segment, std::span(&box.box, 1), std::span(&box.directions, has_bodies ? 1 : 0));
     if (confirmed) {
       result.boxes.insert(result.boxes.end(), confirmed->begin(), confirmed->end());
     } else {
@@ -153,6 +153,12 @@ SampledViolations BatchProver::sampled(const Segment& segment, const Gap& gap) c
   if (gap.singular) {
     const DyadicBox& box = gap.singular->box;
     result.singular = SuspectedViolation{true, {}, box.lower(), box.lower(), box.upper(), 0};
+  }
+  for (const auto* end : {&gap.first, &gap.last}) {
+    if (!*end || !(*end)->contact) continue;
+    const auto deepest = deepest_contact(prover_.sampler(), *prover_.bodies(), segment, (*end)->contact->pair,
+                                         gap.begin, gap.end, samples_);
+    if (deepest && (!result.contact || deepest->gap < result.contact->gap)) result.contact = deepest;
   }
   return result;
 }

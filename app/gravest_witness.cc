@@ -46,6 +46,8 @@ void GravestWitness::add(const std::shared_ptr<const Batch>& batch, std::size_t 
     if (suspected) here_.add({batch, i, *suspected});
   }
   if (!part.stretch.violations) return;
+  const auto& contact = part.sampled.contact;
+  if (contact && (!deepest_ || contact->gap < deepest_->contact.gap)) deepest_ = Touching{batch, i, *contact};
   take({part.stretch.violations->first, batch, i});
   take({part.stretch.violations->second, batch, i});
 }
@@ -63,6 +65,9 @@ void GravestWitness::take(Found found) {
 }
 
 std::optional<GravestWitness::Found> GravestWitness::find() {
+  if (deepest_) {
+    if (auto proved = prove_contact(*deepest_)) take(*std::move(proved));
+  }
   for (const std::vector<Suspect>& suspects : {all_.singular, all_.limits}) {
     for (const Suspect& suspect : suspects) {
       if (!gravest_ || gravest_->witness.violation.singular) return std::move(gravest_);
@@ -92,7 +97,7 @@ std::optional<GravestWitness::Found> GravestWitness::prove_singular(const Suspec
     witness.singular = true;
     witness.at = {true, index, tried.from};
     witness.to = {true, index, tried.to};
-    if (auto proved = elaborated(suspect, witness)) return proved;
+    if (auto proved = elaborated(suspect.batch, suspect.segment, witness)) return proved;
   }
   return std::nullopt;
 }
@@ -105,7 +110,7 @@ std::optional<GravestWitness::Found> GravestWitness::prove_limit(const Suspect& 
   witness.at = {true, static_cast<int>(suspect.batch->first_segment + suspect.segment), worst.at};
   witness.margin = worst.margin;
   witness.limit = is_upper(worst.margin) ? limits.upper : limits.lower;
-  return elaborated(suspect, witness);
+  return elaborated(suspect.batch, suspect.segment, witness);
 }
 
 /// Where only deviations break limits: where the undisturbed machine comes nearest to one.
@@ -117,14 +122,25 @@ std::optional<GravestWitness::Found> GravestWitness::prove_by_a_deviation(const 
   const auto found = DeviationSearch(prover_, segment).refute(*box, worst.margin);
   if (!found) return std::nullopt;
   const auto index = static_cast<int>(suspect.batch->first_segment + suspect.segment);
-  return elaborated(suspect, path_witness(prover_, segment, index, *found));
+  return elaborated(suspect.batch, suspect.segment, path_witness(prover_, segment, index, *found));
 }
 
-std::optional<GravestWitness::Found> GravestWitness::elaborated(const Suspect& suspect,
-                                                                const PathWitness& witness) const {
-  auto proved = elaborator_.witness(suspect.batch->segments[suspect.segment].segment, witness);
+std::optional<GravestWitness::Found> GravestWitness::prove_contact(const Touching& suspect) const {
+  const Segment& segment = suspect.batch->segments[suspect.segment].segment;
+  const PoseSampler& sampler = prover_.sampler();
+  const auto& [pair, at, gap] = suspect.contact;
+  PathWitness witness;
+  witness.at = {true, static_cast<int>(suspect.batch->first_segment + suspect.segment), at};
+  witness.contact =
+      PairContact{pair, prover_.bodies()->nearest(sampler.model(), sampler.rigid_pose(segment, at.approx()), pair)};
+  return elaborated(suspect.batch, suspect.segment, witness);
+}
+
+std::optional<GravestWitness::Found> GravestWitness::elaborated(const std::shared_ptr<const Batch>& batch,
+                                                                std::size_t segment, const PathWitness& witness) const {
+  auto proved = elaborator_.witness(batch->segments[segment].segment, witness);
   if (!proved) return std::nullopt;
-  return Found{*std::move(proved), suspect.batch, suspect.segment};
+  return Found{*std::move(proved), batch, segment};
 }
 
 }  // namespace taut

@@ -24,7 +24,8 @@ class GravestWitness {
   /// Ends a stretch: what was only suspected in it counts if the stretch is violated.
   void end_stretch(bool is_violated);
 
-  /// The gravest violation: a singular pose before any limit, then by severity(); the first of equals. Nothing where
+  /// The gravest violation: a singular pose before bodies that are too near before any limit, then by severity(); the
+  /// first of equals. Nothing where
   /// there is no violated stretch.
   struct Found {
     Witness witness;
@@ -34,6 +35,11 @@ class GravestWitness {
   [[nodiscard]] std::optional<Found> find();
 
  private:
+  struct Touching {
+    std::shared_ptr<const Batch> batch;
+    std::size_t segment;
+    SuspectedContact contact;
+  };
   struct Suspect {
     std::shared_ptr<const Batch> batch;
     std::size_t segment;
@@ -51,13 +57,16 @@ class GravestWitness {
   [[nodiscard]] std::optional<Found> prove_singular(const Suspect& suspect) const;
   [[nodiscard]] std::optional<Found> prove_limit(const Suspect& suspect) const;
   [[nodiscard]] std::optional<Found> prove_by_a_deviation(const Suspect& suspect) const;
-  [[nodiscard]] std::optional<Found> elaborated(const Suspect& suspect, const PathWitness& witness) const;
+  [[nodiscard]] std::optional<Found> prove_contact(const Touching& suspect) const;
+  [[nodiscard]] std::optional<Found> elaborated(const std::shared_ptr<const Batch>& batch, std::size_t segment,
+                                                const PathWitness& witness) const;
 
   const Prover& prover_;
   const Elaborator& elaborator_;
-  std::optional<Found> gravest_;  ///< proved
-  double severity_ = 0;           ///< of it
-  Suspects here_, all_;           ///< of the stretch that is being read, and of those before it that are violated
+  std::optional<Found> gravest_;     ///< proved
+  double severity_ = 0;              ///< of it
+  std::optional<Touching> deepest_;  ///< contact that is suspected
+  Suspects here_, all_;              ///< of the stretch that is being read, and of those before it that are violated
 };
 
 }  // namespace taut

@@ -454,6 +454,7 @@ double read_bound(const Field& field, std::optional<Unit> unit) {
 std::vector<Bound> read_bounds(const Map& map, const Units& units) {
   const std::map<std::string, Dimension> dimensions = {{"tension_margin", Dimension::kForce},
                                                        {"length_margin", Dimension::kLength},
+                                                       {"clearance_margin", Dimension::kLength},
                                                        {"length", Dimension::kLength},
                                                        {"angle", Dimension::kAngle}};
   std::vector<Bound> bounds;
@@ -528,8 +529,9 @@ DocumentFields read_document_fields(const Map& map) {
 /// @param folder  of the file: names of files in it are relative to this
 /// @param typed   a further waypoint, which is read where the space is known
 Case read_case(const Field& root, const std::filesystem::path& folder, const std::function<void(const Space&)>& typed) {
-  const Map map = root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot",
-                            "load", "tolerances", "bodies", "space", "query", "planner", "audit", "decoration", "expect"});
+  const Map map =
+      root.map({"taut", "name", "title", "machine", "site", "document", "prepared_by", "units", "robot", "load",
+                "tolerances", "bodies", "space", "query", "planner", "audit", "decoration", "expect"});
   if (const Field version = map.at("taut"); version.text("1, the case format") != "1") {
     version.fail("1, the case format that this version reads");
   }

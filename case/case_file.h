@@ -50,11 +50,11 @@ struct Bound {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };
-/// The proved margins [N, m, 1]; the distance that the platform's origin travels [m] and the angle that the platform
+/// The proved margins [N, m, 1, m]; the distance that the platform's origin travels [m] and the angle that the platform
 /// turns by [rad]; the planner's cost; counts.
-inline constexpr std::array<const char*, 10> kBoundQuantities = {
-    "tension_margin", "length_margin", "wrench_scale", "length", "angle",
-    "cost",           "segments",      "boxes",        "charts", "stretches"};
+inline constexpr std::array<const char*, 11> kBoundQuantities = {
+    "tension_margin", "length_margin", "wrench_scale", "clearance_margin", "length",   "angle",
+    "cost",           "segments",      "boxes",        "charts",           "stretches"};
 
 /// The path of a case that is to be audited instead of planned.
 struct AuditedPath {

@@ -107,6 +107,17 @@ SampledViolations sample_violations(const PoseSampler& sampler, const Segment& s
   return result;
 }
 
+std::optional<SuspectedContact> deepest_contact(const PoseSampler& sampler, const BodySampler& bodies,
+                                                const Segment& segment, std::size_t pair, const Dyadic& begin,
+                                                const Dyadic& end, int count) {
+  std::optional<SuspectedContact> result;
+  for (const Dyadic& s : grid(begin, end, count)) {
+    const double gap = bodies.gap(sampler.model(), sampler.rigid_pose(segment, s.approx()), pair);
+    if (gap < (result ? result->gap : 0)) result = SuspectedContact{pair, s, gap};
+  }
+  return result;
+}
+
 SuspectedViolation narrowed(const PoseSampler& sampler, const Segment& segment, const SuspectedViolation& suspected) {
   constexpr int kRounds = 2;
   constexpr int kPlaces = 16;

@@ -10,8 +10,10 @@ const Limits& limits_of(const RobotText& robot, MarginId margin) {
 }
 
 double severity(const PathWitness& witness, const RobotText& robot) {
-  if (witness.singular || witness.contact) return std::numeric_limits<double>::infinity();
+  constexpr double kOfContact = 1e6;
   const auto number = [](const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); };
+  if (witness.singular) return std::numeric_limits<double>::infinity();
+  if (witness.contact) return kOfContact + number(witness.depth_m);
   const Limits& limits = limits_of(robot, witness.margin);
   const double beyond = is_upper(witness.margin) ? number(witness.value_lower) - number(limits.upper)
                                                  : number(limits.lower) - number(witness.value_upper);

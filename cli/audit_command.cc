@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <list>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/audit.h"
+#include "app/meshes.h"
 #include "app/recheck.h"
 #include "app/report.h"
 #include "base/files.h"
@@ -26,6 +28,7 @@
 #include "cli/verdict_output.h"
 #include "path_io/controller_csv.h"
 #include "reports/page/html_report.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -50,7 +53,7 @@ std::string text(const PathPoint& point, const FilePlace& place, const char* pla
 const PathPoint& end_of(const PathWitness& violation) { return violation.singular ? violation.to : violation.at; }
 
 std::string text(const AuditedStretch& audited, const Case& the_case, const char* place_name) {
-  const RobotText& robot = the_case.problem.robot;
+  const Problem& problem = the_case.problem;
   const DisplayUnits units(the_case.units);
   const Stretch& stretch = audited.stretch;
   std::string lines = fmt::format("  from {}\n    to {}\n", text(stretch.begin, audited.begin, place_name),
@@ -59,9 +62,9 @@ std::string text(const AuditedStretch& audited, const Case& the_case, const char
   const PathWitness& first = stretch.violations->first.violation;
   const PathWitness& last = stretch.violations->second.violation;
   lines += fmt::format("    violated from {}: {}\n", text(first.at, audited.first, place_name),
-                       violation_text(first, robot, units));
+                       violation_text(first, problem, units));
   return lines + fmt::format("              to {}: {}", text(end_of(last), audited.last, place_name),
-                             violation_text(last, robot, units));
+                             violation_text(last, problem, units));
 }
 
 /// The violation that the certificate's witness is about: the gravest, or where poses are implied the one to which the
@@ -70,7 +73,7 @@ std::string witness_text(const Audit& audit, const Case& the_case, const char* p
   const PathWitness& witness = audit.witness->violation;
   return fmt::format("{}: {}: {}.", audit.witness_is_gravest ? "Gravest" : "Proved of the move",
                      text(witness.at, audit.witness_place, place_name),
-                     violation_text(witness, the_case.problem.robot, DisplayUnits(the_case.units)));
+                     violation_text(witness, the_case.problem, DisplayUnits(the_case.units)));
 }
 
 /// Whether constraints or lengths of cables imply the poses.
@@ -281,8 +284,16 @@ struct AuditFiles {
     report->write(html_report(context, {"", "", date}));
     report->finish();
   }
+  void add_meshes(const Case& the_case) {
+    for (const auto& [name, bytes] : mesh_files(the_case)) {
+      meshes.emplace_back(out / name);
+      meshes.back().write(bytes);
+      meshes.back().finish();
+    }
+  }
   void publish(const ResultInputs& inputs) {
     std::vector<NewFile*> files = {&certificate};
+    for (NewFile& mesh : meshes) files.push_back(&mesh);
     if (report) files.push_back(&*report);
     if (controller) files.push_back(&*controller);
     files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
@@ -302,6 +313,7 @@ struct AuditFiles {
   std::filesystem::path out;
   NewFile certificate, csv;
   std::optional<NewFile> report, controller;
+  std::list<NewFile> meshes;
   Sha256 digest;  ///< of the certificate
   std::uintmax_t size = 0;
 };
@@ -333,6 +345,7 @@ void print_result_json(const Audit& result, const Case& the_case, const PathSour
   const bool is_unchecked = checked.outcome == checker::Outcome::kUnchecked;
   nlohmann::json object = summary(result, source, checked);
   object["load"] = to_json(load_statement(the_case));
+  object["bodies"] = stated_bodies_json(the_case.bodies);
   object["warnings"] = the_case.warnings;
   object["out"] = files.out.string();
   object["headroom"] = is_unchecked ? nlohmann::json() : headroom_json(result.headroom);
@@ -412,7 +425,8 @@ int run_audit(const AuditArguments& arguments) {
   const checker::CheckResult checked =
       files.size > kMostCheckedBytes
           ? too_long_to_check()
-          : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds, interruption.token());
+          : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds, interruption.token(),
+                    meshes_of(case_.problem));
   require_confirmed(checked);
   std::optional<ReportContext> context;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {
@@ -420,6 +434,7 @@ int run_audit(const AuditArguments& arguments) {
     if (!arguments.no_report) files.add_report(*context, date);
   }
   files.add_controller(step, source, checked);
+  files.add_meshes(case_);
   files.publish(inputs);
 
   if (arguments.json) {

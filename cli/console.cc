@@ -16,6 +16,7 @@
 #include "base/sanitize.h"
 #include "checker/arguments.h"
 #include "cli/terminal.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/load_statement.h"
 
 namespace taut {
@@ -66,6 +67,12 @@ void announce(const Case& the_case, bool json) {
   if (json) return;
   std::string before = "Load: ";
   for (const std::string& line : brief_lines(load_statement(the_case))) {
+    print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
+    before = std::string(before.size(), ' ');
+  }
+  if (!the_case.bodies) return;
+  before = "Bodies: ";
+  for (const std::string& line : lines(bodies_statement(*the_case.bodies))) {
     print_wrapped(before + sanitize(line), before.front() == ' ' ? 0 : before.size());
     before = std::string(before.size(), ' ');
   }

@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "app/meshes.h"
 #include "app/plan.h"
 #include "app/report.h"
 #include "base/files.h"
@@ -28,6 +29,7 @@
 #include "path_io/controller_csv.h"
 #include "path_io/path_csv.h"
 #include "reports/page/html_report.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -87,7 +89,7 @@ Said said(const Case& the_case, const PlannedCase& planned) {
                                 : w.at.on_segment ? fmt::format("on segment {} of the path", w.at.index)
                                                   : fmt::format("at waypoint {} of the path", w.at.index);
       return {"refuted",
-              fmt::format("{} {}.{}", where, violation_text(w, the_case.problem.robot, DisplayUnits(the_case.units)),
+              fmt::format("{} {}.{}", where, violation_text(w, the_case.problem, DisplayUnits(the_case.units)),
                           load_that_breaks(the_case.problem.load, checked))};
     }
     case Verdict::kUndecided: break;
@@ -188,6 +190,7 @@ nlohmann::json summary(const Case& the_case, const Outcome& outcome) {
                            {"as_items", to_json(outcome.planned.as_items)},
                            {"growth", growth_json(outcome.planned.growth)},
                            {"load", to_json(load_statement(the_case))},
+                           {"bodies", stated_bodies_json(the_case.bodies)},
                            {"warnings", the_case.warnings},
                            {"out", outcome.out.string()}};
   result.update(result_json(checked));
@@ -358,6 +361,7 @@ int run_plan(const PlanArguments& arguments) {
   std::optional<ReportContext> context;
   if (!is_no_path(planned)) context.emplace(checked);
   std::vector<FileContent> files = {{out / "certificate.json", planned.text}};
+  for (auto& [name, bytes] : mesh_files(case_)) files.push_back({out / name, std::move(bytes)});
   std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
   if (arguments.no_report) {
     remove_first.push_back(out / "report.html");

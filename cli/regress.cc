@@ -60,6 +60,7 @@ Measurement measurement(const json& summary) {
   take("tension_margin", margins, "tension_N");
   take("length_margin", margins, "length_m");
   take("wrench_scale", margins, "wrench_scale");
+  take("clearance_margin", margins, "clearance_m");
   take("segments", summary, "segments");
   take("boxes", summary, "boxes");
   if (const json& found = summary.value("stretches_violated", json()); found.is_number()) {
@@ -381,7 +382,7 @@ namespace {
 /// The unit of a quantity of kBoundQuantities, as keys of JSON end in it.
 std::string unit_suffix(const std::string& quantity) {
   if (quantity == "tension_margin") return "_N";
-  if (quantity == "length_margin" || quantity == "length") return "_m";
+  if (quantity == "length_margin" || quantity == "clearance_margin" || quantity == "length") return "_m";
   return quantity == "angle" ? "_rad" : "";
 }
 

@@ -183,15 +183,18 @@ py::tuple place_tuple(const taut::Place& place) { return py::make_tuple(place.in
 
 py::dict witness_dict(const taut::Witness& witness) {
   const bool singular = witness.to.has_value();
-  const auto unless_singular = [&](auto value) { return singular ? py::object(py::none()) : py::cast(value); };
+  const bool contact = witness.kind == "contact";
+  const auto of_limit = [&](auto value) { return singular || contact ? py::object(py::none()) : py::cast(value); };
   py::dict dict;
   dict["kind"] = witness.kind;
   dict["at"] = place_tuple(witness.at);
   dict["to"] = singular ? py::object(place_tuple(*witness.to)) : py::none();
-  dict["cable"] = unless_singular(witness.cable);
-  dict["value"] = unless_singular(std::make_pair(witness.value_lower, witness.value_upper));
-  dict["limit"] = unless_singular(witness.limit);
+  dict["cable"] = of_limit(witness.cable);
+  dict["value"] = of_limit(std::make_pair(witness.value_lower, witness.value_upper));
+  dict["limit"] = of_limit(witness.limit);
   dict["deviates"] = witness.deviates;
+  dict["bodies"] = contact ? py::object(py::make_tuple(witness.bodies[0], witness.bodies[1])) : py::none();
+  dict["depth_m"] = contact ? py::cast(witness.depth_m) : py::none();
   return dict;
 }
 
@@ -200,10 +203,11 @@ py::object theorem_tuple(const std::optional<taut::Theorem>& theorem) {
   if (!theorem) return py::none();
   const auto margins = theorem->margins();
   const auto witness = theorem->witness();
-  return py::make_tuple(
-      name_of(theorem->verdict()), theorem->claim(),
-      margins ? py::object(py::make_tuple(margins->tension_N, margins->length_m, margins->wrench_scale)) : py::none(),
-      witness ? py::object(witness_dict(*witness)) : py::none(), theorem->certificate_sha256());
+  return py::make_tuple(name_of(theorem->verdict()), theorem->claim(),
+                        margins ? py::object(py::make_tuple(margins->tension_N, margins->length_m,
+                                                            margins->wrench_scale, margins->clearance_m))
+                                : py::none(),
+                        witness ? py::object(witness_dict(*witness)) : py::none(), theorem->certificate_sha256());
 }
 
 py::list stretch_list(const std::vector<taut::Stretch>& stretches) {
@@ -279,6 +283,7 @@ void add_case(py::module_& module) {
       .def_property_readonly("description", &taut::Case::description)
       .def_property_readonly("parameters", &taut::Case::parameters)
       .def_property_readonly("query_waypoints", &taut::Case::query_waypoints)
+      .def_property_readonly("bodies_statement", &taut::Case::bodies_statement)
       .def_property_readonly("load_statement", &taut::Case::load_statement)
       .def_property_readonly("warnings", &taut::Case::warnings)
       .def("summary", &taut::Case::summary)

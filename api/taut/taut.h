@@ -117,6 +117,9 @@ class TAUT_EXPORT Case {
   /// shows there. Its numbers are `load` in summary_json().
   /// @throws InputError for numbers beyond the range of binary64.
   [[nodiscard]] std::vector<std::string> load_statement() const;
+  /// What may not touch what, as it was understood, in m, mm and degrees, a sentence each; empty where the case states
+  /// no bodies: then nothing is proved of collisions. Read it as you read the load.
+  [[nodiscard]] std::vector<std::string> bodies_statement() const;
   /// What may not be meant as it was typed, each with its place in the file: what the commands print as warnings.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
@@ -182,6 +185,8 @@ struct Margins {
   double tension_N = 0;     ///< every tension stays so far inside its limits, for every wrench
   double length_m = 0;      ///< and every length
   double wrench_scale = 0;  ///< the ellipsoid of wrenches could be larger by this factor
+  /// The bodies of every checked pair are farther apart than their clearance by this much; nothing where no pair is.
+  std::optional<double> clearance_m;
 };
 
 /// A place on a path: the point s of a segment, or a waypoint.
@@ -193,7 +198,7 @@ struct Place {
 
 /// A proved violation.
 struct Witness {
-  std::string kind;  ///< "tension_min", "tension_max", "length_min", "length_max" or "singular"
+  std::string kind;  ///< "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"
   Place at;
   std::optional<Place> to;  ///< singular: somewhere from `at` to here; the rest is then empty
   int cable = 0;            ///< 1 to 6
@@ -201,6 +206,10 @@ struct Witness {
   double value_upper = 0;
   double limit = 0;
   bool deviates = false;  ///< the machine is not the stated one, but within the case's tolerances
+  /// "contact": two bodies that are nearer than their clearance, by at least so much; then cable, value and limit are
+  /// empty. Empty else.
+  std::array<std::string, 2> bodies;
+  double depth_m = 0;
 };
 
 /// What the independent checker has proved. Only the checker makes one, so whoever has one has a verdict. Copies are

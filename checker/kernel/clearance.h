@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "clearance": the two bodies of every checked pair are farther apart than the pair's clearance.
 //
-// Every body is a half-space or the hull of finitely many balls, which is convex. Let the first body of a pair be the
+// Every body is a half-space, a mesh (mesh_clearance.h), or the hull of finitely many balls, which is convex. Let the first body of a pair be the
 // hull of balls (a_k, r_k), the second that of balls (b_l, s_l). For every vector u that is not 0 their distance is at
 // least
 //     min_k (u . a_k / |u| - r_k)  -  max_l (u . b_l / |u| + s_l),                                                (1)
@@ -9,9 +9,9 @@
 // second. That of a half-space {x : n . x <= c} is c / |n| for u = n. Any u will do: a poor one proves less.
 //
 // Where bodies are.  Along u of W, with v = R' u,
-//     platform's point x:   u . p + v . x
+//     platform's point x:   u . p + v . x                    an obstacle's point q:   u . q
 //     cable i:              at A_i u . a_i, at B_i that plus u . d_i;
-// along u of P, for which what the platform carries stands still,
+// along u of P, for which what the platform carries stands still, an obstacle's point q is at (R u) . (q - p), and
 //     cable i:              at B_i u . b_i, at A_i that minus (R u) . d_i.
 // A cable's body begins delta_0 from A_i and ends delta_1 from B_i. Let e bound what deviations change |d_i| by, and
 // let |d_i| - e > delta_0 + delta_1. The point at the share t of the way from A_i' to B_i' is part of the body of the
@@ -23,6 +23,7 @@
 //                      in W                         in P'
 //     platform's x     P + Omega |x|                0
 //     A_i'             beta_i                       beta_i + P + Omega |a_i - p|   (A_i' is at R'' (a_i' - p'))
+//     obstacle's q     0                            P + Omega |q - p|              (likewise)
 //     B_i'             P + Omega |b_i| + mu_i       mu_i
 // and the point at the share t of a cable is within that share of what its ends are: (1 - t) x + t y, say. Both point
 // and bound being linear in t, every point of the body that deviates is in the hull of the balls with these radii, plus
@@ -34,6 +35,7 @@
 // anchors. The larger of what these prove is proved.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "checker/kernel/deviation.h"
@@ -44,16 +46,18 @@ namespace taut::checker {
 /// machine and pose within the tolerances [m].
 /// @param loss  what tolerances take away; of length and pose only
 /// @throws Undefined where a cable may not be longer than its free ends, and where `apart` has no direction that may be
-/// used for a pair: of W against obstacles, of P for a cable against a body of the platform, either for two cables.
+/// used for a pair: of W for a cable against an obstacle, of P for a cable against a body of the platform, else either;
+/// of W for a mesh and an obstacle.
+/// @param enough  if given, no larger margin of a pair with a mesh is asked for [m]
 /// @pre machine.bodies
 [[nodiscard]] std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry,
                                                   const MarginLoss& loss, std::span<const Direction> directions,
-                                                  const Apart& apart);
+                                                  const Apart& apart, const std::optional<Ball>& enough = {});
 
 /// By how much these points of a pair's bodies are nearer to each other than both radii and the clearance together
 /// allow [m]: the pair is not clear where that is not negative. @pre geometry is that of one place
 /// @throws Undefined where a cable may not be longer than its free ends.
 [[nodiscard]] Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair,
-                                 const ContactWeights& weights);
+                                 const ContactWeights& weights, const ContactElements& elements = {});
 
 }  // namespace taut::checker

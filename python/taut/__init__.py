@@ -104,6 +104,14 @@ class Case:
         return self._case.length_limits_m
 
     @property
+    def bodies_statement(self) -> list[str]:
+        """What may not touch what, as it was understood, in m, mm and degrees, a sentence each.
+
+        Empty where the case states no bodies: then nothing is proved of collisions.
+        """
+        return self._case.bodies_statement
+
+    @property
     def load_statement(self) -> list[str]:
         """The load as it was understood, in kg, t, N, kN, N m and m, a sentence each, as `taut show` prints it.
 
@@ -161,6 +169,7 @@ class Margins:
     tension_N: float     #: every tension stays at least this far inside its limits, for every wrench
     length_m: float      #: every length stays at least this far inside its limits
     wrench_scale: float  #: the ellipsoid of wrenches could be larger by this factor
+    clearance_m: Optional[float]  #: bodies are farther apart than their clearances by this; None: no pair is checked
 
 
 @dataclasses.dataclass(frozen=True)
@@ -178,13 +187,16 @@ class Place:
 @dataclasses.dataclass(frozen=True)
 class Witness:
     """A proved violation."""
-    kind: str                              #: "tension_min", "tension_max", "length_min", "length_max" or "singular"
+    #: "tension_min", "tension_max", "length_min", "length_max", "singular" or "contact"
+    kind: str
     at: Place
     to: Optional[Place]                    #: of "singular", which is between `at` and `to`; the next three are None
     cable: Optional[int]                   #: 1 to 6
     value: Optional[tuple[float, float]]   #: the tension [N] or length [m] lies between these two
     limit: Optional[float]
     deviates: bool                         #: the machine is not the stated one, but within the case's tolerances
+    bodies: Optional[tuple[str, str]]      #: of "contact", which has no cable, value or limit: two that are too near,
+    depth_m: Optional[float]               #: by at least so much
 
 
 @dataclasses.dataclass(frozen=True)

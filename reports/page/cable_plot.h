@@ -4,6 +4,7 @@
 #pragma once
 
 #include "reports/page/markup.h"
+#include "reports/summary/broken_limits.h"
 #include "reports/summary/scene.h"
 
 namespace taut {
@@ -17,5 +18,9 @@ struct CablePlot {
 
 /// Nothing where the path has no samples. Values far beyond the limits are cut off at the frame.
 [[nodiscard]] Html cable_plot(const ReportContext& scene, const CablePlot& plot);
+
+/// The distance of two bodies along the move in floating-point samples, with their clearance and where it is broken.
+/// Nothing if there is no path to plot. @pre broken.bodies
+[[nodiscard]] Html distance_plot(const ReportContext& scene, const BrokenLimit& broken);
 
 }  // namespace taut

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "certify/severity.h"
+#include "reports/page/body_shapes.h"
 #include "reports/page/cable_plot.h"
 #include "reports/page/machine_picture.h"
 #include "reports/summary/around_items.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/broken_limits.h"
 #include "reports/summary/wording.h"
 #include "reports/summary/worst_place.h"
@@ -19,6 +21,20 @@ namespace {
 /// The text, or a line to write on if it is empty.
 Html or_blank(const std::string& text) {
   return text.empty() ? html("<span class=\"blank\"></span>") : html("<bdi>{}</bdi>", text);
+}
+
+/// Which pairs of bodies are checked and which are not, and the bodies' names.
+Html bodies_words(const BodiesText& bodies) {
+  constexpr std::size_t kMostNames = 6;
+  const BodiesStatement statement = bodies_statement(bodies);
+  Html text = html("{}", with_minus_signs(statement.checked));
+  const auto list = [&](const char* where, const std::vector<BodyText>& all) {
+    if (!all.empty()) text += html(" {}: <bdi>{}</bdi>.", where, body_names(all, kMostNames));
+  };
+  list("On the platform", bodies.platform);
+  list("Obstacles", bodies.obstacles);
+  if (!statement.cables.empty()) text += html(" {}", with_minus_signs(statement.cables));
+  return text + html(" <a class=\"more\" href=\"#robot\">each body</a>");
 }
 
 /// What the verdict is about, before the verdict.
@@ -40,11 +56,25 @@ Html scope(const ReportContext& scene, const Summary& s) {
   for (const Statement& statement : s.statements) {
     const std::string_view key = statement.key;
     if (key == "limits" || key == "tolerances") row(statement.title, html("{}", with_minus_signs(statement.text)));
+    if (key == "clearance") row("Bodies", bodies_words(*scene.certificate.problem.bodies));
   }
   return html("<dl class=\"scope\">\n{}</dl>\n", rows);
 }
 
 // ---- The verdict.
+
+/// Which collisions the verdict is about.
+Html collisions(const ReportContext& scene) {
+  const std::optional<BodiesText>& bodies = scene.certificate.problem.bodies;
+  if (!bodies || pairs(*bodies).empty()) return html("Collisions: <b>not checked</b>");
+  const std::string count = plural(pairs(*bodies).size(), "pair");
+  const Html checked = scene.verdict == "proved" ? html("Collisions: {} of bodies <b>✓</b>", count)
+                                                 : html("Collisions: {} of bodies looked at", count);
+  std::string others;
+  for (const PairClass kind : unchecked_classes(*bodies))
+    others += (others.empty() ? "" : ", ") + std::string(words_of(kind));
+  return others.empty() ? checked : checked + html("; <b>not checked</b>: {}", others);
+}
 
 /// What stands beside the verdict: the second program, the machine, collisions.
 Html checks(const ReportContext& scene) {
@@ -54,8 +84,7 @@ Html checks(const ReportContext& scene) {
                                                                            : html("<b>Not re-checked</b>");
   const Html machine = scene.certificate.problem.tolerances ? html("Machine within the stated tolerances")
                                                             : html("Machine exactly as typed: <b>no tolerances</b>");
-  return html("<ul class=\"checks\"><li>{}</li><li>{}</li><li>Collisions: <b>not checked</b></li></ul>", recheck,
-              machine);
+  return html("<ul class=\"checks\"><li>{}</li><li>{}</li><li>{}</li></ul>", recheck, machine, collisions(scene));
 }
 
 Html band(const ReportContext& scene, const Summary& s) {
@@ -125,10 +154,14 @@ std::string confirmed_text(const ReportContext& scene) {
   const DisplayUnits& units = scene.illustration.units;
   const Margins& margins = *scene.certificate.margins;
   return fmt::format(
-      "every tension stays at least {} {} and every length at least {} {} inside its limits, and the set of loads "
-      "could grow by the factor above",
+      "every tension stays at least {} {} and every length at least {} {} inside its limits, {}the set of loads "
+      "could grow by the factor above{}",
       units.force.exact(truncated(margins.tension_N)), units.force.name(),
-      units.length.exact(truncated(margins.length_m)), units.length.name());
+      units.length.exact(truncated(margins.length_m)), units.length.name(), margins.clearance_m ? "" : "and ",
+      margins.clearance_m ? fmt::format(", and every checked pair of bodies is at least {} {} farther apart than its "
+                                        "clearance",
+                                        units.length.exact(truncated(*margins.clearance_m)), units.length.name())
+                          : "");
 }
 
 /// What the colours mean, and what the numbers rest on.
@@ -147,10 +180,9 @@ Html cables_note(const ReportContext& scene, const Summary& s) {
 
 // ---- What is broken.
 
-Html what(const BrokenLimit& broken) {
+Html what(const ReportContext& scene, const BrokenLimit& broken) {
   const std::string text = what_text(broken);
-  if (!broken.is_singular) return html("<b>Cable {}</b> {}", broken.margin.cable + 1, text);
-  return html("<b>Singular pose</b>{}{}", text.empty() ? "" : " ", text);
+  return html("<b><bdi>{}</bdi></b>{}{}", subject_text(scene, broken), text.empty() ? "" : " ", text);
 }
 
 /// All that are proved, and of the sampled ones as many as fill the table; then how many there are besides.
@@ -162,7 +194,7 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
   for (std::size_t k = 0; k < shown; ++k) {
     const BrokenLimit& broken = all[k];
     const bool is_plain = broken.is_proved() && broken.is_reached;
-    rows += html("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", what(broken),
+    rows += html("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", what(scene, broken),
                  with_minus_signs(amount_text(scene, broken)), where_text(scene, broken),
                  is_plain ? html("<b>{}</b>", known_by(broken)) : html("{}", known_by(broken)));
   }
@@ -189,7 +221,7 @@ Html broken_table(const ReportContext& scene, const std::vector<BrokenLimit>& al
 CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
   const BrokenLimit& gravest = all.front();
   CablePlot plot{0, false, gravest.position, gravest.proof && gravest.proof->deviation};
-  const auto named = std::ranges::find_if(all, [](const BrokenLimit& broken) { return !broken.is_singular; });
+  const auto named = std::ranges::find_if(all, &BrokenLimit::is_of_cable);
   if (named != all.end()) {
     plot.cable = static_cast<std::size_t>(named->margin.cable);
     plot.is_length = is_length(named->margin);
@@ -200,7 +232,8 @@ CablePlot gravest_plot(const std::vector<BrokenLimit>& all) {
 Html broken(const ReportContext& scene) {
   const std::vector<BrokenLimit> all = broken_limits(scene);
   if (all.empty()) return {};
-  return broken_table(scene, all) + cable_plot(scene, gravest_plot(all));
+  const Html plot = all.front().bodies ? distance_plot(scene, all.front()) : cable_plot(scene, gravest_plot(all));
+  return broken_table(scene, all) + plot;
 }
 
 // ---- What has to be confirmed elsewhere, and the declaration.
@@ -287,7 +320,7 @@ std::array<Nearness, kCables> nearness_there(const ReportContext& scene, const S
   const PathSample sample = scene.sampler.at(scene.certificate.path, position);
   std::array<Nearness, kCables> nearness = nearness_at(scene.sampler.model(), sample.statics);
   for (const BrokenLimit& broken : broken_limits(scene)) {  // perhaps of another machine within the tolerances
-    if (broken.is_proved() && !broken.is_singular && std::abs(broken.position - position) < kThere) {
+    if (broken.is_proved() && broken.is_of_cable() && std::abs(broken.position - position) < kThere) {
       nearness[static_cast<std::size_t>(broken.margin.cable)] = Nearness::kOut;
     }
   }
@@ -304,7 +337,8 @@ Html picture(const ReportContext& scene, const Summary& s) {
   if (scene.certificate.path.waypoints.empty()) return {};
   const auto [position, why] = place_of_picture(scene, s);
   return machine_picture(scene, position, nearness_there(scene, s, position),
-                         fmt::format("{}: {}", why, place_text(scene, position)), shown_bodies_note(scene));
+                         fmt::format("{}: {}", why, place_text(scene, position)),
+                         bodies_note(scene) + shown_bodies_note(scene));
 }
 
 }  // namespace

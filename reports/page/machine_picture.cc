@@ -5,8 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <tuple>
 
 #include "problem/expression.h"
+#include "reports/page/body_shapes.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/shown_bodies.h"
 
@@ -48,6 +50,8 @@ class Picture {
   void base();
   void shown_frame();
   void shown_payload();
+  void bodies();
+  void nearest_bodies();
   void ghosts();
   void track();
   void strokes();
@@ -76,6 +80,7 @@ class Picture {
   Point2 middle_ = Point2::Zero();        ///< of where it is drawn [px]
   Html behind_, between_, front_, text_;  ///< the platform is after `between_`
   LabelPlacer labels_{Point2::Zero()};
+  std::vector<std::tuple<std::string, std::string, Point2>> body_names_;  ///< name, kind, and where it is
 };
 
 Picture::Picture(const ReportContext& scene, const MachineView& view, double position,
@@ -235,6 +240,82 @@ void Picture::shown_payload() {
   for (const std::size_t i : hull(points)) outline.push_back(points[i]);
   between_ += html("<path class=\"shown payload\" d=\"{}\"/><path class=\"shown edges\" d=\"{}\"/>",
                    path_data(outline, true), edges_data(*payload, at));
+}
+
+/// The outline in the picture of all within a radius of the convex hull of some points.
+std::vector<Point2> outline_of(const std::vector<Point2>& points, double radius) {
+  constexpr int kCorners = 32;  // of a circle
+  std::vector<Point2> all;
+  for (const Point2& p : points) {
+    all.push_back(p);
+    for (int k = 0; radius > 0 && k < kCorners; ++k) {
+      const double angle = 2 * std::numbers::pi / kCorners * k;
+      all.emplace_back(p + radius * Point2(std::cos(angle), std::sin(angle)));
+    }
+  }
+  std::vector<Point2> outline;
+  for (const std::size_t i : hull(all)) outline.push_back(all[i]);
+  return outline;
+}
+
+/// Bodies that may not touch: those behind the platform first, with the edges of those that have some and their names.
+void Picture::bodies() {
+  constexpr std::size_t kMostCorners = 24;  // of a body whose edges are drawn
+  const Matrix3<double> turn = rotation(scene_.sampler.model().angles, sample_.pose.angles);
+  const Vector3d towards = view_.towards();
+  const double depth = towards.dot(sample_.pose.p_WP);
+  for (const BodyShape& body : body_shapes(scene_)) {
+    const auto at = [&](const Vector3d& p) -> Vector3d {
+      return body.is_obstacle ? p : Vector3d(sample_.pose.p_WP + turn * p);
+    };
+    const char* const kind = body.is_obstacle ? "" : " carried";
+    if (body.is_half_space) {
+      const auto corners = view_.plane(body.normal, body.offset);
+      const std::vector<Point2> outline = placed({corners.begin(), corners.end()});
+      behind_ += html("<path class=\"body half-space\" d=\"{}\"/>", path_data(outline, true));
+      body_names_.emplace_back(body.name, kind, outline.front());
+      continue;
+    }
+    std::vector<Vector3d> points;
+    for (const Vector3d& p : body.points) points.push_back(at(p));
+    for (const Vector3d& p : body.mesh ? body.box() : std::vector<Vector3d>()) points.push_back(at(p));
+    if (points.empty()) continue;
+    Vector3d middle = Vector3d::Zero();
+    for (const Vector3d& p : points) middle += p / static_cast<double>(points.size());
+    Html& layer = !body.is_obstacle ? between_ : towards.dot(middle) < depth ? behind_ : front_;
+    if (body.mesh) {
+      layer += html("<path class=\"body-edges{}\" d=\"{}\"/>", kind,
+                    edges_data(*body.mesh, [&](const Vector3d& p) { return place(at(p)); }));
+    } else {
+      layer += html("<path class=\"body{}\" d=\"{}\"/>", kind,
+                    path_data(outline_of(placed(points), scale_ * body.radius), true));
+      if (points.size() > 2 && points.size() <= kMostCorners) {
+        std::string seen, unseen;
+        for (const Face& face : hull_faces(points)) {
+          (face.normal.dot(towards) > 0 ? seen : unseen) += path_data(placed(face.corners), true);
+        }
+        layer += html("<path class=\"body-edges unseen{0}\" d=\"{1}\"/><path class=\"body-edges{0}\" d=\"{2}\"/>", kind,
+                      unseen, seen);
+      }
+    }
+    body_names_.emplace_back(body.name, kind, place(middle));
+  }
+}
+
+/// The nearest points of the pair that has the least left, where they can be told apart in the picture.
+void Picture::nearest_bodies() {
+  if (!scene_.bodies || scene_.distances.least.empty() || found_no_path(scene_.certificate)) return;
+  const std::vector<BodyDistance> nearest =
+      scene_.bodies->nearest(scene_.sampler.model(), scene_.sampler.rigid_pose(sample_), 1);
+  if (nearest.empty()) return;
+  const Point2 a = place(nearest[0].at[0]);
+  const Point2 b = place(nearest[0].at[1]);
+  front_ += line("apart-casing", a, b) + line("apart", a, b);
+  for (const Point2& end : {a, b}) {
+    front_ +=
+        html("<circle class=\"apart-end\" cx=\"{}\" cy=\"{}\" r=\"3\"/>", coordinate(end.x()), coordinate(end.y()));
+    labels_.keep_clear({end, {4, 4}});
+  }
 }
 
 /// The outlines of the platform at the start and at the goal, unless it is shown there.
@@ -401,6 +482,11 @@ void Picture::names() {
   for (std::size_t k = 0; k < anchors.size(); ++k) {
     label("name", texts[k], around(place(anchors[k]), half_size(texts[k], kFont), 8));
   }
+  for (const auto& [name, kind, at] : body_names_) {
+    constexpr std::size_t kLongest = 24;
+    if (name.size() > kLongest) continue;
+    label(fmt::format("body-name{}", kind).c_str(), name, around(at, half_size(name, kFont), 2));
+  }
   const auto last = static_cast<double>(scene_.certificate.path.segments());
   std::vector<std::pair<std::string, double>> ends = {{"S", 0.0}};
   if (last > 0) ends.emplace_back("G", last);
@@ -482,9 +568,11 @@ Html Picture::draw(const std::string& caption, const Html& note) {
   shown_frame();
   base();
   shown_payload();
+  bodies();
   platform();
   strokes();
   track();
+  nearest_bodies();
   load();
   names();
   discs();
@@ -511,6 +599,21 @@ std::array<Nearness, kCables> nearness_at(const Model<double>& model, const Stat
                                        nearness_to_top(f, model.tension_upper[i])));
   }
   return result;
+}
+
+Html bodies_note(const ReportContext& scene) {
+  if (!scene.bodies) return {};
+  const BodiesText& bodies = *scene.certificate.problem.bodies;
+  if (bodies.platform.empty() && bodies.obstacles.empty()) return {};
+  constexpr std::size_t kMostNames = 6;
+  Html text;
+  if (!bodies.obstacles.empty())
+    text += html("Grey-blue: obstacles, <bdi>{}</bdi>. ", body_names(bodies.obstacles, kMostNames));
+  if (!bodies.platform.empty())
+    text += html("Green: on the platform, <bdi>{}</bdi>. ", body_names(bodies.platform, kMostNames));
+  const bool has_line = !scene.distances.least.empty() && !found_no_path(scene.certificate);
+  return html("<p class=\"note\">{}They are <b>checked</b>, as far as pairs are.{}</p>\n", text,
+              has_line ? " Between two dots: the pair that is nearest to its clearance." : "");
 }
 
 Html shown_bodies_note(const ReportContext& scene) {

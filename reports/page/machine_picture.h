@@ -34,6 +34,8 @@ struct PictureSize {
                                    const std::array<Nearness, kCables>& nearness, const std::string& caption,
                                    const PictureSize& size, const Html& note = {});
 
+/// Says what of the picture is a body that is checked; nothing where there are none.
+[[nodiscard]] Html bodies_note(const ReportContext& scene);
 /// Says of the frame and the payload that pictures show that nothing checks them; nothing where none are shown.
 [[nodiscard]] Html shown_bodies_note(const ReportContext& scene);
 

@@ -9,17 +9,20 @@ inline constexpr const char* kMachineStyle = R"css(
 :root {
   --warm: #f0c36a; --warm-half: #dfae52; --warm-dim: #c4923a; --warm-edge: #4d3a05; --steel: #66707d; --post: #c3cad2;
   --ground: #dde1e5; --anchor: #39434d;
+  --obstacle: #8595a6; --obstacle-edge: #41566b; --carried: #7fae9f; --carried-edge: #24594b;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --warm: #b98a34; --warm-half: #a1762a; --warm-dim: #855f1f; --warm-edge: #f3d89c; --steel: #8b97a3;
     --post: #4b5560; --ground: #2c343b; --anchor: #c3ccd4;
+    --obstacle: #5d7083; --obstacle-edge: #a9bccf; --carried: #3f7363; --carried-edge: #9bd3c0;
   }
 }
 @media print {
   :root {
     --warm: #f0c36a; --warm-half: #dfae52; --warm-dim: #c4923a; --warm-edge: #4d3a05; --steel: #66707d;
     --post: #c3cad2; --ground: #dde1e5; --anchor: #39434d;
+    --obstacle: #8595a6; --obstacle-edge: #41566b; --carried: #7fae9f; --carried-edge: #24594b;
     --calm: #3f4b57; --near: #cf8500; --near-ink: #855600; --close: #c2410c; --out: #b3261e;
   }
 }
@@ -37,6 +40,17 @@ inline constexpr const char* kMachineStyle = R"css(
 .machine .shown { stroke: var(--steel); stroke-width: 0.9; opacity: 0.6; }
 .machine svg .shown.payload { fill: var(--warm-edge); fill-opacity: 0.12; stroke: none; opacity: 1; }
 .machine .shown.edges { stroke: var(--warm-edge); opacity: 0.8; }
+.machine svg .body { fill: var(--obstacle); fill-opacity: 0.38; stroke: none; }
+.machine svg .body.carried { fill: var(--carried); fill-opacity: 0.5; }
+.machine svg .body.half-space { fill-opacity: 0.16; stroke: var(--obstacle-edge); stroke-width: 0.8; }
+.machine .body-edges { stroke: var(--obstacle-edge); stroke-width: 1.1; }
+.machine .body-edges.carried { stroke: var(--carried-edge); }
+.machine .body-edges.unseen { opacity: 0.35; stroke-dasharray: 3 3; }
+.machine svg .body-name { font-size: 13px; fill: var(--obstacle-edge); }
+.machine svg .body-name.carried { fill: var(--carried-edge); }
+.machine .apart { stroke: var(--ink); stroke-width: 1.8; }
+.machine .apart-casing { stroke: var(--paper); stroke-width: 5; opacity: 0.8; }
+.machine svg .apart-end { fill: var(--ink); }
 .machine .post { stroke: var(--post); stroke-width: 6; }
 .machine .foot { stroke: var(--post); stroke-width: 4; }
 .machine svg .anchor { fill: var(--anchor); }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "problem/rational.h"
+#include "reports/page/body_shapes.h"
 
 namespace taut {
 
@@ -43,6 +44,38 @@ MachineView::Grid grid_below(const MachineView& view) {
   grid.across = steps(left, right);
   grid.inward = steps(front, back);
   return grid;
+}
+
+/// The corners of what of the obstacles is next to some points: what is far from the machine would make it tiny.
+std::vector<Vector3d> near_parts(const std::vector<BodyShape>& bodies, const std::vector<Vector3d>& points) {
+  constexpr double kBeyond = 0.25;  // of the size of the machine
+  Eigen::AlignedBox3d machine;
+  for (const Vector3d& p : points) machine.extend(p);
+  const Vector3d more = Vector3d::Constant(kBeyond * machine.sizes().maxCoeff());
+  machine = Eigen::AlignedBox3d(Vector3d(machine.min() - more), Vector3d(machine.max() + more));
+  std::vector<Vector3d> result;
+  for (const BodyShape& body : bodies) {
+    if (!body.is_obstacle || body.is_half_space) continue;
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& p : body.box()) box.extend(p);
+    box = box.intersection(machine);
+    if (box.isEmpty()) continue;
+    for (int k = 0; k < 8; ++k) result.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  }
+  return result;
+}
+
+/// The height of a level half-space below the machine, on which it stands; nothing where there is none.
+std::optional<double> floor_height(const MachineView& view, const std::vector<BodyShape>& bodies) {
+  std::optional<double> height;
+  for (const BodyShape& body : bodies) {
+    if (!body.is_half_space || body.normal.dot(view.up) < 1 - 1e-9) continue;
+    const bool is_below = std::ranges::all_of(view.swept, [&](const Vector3d& p) {
+      return body.normal.dot(p) > body.offset - 1e-6 * std::abs(body.offset) - 1e-9;
+    });
+    if (is_below && (!height || body.offset > *height)) height = body.offset;
+  }
+  return height;
 }
 
 /// The area inside the outline of some points in the picture [m²].
@@ -166,9 +199,12 @@ std::vector<Vector3d> base_of(const ReportContext& scene) {
 }
 
 std::vector<Vector3d> box_corners(const std::optional<ShownBody>& body) {
-  if (!body) return {};
+  return body ? box_corners(*body) : std::vector<Vector3d>();
+}
+
+std::vector<Vector3d> box_corners(const ShownBody& body) {
   Eigen::AlignedBox3d box;
-  for (const std::array<double, 3>& corner : body->corners) box.extend(Vector3d(corner[0], corner[1], corner[2]));
+  for (const std::array<double, 3>& corner : body.corners) box.extend(Vector3d(corner[0], corner[1], corner[2]));
   std::vector<Vector3d> result;
   for (int k = 0; k < 8; ++k) result.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
   return result;
@@ -181,7 +217,11 @@ MachineView::MachineView(const ReportContext& scene)
   swept = base_of(scene);
   const Decoration& shown = scene.illustration.decoration;
   std::ranges::copy(box_corners(shown.frame), std::back_inserter(swept));
-  const std::vector<Vector3d> payload = box_corners(shown.payload);
+  std::vector<Vector3d> payload = box_corners(shown.payload);
+  const std::vector<BodyShape> bodies = body_shapes(scene);
+  for (const BodyShape& body : bodies) {
+    if (!body.is_obstacle) std::ranges::copy(body.box(), std::back_inserter(payload));
+  }
   const bool is_path = !found_no_path(scene.certificate);
   constexpr std::size_t kPoses = 120;
   const std::size_t stride = is_path ? std::max<std::size_t>(1, scene.samples.size() / kPoses) : 1;
@@ -194,6 +234,7 @@ MachineView::MachineView(const ReportContext& scene)
     const Matrix3<double> turn = rotation(scene.sampler.model().angles, sample.pose.angles);
     for (const Vector3d& corner : payload) swept.emplace_back(sample.pose.p_WP + turn * corner);
   }
+  std::ranges::copy(near_parts(bodies, swept), std::back_inserter(swept));
   const auto is_number = [](const Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kTooLarge; };
   is_drawable = std::ranges::all_of(swept, is_number);
   if (!is_drawable) return;
@@ -203,7 +244,25 @@ MachineView::MachineView(const ReportContext& scene)
   is_drawable = size > 0 && swept.front().norm() < 1e9 * size;
   if (!is_drawable) return;
   grid = grid_below(*this);
+  if (const auto floor = floor_height(*this, bodies)) grid.height = *floor;
   if (!scene.samples.empty()) azimuth = best_azimuth(*this, scene, size);
+}
+
+std::array<Vector3d, 4> MachineView::plane(const Vector3d& normal, double offset) const {
+  Vector3d along = up.cross(normal);
+  along = along.norm() > 1e-6 ? along.normalized() : across;
+  const Vector3d aside = normal.cross(along);
+  Eigen::AlignedBox2d box;
+  for (const Vector3d& p : swept) {
+    box.extend(Point2(along.dot(p), aside.dot(p)));
+    box.extend(Point2(along.dot(foot(p)), aside.dot(foot(p))));
+  }
+  constexpr double kMore = 0.06;  // of its size
+  const Point2 more = Point2::Constant(kMore * box.sizes().maxCoeff());
+  const Point2 low = box.min() - more;
+  const Point2 high = box.max() + more;
+  const auto at = [&](double a, double b) -> Vector3d { return a * along + b * aside + offset * normal; };
+  return {at(low.x(), low.y()), at(high.x(), low.y()), at(high.x(), high.y()), at(low.x(), high.y())};
 }
 
 Vector3d MachineView::right() const { return std::cos(azimuth) * across + std::sin(azimuth) * inward; }

@@ -31,7 +31,8 @@ struct MachineView {
   };
   Grid grid;
   std::vector<Eigen::Vector3d>
-      swept;                 ///< base anchors, and platform anchors, load point and weights along the path [m]
+      swept;                 ///< base anchors, and platform anchors, load point and weights along the path, and
+                             ///< bodies: all of the platform's, and of obstacles what is near [m]
   bool is_drawable = false;  ///< whether all of them are numbers that can be drawn; else the grid is not set
 
   [[nodiscard]] Eigen::Vector3d right() const;    ///< in the picture
@@ -39,6 +40,9 @@ struct MachineView {
   [[nodiscard]] Eigen::Vector3d towards() const;  ///< towards who looks
   /// In the picture, in metres, y pointing down.
   [[nodiscard]] Point2 operator()(const Eigen::Vector3d& p) const { return {right().dot(p), -upward().dot(p)}; }
+  /// The part of a plane { normal·x = offset } that is next to what is drawn: the corners of a rectangle, in order.
+  /// @pre normal has length 1, and this is drawable
+  [[nodiscard]] std::array<Eigen::Vector3d, 4> plane(const Eigen::Vector3d& normal, double offset) const;
   /// The point of the ground below p.
   [[nodiscard]] Eigen::Vector3d foot(const Eigen::Vector3d& p) const { return p + (grid.height - up.dot(p)) * up; }
 };
@@ -57,5 +61,6 @@ struct MachineView {
 [[nodiscard]] std::vector<Eigen::Vector3d> base_of(const ReportContext& scene);
 /// The corners of the box around a body that is only shown, along its own axes; none where there is none.
 [[nodiscard]] std::vector<Eigen::Vector3d> box_corners(const std::optional<ShownBody>& body);
+[[nodiscard]] std::vector<Eigen::Vector3d> box_corners(const ShownBody& body);
 
 }  // namespace taut

@@ -21,6 +21,7 @@ struct MarginRow {
   const Margins* tension = nullptr;  ///< that of the segment where this margin is least; null without any box
   const Margins* length = nullptr;
   const Margins* scale = nullptr;
+  const Margins* clearance = nullptr;
 };
 
 MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t last) {
@@ -37,6 +38,10 @@ MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t 
     keep_least(row.tension, &Margins::tension_N);
     keep_least(row.length, &Margins::length_m);
     keep_least(row.scale, &Margins::wrench_scale);
+    if (margins.clearance_m && (row.clearance == nullptr ||
+                                nearest_double(*margins.clearance_m) < nearest_double(*row.clearance->clearance_m))) {
+      row.clearance = &margins;
+    }
   }
   return row;
 }
@@ -45,6 +50,15 @@ MarginRow margin_row(const ReportContext& scene, std::size_t first, std::size_t 
 Html marked(const Certificate& certificate, const Margins* least, DecimalText Margins::*margin,
             const std::string& text) {
   const bool is_least = certificate.margins && least->*margin == (*certificate.margins).*margin;
+  return is_least ? html("<b>{}</b>", text) : html("{}", text);
+}
+
+/// The least clearance left, as `text_of` has it; in bold likewise.
+template <class TextOf>
+Html clearance_cell(const Certificate& certificate, const Margins* least, const TextOf& text_of) {
+  if (least == nullptr) return html("–");
+  const std::string text = text_of(*least->clearance_m);
+  const bool is_least = certificate.margins && certificate.margins->clearance_m == least->clearance_m;
   return is_least ? html("<b>{}</b>", text) : html("{}", text);
 }
 
@@ -68,15 +82,18 @@ Html rounded_table(const ReportContext& scene, const std::string& caption, const
         {segments_text(row), html("{} → {}", row.first, row.last + control_points(certificate.path.interpolation) - 1),
          html("{}", row.boxes), cell(row.tension, &Margins::tension_N, in(units.force)),
          cell(row.length, &Margins::length_m, in(units.length)), cell(row.scale, &Margins::wrench_scale, growth_text)});
+    if (certificate.problem.bodies) {
+      cells.back().push_back(clearance_cell(certificate, row.clearance, in(units.length)));
+    }
   }
-  return table(html("{}", caption),
-               {{html("Segment"), true},
-                {html("Waypoints"), true},
-                {html("Boxes"), true},
-                {html("Tension to its nearer limit [{}]", units.force.name()), true},
-                {html("Length to its nearer limit [{}]", units.length.name()), true},
-                {html("Loads could grow to"), true}},
-               cells);
+  std::vector<Column> columns = {{html("Segment"), true},
+                                 {html("Waypoints"), true},
+                                 {html("Boxes"), true},
+                                 {html("Tension to its nearer limit [{}]", units.force.name()), true},
+                                 {html("Length to its nearer limit [{}]", units.length.name()), true},
+                                 {html("Loads could grow to"), true}};
+  if (certificate.problem.bodies) columns.push_back({html("Clearance left [{}]", units.length.name()), true});
+  return table(html("{}", caption), columns, cells);
 }
 
 Html exact_table(const Certificate& certificate, const std::string& caption, const std::vector<MarginRow>& rows) {
@@ -92,14 +109,17 @@ Html exact_table(const Certificate& certificate, const std::string& caption, con
                                       : html("2<sup>−{}</sup>", row.depth),
                      cell(row.tension, &Margins::tension_N), cell(row.length, &Margins::length_m),
                      cell(row.scale, &Margins::wrench_scale)});
+    if (certificate.problem.bodies) {
+      cells.back().push_back(clearance_cell(certificate, row.clearance, [](const DecimalText& si) { return si; }));
+    }
   }
-  return table(html("{}", caption),
-               {{html("Segment"), true},
-                {html("Narrowest box"), true},
-                {html("tension_N"), true},
-                {html("length_m"), true},
-                {html("wrench_scale"), true}},
-               cells);
+  std::vector<Column> columns = {{html("Segment"), true},
+                                 {html("Narrowest box"), true},
+                                 {html("tension_N"), true},
+                                 {html("length_m"), true},
+                                 {html("wrench_scale"), true}};
+  if (certificate.problem.bodies) columns.push_back({html("clearance_m"), true});
+  return table(html("{}", caption), columns, cells);
 }
 
 std::vector<MarginRow> rows_of(const ReportContext& scene, std::size_t step) {
@@ -149,7 +169,7 @@ Html margins(const ReportContext& scene) {
   return section(
       "margins", "Proved margins",
       html("<p>Lower bounds that hold at every pose of a segment, for all six cables and every load, rounded down{}. "
-           "The last column is the factor by which the semi-axes of the set of loads may grow before a tension reaches "
+           "Loads could grow by the factor by which the semi-axes of their set may grow before a tension reaches "
            "its limit. {}The true margins may be larger: a bound is as sharp as the proof needed it. Boxes are the "
            "intervals of a segment that were proved at one go.</p>\n",
            certificate.margins ? "" : ", for those parts of the path that are proved",
@@ -166,8 +186,11 @@ Html exact_margins(const ReportContext& scene) {
       certificate.margins
           ? html(
                 "<p>Of the whole path: <code>tension_N</code> {}, <code>length_m</code> {}, "
-                "<code>wrench_scale</code> {}.</p>\n",
-                certificate.margins->tension_N, certificate.margins->length_m, certificate.margins->wrench_scale)
+                "<code>wrench_scale</code> {}{}.</p>\n",
+                certificate.margins->tension_N, certificate.margins->length_m, certificate.margins->wrench_scale,
+                certificate.margins->clearance_m
+                    ? html(", <code>clearance_m</code> {}", *certificate.margins->clearance_m)
+                    : Html())
           : Html();
   const char* const caption = has_all ? "Margins of each segment, exact" : "The least margins of segments, exact";
   return section("exact-margins", "Margins as the certificate states them",

@@ -93,6 +93,49 @@ Html margins_along(const ReportContext& scene) {
                      unscripted() + place("margins"));
 }
 
+/// The pairs that come nearest, in numbers.
+Html nearest_table(const ReportContext& scene) {
+  const DistancesAlong& along = scene.distances;
+  const DisplayUnit& unit = scene.illustration.units.length;
+  const std::vector<BodyPair> all = pairs(*scene.certificate.problem.bodies);
+  std::vector<std::vector<Html>> rows;
+  for (std::size_t n = 0; n < along.nearest.size(); ++n) {
+    const double distance = along.distance[n][along.nearest_at[n]];
+    const double left = distance - along.clearance[n];
+    rows.push_back({html("<bdi>{}</bdi>", scene.bodies->name(along.nearest[n])),
+                    html("{}", with_minus_signs(unit.nearest(distance, 3))),
+                    html("{}", unit.exact(all.at(along.nearest[n]).clearance_m)),
+                    html("{}", with_minus_signs(unit.nearest(left, 3))),
+                    html("{}", place_text(scene, scene.samples[along.nearest_at[n]].position))});
+  }
+  return table(
+      html("The pairs that come nearest to their clearance, in floating point; below 0: about how deep they are "
+           "in each other"),
+      {{html("Bodies")},
+       {html("Apart [{}]", unit.name()), true},
+       {html("Clearance [{}]", unit.name()), true},
+       {html("Left [{}]", unit.name()), true},
+       {html("Where")}},
+      rows);
+}
+
+Html clearances(const ReportContext& scene) {
+  if (!scene.bodies || scene.distances.least.empty()) return {};
+  const std::string checked = plural(scene.bodies->pairs(), "pair");
+  return section(
+      "clearances", "Distances between bodies",
+      html("<p>How much farther than its clearance the nearest of {} of bodies is apart{}. Then those that come "
+           "nearest, each with its clearance: samples of the machine as stated, in floating point. Shaded red: nearer "
+           "than the clearance.{}</p>\n",
+           checked,
+           scene.certificate.segments.empty()
+               ? Html(html(" in samples"))
+               : html(". Steps: what the certificate proves of each segment, for all pairs{}; dashed: samples",
+                      scene.certificate.problem.tolerances ? " and all deviations within the tolerances" : ""),
+           marks_text(scene)) +
+          unscripted() + place("clearances") + nearest_table(scene));
+}
+
 /// Of a space of three coordinates: where all of its poses are shown.
 Html slices_text(const ReportContext& scene) {
   const SpaceText& space = scene.certificate.problem.space;
@@ -162,7 +205,7 @@ Html move_section(const ReportContext& scene) {
 
 Html plot_sections(const ReportContext& scene) {
   if (!shows_path(scene)) return plane(scene);
-  return poses(scene) + tensions(scene) + lengths(scene) + margins_along(scene) + plane(scene) +
+  return poses(scene) + tensions(scene) + lengths(scene) + clearances(scene) + margins_along(scene) + plane(scene) +
          biting_tolerances(scene);
 }
 

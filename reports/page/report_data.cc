@@ -15,6 +15,7 @@
 #include "problem/expression.h"
 #include "problem/rational.h"
 #include "problem/scalar.h"
+#include "reports/page/body_shapes.h"
 #include "reports/page/machine_view.h"
 #include "reports/page/map_frame.h"
 #include "reports/page/plane.h"
@@ -135,7 +136,7 @@ void widen_to_the_whole_path(const ReportContext& scene, CableUse& use) {
       widen(use.length[i].range, s.length[i], s.length[i]);
     }
   }
-  if (!scene.gravest || scene.gravest->violation.singular) return;
+  if (!scene.gravest || scene.gravest->violation.singular || scene.gravest->violation.contact) return;
   const PathWitness& witness = scene.gravest->violation;
   const MarginKind kind = witness.margin.kind;
   const bool is_length = kind == MarginKind::kLengthMin || kind == MarginKind::kLengthMax;
@@ -328,25 +329,26 @@ json bands(const std::vector<Bin>& bins) {
 }
 
 /// The least margins of runs of segments, at most kMostBins of them; null where nothing is proved.
-json margins(const std::vector<CertificateSegment>& segments) {
+json margins(const std::vector<CertificateSegment>& segments, bool has_bodies) {
   const std::size_t together = (segments.size() + kMostBins - 1) / kMostBins;
   json result = {{"from", json::array()}, {"to", json::array()}};
-  const auto column = [&](const char* key, DecimalText Margins::*margin) {
+  const auto column = [&](const char* key, const auto& margin) {
     json list = json::array();
     for (std::size_t k = 0; k < segments.size(); k += together) {
       std::optional<double> least;
       for (std::size_t i = k; i < std::min(k + together, segments.size()); ++i) {
         if (!segments[i].margins) continue;
-        const double value = nearest_double((*segments[i].margins).*margin);
+        const double value = nearest_double(margin(*segments[i].margins));
         least = std::min(value, least.value_or(value));
       }
       list.push_back(least ? outward(*least, false) : json());
     }
     result[key] = list;
   };
-  column("tension_N", &Margins::tension_N);
-  column("length_m", &Margins::length_m);
-  column("wrench_scale", &Margins::wrench_scale);
+  column("tension_N", [](const Margins& m) { return m.tension_N; });
+  column("length_m", [](const Margins& m) { return m.length_m; });
+  column("wrench_scale", [](const Margins& m) { return m.wrench_scale; });
+  if (has_bodies) column("clearance_m", [](const Margins& m) { return m.clearance_m.value_or("0"); });
   for (std::size_t k = 0; k < segments.size(); k += together) {
     result["from"].push_back(k);
     result["to"].push_back(std::min(k + together, segments.size()));
@@ -413,6 +415,86 @@ json decoration(const Decoration& shown) {
   return result;
 }
 
+json triangles(const ShownBody& body) {
+  json corners = json::array();
+  json indices = json::array();
+  for (const std::array<double, 3>& corner : body.corners) {
+    for (const double x : corner) corners.push_back(number(x));
+  }
+  for (const auto& triangle : body.triangles) {
+    for (const std::uint32_t i : triangle) indices.push_back(i);
+  }
+  return {{"corners", corners}, {"triangles", indices}};
+}
+
+json shape(const BodyShape& body, const MachineView& view) {
+  json result = {{"name", body.name}, {"is_obstacle", body.is_obstacle}};
+  if (body.mesh) {
+    result.update(triangles(*body.mesh));
+  } else if (body.is_half_space) {
+    json corners = json::array();
+    for (const Vector3<double>& p : view.plane(body.normal, body.offset)) corners.push_back(point(p));
+    result["plane"] = std::move(corners);
+  } else {
+    json points = json::array();
+    for (const Vector3<double>& p : body.points) points.push_back(point(p));
+    result["points"] = std::move(points);
+    result["radius"] = number(body.radius);
+  }
+  json box = json::array();
+  for (const Vector3<double>& p : body.box()) box.push_back(point(p));
+  result["box"] = std::move(box);
+  return result;
+}
+
+/// The pair with the least left at each sample, and its nearest points.
+json nearest_bodies(const DistancesAlong& along) {
+  std::vector<double> pair, distance, clearance;
+  std::array<std::vector<double>, 3> first, second;
+  for (const BodyDistance& nearest : along.least) {
+    pair.push_back(static_cast<double>(nearest.pair));
+    distance.push_back(nearest.distance);
+    clearance.push_back(nearest.clearance);
+    for (std::size_t c = 0; c < 3; ++c) {
+      first[c].push_back(nearest.at[0](static_cast<Eigen::Index>(c)));
+      second[c].push_back(nearest.at[1](static_cast<Eigen::Index>(c)));
+    }
+  }
+  return {{"pair", numbers(pair)},
+          {"distance", numbers(distance)},
+          {"clearance", numbers(clearance)},
+          {"first", json_columns(first)},
+          {"second", json_columns(second)}};
+}
+
+/// Shapes, cables as bodies, and distances at the samples; null where the problem has no bodies.
+json bodies(const ReportContext& scene) {
+  if (!scene.bodies) return nullptr;
+  const MachineView view(scene);
+  const BodyModel<double>& model = scene.bodies->bodies();
+  const DistancesAlong& along = scene.distances;
+  json shapes = json::array();
+  if (view.is_drawable) {
+    for (const BodyShape& body : body_shapes(scene)) shapes.push_back(shape(body, view));
+  }
+  json names = json::object();
+  for (const BodyDistance& nearest : along.least)
+    names[std::to_string(nearest.pair)] = scene.bodies->name(nearest.pair);
+  json pairs = json::array();
+  for (std::size_t n = 0; n < along.nearest.size(); ++n) {
+    pairs.push_back({{"name", scene.bodies->name(along.nearest[n])},
+                     {"clearance", number(along.clearance[n])},
+                     {"distance", numbers(along.distance[n])}});
+  }
+  const auto& checked = scene.certificate.problem.bodies->clearance_m;
+  json free_ends = json::array();
+  for (const auto& ends : model.cable_free) free_ends.push_back(numbers(ends));
+  return {{"shapes", shapes},       {"cable_radius", numbers(model.cable_radius)},
+          {"free_ends", free_ends}, {"has_cables", checked[1] || checked[2] || checked[3]},
+          {"names", names},         {"nearest", nearest_bodies(along)},
+          {"pairs", pairs}};
+}
+
 /// The centres of gravity of the load's weights, in the axes of the platform.
 json weights(const LoadText& load) {
   json result = json::array();
@@ -432,8 +514,10 @@ json witness(const ReportContext& scene) {
   const bool singular = violation.singular;
   return {{"position", number(position(violation.at))},
           {"to", singular ? number(position(violation.to)) : json()},
-          {"kind", singular ? "singular" : name(violation.margin.kind)},
-          {"cable", singular ? 0 : violation.margin.cable + 1}};
+          {"kind", singular            ? "singular"
+                   : violation.contact ? "contact"
+                                       : name(violation.margin.kind)},
+          {"cable", singular || violation.contact ? 0 : violation.margin.cable + 1}};
 }
 
 /// Where poses are implied and the path is refuted, the end of the certificate's own witness: up to there the move is
@@ -555,7 +639,8 @@ json report_data(const ReportContext& scene) {
           {"samples", samples(scene)},
           {"cables", cables(scene)},
           {"bands", scene.ranges.segments.empty() ? json() : bands(bins(scene.ranges))},
-          {"margins", margins(certificate.segments)},
+          {"margins", margins(certificate.segments, certificate.problem.bodies.has_value())},
+          {"bodies", bodies(scene)},
           {"stretches", stretches(certificate)},
           {"witness", witness(scene)},
           {"reached", reached(scene)},

@@ -7,6 +7,8 @@
 #include "reports/page/table_sizes.h"
 #include "reports/summary/angles.h"
 #include "reports/summary/around_items.h"
+#include "reports/summary/bodies_statement.h"
+#include "reports/summary/broken_limits.h"
 #include "reports/summary/headroom_summary.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/numbers.h"
@@ -299,9 +301,29 @@ Html tolerances(const ReportContext& scene) {
           note);
 }
 
+namespace {
+
+/// The bodies in people's units, and which pairs are checked.
+Html bodies_tables(const Problem& problem) {
+  if (!problem.bodies) return {};
+  const BodiesStatement statement = bodies_statement(*problem.bodies);
+  std::vector<std::vector<Html>> rows;
+  for (const auto& [name, words] : statement.bodies) rows.push_back({html("<bdi>{}</bdi>", name), html("{}", words)});
+  Html notes;
+  for (const std::string& note : statement.notes) notes += html(" {}.", note);
+  return html("<h3>Bodies that may not touch</h3>\n<p>{} {}{}</p>\n", statement.checked, statement.cables, notes) +
+         (rows.empty()
+              ? Html()
+              : folded(rows.size() > kLongTable, html("{}", fmt::format("{} bodies", rows.size())),
+                       table(html("Bodies, as the case states them"), {{html("Body")}, {html("What it is")}}, rows)));
+}
+
+}  // namespace
+
 Html machine(const ReportContext& scene) {
   return section("robot", "Machine and load",
-                 robot_tables(scene.certificate.problem, scene.illustration.units) + load_tables(scene.certificate));
+                 robot_tables(scene.certificate.problem, scene.illustration.units) + load_tables(scene.certificate) +
+                     bodies_tables(scene.certificate.problem));
 }
 
 Html path_section(const ReportContext& scene) {
@@ -345,7 +367,12 @@ Html stretches(const ReportContext& scene) {
   if (certificate.stretches.empty()) return {};
   const auto place = [&](const PathPoint& point) { return html("{}", place_text(scene, position(point))); };
   const auto violation = [&](const PathWitness& end) {
-    return html("{}, {}", violation_text(end, certificate.problem.robot, scene.illustration.units),
+    const std::string about =
+        end.contact
+            ? fmt::format(" ({} in floating point)", apart_text(distance_at(scene, position(end.at), end.contact->pair),
+                                                                scene.illustration.units.length))
+            : "";
+    return html("{}{}, {}", violation_text(end, certificate.problem, scene.illustration.units), about,
                 place_text(scene, position(end.at)));
   };
   const std::size_t shown = std::min(certificate.stretches.size(), kMostRows);

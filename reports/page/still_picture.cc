@@ -29,7 +29,7 @@ Html still_picture(const ReportContext& scene) {
     const PathSample sample = scene.sampler.at(path, at);
     panels += machine_picture(scene, view, at, nearness_at(scene.sampler.model(), sample.statics), caption, kSize);
   }
-  return html("<div class=\"panels robots\">{}</div>\n", panels) + shown_bodies_note(scene);
+  return html("<div class=\"panels robots\">{}</div>\n", panels) + bodies_note(scene) + shown_bodies_note(scene);
 }
 
 }  // namespace taut

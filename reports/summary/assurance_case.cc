@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/plural.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/load_statement.h"
 #include "reports/summary/scope.h"
 #include "reports/summary/sentences.h"
@@ -83,6 +84,12 @@ void add_scope(Builder& builder, const ReportContext& scene, const std::string& 
   context(fmt::format("Loads: {} {}", load.total, load.spread), "Loads: all of the stated set");
   context(fmt::format("Tolerances: {}", tolerances_text(certificate.problem.tolerances, units)),
           certificate.problem.tolerances ? "Tolerances: as stated, all at once" : "Tolerances: none");
+  if (certificate.problem.bodies) {
+    const std::size_t count = pairs(*certificate.problem.bodies).size();
+    context(fmt::format("Bodies: {}", bodies_text(certificate.problem)),
+            fmt::format("Bodies: as stated, {} checked{}", plural(count, "pair"),
+                        unchecked_classes(*certificate.problem.bodies).empty() ? "" : "; some classes are not"));
+  }
   context(fmt::format("Path: {}, the exact waypoints of the certificate's path, SHA-256 {}.",
                       plural(certificate.path.segments(), "segment"), certificate.path_sha256),
           fmt::format("Path: {} (path {})", plural(certificate.path.segments(), "segment"),
@@ -106,26 +113,32 @@ void add_proof(Builder& builder, const ReportContext& scene, const std::string& 
   builder.put_in_context(
       by_boxes,
       builder.add(Kind::kJustification,
-                  "Interval arithmetic with outward rounding encloses every tension and length over a whole box, for "
-                  "every stated load and deviation. The theorems and their proofs are in docs/theory.md.",
+                  "Interval arithmetic with outward rounding encloses every tension and length over a whole box, and "
+                  "how far bodies are apart, for every stated load and deviation. The theorems and their proofs are in "
+                  "docs/theory.md.",
                   "Interval arithmetic with outward rounding encloses every value over a box (docs/theory.md)"));
   builder.put_in_context(
       by_boxes, builder.add(Kind::kJustification,
                             "The program that searched is not believed: a second program, with equations, parser and "
                             "arithmetic of its own, proves each box again.",
                             "A second program, with equations and arithmetic of its own, proves each box again"));
+  const bool has_bodies = certificate.problem.bodies.has_value();
   const std::string each = builder.add(
       Kind::kGoal,
-      "The boxes cover the path without gaps. Over each of them, every tension and every length is strictly "
-      "inside its limits, and the force Jacobian is not singular.",
-      "The boxes leave no gap; over each, tensions and lengths are inside their limits and det J ≠ 0");
+      fmt::format(
+          "The boxes cover the path without gaps. Over each of them, every tension and every length is strictly "
+          "inside its limits, {}the force Jacobian is not singular{}.",
+          has_bodies ? "" : "and ",
+          has_bodies ? ", and the bodies of every checked pair are farther apart than their clearance" : ""),
+      fmt::format("The boxes leave no gap; over each, tensions and lengths are inside their limits{} det J ≠ 0{}",
+                  has_bodies ? "," : " and", has_bodies ? ", bodies apart" : ""));
   builder.support(by_boxes, each);
   const Margins& margins = *certificate.margins;
   builder.support(
       each, builder.add(Kind::kSolution,
                         fmt::format("The certificate, SHA-256 {}. {}", certificate.footer_sha256,
                                     margins_text(margins.tension_N, margins.length_m, margins.wrench_scale,
-                                                 scene.illustration.units)),
+                                                 scene.illustration.units, margins.clearance_m)),
                         fmt::format("Certificate: {}, SHA-256 {}", boxes, short_digest(certificate.footer_sha256))));
   builder.support(each, builder.add(Kind::kSolution,
                                     fmt::format("{} proved the certificate again: {}.", scene.recheck.checker,
@@ -146,11 +159,13 @@ std::vector<AssuranceNode> assurance_case(const ReportContext& scene, const std:
       "Argue over what is proved and, one by one, over what is not covered");
   builder.support(top, hazards);
   const bool has_tolerances = scene.certificate.problem.tolerances.has_value();
+  const bool has_bodies = scene.certificate.problem.bodies.has_value();
   const std::string claim = builder.add(
       Kind::kGoal,
       fmt::format("At every pose of the move, under every stated load{}, all six tensions and all six lengths are "
-                  "strictly inside their limits, and no singular pose is met.",
-                  has_tolerances ? " and for every machine within the tolerances" : ""));
+                  "strictly inside their limits, {}no singular pose is met{}.",
+                  has_tolerances ? " and for every machine within the tolerances" : "", has_bodies ? "" : "and ",
+                  has_bodies ? ", and the bodies of every checked pair are farther apart than their clearance" : ""));
   builder.support(hazards, claim);
   add_scope(builder, scene, claim);
   add_proof(builder, scene, claim);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/plural.h"
@@ -156,16 +157,6 @@ std::string body_text(const BodyText& body, bool is_obstacle) {
   return text;
 }
 
-const char* words_of(PairClass kind) {
-  switch (kind) {
-    case PairClass::kPlatformObstacles: return "platform and obstacles";
-    case PairClass::kCablesObstacles: return "cables and obstacles";
-    case PairClass::kCablesCables: return "cables among each other";
-    case PairClass::kCablesPlatform: break;
-  }
-  return "cables and platform";
-}
-
 std::string checked_text(const BodiesText& bodies) {
   std::array<std::size_t, kPairClasses> counts{};
   for (const BodyPair& pair : pairs(bodies)) ++counts[static_cast<std::size_t>(pair.kind)];
@@ -239,6 +230,33 @@ const BodyText* find_body(const BodiesText& bodies, const std::string& name) {
 
 }  // namespace
 
+const char* words_of(PairClass kind) {
+  switch (kind) {
+    case PairClass::kPlatformObstacles: return "platform and obstacles";
+    case PairClass::kCablesObstacles: return "cables and obstacles";
+    case PairClass::kCablesCables: return "cables among each other";
+    case PairClass::kCablesPlatform: break;
+  }
+  return "cables and platform";
+}
+
+std::vector<PairClass> unchecked_classes(const BodiesText& bodies) {
+  std::vector<PairClass> result;
+  for (const PairClass kind : all_pair_classes()) {
+    if (!bodies.clearance_m[static_cast<std::size_t>(kind)]) result.push_back(kind);
+  }
+  return result;
+}
+
+std::string pair_words(const BodiesText& bodies, const BodyPair& pair) {
+  const auto [first, second] = names(bodies, pair);
+  if (pair.kind == PairClass::kCablesCables) return fmt::format("cables {} and {}", pair.first + 1, pair.second + 1);
+  if (pair.kind == PairClass::kPlatformObstacles) {
+    return fmt::format("{} and {}", quoted_name(first), quoted_name(second));
+  }
+  return fmt::format("{} and {}", first, quoted_name(second));
+}
+
 BodiesStatement bodies_statement(const BodiesText& bodies) {
   BodiesStatement result;
   result.checked = checked_text(bodies);
@@ -274,6 +292,28 @@ std::vector<std::string> lines(const BodiesStatement& statement) {
   for (const auto& [name, words] : statement.bodies) result.push_back(fmt::format("{}, {}.", quoted_name(name), words));
   for (const std::string& note : statement.notes) result.push_back(note + ".");
   return result;
+}
+
+nlohmann::json to_json(const BodiesText& bodies, const BodiesStatement& statement) {
+  std::array<std::size_t, kPairClasses> counts{};
+  for (const BodyPair& pair : pairs(bodies)) ++counts[static_cast<std::size_t>(pair.kind)];
+  nlohmann::json checked = nlohmann::json::array();
+  nlohmann::json not_checked = nlohmann::json::array();
+  for (const PairClass kind : all_pair_classes()) {
+    const auto k = static_cast<std::size_t>(kind);
+    if (bodies.clearance_m[k]) {
+      checked.push_back({{"class", name(kind)},
+                         {"pairs", counts[k]},
+                         {"clearance_m", ScalarTraits<double>::from_decimal(*bodies.clearance_m[k])}});
+    } else {
+      not_checked.push_back(name(kind));
+    }
+  }
+  return {{"checked", checked}, {"not_checked", not_checked}, {"text", lines(statement)}};
+}
+
+nlohmann::json stated_bodies_json(const std::optional<CaseBodies>& bodies) {
+  return bodies ? to_json(bodies->text, bodies_statement(*bodies)) : nlohmann::json();
 }
 
 }  // namespace taut

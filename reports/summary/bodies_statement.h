@@ -4,6 +4,8 @@
 // Nothing here is a claim of a proof: what is proved is the problem's own exact numbers.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,19 @@ struct BodiesStatement {
 
 /// The same of a case, which knows of cylinders and what is in meshes.
 [[nodiscard]] BodiesStatement bodies_statement(const CaseBodies& bodies);
+
+/// "“container” and “stack”", "cable 3 and “stack”", "cables 2 and 5".
+[[nodiscard]] std::string pair_words(const BodiesText& bodies, const BodyPair& pair);
+/// "platform and obstacles", "cables and obstacles", "cables among each other", "cables and platform".
+[[nodiscard]] const char* words_of(PairClass kind);
+/// The classes of pairs that are not checked.
+[[nodiscard]] std::vector<PairClass> unchecked_classes(const BodiesText& bodies);
+/// For JSON: `checked`, a list of `class`, `pairs` and `clearance_m`, `not_checked`, a list of classes, and `text`, the
+/// sentences.
+[[nodiscard]] nlohmann::json to_json(const BodiesText& bodies, const BodiesStatement& statement);
+
+/// The same of a case; null where it has none.
+[[nodiscard]] nlohmann::json stated_bodies_json(const std::optional<CaseBodies>& bodies);
 
 /// A sentence each: pairs, cables, bodies, notes.
 [[nodiscard]] std::vector<std::string> lines(const BodiesStatement& statement);

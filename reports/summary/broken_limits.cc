@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include "certify/severity.h"
@@ -21,7 +22,9 @@ namespace {
 /// Whether both are about the same limit, and proved of poses of the same standing.
 bool is_same(const BrokenLimit& a, const BrokenLimit& b) {
   if (a.is_reached != b.is_reached) return false;
-  return a.is_singular ? b.is_singular : !b.is_singular && a.margin == b.margin;
+  if (a.is_singular || b.is_singular) return a.is_singular && b.is_singular;
+  if (a.bodies || b.bodies) return a.bodies && b.bodies && a.bodies->pair == b.bodies->pair;
+  return a.margin == b.margin;
 }
 
 bool is_same(const PathPoint& a, const PathPoint& b) {
@@ -38,13 +41,30 @@ bool is_reached(const Certificate& certificate, const PathWitness& witness) {
          (!witness.singular || is_same(witness.to, own.to));
 }
 
+/// Graver than any limit that is not next to a singular pose, and the graver the nearer.
+double severity_of(const BodyDistance& bodies) {
+  constexpr double kGrave = 1e9;
+  return kGrave - bodies.left();
+}
+
+void set_bodies(const ReportContext& scene, BrokenLimit& broken, const BodyDistance& bodies) {
+  broken.bodies = bodies;
+  broken.limit = pairs(*scene.certificate.problem.bodies).at(bodies.pair).clearance_m;
+  broken.value = bodies.distance;
+  broken.severity = severity_of(bodies);
+}
+
 BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness) {
   BrokenLimit broken;
   broken.proof = witness;
   broken.is_singular = witness.singular;
-  broken.severity = severity(witness, scene.certificate.problem.robot);
   broken.is_reached = is_reached(scene.certificate, witness);
   broken.position = broken.to = position(witness.at);
+  if (witness.contact) {
+    set_bodies(scene, broken, distance_at(scene, broken.position, witness.contact->pair));
+    return broken;
+  }
+  broken.severity = severity(witness, scene.certificate.problem.robot);
   if (witness.singular) {
     broken.to = position(witness.to);
     return broken;
@@ -134,11 +154,31 @@ std::vector<BrokenLimit> sampled_limits(const ReportContext& scene) {
   return all;
 }
 
+/// Of the pairs that come nearest, those that samples show too near.
+std::vector<BrokenLimit> sampled_contacts(const ReportContext& scene) {
+  std::vector<BrokenLimit> all;
+  const DistancesAlong& along = scene.distances;
+  for (std::size_t n = 0; n < along.nearest.size(); ++n) {
+    const double position = scene.samples[along.nearest_at[n]].position;
+    const BodyDistance bodies = distance_at(scene, position, along.nearest[n]);
+    if (bodies.left() > 0) continue;
+    BrokenLimit& broken = all.emplace_back();
+    broken.position = broken.to = position;
+    set_bodies(scene, broken, bodies);
+  }
+  return all;
+}
+
 void sort_by_severity(std::vector<BrokenLimit>& limits) {
   std::ranges::stable_sort(limits, std::greater<>(), &BrokenLimit::severity);
 }
 
 }  // namespace
+
+BodyDistance distance_at(const ReportContext& scene, double position, std::size_t pair) {
+  const PathSample sample = scene.sampler.at(scene.certificate.path, position);
+  return scene.bodies.value().at(scene.sampler.model(), scene.sampler.rigid_pose(sample), pair);
+}
 
 std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
   std::vector<BrokenLimit> result = proved_limits(scene);
@@ -148,6 +188,7 @@ std::vector<BrokenLimit> broken_limits(const ReportContext& scene) {
   const bool is_shown = !found_no_path(certificate) && certificate.path.interpolation != Interpolation::kCableLengths;
   if (!is_shown || certificate.verdict == Verdict::kProved) return result;
   std::vector<BrokenLimit> sampled = sampled_limits(scene);
+  std::ranges::move(sampled_contacts(scene), std::back_inserter(sampled));
   sort_by_severity(sampled);
   const std::size_t proved = result.size();
   for (BrokenLimit& broken : sampled) {
@@ -162,6 +203,7 @@ std::string what_text(const BrokenLimit& broken) {
   const bool deviates = broken.proof && broken.proof->deviation;
   const char* const machine = deviates ? "on a machine within the tolerances" : "";
   if (broken.is_singular) return machine;
+  if (broken.bodies) return broken.bodies->distance < 0 ? "in each other" : "nearer than their clearance";
   const bool upper = is_upper(broken.margin);
   const char* const what = is_length(broken.margin) ? (upper ? "too long" : "too short")
                            : upper                  ? "above its top tension"
@@ -169,8 +211,19 @@ std::string what_text(const BrokenLimit& broken) {
   return fmt::format("{}{}{}", what, deviates ? ", " : "", machine);
 }
 
+std::string subject_text(const ReportContext& scene, const BrokenLimit& broken) {
+  if (broken.is_singular) return "Singular pose";
+  if (broken.bodies) return scene.bodies.value().name(broken.bodies->pair);
+  return fmt::format("Cable {}", broken.margin.cable + 1);
+}
+
 std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
   if (broken.is_singular) return "the cables cannot balance every load";
+  if (broken.bodies) {
+    const DisplayUnit& length = scene.illustration.units.length;
+    return fmt::format("{}; clearance {} {}", apart_text(*broken.bodies, length), length.exact(broken.limit),
+                       length.name());
+  }
   const bool length = is_length(broken.margin);
   const DisplayUnit& unit = scene.illustration.units.of(length);
   const std::string limit = fmt::format("limit {} {}", unit.exact(broken.limit), unit.name());
@@ -189,6 +242,13 @@ std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
 std::string where_text(const ReportContext& scene, const BrokenLimit& broken) {
   std::string text = place_in_full(scene, broken.position, broken.to);
   if (const std::string rows = rows_text(scene, broken.position); !rows.empty()) text += "; " + rows;
+  if (broken.bodies) {
+    const DisplayUnit& length = scene.illustration.units.length;
+    const auto& [first, second] = broken.bodies->at;
+    text += broken.bodies->distance < 0 ? fmt::format("; about {}", point_in_space(first, length))
+                                        : fmt::format("; between about {} and {}", point_in_space(first, length),
+                                                      point_in_space(second, length));
+  }
   if (broken.stretches > 1) text += fmt::format("; in {} stretches", broken.stretches);
   return text;
 }

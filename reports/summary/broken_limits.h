@@ -15,11 +15,14 @@ namespace taut {
 struct BrokenLimit {
   /// Proved by this witness of the certificate; nothing: only floating-point samples show it, and nothing is proved.
   std::optional<PathWitness> proof;
-  bool is_singular = false;   ///< the force Jacobian is singular between `position` and `to`; no limit is named then
-  MarginId margin;            ///< which limit of which cable; unless singular
-  DecimalText limit;          ///< [N, m]; unless singular
-  double value = 0;           ///< what is beyond the limit [N, m]: for proved ones the end next to it; unless singular
-  double severity = 0;        ///< value − limit as a share of the width between the limits; infinite if singular
+  bool is_singular = false;  ///< the force Jacobian is singular between `position` and `to`; no limit is named then
+  std::optional<BodyDistance> bodies = {};  ///< which bodies are too near, in floating point; no limit is named then
+  MarginId margin;                          ///< which limit of which cable; unless singular or of bodies
+  DecimalText limit;                        ///< [N, m]; of bodies their clearance; unless singular
+  double value = 0;  ///< what is beyond the limit [N, m]: for proved ones the end next to it; unless singular
+  /// value − limit as a share of the width between the limits; infinite if singular; of bodies more than that of any
+  /// limit, and the more the nearer they are
+  double severity = 0;
   double position = 0;        ///< k + s is the point s of segment k
   double to = 0;              ///< the other end, if singular; else the same
   std::size_t stretches = 0;  ///< how many of the certificate's stretches have a proved violation of it
@@ -28,17 +31,25 @@ struct BrokenLimit {
   bool is_reached = true;
 
   [[nodiscard]] bool is_proved() const { return proof.has_value(); }
+  /// Whether it is a limit of the tension or the length of a cable.
+  [[nodiscard]] bool is_of_cable() const { return !is_singular && !bodies; }
 };
 
 /// First the limits that witnesses of the certificate prove broken, the gravest first; then those proved of poses that
-/// the move may not reach; then those that only samples show broken. A singular pose is graver than any limit. Samples
+/// the move may not reach; then those that only samples show broken. A singular pose is graver than bodies that are too
+/// near to each other, and that than any limit. Samples
 /// are not looked at where no path was found or where cable lengths imply the poses, as those shown may not be poses of
 /// the motion.
 [[nodiscard]] std::vector<BrokenLimit> broken_limits(const ReportContext& scene);
 
+/// A pair at a place of the path, in floating point. @pre scene.bodies
+[[nodiscard]] BodyDistance distance_at(const ReportContext& scene, double position, std::size_t pair);
+
 /// "below its slack limit, on a machine within the tolerances": what is broken, after the cable's name; of a singular
 /// pose only the machine, if it is not the stated one.
 [[nodiscard]] std::string what_text(const BrokenLimit& broken);
+/// Whose it is: "Cable 3", "container / stack", "Singular pose".
+[[nodiscard]] std::string subject_text(const ReportContext& scene, const BrokenLimit& broken);
 /// "at most 0.0499 N; limit 0.05 N", or of samples "about −18.7 N; limit 0.05 N".
 [[nodiscard]] std::string amount_text(const ReportContext& scene, const BrokenLimit& broken);
 /// "segment 2 at s = 0.525, after 41° of turning; lines 7-8; in 2 stretches": to be understood without anything else.

@@ -10,6 +10,7 @@
 
 #include "certify/path_proof.h"
 #include "problem/decimal.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/display_units.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/illustration.h"
@@ -173,6 +174,27 @@ std::string waypoint_text(const CaseSummary& summary, std::size_t k, const Displ
               : fmt::format("  {}\n", reversed_load_hint(summary.sampler.model(), s)));
 }
 
+/// The pairs that are nearest at a waypoint.
+std::string bodies_text(const CaseSummary& summary, const WaypointSummary& waypoint, const DisplayUnit& length) {
+  if (waypoint.nearest.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {{"bodies", fmt::format("apart [{}]", length.name()),
+                                                 fmt::format("clearance [{}]", length.name()),
+                                                 fmt::format("left [{}]", length.name()), ""}};
+  const std::vector<BodyPair> all = pairs(*summary.source.problem.bodies);
+  for (const BodyDistance& pair : waypoint.nearest) {
+    const bool is_in = pair.distance < 0;
+    rows.push_back({summary.bodies->name(pair.pair), is_in ? "–" : fmt::format("{:.4g}", length.approx(pair.distance)),
+                    length.exact(all.at(pair.pair).clearance_m), fmt::format("{:.4g}", length.approx(pair.left())),
+                    is_in             ? fmt::format("in contact, {}", apart_text(pair, length))
+                    : pair.left() > 0 ? ""
+                                      : "nearer than the clearance"});
+  }
+  const std::size_t others = summary.bodies->pairs() - waypoint.nearest.size();
+  return columns(rows) + (others == 0 ? ""
+                                      : fmt::format("  and {} that {} farther apart\n", plural(others, "pair"),
+                                                    others == 1 ? "is" : "are"));
+}
+
 const char* law_text(const Case& the_case) {
   if (the_case.audit && !the_case.audit->interpolation.empty()) return the_case.audit->interpolation.c_str();
   if (the_case.problem.query.empty()) return "as the audited file suggests";
@@ -193,12 +215,14 @@ double length_margin(const Model<double>& model, const Statics<double>& s, std::
 }
 
 CaseSummary::CaseSummary(const Case& the_case) : source(the_case), sampler(the_case.problem) {
+  if (the_case.problem.bodies) bodies.emplace(the_case.problem);
   for (const Waypoint& waypoint : query_waypoints(the_case.problem)) {
     WaypointSummary& next = waypoints.emplace_back();
     next.parameters = resolved(waypoint);
     next.pose = sampler.pose(waypoint);
     next.statics = sampler.statics(next.pose);
     if (next.statics.regular) next.wrench_scale = wrench_scale_approx(sampler.model(), next.statics);
+    if (bodies) next.nearest = bodies->nearest(sampler.model(), sampler.rigid_pose(next.pose), kNearestPairs);
   }
 }
 
@@ -215,12 +239,37 @@ std::string to_text(const CaseSummary& summary) {
   for (const std::string& line : lines(load_statement(summary.source))) text += "  " + line + "\n";
   text += axes_text(summary.sampler.model(), units) + "\n";
   text += fmt::format("Tolerances\n  {}\n\n", tolerances_text(problem.tolerances, units));
+  if (summary.source.bodies) {
+    text += "Bodies that may not touch\n";
+    for (const std::string& line : lines(bodies_statement(*summary.source.bodies))) text += "  " + line + "\n";
+    text += "\n";
+  }
   text += space_text(problem.space) + "\n";
   text += fmt::format("Path between waypoints: {}\n", law_text(summary.source));
   if (summary.waypoints.empty()) return text + "No query: a case for taut audit.\n";
-  for (std::size_t k = 0; k < summary.waypoints.size(); ++k) text += "\n" + waypoint_text(summary, k, units);
+  for (std::size_t k = 0; k < summary.waypoints.size(); ++k) {
+    text += "\n" + waypoint_text(summary, k, units) + bodies_text(summary, summary.waypoints[k], units.length);
+  }
   return text;
 }
+
+namespace {
+
+nlohmann::json nearest_json(const CaseSummary& summary, const WaypointSummary& waypoint) {
+  nlohmann::json result = nlohmann::json::array();
+  const auto point = [](const Vector3<double>& x) { return nlohmann::json{x(0), x(1), x(2)}; };
+  for (const BodyDistance& pair : waypoint.nearest) {
+    const BodiesText& bodies = *summary.source.problem.bodies;
+    result.push_back({{"pair", names(bodies, pairs(bodies).at(pair.pair))},
+                      {"distance_m", pair.distance},
+                      {"clearance_m", pair.clearance},
+                      {"left_m", pair.left()},
+                      {"points_m", {point(pair.at[0]), point(pair.at[1])}}});
+  }
+  return result;
+}
+
+}  // namespace
 
 nlohmann::json to_json(const CaseSummary& summary) {
   using nlohmann::json;
@@ -246,6 +295,7 @@ nlohmann::json to_json(const CaseSummary& summary) {
     }
     waypoints.push_back({{"parameters", waypoint.parameters},
                          {"pose", std::move(coordinates)},
+                         {"nearest_bodies", nearest_json(summary, waypoint)},
                          {"regular", waypoint.statics.regular},
                          {"wrench_scale", waypoint.statics.regular ? json(waypoint.wrench_scale) : json()},
                          {"cables", cables}});
@@ -253,6 +303,7 @@ nlohmann::json to_json(const CaseSummary& summary) {
   return {{"problem", to_json(summary.source.problem)},
           {"document_fields", to_json(summary.source.document_fields)},
           {"load", to_json(load_statement(summary.source))},
+          {"bodies", stated_bodies_json(summary.source.bodies)},
           {"warnings", summary.source.warnings},
           {"path_law", law_text(summary.source)},
           {"waypoints", waypoints}};

@@ -5,11 +5,13 @@
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "case/case_file.h"
 #include "kinematics/pose_sampler.h"
+#include "reports/summary/body_distances.h"
 
 namespace taut {
 
@@ -20,6 +22,7 @@ struct WaypointSummary {
   Statics<double> statics;
   double wrench_scale =
       0;  ///< by how much K could grow before a tension reaches a limit; below 1, the waypoint is infeasible
+  std::vector<BodyDistance> nearest;  ///< pairs of bodies, those with the least left first; at most kNearestPairs
 };
 
 /// The distance of cable i from the nearer of its two limits, negative beyond one. Tensions include all loads in K.
@@ -27,11 +30,14 @@ struct WaypointSummary {
                                     std::size_t i);                                                             ///< [N]
 [[nodiscard]] double length_margin(const Model<double>& model, const Statics<double>& statics, std::size_t i);  ///< [m]
 
+inline constexpr std::size_t kNearestPairs = 5;
+
 struct CaseSummary {
   explicit CaseSummary(const Case& the_case);
 
   const Case& source;
   PoseSampler sampler;
+  std::optional<BodyDistances> bodies;     ///< if the case has bodies
   std::vector<WaypointSummary> waypoints;  ///< of the query
 };
 

@@ -60,6 +60,7 @@ bool boolean(const JsonCursor& field) {
 }
 
 constexpr std::int64_t kMostSegments = 1'000'000'000;
+constexpr std::int64_t kMostPairs = 1'000'000;
 
 json margin_json(MarginId margin) { return {{"margin", name(margin.kind)}, {"cable", margin.cable + 1}}; }
 
@@ -115,6 +116,12 @@ TightPlace place_from_json(const JsonCursor& object) {
 
 json to_json(const PathWitness& witness) {
   if (witness.singular) return {{"segment", witness.at.index}, {"singular", true}};
+  if (witness.contact) {
+    return {{"segment", witness.at.index},
+            {"singular", false},
+            {"pair", witness.contact->pair},
+            {"depth_m", witness.depth_m}};
+  }
   json result = margin_json(witness.margin);
   result.update({{"singular", false},
                  {"segment", witness.at.index},
@@ -130,6 +137,12 @@ PathWitness violation_from_json(const JsonCursor& object) {
   result.at.on_segment = true;
   result.at.index = static_cast<int>(object.at("segment").integer(0, kMostSegments));
   if (result.singular) return result;
+  if (object.contains("pair")) {
+    result.contact.emplace().pair = static_cast<std::size_t>(object.at("pair").integer(0, kMostPairs));
+    (void)decimal_from_json(object.at("depth_m"));
+    result.depth_m = object.at("depth_m").text();
+    return result;
+  }
   result.margin = margin_of(object);
   for (const auto& [key, decimal] :
        {std::pair("value_lower", &result.value_lower), std::pair("value_upper", &result.value_upper),
@@ -251,12 +264,15 @@ std::string losses_text(const MarginBudget& budget, const DisplayUnit& unit) {
   return result.empty() ? "nothing" : result;
 }
 
-std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& units, bool is_proved) {
+std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& units, bool is_proved, bool has_bodies) {
   const TightPlace& place = *headroom.tightest;
   const std::string where = place_of(headroom, place.segment, place.s);
   const char* const begin = is_proved ? "Tightest" : "In the way";
   if (place.singular) return fmt::format("{}: a singular pose, or nearly so, {} (in floating point).", begin, where);
   const MarginBudget& budget = place.budget;
+  if (!is_proved && has_bodies && budget.left() > 0) {
+    return "In the way: no limit of a cable, as far as samples show, but how near bodies come to each other.";
+  }
   const bool length = is_length(budget.id);
   const DisplayUnit& unit = units.of(length);
   const auto amount = [&](double x) { return quantity(x, unit); };
@@ -277,12 +293,12 @@ std::string tightest_sentence(const Headroom& headroom, const DisplayUnits& unit
       begin, margin, amount(budget.nominal), losses_text(budget, unit), missing);
 }
 
-std::string nominal_sentence(const Headroom& headroom, const RobotText& robot, const DisplayUnits& units) {
+std::string nominal_sentence(const Headroom& headroom, const Problem& problem, const DisplayUnits& units) {
   if (!headroom.nominal_provable) return "";
   if (*headroom.nominal_provable) return " The nominal machine, under the nominal load, is proved.";
   if (!headroom.nominal_violation) return " Not even the nominal machine, under the nominal load, could be proved.";
   return fmt::format(" The nominal machine itself breaks a limit: {}.",
-                     violation_text(*headroom.nominal_violation, robot, units));
+                     violation_text(*headroom.nominal_violation, problem, units));
 }
 
 std::string subject_text(const Headroom& headroom) {
@@ -296,13 +312,13 @@ std::string subject_text(const Headroom& headroom) {
 
 bool is_above_one(const ProvableShare& share) { return Decimal::parse(share.share) >= Decimal::parse("1"); }
 
-std::string common_sentence(const Headroom& headroom, const RobotText& robot, const DisplayUnits& units) {
+std::string common_sentence(const Headroom& headroom, const Problem& problem, const DisplayUnits& units) {
   const ProvableShare& all = headroom.shares.front();
   const std::string ended = all.is_complete ? "" : " (the search ended when its time did)";
   if (all.share == "0") {
     return fmt::format("{} {} {}{}.{}", subject_text(headroom),
                        all.is_complete ? "provable at no share of" : "so far not proved at any share of", words(all.of),
-                       ended, nominal_sentence(headroom, robot, units));
+                       ended, nominal_sentence(headroom, problem, units));
   }
   return fmt::format("{} provable at {} of {}, together{}.", subject_text(headroom), percent_text(all.share),
                      words(all.of), ended);
@@ -397,8 +413,8 @@ std::vector<std::string> headroom_sentences(const Headroom& headroom, const Prob
   std::vector<std::string> result;
   if (headroom.shares.empty()) return result;
   const bool is_proved = is_above_one(headroom.shares.front());
-  if (headroom.tightest) result.push_back(tightest_sentence(headroom, units, is_proved));
-  result.push_back(common_sentence(headroom, problem.robot, units));
+  if (headroom.tightest) result.push_back(tightest_sentence(headroom, units, is_proved, problem.bodies.has_value()));
+  result.push_back(common_sentence(headroom, problem, units));
   if (std::string each = each_sentence(headroom, problem, units); !each.empty()) result.push_back(std::move(each));
   return result;
 }

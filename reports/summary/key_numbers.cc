@@ -11,6 +11,7 @@
 
 #include "problem/decimal.h"
 #include "reports/summary/numbers.h"
+#include "reports/summary/sentences.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -294,6 +295,40 @@ std::optional<KeyNumber> share_number(const ReportContext& scene) {
                    detail + "; not re-checked", growth_nearness(nearest_double(all.share))};
 }
 
+/// The greatest length that a cable may have: the size of the machine.
+double machine_size(const RobotText& robot) {
+  double size = 0;
+  for (const Limits& limits : robot.length_m) size = std::max(size, nearest_double(limits.upper));
+  return size;
+}
+
+/// What is proved to be left of all clearances, or what samples show; nothing where no pairs are checked.
+std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_proved) {
+  if (!scene.bodies || scene.distances.least.empty()) return {};
+  const std::size_t k = scene.distances.worst();
+  const BodyDistance& nearest = scene.distances.least[k];
+  const DisplayUnit& unit = scene.illustration.units.length;
+  const auto& proved = scene.certificate.margins ? scene.certificate.margins->clearance_m : std::nullopt;
+  const bool has_bound = is_proved && proved;
+  // Beyond its clearance, at least, with what deviations take; of samples, of the machine as stated.
+  const double left = has_bound ? nearest_double(*proved) : nearest.left();
+  const std::string size = has_bound ? truncated(*proved) : "";
+  const std::string value = has_bound  ? fmt::format("{} {} left", unit.exact(size), unit.name())
+                            : left > 0 ? fmt::format("about {} {} left", unit.down(left, kDigits), unit.name())
+                                       : fmt::format("about {} {} too near", unit.nearest(-left, kDigits), unit.name());
+  const std::string asked = unit.exact(pairs(*scene.certificate.problem.bodies).at(nearest.pair).clearance_m);
+  return KeyNumber{"clearance",
+                   left > 0 ? "Least clearance left" : "Bodies too near",
+                   value,
+                   fmt::format("nearest: {}, {}, clearance {} {} · {}; sampled{}", scene.bodies->name(nearest.pair),
+                               apart_text(nearest, unit), asked, unit.name(),
+                               place_text(scene, scene.samples[k].position), has_bound ? "" : ", not proved"),
+                   worse(nearness_of_bodies(left + nearest.clearance, nearest.clearance,
+                                            machine_size(scene.certificate.problem.robot)),
+                         Nearness::kCalm),
+                   has_bound};
+}
+
 }  // namespace
 
 std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& use) {
@@ -304,6 +339,9 @@ std::vector<KeyNumber> key_numbers(const ReportContext& scene, const CableUse& u
     const Cables cables(scene, use);
     numbers = {cables.slack_number(), cables.top_number(), cables.length_number()};
     for (KeyNumber& number : numbers) number.is_proved = is_proved;
+  }
+  if (const auto clearance = clearance_number(scene, is_proved); clearance && !numbers.empty()) {
+    numbers.push_back(*clearance);
   }
   if (is_proved) {
     numbers.push_back(growth_number(scene));

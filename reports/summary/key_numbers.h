@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers that a move is judged by: how near it comes to going slack, to the greatest tension and to the ends of
-// the cables, and by how much the loads could grow. Page, terminal and JSON have the same ones.
+// the cables, how near bodies come to their clearances, and by how much the loads could grow. Page, terminal and JSON have the same ones.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace taut {
 
 struct KeyNumber {
-  const char* key;         ///< for machines: "slack", "top", "length" or "growth"
+  const char* key;         ///< for machines: "slack", "top", "length", "clearance" or "growth"
   std::string title;       ///< "Closest to going slack"
   std::string value;       ///< "Cable 1: +1.86 %"
   std::string detail;      ///< "0.0509 N, limit 0.05 N · after 41° of turning (segment 3)"

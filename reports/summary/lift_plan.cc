@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/summary.h"
 #include "reports/summary/wording.h"
 
@@ -75,13 +76,31 @@ std::vector<LiftPlanItem> equipment_items(const ReportContext& scene, const Summ
            "Selection, capacity, inspection, and protection of load and rigging. Rigging engineer."}};
 }
 
+/// What is proved of clearances, and who has to see to the rest.
+LiftPlanItem clearances_item(const ReportContext& scene, const Summary& s) {
+  LiftPlanItem item{"clearances", kMovement, "Clearances, obstructions, power lines", "",
+                    "Collisions are not examined here: all clearances along the path. Lift planner."};
+  const std::optional<BodiesText>& bodies = scene.certificate.problem.bodies;
+  if (!bodies) return item;
+  const std::string rest = in_full({not_covered(scene.certificate.problem).front()});
+  if (scene.verdict != "proved") {
+    item.open = "This report proves no clearances. All along the path. Lift planner.";
+    return item;
+  }
+  item.filled = joined(fmt::format("Every checked pair of bodies stays farther apart than its clearance, all along the "
+                                   "path. {}",
+                                   bodies_statement(*bodies).checked),
+                       numbers_of(s, "clearance"));
+  item.open = fmt::format("That the bodies are those of the site. {} Power lines. Lift planner.", rest);
+  return item;
+}
+
 std::vector<LiftPlanItem> movement_items(const ReportContext& scene, const Summary& s) {
   const bool is_found = !found_no_path(scene.certificate) && !scene.certificate.path.waypoints.empty();
   return {
       {"travel_path", kMovement, "Travel path of the load", is_found ? s.move : "",
        is_found ? "Step-by-step procedure with hold points. Lift director." : "The path. Lift planner."},
-      {"clearances", kMovement, "Clearances, obstructions, power lines", "",
-       "Collisions are not examined here: all clearances along the path. Lift planner."},
+      clearances_item(scene, s),
       {"dynamics", kMovement, "Speed and dynamic loads", "Forces of inertia as far as the stated loads contain them.",
        "Speeds and accelerations at which they suffice. Lift planner."},
       {"personnel", kPeople, "Persons, roles and qualifications", stated(s.prepared_by, "Prepared by"),

@@ -11,6 +11,8 @@ constexpr double kNearTension = 0.75;  ///< of a limit of tension
 constexpr double kCloseTension = 0.95;
 constexpr double kNearLength = 0.05;  ///< of the width between the limits of length
 constexpr double kCloseLength = 0.02;
+constexpr double kNearBodies = 0.01;  ///< of the size of the machine, where no clearance is asked for
+constexpr double kCloseBodies = 0.002;
 
 Nearness by_use(double used) {
   if (!(used < 1)) return Nearness::kOut;
@@ -48,6 +50,13 @@ Nearness nearness_of_length(const Range& length, double lower_limit, double uppe
   const double left = std::min(length.lower - lower_limit, upper_limit - length.upper) / (upper_limit - lower_limit);
   if (left < kCloseLength) return Nearness::kClose;
   return left < kNearLength ? Nearness::kNear : Nearness::kCalm;
+}
+
+Nearness nearness_of_bodies(double distance, double clearance, double size) {
+  if (!(distance > clearance)) return Nearness::kOut;
+  if (clearance > 0) return by_use(clearance / distance);
+  if (distance < kCloseBodies * size) return Nearness::kClose;
+  return distance < kNearBodies * size ? Nearness::kNear : Nearness::kCalm;
 }
 
 }  // namespace taut

@@ -9,6 +9,7 @@
 #include "certificate/certificate.h"
 #include "certify/box_ranges.h"
 #include "checker/check.h"
+#include "reports/summary/body_distances.h"
 #include "reports/summary/illustration.h"
 #include "reports/summary/report_options.h"
 #include "reports/summary/samples.h"
@@ -29,8 +30,10 @@ struct ReportContext {
   Illustration illustration;
   std::vector<std::vector<DyadicBox>> boxes;  ///< of each segment
   Sampler sampler;
-  std::vector<PathSample> samples;  ///< along the whole path
-  Travel travel;                    ///< how far into the move a place is
+  std::vector<PathSample> samples;      ///< along the whole path
+  std::optional<BodyDistances> bodies;  ///< in floating point; where the problem has bodies
+  DistancesAlong distances;             ///< of them at `samples`
+  Travel travel;                        ///< how far into the move a place is
   /// Enclosures over the certificate's boxes, computed anew without floating point, and no wider than the margins that
   /// the certificate states of each segment: proved where the certificate is right.
   PathRanges ranges;

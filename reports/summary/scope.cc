@@ -1,7 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reports/summary/scope.h"
 
+#include <algorithm>
+
+#include "problem/decimal.h"
+#include "reports/summary/bodies_statement.h"
+
 namespace taut {
+namespace {
+
+/// Whether some length of a cable next to its ends is not checked.
+bool has_free_ends(const BodiesText& bodies) {
+  const auto is_some = [](const DecimalText& x) { return Decimal::parse(x).sign() != 0; };
+  return std::ranges::any_of(bodies.cables.free_ends_m,
+                             [&](const auto& ends) { return is_some(ends[0]) || is_some(ends[1]); });
+}
+
+/// What of collisions is not covered: all of them, or what is no body, and the classes of pairs that are not checked.
+ScopeItem collisions(const std::optional<BodiesText>& bodies) {
+  if (!bodies) {
+    return {"collisions", "collisions", "Collisions of cables, platform, load and surroundings.",
+            "Cables, platform and load collide with nothing."};
+  }
+  ScopeItem item{"collisions", "collisions with what is not stated as a body",
+                 "Collisions with anything that is not among the stated bodies.",
+                 "Nothing touches what is not among the stated bodies."};
+  std::string classes;
+  for (const PairClass kind : unchecked_classes(*bodies)) {
+    classes += (classes.empty() ? "" : "; ") + std::string(words_of(kind));
+  }
+  if (!classes.empty()) {
+    item.brief += "; of " + classes;
+    item.text += " Collisions of " + classes + ".";
+    item.goal += " Nor do these touch: " + classes + ".";
+  }
+  const bool has_cables = bodies->clearance_m[1] || bodies->clearance_m[2] || bodies->clearance_m[3];
+  if (has_cables && has_free_ends(*bodies)) {
+    item.brief += "; of cables’ free ends";
+    item.text += " Collisions of cables near their anchors, as far as their free ends reach.";
+    item.goal += " Free ends of cables do no harm.";
+  }
+  return item;
+}
+
+}  // namespace
 
 std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law) {
   const bool has_tolerances = problem.tolerances.has_value();
@@ -10,7 +52,7 @@ std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law) {
   const auto item = [](const char* key, const std::string& brief, const std::string& text) {
     return ScopeItem{key, brief, text, ""};
   };
-  return {
+  std::vector<ScopeItem> result = {
       item("cables", "massless, straight, inextensible cables that end in points",
            "Cables are massless, straight and inextensible, and end in points: no sag, no stretch, no pulleys."),
       item("bodies", "a rigid base and a rigid platform",
@@ -32,6 +74,14 @@ std::vector<ScopeItem> assumed(const Problem& problem, Interpolation law) {
       item("programs", "a checker, libraries and a processor that compute correctly",
            "The checker, the libraries that it computes with, its compiler and the processor work correctly."),
   };
+  if (problem.bodies) {
+    result.insert(result.begin() + 2,
+                  item("obstacles", "bodies shaped as stated, and obstacles that stand still",
+                       "Obstacles do not move, bodies of the platform move with it, and the shapes of all are exactly "
+                       "as stated; anchors of cables that are stated at the same place and with the same tolerance are "
+                       "one point."));
+  }
+  return result;
 }
 
 std::vector<ScopeItem> not_covered(const Problem& problem) {
@@ -39,8 +89,7 @@ std::vector<ScopeItem> not_covered(const Problem& problem) {
   const std::string errors = std::string("errors of manufacture, measurement and control") +
                              (has_tolerances ? " beyond the stated tolerances" : "");
   return {
-      {"collisions", "collisions", "Collisions of cables, platform, load and surroundings.",
-       "Cables, platform and load collide with nothing."},
+      collisions(problem.bodies),
       {"cables", "sag, stretch, mass and wear of cables; pulleys; winches' speed, power, brakes",
        "Sag, stretch, mass and wear of cables; pulleys; speed, power and brakes of winches.",
        "Cables, pulleys, winches and brakes are fit for the move; sag and stretch do no harm."},

@@ -11,6 +11,7 @@
 #include "certify/undecided.h"
 #include "problem/decimal.h"
 #include "reports/summary/around_items.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/explanations.h"
 #include "reports/summary/hints.h"
 #include "reports/summary/load_statement.h"
@@ -152,6 +153,23 @@ std::string limit_details(const ReportContext& scene, const PathWitness& witness
                      pose_text(scene, scene.sampler.at(scene.certificate.path, at).pose), machine);
 }
 
+/// How deep, where on the path and at which points two bodies are too near: in floating point but for the place.
+std::string contact_details(const ReportContext& scene, const PathWitness& witness) {
+  const double at = position(witness.at);
+  const PathSample sample = scene.sampler.at(scene.certificate.path, at);
+  const BodyDistance distance =
+      scene.bodies->at(scene.sampler.model(), scene.sampler.rigid_pose(sample), witness.contact->pair);
+  const DisplayUnit& unit = scene.illustration.units.length;
+  const std::string points =
+      distance.distance < 0 ? fmt::format("next to {}", point_in_space(distance.at[0], unit))
+                            : fmt::format("at {} of the first and {} of the second",
+                                          point_in_space(distance.at[0], unit), point_in_space(distance.at[1], unit));
+  return fmt::format(
+      "In floating point they are {} there, {}. Where: {}. The pose there, rounded: {}. A point of either body proves "
+      "it.",
+      apart_text(distance, unit), points, place_text(scene, at), pose_text(scene, sample.pose));
+}
+
 /// What a violation at the only pose of a certificate means. The checker compares that pose with the waypoints of the
 /// certificate's query; an audit has none. On constraints, other paths may pass next to a waypoint at other poses.
 std::string only_pose_text(const Certificate& certificate) {
@@ -164,8 +182,9 @@ std::string only_pose_text(const Certificate& certificate) {
 std::vector<std::string> refuted_details(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const PathWitness& witness = scene.gravest->violation;
-  std::vector<std::string> result = {witness.singular ? singular_details(scene, witness)
-                                                      : limit_details(scene, witness)};
+  std::vector<std::string> result = {witness.singular  ? singular_details(scene, witness)
+                                     : witness.contact ? contact_details(scene, witness)
+                                                       : limit_details(scene, witness)};
   if (!witness.singular && scene.gravest->loads) {
     result.push_back(fmt::format("A load that breaks the limit there, with each part in its set by proof; rounded: {}.",
                                  witness_load_text(certificate.problem.load, to_json(*scene.gravest->loads))));
@@ -177,7 +196,7 @@ std::vector<std::string> refuted_details(const ReportContext& scene) {
   } else {
     result.emplace_back("There may be other violations: the proof ends at the first.");
   }
-  if (!witness.singular && certificate.path.interpolation != Interpolation::kCableLengths) {
+  if (!witness.singular && !witness.contact && certificate.path.interpolation != Interpolation::kCableLengths) {
     const PathSample sample = scene.sampler.at(certificate.path, position(witness.at));
     const std::string hint = reversed_load_hint(scene.sampler.model(), sample.statics);
     if (!hint.empty()) result.push_back(hint);
@@ -262,9 +281,26 @@ std::string limits_text(const RobotText& robot, const DisplayUnits& units) {
 }
 
 std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m, const DecimalText& wrench_scale,
-                         const DisplayUnits& units) {
-  return fmt::format("Proved margins: tension {}, length {}, wrench_scale {}.", quantity(tension_N, false, units),
-                     quantity(length_m, true, units), plain(wrench_scale));
+                         const DisplayUnits& units, const std::optional<DecimalText>& clearance_m) {
+  return fmt::format("Proved margins: tension {}, length {}, wrench_scale {}{}.", quantity(tension_N, false, units),
+                     quantity(length_m, true, units), plain(wrench_scale),
+                     clearance_m ? fmt::format(", clearance {}", quantity(*clearance_m, true, units)) : "");
+}
+
+std::string bodies_text(const Problem& problem) {
+  return fmt::format("{}", fmt::join(lines(bodies_statement(*problem.bodies)), " "));
+}
+
+std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit) {
+  constexpr int kDigits = 3;
+  const std::string size = unit.nearest(std::abs(distance.distance), kDigits);
+  if (distance.distance < 0) return fmt::format("about {} {} deep in each other", size, unit.name());
+  return fmt::format("about {} {} apart", size, unit.name());
+}
+
+std::string point_in_space(const Vector3<double>& at, const DisplayUnit& unit) {
+  const auto shown = [&](double x) { return fmt::format("{:.5g}", unit.approx(x) + 0.0); };
+  return fmt::format("({}, {}, {}) {}", shown(at(0)), shown(at(1)), shown(at(2)), unit.name());
 }
 
 std::string move_text(const ReportContext& scene) {
@@ -349,8 +385,10 @@ std::string headline(const ReportContext& scene) {
   if (scene.verdict == "proved") {
     return fmt::format(
         "Everywhere on this move, for every load in the stated set{}, no cable goes slack, none exceeds its tension or "
-        "length limit, and no singular pose is met.",
-        certificate.problem.tolerances ? " and every machine within the stated tolerances" : "");
+        "length limit, {}no singular pose is met{}.",
+        certificate.problem.tolerances ? " and every machine within the stated tolerances" : "",
+        certificate.problem.bodies ? "" : "and ",
+        certificate.problem.bodies ? ", and all checked bodies stay farther apart than their clearances" : "");
   }
   if (found_no_path(certificate)) {
     return "The planner found no path. That does not prove that there is none. Nothing is claimed.";
@@ -359,20 +397,43 @@ std::string headline(const ReportContext& scene) {
     return "Undecided: this move was neither proved nor refuted, so nothing is claimed about it.";
   }
   const PathWitness& witness = scene.gravest->violation;
-  const bool by_load = !witness.singular && !is_length(witness);
+  const bool by_load = !witness.singular && !witness.contact && !is_length(witness);
   return fmt::format("Refuted: on this move {}{}.",
-                     violation_text(witness, certificate.problem.robot, scene.illustration.units),
+                     violation_text(witness, certificate.problem, scene.illustration.units),
                      !by_load            ? ""
                      : witness.deviation ? ", under a load that is covered"
                                          : ", under a load of the stated set");
 }
 
-std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units) {
+namespace {
+
+std::string contact_text(const PathWitness& witness, const BodiesText& bodies, const DisplayUnits& units) {
+  const BodyPair pair = pairs(bodies).at(witness.contact->pair);
+  const std::string both = pair_words(bodies, pair);
+  const Decimal clearance = Decimal::parse(pair.clearance_m);
+  const Rational depth = witness.depth_m.empty() ? Rational(0) : Decimal::parse(witness.depth_m).rational();
+  const std::string allowed = quantity(pair.clearance_m, true, units);
+  const std::string asked = clearance.sign() == 0 ? "" : fmt::format("; the clearance asked for is {}", allowed);
+  const Rational apart = clearance.rational() - depth;
+  if (apart <= 0) return fmt::format("{} touch{}", both, asked);
+  for (const int digits : {3, 4, 6, 9, 12, 15}) {
+    std::string shown = rounded_to_nearest(apart.convert_to<double>(), digits);
+    if (Decimal::parse(shown).rational() < apart) shown = rounded_up(above(apart), digits);
+    if (!(Decimal::parse(shown) < clearance)) continue;
+    return fmt::format("{} come within {} of each other{}", both, quantity(shown, true, units), asked);
+  }
+  return fmt::format("{} come within {} of each other, the clearance asked for", both, allowed);
+}
+
+}  // namespace
+
+std::string violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units) {
   if (witness.singular) return "the platform passes a singular pose, where the cables cannot balance every load";
+  if (witness.contact) return contact_text(witness, problem.bodies.value(), units);
   const bool length = is_length(witness);
   const bool upper = is_upper(witness);
   const char* const deviating = witness.deviation ? ", on a machine that deviates within the tolerances," : "";
-  if (is_all_but_singular(witness, robot)) {
+  if (is_all_but_singular(witness, problem.robot)) {
     return fmt::format(
         "the platform{} is at a singular pose, or so near one that the cables cannot balance the load: the tension of "
         "cable {} would be {} {} times the greatest limit",
@@ -401,7 +462,7 @@ std::string value_text(const PathWitness& witness, const DisplayUnits& units) {
 }
 
 bool is_all_but_singular(const PathWitness& witness, const RobotText& robot) {
-  if (witness.singular || is_length(witness)) return false;
+  if (witness.singular || witness.contact || is_length(witness)) return false;
   double greatest = 0;
   for (const Limits& limits : robot.tension_N) greatest = std::max(greatest, nearest_double(limits.upper));
   return std::abs(nearest_double(proved_value(witness))) > kSingularTension * greatest;
@@ -461,14 +522,17 @@ std::string load_sentences(const Certificate& certificate) {
 std::vector<Statement> statements(const ReportContext& scene) {
   const Certificate& certificate = scene.certificate;
   const Problem& problem = certificate.problem;
-  return {{"motion", "Motion", motion_text(scene)},
-          {"load", "Loads", load_sentences(certificate)},
-          {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
-          {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
-          {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},
-          {"not_covered", "Not covered", in_full(not_covered(problem))},
-          {"proof", "Proof", proof_text(scene)},
-          {"recheck", "Re-check", recheck_text(scene.recheck)}};
+  std::vector<Statement> result = {
+      {"motion", "Motion", motion_text(scene)},
+      {"load", "Loads", load_sentences(certificate)},
+      {"limits", "Limits", limits_text(problem.robot, scene.illustration.units)},
+      {"tolerances", "Tolerances", tolerances_text(problem.tolerances, scene.illustration.units)},
+      {"assumptions", "Assumptions", in_full(assumed(problem, certificate.path.interpolation))},
+      {"not_covered", "Not covered", in_full(not_covered(problem))},
+      {"proof", "Proof", proof_text(scene)},
+      {"recheck", "Re-check", recheck_text(scene.recheck)}};
+  if (problem.bodies) result.insert(result.begin() + 3, {"clearance", "Clearance", bodies_text(problem)});
+  return result;
 }
 
 std::string use_caption(const ReportContext& scene, CableUse::Source source) {

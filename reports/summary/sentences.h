@@ -21,11 +21,12 @@ namespace taut {
 [[nodiscard]] std::string headline(const ReportContext& scene);
 
 /// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N". A tension beyond
-/// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding.
-[[nodiscard]] std::string violation_text(const PathWitness& witness, const RobotText& robot, const DisplayUnits& units);
+/// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding. Of bodies:
+/// "cable 3 and “stack” come within 200 mm of each other, the clearance asked for".
+[[nodiscard]] std::string violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units);
 
 /// "0.0499 N": the value of a witness that is next to its limit, in as few digits as show it beyond the limit, rounded
-/// towards the limit. @pre not singular
+/// towards the limit. @pre neither singular nor of bodies
 [[nodiscard]] std::string value_text(const PathWitness& witness, const DisplayUnits& units);
 
 /// Whether a tension is so far beyond the limits that the pose is singular but for rounding.
@@ -56,9 +57,17 @@ struct Statement {
 [[nodiscard]] std::string limits_text(const RobotText& robot, const DisplayUnits& units);
 /// "Up to, in any direction and all at once: base anchors 0.1 mm and …": exactly.
 [[nodiscard]] std::string tolerances_text(const std::optional<TolerancesText>& tolerances, const DisplayUnits& units);
-/// "Proved margins: tension 3.4 N, length 2.4 m, wrench_scale 5.3.": exactly, in these units.
+/// "Proved margins: tension 3.4 N, length 2.4 m, wrench_scale 5.3, clearance 0.2 m.": exactly, in these units.
 [[nodiscard]] std::string margins_text(const DecimalText& tension_N, const DecimalText& length_m,
-                                       const DecimalText& wrench_scale, const DisplayUnits& units);
+                                       const DecimalText& wrench_scale, const DisplayUnits& units,
+                                       const std::optional<DecimalText>& clearance_m = {});
+
+/// The bodies of a problem in sentences: pairs and their clearances, what is not checked, each body. @pre problem.bodies
+[[nodiscard]] std::string bodies_text(const Problem& problem);
+/// "about 0.12 m apart" or "about 30 mm deep in each other": in floating point.
+[[nodiscard]] std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit);
+/// "(1.2, 0, 3) m": a point, rounded.
+[[nodiscard]] std::string point_in_space(const Vector3<double>& at, const DisplayUnit& unit);
 
 /// "Cables over the whole move, proved …": what the table of cables shows.
 [[nodiscard]] std::string use_caption(const ReportContext& scene, CableUse::Source source);

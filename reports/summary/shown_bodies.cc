@@ -2,11 +2,16 @@
 #include "reports/summary/shown_bodies.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
+
+#include "kinematics/geometry.h"
+#include "problem/expression.h"
 
 namespace taut {
 namespace {
@@ -65,6 +70,87 @@ Decoration decoration_from_json(const nlohmann::json& decoration) {
   if (!decoration.is_object()) return result;
   if (decoration.contains("frame")) result.frame = shown_body_from_json(decoration["frame"]);
   if (decoration.contains("payload")) result.payload = shown_body_from_json(decoration["payload"]);
+  return result;
+}
+
+namespace {
+
+/// Points in one cell of a grid of `cells` a side become one, that of the first of them.
+ShownBody clustered(const ShownBody& mesh, const Eigen::AlignedBox3d& box, double cells) {
+  ShownBody result;
+  std::map<std::array<long, 3>, std::uint32_t> known;
+  std::vector<std::uint32_t> index;
+  const double size = std::max(box.sizes().maxCoeff(), 1e-300);
+  for (const Corner& corner : mesh.corners) {
+    std::array<long, 3> cell{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      cell[c] = std::lround((corner[c] - box.min()(static_cast<Eigen::Index>(c))) / size * cells);
+    }
+    const auto [found, is_new] = known.try_emplace(cell, static_cast<std::uint32_t>(result.corners.size()));
+    if (is_new) result.corners.push_back(corner);
+    index.push_back(found->second);
+  }
+  std::set<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<std::uint32_t, 3> next = {index[triangle[0]], index[triangle[1]], index[triangle[2]]};
+    if (next[0] == next[1] || next[1] == next[2] || next[2] == next[0]) continue;
+    std::ranges::rotate(next, std::ranges::min_element(next));
+    triangles.insert(next);
+  }
+  result.triangles.assign(triangles.begin(), triangles.end());
+  return result;
+}
+
+}  // namespace
+
+ShownBody shown_mesh(const TriangleMesh& mesh, const BodyText& body) {
+  const double unit = ScalarTraits<double>::from_decimal(std::get<MeshText>(body.shape).unit_m);
+  const auto angle = [&](std::size_t k) { return evaluate_constant<double>(body.rotation_rad[k]); };
+  const Matrix3<double> turn = rotation_zyx<double>(angle(2), angle(1), angle(0));
+  ShownBody result;
+  Eigen::AlignedBox3d box;
+  for (const Corner& vertex : mesh.vertices) {
+    Eigen::Vector3d at = turn * (unit * Eigen::Vector3d(vertex[0], vertex[1], vertex[2]));
+    Corner corner{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      at(static_cast<Eigen::Index>(c)) += ScalarTraits<double>::from_decimal(body.at_m[c]);
+      corner[c] = std::clamp(at(static_cast<Eigen::Index>(c)), -kFarthestShown, kFarthestShown);
+    }
+    box.extend(at);
+    result.corners.push_back(corner);
+  }
+  result.triangles = mesh.triangles;
+  constexpr double kFirst = 256, kLess = 0.7;
+  const ShownBody whole = result;
+  for (double cells = kFirst; result.triangles.size() > kMostShownTriangles && cells > 2; cells *= kLess) {
+    result = clustered(whole, box, cells);
+  }
+  return result;
+}
+
+std::map<std::string, ShownBody> shown_meshes(const CaseBodies& bodies) {
+  std::map<std::string, ShownBody> result;
+  for (const MeshOfBody& mesh : bodies.meshes) {
+    for (const auto* list : {&bodies.text.platform, &bodies.text.obstacles}) {
+      const auto body = std::ranges::find(*list, mesh.body, &BodyText::name);
+      if (body != list->end()) result.emplace(mesh.body, shown_mesh(mesh.mesh->mesh, *body));
+    }
+  }
+  return result;
+}
+
+nlohmann::json to_json(const std::map<std::string, ShownBody>& meshes) {
+  nlohmann::json result = nlohmann::json::object();
+  for (const auto& [name, body] : meshes) result[name] = to_json(body);
+  return result;
+}
+
+std::map<std::string, ShownBody> meshes_from_json(const nlohmann::json& meshes) {
+  std::map<std::string, ShownBody> result;
+  if (!meshes.is_object()) return result;
+  for (const auto& [name, json] : meshes.items()) {
+    if (auto body = shown_body_from_json(json)) result.emplace(name, *std::move(body));
+  }
   return result;
 }
 

@@ -8,7 +8,9 @@
 
 #include "base/sanitize.h"
 #include "reports/summary/around_items.h"
+#include "reports/summary/bodies_statement.h"
 #include "reports/summary/headroom_summary.h"
+#include "reports/summary/numbers.h"
 #include "reports/summary/wording.h"
 
 namespace taut {
@@ -55,6 +57,29 @@ const char* name(CableUse::Source source) {
     case CableUse::Source::kProved: return "proved";
   }
   return "none";
+}
+
+/// What the page says of bodies: which pairs are checked, what is proved to be left, and the pairs that come nearest.
+nlohmann::json bodies_json(const ReportContext& scene) {
+  const Certificate& certificate = scene.certificate;
+  if (!certificate.problem.bodies) return nullptr;
+  const BodiesText& bodies = *certificate.problem.bodies;
+  nlohmann::json result = to_json(bodies, bodies_statement(bodies));
+  const bool is_proved = scene.verdict == "proved" && certificate.margins && certificate.margins->clearance_m;
+  result["proved_left_m"] = is_proved ? nlohmann::json(nearest_double(*certificate.margins->clearance_m)) : nullptr;
+  result["nearest"] = nlohmann::json::array();
+  const std::vector<BodyPair> all = pairs(bodies);
+  const DistancesAlong& along = scene.distances;
+  for (std::size_t n = 0; n < along.nearest.size(); ++n) {
+    const std::size_t k = along.nearest_at[n];
+    result["nearest"].push_back({{"pair", names(bodies, all.at(along.nearest[n]))},
+                                 {"class", name(all.at(along.nearest[n]).kind)},
+                                 {"distance_m", along.distance[n][k]},
+                                 {"clearance_m", along.clearance[n]},
+                                 {"left_m", along.distance[n][k] - along.clearance[n]},
+                                 {"at", scene.samples[k].position}});
+  }
+  return result;
 }
 
 nlohmann::json scope_json(const std::vector<ScopeItem>& items) {
@@ -109,6 +134,7 @@ Summary::Summary(const ReportContext& scene, const ReportOptions& options)
   if (const auto found = stated_as_items(scene.certificate); found && !is_unchecked) {
     headroom.insert(headroom.begin(), sentence(*found, scene.illustration.units));
   }
+  bodies = bodies_json(scene);
   lift_plan = taut::lift_plan(scene, *this);  // of all the rest
 }
 
@@ -279,6 +305,7 @@ nlohmann::json to_json(const Summary& s) {
       {"assurance_case", to_json(s.assurance_case)},
       {"lift_plan", to_json(s.lift_plan)},
       {"load", report_json(s.load)},
+      {"bodies", s.bodies},
       {"cables_source", name(s.use.source)},
       {"cables", cables},
       {"recheck", {{"result", name(s.recheck.result)}, {"checker", s.recheck.checker}, {"message", s.recheck.message}}},

@@ -2,7 +2,7 @@
 // The first page as data, and as plain text, Markdown and JSON. All have the same content.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -37,6 +37,7 @@ struct Summary {
   std::vector<LiftPlanItem> lift_plan;
   std::vector<Statement> statements;
   LoadStatement load;
+  nlohmann::json bodies;  ///< what is checked of them, and the pairs that come nearest; null where there are none
   CableUse use;
   std::string use_caption;  ///< what the table of cables shows
   DisplayUnits units;       ///< of text for people; JSON is in SI

@@ -30,6 +30,15 @@ std::optional<double> worst_place(const ReportContext& scene, const CableUse& us
     consider(nearness_of_length(d.range, d.lower_limit, d.upper_limit), 0,
              std::min(below, above) / (d.upper_limit - d.lower_limit), below < above ? d.least_at : d.greatest_at);
   }
+  const DistancesAlong& bodies = scene.distances;
+  if (!bodies.least.empty()) {
+    const std::size_t k = bodies.worst();
+    const BodyDistance& nearest = bodies.least[k];
+    double size = 0;
+    for (const Use& d : use.length) size = std::max(size, d.upper_limit);
+    consider(nearness_of_bodies(nearest.distance, nearest.clearance, size), 3, nearest.left() / size,
+             scene.samples[k].position);
+  }
   return place;
 }
 

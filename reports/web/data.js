@@ -13,6 +13,14 @@
 //               tension_above (6 each), wrench_scale, sign (of det J), parameters (2, if there is a plane)
 //   bands       proved ranges, or null: from, to (positions), tension and length: six times lower and upper
 //   margins     proved, for groups of consecutive segments: from, to, tension_N, length_m, wrench_scale
+//               where there are bodies also clearance_m: how much farther than its clearance every pair is apart
+//   bodies      null, or shapes: name, is_obstacle (in the world; else on the platform, in its axes), and points and
+//               radius (all within it of their convex hull), or plane (four corners of what is shown of a half-space),
+//               or corners and triangles; box: corners of a box around it. cable_radius, free_ends (six pairs: at the
+//               base, at the platform), has_cables (whether they are checked); nearest: of the pair with the least left
+//               at each sample its number, distance (below 0: how deep), clearance, and points of either (3 columns
+//               each); names of pairs by their numbers; pairs: those that come nearest, name, clearance, distance
+//               (column)
 //   stretches   the parts of the path that are not proved: from, to, violated (else open)
 //   witness     position, to, kind, cable; or null
 //   weights     centres of gravity of the load's weights, in the axes of the platform

@@ -8,7 +8,7 @@ import { Cursor } from "./cursor.js";
 import { isDrawable, readData } from "./data.js";
 import { planeFigure } from "./plane.js";
 import { Player } from "./player.js";
-import { connect, legend, lengthPanels, marginPanels, posePanels, tensionPanels } from "./plots.js";
+import { clearancePanels, connect, legend, lengthPanels, marginPanels, posePanels, tensionPanels } from "./plots.js";
 import { watchScrolling } from "./scrolling.js";
 import style from "./style.css";
 import { toleranceFigure } from "./tolerances.js";
@@ -178,6 +178,16 @@ function explainPicture(holder) {
     ...(data.worst !== null ? [["fill worst-dot", data.witness ? "the witness" : "worst place"]] : []),
     ...(data.witness ? [["fill witness-pose", "platform at the witness"]] : [])];
   if (Object.keys(data.decoration).length > 0) cables.push(["fill shown", "drawn only, not checked"]);
+  if (data.bodies) {
+    const listed = (shapes) => shapes.slice(0, 4).map(({ name }) => name).join(", ") +
+      (shapes.length > 4 ? ` and ${shapes.length - 4} more` : "");
+    for (const [kind, words, shapes] of [
+      ["obstacle", "obstacles", data.bodies.shapes.filter((shape) => shape.is_obstacle)],
+      ["carried", "on the platform", data.bodies.shapes.filter((shape) => !shape.is_obstacle)]]) {
+      if (shapes.length > 0) cables.push([`fill ${kind}`, `${words}: ${listed(shapes)} (checked)`]);
+    }
+    if (viewer.bodies.link) cables.push(["apart", "the pair that is nearest to its clearance"]);
+  }
   if (data.weights.length > 0) cables.push(["fill weight", "centre of gravity of a weight"]);
   const ends = ["ghost-line", "platform at the start (S) and at the goal (G)"];
   holder.append(legend(...(data.is_found ? [...cables, ends, ...path] : [ends])));
@@ -188,6 +198,7 @@ function explainPicture(holder) {
     note("Colours are of this place, in floating point, by the limit that is nearer: of tension over all loads, or " +
       `of length. ${ground} for whatever carries the anchors; the grid is level.`);
   }
+  if (viewer.bodies?.cablesAreThin) note("Cables are checked with their diameters, which are too thin to be seen here.");
   if (data.tube_m === null || !data.is_found) return;
   const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
   note(viewer.tubeIsThin
@@ -202,6 +213,10 @@ const jobs = [
   () => performance.mark("interactive"), // of what is read first; the rest answers as it is drawn
   () => panelsAt("lengths", lengthPanels,
     [...(enclosed ? [enclosure] : []), ["calm-line", "length (sampled)"], ...limitKeys]),
+  () => data.bodies && panelsAt("clearances", clearancePanels, [
+    ...(data.margins.from.length > 0 ? [["curve", "proved lower bound of each segment"]] : []),
+    ["dashed", "sampled, of all pairs"], ["calm-line", "distance of a pair (sampled)"],
+    ["limit", "clearance"], ["fill forbidden", "nearer than the clearance"]]),
   () => data.margins.from.length > 0 &&
     panelsAt("margins", marginPanels, [["curve", "proved lower bound of each segment"], ["dashed", "sampled"]]),
   () => panelsAt("pose", posePanels, []),

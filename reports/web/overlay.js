@@ -21,11 +21,14 @@ export function roundLength(most) {
 
 export class Overlay {
   /// @param anchors [{name, at}], points in the scene  @param marks the same: start, goal, worst place
-  constructor(data, anchors, marks) {
+  /// @param bodies [{name, kind}]
+  constructor(data, anchors, marks, bodies) {
     const span = (kind, words) => element("span", { class: kind }, words);
     this.data = data;
     this.anchors = anchors.map(({ name, at }) => ({ at, tag: span("name", name) }));
     this.marks = marks.map(({ name, at, kind }) => ({ at, tag: span(`mark-name ${kind ?? ""}`, name) }));
+    this.bodies = bodies.map(({ name, kind }) => span(`body-name ${kind}`, name));
+    this.pointed = span("pointed", "");
     this.load = span("load-words", data.view.load);
     this.cables = data.robot.base.map((_, i) => ({ tag: span("cable calm", String(i + 1)), at: PLACES[0] }));
     this.bar = element("div", { class: "scale-bar" });
@@ -36,12 +39,14 @@ export class Overlay {
       ...this.axes.flatMap(({ line, name }) => [line, name]));
     // In the order of the cables first.
     this.element = element("div", { class: "labels", "aria-hidden": "true" },
-      ...[...this.cables, ...this.anchors, ...this.marks].map(({ tag }) => tag), this.load, this.bar, this.triad);
+      ...[...this.cables, ...this.anchors, ...this.marks].map(({ tag }) => tag), ...this.bodies, this.load, this.bar,
+      this.triad, this.pointed);
   }
 
   /// @param project from a point of the scene to pixels  @param lines [[from, to]] of the cables, points in the scene
   /// @param tip of the load's arrow, or undefined  @param pixels of a metre  @param directions of the axes, in pixels
-  update({ project, lines, tip, pixels, directions, width }) {
+  /// @param bodies where their names stand, points in the scene
+  update({ project, lines, tip, pixels, directions, width, bodies }) {
     const taken = [];
     const put = (tag, [x, y]) => {
       tag.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
@@ -55,6 +60,13 @@ export class Overlay {
       const [x, y] = project(at);
       put(tag, [x, y - 13]);
     }
+    this.bodies.forEach((tag, i) => {
+      const at = project(bodies[i]);
+      // Of names that would cover each other the first is shown.
+      const isFree = taken.every(([u, v, w]) => Math.max(Math.abs(at[0] - u) - w, Math.abs(at[1] - v)) > 15);
+      tag.style.display = isFree ? "" : "none";
+      if (isFree) put(tag, at);
+    });
     this.load.style.display = tip ? "" : "none";
     if (tip) {
       const [x, y] = project(tip);

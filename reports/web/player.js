@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The controls below the robot: play, scrub, step through segments; and the numbers at the cursor.
+import { nearestPair } from "./bodies.js";
 import { between, locate, status } from "./data.js";
 import { decimalsFor, degrees, element, fixed, text } from "./words.js";
 
@@ -46,6 +47,7 @@ class Readout {
     this.data = data;
     this.where = element("p", { class: "where" });
     this.pose = element("p", { class: "pose" });
+    this.bodies = element("p", { class: "bodies" });
     this.rows = data.robot.tension.map((_, i) => {
       const row = { tension: element("td", { class: "n" }), length: element("td", { class: "n" }),
         f: new Meter(), d: new Meter(), flag: element("td", { class: "flag" }) };
@@ -55,6 +57,7 @@ class Readout {
     });
     const head = (words, attributes = {}) => element("th", { scope: "col", ...attributes }, words);
     this.element = element("div", { class: "readout-table" }, this.where, this.pose,
+      ...(data.bodies?.nearest.pair.length > 0 ? [this.bodies] : []),
       element("table", {},
         element("caption", {}, "Cables at this place, and where that is between their limits (floating point)"),
         element("thead", {}, element("tr", {}, head("Cable"), head(`Tension [${data.forceUnit.name}]`, { colspan: 2 }),
@@ -77,6 +80,7 @@ class Readout {
     const names = samples.angle_names.join(", ");
     this.pose.textContent =
       `p = (${p.join(", ")}) ${lengthUnit.name}; ${names} = ${angles.map((a) => `${a}°`).join(", ")}`;
+    this.showBodies(where);
     this.rows.forEach((row, i) => {
       const f = between(samples.tension[i], where) * forceUnit.factor;
       const low = f - between(samples.tension_below[i], where) * forceUnit.factor;
@@ -91,6 +95,17 @@ class Readout {
       const tooLong = row.d.show(d, d, d, limits);
       row.flag.textContent = slackOrOver || tooLong ? "out" : "";
     });
+  }
+
+  /// The pair that is nearest to its clearance here.
+  showBodies(where) {
+    const { bodies, lengthUnit: { name: unit, factor } } = this.data;
+    if (!bodies || bodies.nearest.pair.length === 0) return;
+    const { name, distance, clearance } = nearestPair(bodies, where);
+    const apart = distance < 0 ? `in each other, about ${text(-distance * factor, 3)} ${unit} deep`
+      : `${text(distance * factor, 3)} ${unit} apart`;
+    this.bodies.textContent = `Nearest bodies: ${name}, ${apart} (clearance ${text(clearance * factor)} ${unit})`;
+    this.bodies.className = `bodies ${distance > clearance ? "" : "out"}`;
   }
 }
 

@@ -297,6 +297,47 @@ export function marginPanels(data) {
   ];
 }
 
+/// What is left of all clearances, and the distances of the pairs that come nearest.
+export function clearancePanels(data) {
+  const { margins, lengthUnit: { name: unit, factor }, bodies: { nearest, pairs } } = data;
+  const scale = (list) => list.map((x) => (x === null || x === undefined ? NaN : x * factor));
+  const left = scale(nearest.distance.map((d, k) => d - nearest.clearance[k]));
+  const proved = (margins.clearance_m ?? []).map((x) => (x === null ? null : x * factor));
+  return [
+    marginPanel(data, "Left of all clearances", unit, proved, left, 0),
+    ...pairs.map((pair) => pairPanel(data, pair.name, scale(pair.distance), pair.clearance * factor)),
+  ];
+}
+
+function pairPanel(data, name, distance, clearance) {
+  const unit = data.lengthUnit.name;
+  const range = extent(distance) ?? [0, 1];
+  const domain = paddedDomain([Math.min(range[0], clearance, 0), Math.max(range[1], clearance)]);
+  const decimals = decimalsFor(domain[1] - domain[0]);
+  return new Panel({
+    title: name,
+    rest: `sampled, at least ${text(range[0], 3)} ${unit}`,
+    description: `Distance of ${name} along the move: sampled, at least ${text(range[0], 3)} ${unit}; clearance ` +
+      `${text(clearance)} ${unit}.`,
+    domain,
+    label: `apart [${unit}]`,
+    draw: (axis, across) => {
+      const { behind, before } = marks(data, axis, domain);
+      return [
+        Plot.rect([0], {
+          x1: across[0], x2: across[1], y1: domain[0], y2: clearance, fill: "var(--forbidden)", clip: true,
+        }),
+        limitLines([clearance]), behind,
+        Plot.lineY(axis.values.map((x, k) => ({ x, y: distance[k] ?? NaN })), {
+          x: "x", y: "y", stroke: "var(--calm)", strokeWidth: 1.8, clip: true,
+        }),
+        before,
+      ];
+    },
+    says: (where) => `here ${fixed(between(distance, where), decimals)} ${unit}`,
+  });
+}
+
 /// Proved lower bounds as steps, the sampled margin as a line; the claim needs more than `needed`.
 function marginPanel(data, title, unit, proved, sampled, needed) {
   const all = extent(proved, sampled);

@@ -36,6 +36,7 @@ import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { Bodies, bodyMaterials } from "./bodies.js";
 import { themed } from "./colours.js";
 import { between, extent, locate, spaced, status } from "./data.js";
 import { shareGestures } from "./gestures.js";
@@ -90,6 +91,7 @@ class Viewer {
     [this.controls.minZoom, this.controls.maxZoom] = ZOOM;
     this.controls.addEventListener("change", () => this.draw());
     shareGestures(holder, canvas, this.controls, hint);
+    if (this.bodies) this.nameBodies(canvas);
     new ResizeObserver(() => this.resize()).observe(holder);
     this.resetView();
     this.setTheme();
@@ -103,10 +105,13 @@ class Viewer {
     const turn = new Matrix4().makeBasis(across, up, across.clone().cross(up)).transpose();
     this.world.quaternion.setFromRotationMatrix(turn);
     const points = robot.base.map(vector);
-    this.payloadBox = boxCorners(this.data.decoration.payload);
+    const shapes = this.data.bodies?.shapes ?? [];
+    this.payloadBox = [...boxCorners(this.data.decoration.payload),
+      ...shapes.filter((shape) => !shape.is_obstacle).flatMap((shape) => shape.box)];
     const count = samples.position.length;
     for (let k = 0; k < count; k += Math.max(1, Math.floor(count / 60))) points.push(...this.swept(k));
     points.push(...this.swept(count - 1), ...boxCorners(this.data.decoration.frame).map(vector));
+    points.push(...this.obstaclePoints(points));
     points.push(...points.map((p) => this.foot(p)), ...this.gridLines().flat());
     const low = points.reduce((a, b) => a.clone().min(b), points[0]);
     const high = points.reduce((a, b) => a.clone().max(b), points[0]);
@@ -117,6 +122,17 @@ class Viewer {
     this.world.position.copy(centre).multiplyScalar(-this.scale).applyQuaternion(this.world.quaternion);
     this.world.updateMatrixWorld();
     this.points = points.map((p) => this.world.localToWorld(p));
+  }
+
+  /// What of the obstacles is next to the machine, as machine_view.cc has it: all of them may be far larger.
+  obstaclePoints(points) {
+    const low = points.reduce((a, b) => a.clone().min(b), points[0]);
+    const high = points.reduce((a, b) => a.clone().max(b), points[0]);
+    const size = high.clone().sub(low);
+    const beyond = 0.25 * Math.max(size.x, size.y, size.z);
+    [low, high].forEach((end, k) => end.addScalar(k === 0 ? -beyond : beyond));
+    return (this.data.bodies?.shapes ?? []).filter((shape) => shape.is_obstacle).flatMap((shape) =>
+      (shape.plane ?? clipped(shape.box.map(vector), low, high)).map((p) => (p.isVector3 ? p : vector(p))));
   }
 
   swept(k) {
@@ -167,12 +183,15 @@ class Viewer {
     this.arrow = this.loadArrow();
     this.platform = this.platformBody();
     this.cables = robot.base.map(() => this.cable());
+    if (this.data.bodies) {
+      this.bodies = new Bodies(this.data, this.world, this.platform, this.materials.bodies, this.scale);
+    }
     // Where no path was found, only its ends are known.
     for (const part of [this.arrow, this.platform, ...this.cables]) part.visible = isFound;
     this.ends();
     if (isFound) this.paths();
     this.witnesses();
-    this.overlay = new Overlay(this.data, this.anchorNames(), this.marks);
+    this.overlay = new Overlay(this.data, this.anchorNames(), this.marks, this.bodies?.names ?? []);
     for (const { tag } of this.overlay.cables) tag.style.display = isFound ? "" : "none";
   }
 
@@ -247,6 +266,20 @@ class Viewer {
     this.showBody(body, this.data.decoration.payload, this.materials.shownPayload);
     this.world.add(body);
     return body;
+  }
+
+  /// A body's name, where the pointer is on one.
+  nameBodies(canvas) {
+    const tag = this.overlay.pointed;
+    canvas.addEventListener("pointermove", (event) => {
+      const box = canvas.getBoundingClientRect();
+      const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+      const name = this.bodies.nameAt([(2 * x) / box.width - 1, 1 - (2 * y) / box.height], this.camera);
+      tag.textContent = name ? `${name} (checked)` : "";
+      tag.classList.toggle("shown", Boolean(name));
+      tag.style.transform = `translate(-50%, -150%) translate(${x.toFixed(0)}px, ${y.toFixed(0)}px)`;
+    });
+    canvas.addEventListener("pointerleave", () => tag.classList.remove("shown"));
   }
 
   /// A body that is only shown: see-through, with its edges.
@@ -395,6 +428,7 @@ class Viewer {
       this.stretch(group, vector(robot.base[i]), this.corners[i],
         nearness(range, robot.tension[i], length, robot.length[i], slack), this.overlay.cables[i].tag, i + 1);
     });
+    this.bodies?.show(where, this.corners);
     const force = this.forceAt(where);
     for (const part of this.arrow.userData.pulls) part.visible = force.length() > 0;
     const down = force.clone().normalize().applyQuaternion(this.world.quaternion);
@@ -437,6 +471,15 @@ class Viewer {
     for (const [name, property] of Object.entries(colours)) this.materials[name].color.set(themed(property));
     for (const [name, property] of [["shownFrame", "--steel"], ["shownPayload", "--warm-edge"]]) {
       for (const material of Object.values(this.materials[name])) material.color.set(themed(property));
+    }
+    const { bodies } = this.materials;
+    for (const [name, face, edge] of [["obstacle", "--obstacle", "--obstacle-edge"],
+      ["carried", "--carried", "--carried-edge"], ["plane", "--obstacle", "--obstacle"]]) {
+      bodies[name].faces.color.set(themed(face));
+      bodies[name].edges.color.set(themed(edge));
+    }
+    for (const [name, property] of [["cable", "--steel"], ["link", "--ink"], ["linkCasing", "--paper"]]) {
+      bodies[name].color.set(themed(property));
     }
     for (const { material, name } of this.lines) material.color.set(themed(name));
     for (const { userData: { core, nearness: near } } of this.cables) core.material.color.set(themed(`--${near}`));
@@ -534,6 +577,7 @@ class Viewer {
     });
     this.overlay.update({
       project, directions, width, tip: this.tip,
+      bodies: this.bodies?.names.map(({ group, at }) => group.localToWorld(at.clone())) ?? [],
       pixels: (height / (2 * this.half)) * this.camera.zoom * this.scale,
       lines: this.data.robot.base.map((a, i) => [inScene(vector(a)), inScene(this.corners[i])]),
     });
@@ -545,6 +589,14 @@ function boxCorners(body) {
   if (!body) return [];
   const [xs, ys, zs] = [0, 1, 2].map((k) => extent(body.corners.filter((_, i) => i % 3 === k)));
   return xs.flatMap((x) => ys.flatMap((y) => zs.map((z) => [x, y, z])));
+}
+
+/// The corners of what of a box is within another one; none where they are apart.
+function clipped(corners, low, high) {
+  const from = corners.reduce((a, b) => a.clone().min(b), corners[0]).max(low);
+  const to = corners.reduce((a, b) => a.clone().max(b), corners[0]).min(high);
+  if (from.x > to.x || from.y > to.y || from.z > to.z) return [];
+  return [from.x, to.x].flatMap((x) => [from.y, to.y].flatMap((y) => [from.z, to.z].map((z) => new Vector3(x, y, z))));
 }
 
 const shown = (faces, edges) => ({
@@ -570,6 +622,7 @@ function materials() {
     casing: new MeshBasicMaterial({ side: BackSide }),
     gap: new MeshBasicMaterial(),
     worst: new MeshBasicMaterial({ ...inFront }),
+    bodies: bodyMaterials(),
     shownFrame: shown(0.16, 0.55),
     shownPayload: shown(0.3, 0.8),
   };

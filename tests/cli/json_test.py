@@ -65,6 +65,31 @@ class Json(InFolder):
                              "--grow", code=0)
         self.assertTrue(grown["growth"]["whole"])
 
+    def test_bodies(self):
+        """Plans, audits, shown cases and reports of cases with bodies; refuted ones, too."""
+        case = os.path.join(CASES, "cranes", "portal-20t-stack.yaml")
+        shown = self.printed(TAUT, "show", case, code=0)
+        self.assertEqual([c["class"] for c in shown["bodies"]["checked"]],
+                         ["platform-obstacles", "cables-obstacles", "cables-cables", "cables-platform"])
+        self.assertEqual(shown["bodies"]["not_checked"], [])
+        self.assertEqual(shown["waypoints"][0]["nearest_bodies"][0]["pair"], ["container", "stack"])
+        planned = self.printed(TAUT, "plan", case, "--out", self.path("stack"), code=0)
+        self.assertEqual(planned["bodies"], shown["bodies"])
+        self.assertGreater(float(planned["margins"]["clearance_m"]), 0)
+        report = self.printed(TAUT, "report", self.path("stack", "certificate.json"), code=0)
+        self.assertEqual(report["bodies"]["proved_left_m"], float(planned["margins"]["clearance_m"]))
+        self.assertEqual([n["key"] for n in report["key_numbers"]], ["slack", "top", "length", "clearance", "growth"])
+        for pair in report["bodies"]["nearest"]:
+            self.assertAlmostEqual(pair["left_m"], pair["distance_m"] - pair["clearance_m"], places=12)
+            # What is proved is of all deviations; samples are of the machine as stated.
+            self.assertGreater(pair["left_m"], report["bodies"]["proved_left_m"])
+        plate = os.path.join(CASES, "bodies", "thin-plate")
+        audited = self.printed(TAUT, "audit", plate + ".yaml", plate + ".csv", "--out", self.path("plate"), code=1)
+        self.assertEqual(audited["witness"]["kind"], "contact")
+        report = self.printed(TAUT, "report", self.path("plate", "certificate.json"), code=0)
+        self.assertIsNone(report["bodies"]["proved_left_m"])
+        self.assertIn("“hook” and “plate”", report["headline"])
+
     def test_audits(self):
         for case in sorted(glob.glob(os.path.join(AUDITS, "robot1-*.yaml"))):
             if "tolerances" in case or "too-loose" in case:

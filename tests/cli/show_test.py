@@ -38,6 +38,48 @@ class Show(unittest.TestCase):
                 certificate = json.load(file)
         self.assertEqual(shown["problem"], certificate["problem"])
 
+    def test_bodies_are_said_again_with_the_nearest_of_each_waypoint(self):
+        case = os.path.join(CASES, "cranes", "portal-20t-stack.yaml")
+        said = run(TAUT, "show", case)
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        for expected in ("Bodies that may not touch", "platform and obstacles, 2 pairs, 200 mm",
+                         "cables among each other, 15 pairs, 20 mm", "28 mm thick",
+                         "“stack”, obstacle: a box of 2.4 × 6.1 × 2.6 m", "container / stack", "apart [m]"):
+            self.assertIn(expected, said.stdout)
+        self.assertNotIn("Not checked", said.stdout)
+        shown = json.loads(run(TAUT, "show", case, "--json").stdout)
+        for waypoint in shown["waypoints"]:
+            nearest = waypoint["nearest_bodies"]
+            left = [pair["left_m"] for pair in nearest]
+            self.assertEqual((len(nearest), left), (5, sorted(left)))
+            for pair in nearest:
+                a, b = pair["points_m"]
+                apart = sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
+                self.assertAlmostEqual(apart, pair["distance_m"], places=9)
+
+    def test_a_start_in_contact_is_named_with_the_pair_and_the_depth(self):
+        with open(os.path.join(CASES, "cranes", "portal-20t-stack.yaml"), encoding="utf-8") as file:
+            text = file.read()
+        with tempfile.TemporaryDirectory() as folder:
+            case = os.path.join(folder, "in.yaml")
+            with open(case, "w", encoding="utf-8") as file:  # onto the container: its lower side is 3.5 m below p
+                file.write(text.replace("at: [0, 1, 1.3], yaw: 10", "at: [-4, 0, 1.7]")
+                           .replace("pair_clearances", "").replace("cables-platform: 10 mm}",
+                                                                   "cables-platform: 10 mm}\n  pairs: "
+                                                                   "[platform-obstacles, cables-obstacles]"))
+            said = run(TAUT, "show", case)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            # 6 − 2.2 − 1.3 = 2.5 m is the container's lower side, and 1.7 + 1.3 = 3 m the stack's upper one.
+            self.assertIn("in contact, about 0.5 m deep in each other", said.stdout)
+            self.assertIn("Not checked: cables among each other, cables and platform.", said.stdout)
+            planned = run(TAUT, "plan", case, "--out", os.path.join(folder, "out"))
+            self.assertEqual(planned.returncode, 1, planned.stdout)
+            self.assertRegex(planned.stdout, r"(?s)Bodies: .*Not\s+checked: cables among.*REFUTED")
+            self.assertRegex(planned.stdout, r"at\s+waypoint\s+0\s+of\s+the\s+query\s+“container”\s+and\s+“stack”")
+            checked = run(CHECK, os.path.join(folder, "out", "certificate.json"))
+            self.assertEqual(checked.returncode, 0, checked.stdout)
+            self.assertIn("NOT CHECKED: cables-cables; cables-platform", checked.stdout)
+
     def test_tensions_balance_the_load(self):
         """With J and w0 computed here, from the exact problem and the pose."""
         self.check_balance(CASE, lambda pose: turn(pose["phi"], pose["theta"], pose["sigma"]))

@@ -17,6 +17,8 @@ const WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"];
 const SECTIONS = ["assumptions", "inputs", "robot", "path", "recheck"];
 const SECTIONS_OF_THEOREMS = ["theorem", ...SECTIONS];
+/// A case with bodies that may not touch.
+const STACK = "cranes/portal-20t-stack";
 /// Its report, that no path exists, has no script.
 const APART = "maps/robot1-sigma34-apart";
 let withWebgl;
@@ -59,7 +61,9 @@ before(async () => {
   [withWebgl, withoutWebgl] = await Promise.all([launch(WEBGL), launch(NO_WEBGL)]);
   for (const name of ["robot1-slice-qs-qg", "robot2-sphere-q2-q3", "robot2-sphere-sigma-free-q2-q3",
     "robot2-free-q2-q3", "robot2-implicit-rail", "tutorial/02-a-slack-start", "tutorial/03-a-smooth-move",
-    "tutorial/04-tolerances", "cranes/portal-20t", APART]) plan(name);
+    "tutorial/04-tolerances", "cranes/portal-20t", STACK, APART]) plan(name);
+  const plate = join(cases, "bodies", "thin-plate");
+  run("audit", `${plate}.yaml`, `${plate}.csv`, "--out", join(directory, "thin-plate"));
   audit("robot1-geodesic", inAudits("robot1-geodesic.tum"));
   audit("robot1-cable-lengths", inAudits("robot1-cable-lengths.csv"));
   audit("robot1-straight-qs-qg", inAudits("robot1-straight-qs-qg.csv"));
@@ -137,6 +141,10 @@ const PAGES = {
   "robot1-geodesic": { panels: 17 },
   "robot1-cable-lengths": { panels: 17 },
   "robot1-straight-qs-qg": { plane: true, panels: 17, stretches: true },
+  [STACK]: { panels: 24 },
+  "bodies.html": { plane: true, panels: 24 },
+  "contact.html": { plane: true, panels: 21 },
+  "thin-plate": { panels: 19, stretches: true },
   "tutorial/02-a-slack-start": { plane: true, panels: 0 },
   "refuted.html": { plane: true, panels: 14 },
   "singular.html": { plane: true, panels: 14 },
@@ -613,6 +621,40 @@ test("a frame and a payload that a case shows are drawn, and said to be unchecke
   await close(page);
 });
 
+test("bodies are drawn, named, said to be checked, and the nearest pair is shown at the cursor", async () => {
+  const page = await open(STACK);
+  assert.match(await page.innerText("[data-plot=move] .legend"), /obstacles: floor, stack \(checked\)/);
+  assert.match(await page.innerText("[data-plot=move] .legend"), /on the platform: container \(checked\)/);
+  const said = async () => (await page.innerText(".readout-table .bodies"));
+  assert.match(await said(), /^Nearest bodies: .+ \/ .+, [0-9.]+ m apart \(clearance 0\.[0-9]+ m\)$/);
+  const before = await said();
+  await page.locator(".controls input[type=range]").first().fill("500");
+  await frames(page);
+  assert.notEqual(await said(), before);
+  // The container is somewhere in the picture.
+  const box = await page.locator(".stage canvas").boundingBox();
+  const names = new Set();
+  for (let x = 0.05; x < 1; x += 0.05) {
+    for (let y = 0.05; y < 1; y += 0.05) {
+      await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+      const tag = page.locator(".labels .pointed.shown");
+      if (await tag.count() > 0) names.add(await tag.innerText());
+    }
+  }
+  assert.deepEqual([...names].sort(), ["container (checked)", "floor (checked)", "stack (checked)"]);
+  await picture(page, "bodies-in-the-middle");
+  await close(page);
+});
+
+test("a contact is named with pair, place and depth, and the move opens where it is", async () => {
+  const page = await open("contact.html");
+  assert.match(await page.innerText(".headline"), /“plate” and “post” touch; the clearance asked for is 30 mm/);
+  assert.match(await page.innerText("table.broken"), /plate \/ post in each other\s+about [0-9.]+ mm deep/);
+  assert.match(await page.innerText(".readout-table .bodies.out"), /plate \/ post, in each other, about [0-9.]+ mm deep/);
+  assert.match(await page.innerText(".checks"), /not checked: cables among each other, cables and platform/);
+  await close(page);
+});
+
 test("a refuted move opens at its witness, where the cable is out of its limits", async () => {
   const page = await open("robot1-straight-qs-qg");
   await frames(page);
@@ -921,6 +963,8 @@ const PAPER = {
   "robot1-slice-qs-qg": { verdict: "PROVED", most: 9 },
   "tutorial/04-tolerances": { verdict: "PROVED", most: 10 },
   "robot1-straight-qs-qg": { verdict: "DO NOT RUN", most: 10 },
+  [STACK]: { verdict: "PROVED", most: 11 },
+  "contact.html": { verdict: "DO NOT RUN", most: 10 },
   "robot1-planned": { verdict: "PROVED", most: 10 },
   "undecided.html": { verdict: "NO DECISION", most: 9 },
   "tutorial/02-a-slack-start": { verdict: "DO NOT RUN", most: 7 },

@@ -2,6 +2,7 @@
 // What the page's script does with its data. Run by node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { nearestPair, nearestPoints } from "../../reports/web/bodies.js";
 import { clipped, outOfLimits, readField } from "../../reports/web/contours.js";
 import { between, locate, spaced } from "../../reports/web/data.js";
 
@@ -57,4 +58,19 @@ test("polygons are cut at the window", () => {
   const cut = clipped([[8, 3], [12, 3], [12, 7], [8, 7]], window);
   assert.deepEqual(cut.map(([x]) => x).sort((a, b) => a - b), [8, 8, 10, 10]);
   assert.deepEqual(cut.map(([, y]) => y).sort((a, b) => a - b), [3, 3, 5, 5]);
+});
+
+test("the nearest pair is that of the nearer sample, and runs on between two with the same", () => {
+  const nearest = {
+    pair: [3, 3, 5], distance: [1, 2, 0.5], clearance: [0.2, 0.2, 0.1],
+    first: [[0, 1, 7], [0, 0, 0], [0, 0, 0]], second: [[1, 3, 9], [0, 0, 0], [0, 0, 0]],
+  };
+  const names = { 3: "hook / post", 5: "cable 1 / post" };
+  assert.deepEqual(nearestPair({ nearest, names }, [0, 0.25]), { name: "hook / post", distance: 1.25, clearance: 0.2 });
+  assert.deepEqual(nearestPair({ nearest, names }, [1, 0.4]), { name: "hook / post", distance: 2, clearance: 0.2 });
+  assert.deepEqual(nearestPair({ nearest, names }, [1, 0.6]),
+    { name: "cable 1 / post", distance: 0.5, clearance: 0.1 });
+  assert.deepEqual(nearestPoints(nearest, [0, 0.5]), [[0.5, 0, 0], [2, 0, 0]]);
+  assert.deepEqual(nearestPoints(nearest, [1, 0.6]), [[7, 0, 0], [9, 0, 0]]);
+  assert.deepEqual(nearestPoints(nearest, [2, 0]), [[7, 0, 0], [9, 0, 0]]);
 });

@@ -41,6 +41,32 @@ std::vector<LabelBox> labels(const std::string& svg) {
   return result;
 }
 
+TEST(MachinePicture, DrawsBodiesAndTheNearestPair) {
+  const std::string svg = picture(sample::with_bodies(sample::proved()), 0.3);
+  EXPECT_EQ(count(svg, "<path class=\"body half-space\""), 1);
+  EXPECT_EQ(count(svg, "<path class=\"body\""), 1) << "the post";
+  EXPECT_EQ(count(svg, "<path class=\"body carried\""), 1) << "the plate";
+  for (const char* name : {">floor<", ">post<", ">plate<"}) EXPECT_EQ(count(svg, name), 1) << name;
+  EXPECT_EQ(count(svg, "<circle class=\"apart-end\""), 2);
+  EXPECT_EQ(count(picture(sample::proved(), 0.3), "class=\"body"), 0);
+  const std::string note = bodies_note(sample::scene(sample::with_bodies(sample::proved()))).str();
+  EXPECT_NE(note.find("checked"), std::string::npos);
+  EXPECT_NE(note.find("post"), std::string::npos);
+}
+
+TEST(MachinePicture, OfAFarObstacleDrawsWhatIsNear) {
+  nlohmann::json certificate = sample::with_bodies(sample::proved());
+  const MachineView near(sample::scene(certificate));
+  certificate["problem"]["bodies"]["obstacles"][1]["hull"]["points_m"] = {{"0", "0", "0"}, {"0", "5000", "0"}};
+  const MachineView far(sample::scene(certificate));
+  const auto size = [](const MachineView& view) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : view.swept) box.extend(p);
+    return box.sizes().maxCoeff();
+  };
+  EXPECT_LT(size(far), 2 * size(near));
+}
+
 TEST(MachinePicture, NamesEverythingAndNoLabelHidesAnother) {
   for (const double position : {0.0, 0.3, 0.9, 1.4, 2.0}) {
     const std::string svg = picture(sample::proved(), position);

@@ -82,6 +82,44 @@ inline nlohmann::json proved() {
   return result;
 }
 
+/// Adds bodies to a certificate: a plate on the platform, a floor and a post. Cables are not checked against each other
+/// nor against the plate.
+inline nlohmann::json with_bodies(nlohmann::json certificate) {
+  using nlohmann::json;
+  certificate["version"] = 5;
+  certificate["problem"]["bodies"] = json::parse(R"({
+    "platform": [{"name": "plate", "at_m": ["0","0","0"], "hull": {"radius_m": "0.002", "points_m": [
+      ["-0.1","-0.1","0"], ["0.1","-0.1","0"], ["0.1","0.1","0"], ["-0.1","0.1","0"]]}}],
+    "obstacles": [
+      {"name": "floor", "at_m": ["0","0","-0.05"], "half_space": {"normal": ["0","0","2"]}},
+      {"name": "post", "clearance_m": "0.03", "at_m": ["0.3","0","0"],
+       "hull": {"radius_m": "0.02", "points_m": [["0","0","0"], ["0","0","0.5"]]}}],
+    "cables": {"diameter_m": ["0.001","0.001","0.001","0.001","0.001","0.001"], "free_ends_m": [
+      ["0.02","0.01"], ["0.02","0.01"], ["0.02","0.01"], ["0.02","0.01"], ["0.02","0.01"], ["0.02","0.01"]]},
+    "clearance_m": {"platform-obstacles": "0.02", "cables-obstacles": "0.005"}})");
+  certificate["path"]["directions"] = json::parse(R"([["W", -1, 0, 0]])");
+  json apart = json::array();
+  for (int n = 0; n < 14; ++n) apart.push_back(n % 2 == 0 ? json() : json(0));
+  for (json& segment : certificate["segments"]) {
+    segment["apart"] = apart;
+    segment["margins"]["clearance_m"] = "0.0123";
+  }
+  if (!certificate["margins"].empty()) certificate["margins"]["clearance_m"] = "0.0123";
+  return certificate;
+}
+
+/// Refuted, as the plate comes too near to the post.
+inline nlohmann::json contact() {
+  nlohmann::json result = with_bodies(certificate());
+  result["verdict"] = "refuted";
+  // The post stands where the plate is.
+  result["problem"]["bodies"]["obstacles"][1]["at_m"] = {"0.1", "0.05", "0"};
+  result["witness"] = nlohmann::json::parse(R"({"at": {"segment": 1, "s": "3/8"}, "kind": "contact", "pair": 1,
+      "depth_m": "0.0315", "weights": [["1/4","1/4","1/4","1/4"], ["1/2","1/2"]], "proof": {"bits": 64},
+      "motion": []})");
+  return result;
+}
+
 inline nlohmann::json refuted() {
   nlohmann::json result = certificate();
   result["verdict"] = "refuted";

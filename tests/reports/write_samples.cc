@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
   write("refuted.html", taut::sample::refuted());
   write("singular.html", taut::sample::singular());
   write("undecided.html", taut::sample::undecided());
+  write("bodies.html", taut::sample::with_bodies(taut::sample::proved()));
+  write("contact.html", taut::sample::contact());
   write("no_path.html", taut::sample::no_path());
   write("no_path_of_query.html", taut::sample::no_path_of_query());
   write("hostile.html", taut::sample::hostile());

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checker/stated_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace taut::checker {
+namespace {
+
+using Json = nlohmann::json;
+
+/// problem.bodies alone: the rest of a certificate may take gigabytes.
+Json bodies_of(const std::string& certificate) {
+  const auto keep = [](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event != Json::parse_event_t::key) return true;
+    return depth == 1 ? parsed == "problem" : depth == 2 ? parsed == "bodies" : true;
+  };
+  return Json::parse(certificate, keep).at("problem").value("bodies", Json());
+}
+
+std::string metres(const Json& text) {
+  return fmt::format("{:.6g} m", std::strtod(text.get<std::string>().c_str(), nullptr));
+}
+
+/// "platform-obstacles (2 pairs), 0.2 m", or nothing where the class has no clearance.
+std::string class_text(const Json& bodies, const char* name, std::size_t pairs) {
+  const Json& clearances = bodies.at("clearance_m");
+  if (!clearances.contains(name)) return "";
+  return fmt::format("{} ({} {}), {}", name, pairs, pairs == 1 ? "pair" : "pairs", metres(clearances[name]));
+}
+
+/// "on the platform: "container"", or nothing.
+std::string names_text(const Json& list, const char* where) {
+  std::string text;
+  for (const Json& body : list) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", body.at("name").dump(-1, ' ', true));
+    if (body.contains("clearance_m")) text += fmt::format(" (clearance {})", metres(body["clearance_m"]));
+  }
+  return text.empty() ? "" : fmt::format("; {}: {}", where, text);
+}
+
+/// The range of six numbers or pairs of them.
+std::string range_text(const Json& list) {
+  double least = 0, greatest = 0;
+  bool is_first = true;
+  for (const Json& entry : list) {
+    const double x = std::strtod(entry.get<std::string>().c_str(), nullptr);
+    least = is_first ? x : std::min(least, x);
+    greatest = is_first ? x : std::max(greatest, x);
+    is_first = false;
+  }
+  return least == greatest ? fmt::format("{:.6g} m", least) : fmt::format("{:.6g} to {:.6g} m", least, greatest);
+}
+
+}  // namespace
+
+std::string stated_bodies(const std::string& certificate) {
+  const Json bodies = bodies_of(certificate);
+  if (!bodies.is_object()) return "";
+  constexpr std::size_t kCableCount = 6, kCablePairs = 15;
+  const std::size_t platform = bodies.at("platform").size();
+  const std::size_t obstacles = bodies.at("obstacles").size();
+  const std::array<std::pair<const char*, std::size_t>, 4> classes = {{{"platform-obstacles", platform * obstacles},
+                                                                       {"cables-obstacles", kCableCount * obstacles},
+                                                                       {"cables-cables", kCablePairs},
+                                                                       {"cables-platform", kCableCount * platform}}};
+  std::string checked, others;
+  for (const auto& [name, pairs] : classes) {
+    const std::string text = class_text(bodies, name, pairs);
+    (text.empty() ? others : checked) += (text.empty() ? others : checked).empty() ? "" : "; ";
+    (text.empty() ? others : checked) += text.empty() ? name : text;
+  }
+  std::string text = "bodies: ";
+  if (!checked.empty()) text += "checked: " + checked;
+  if (!others.empty()) text += fmt::format("{}NOT CHECKED: {}", checked.empty() ? "" : "; ", others);
+  text += names_text(bodies["platform"], "on the platform") + names_text(bodies["obstacles"], "obstacles");
+  const Json& cables = bodies.at("cables");
+  Json base = Json::array(), top = Json::array();
+  for (const Json& ends : cables.at("free_ends_m")) {
+    base.push_back(ends.at(0));
+    top.push_back(ends.at(1));
+  }
+  const Json& clearances = bodies["clearance_m"];
+  const bool has_cables = clearances.contains("cables-obstacles") || clearances.contains("cables-cables") ||
+                          clearances.contains("cables-platform");
+  if (has_cables) {
+    text += fmt::format("; cables {} thick, not checked on {} near the base and {} near the platform",
+                        range_text(cables.at("diameter_m")), range_text(base), range_text(top));
+  }
+  if (bodies.contains("pair_clearances_m")) {
+    for (const Json& entry : bodies["pair_clearances_m"]) {
+      text += fmt::format("; {} and {}: {}", entry.at("pair").at(0).dump(-1, ' ', true),
+                          entry["pair"].at(1).dump(-1, ' ', true), metres(entry.at("clearance_m")));
+    }
+  }
+  return text;
+}
+
+}  // namespace taut::checker

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reports/summary/body_distances.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+namespace taut {
+namespace {
+
+using Point = Vector3<double>;
+using Points = std::vector<Point>;
+
+/// How far the first has to be moved along a unit vector until a plane across it is between the two.
+double overlap_along(const Points& first, const Points& second, const Point& u) {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (const Point& a : first) least = std::min(least, u.dot(a));
+  for (const Point& b : second) greatest = std::max(greatest, u.dot(b));
+  return greatest - least;
+}
+
+/// About how deep two hulls that meet are in each other: the least overlap along any direction, sought among many of
+/// them and then around the best.
+double depth_of(const Points& first, const Points& second) {
+  constexpr int kDirections = 600;
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  struct Tried {
+    double overlap;
+    Point u;
+  };
+  std::vector<Tried> tried;
+  for (int k = 0; k < kDirections; ++k) {  // points that are spread over a sphere
+    const double z = 1 - (2 * k + 1.0) / kDirections;
+    const double across = std::sqrt(1 - z * z);
+    const Point u(across * std::cos(golden * k), across * std::sin(golden * k), z);
+    tried.push_back({overlap_along(first, second, u), u});
+  }
+  constexpr std::size_t kStarts = 6;
+  std::ranges::partial_sort(tried, tried.begin() + kStarts, {}, &Tried::overlap);
+  double best = tried.front().overlap;
+  for (std::size_t start = 0; start < kStarts; ++start) {
+    auto [least, u] = tried[start];
+    for (double step = 0.1; step > 1e-7; step /= 2) {
+      for (int turns = 0; turns < 8; ++turns) {
+        bool is_better = false;
+        const Point across = u.unitOrthogonal();
+        const Point other = u.cross(across);
+        for (const Point& aside : {across, Point(-across), other, Point(-other)}) {
+          const Point next = (u + step * aside).normalized();
+          const double overlap = overlap_along(first, second, next);
+          if (!(overlap < least)) continue;
+          least = overlap;
+          u = next;
+          is_better = true;
+        }
+        if (!is_better) break;
+      }
+    }
+    best = std::min(best, least);
+  }
+  return std::max(best, 0.0);
+}
+
+Point weighted(const Points& points, const std::vector<double>& shares) {
+  Point result = Point::Zero();
+  for (std::size_t k = 0; k < points.size(); ++k) result += shares[k] * points[k];
+  return result;
+}
+
+/// How far any point of the bodies of a pair moves, at most, between two poses, relative to the other body.
+double moved(const CheckedPair<double>& pair, const RigidPose& from, const RigidPose& to, double reach) {
+  // Near its cut end a cable's point moves by as much as the end and is shifted along the cable by as much again.
+  const double moving = pair.kind == PairClass::kPlatformObstacles ? 1 : pair.kind == PairClass::kCablesCables ? 4 : 3;
+  return moving * ((to.p - from.p).norm() + from.q.angularDistance(to.q) * reach);
+}
+
+double reach_of(const BodyModel<double>& bodies, const Model<double>& model) {
+  double reach = 0;
+  for (const ConvexBody<double>& body : bodies.platform) {
+    for (const Point& x : body.points) reach = std::max(reach, x.norm());
+  }
+  for (const Point& b : model.p_PB) reach = std::max(reach, b.norm());
+  return reach;
+}
+
+}  // namespace
+
+BodyDistances::BodyDistances(const Problem& problem) : bodies_(problem) {
+  for (const BodyPair& pair : taut::pairs(*problem.bodies)) names_.push_back(taut::name(*problem.bodies, pair));
+}
+
+std::array<BodyDistances::Placed, 2> BodyDistances::placed(const Model<double>& model, const RigidPose& pose,
+                                                           std::size_t n) const {
+  const BodyModel<double>& bodies = bodies_.bodies();
+  const CheckedPair<double>& pair = bodies.pairs.at(n);
+  const Matrix3<double> turn = pose.q.toRotationMatrix();
+  const auto cable = [&](std::size_t i) -> Placed {
+    const Point a = model.p_WA[i];
+    const Point b = pose.p + turn * model.p_PB[i];
+    const Point along = (b - a).normalized();
+    return {{a + bodies.cable_free[i][0] * along, b - bodies.cable_free[i][1] * along}, bodies.cable_radius[i]};
+  };
+  const auto carried = [&](const ConvexBody<double>& body) {
+    Placed result{{}, body.radius};
+    for (const Point& x : body.points) result.points.emplace_back(pose.p + turn * x);
+    return result;
+  };
+  const auto fixed = [](const Obstacle<double>& body) -> Placed {
+    if (const auto* half_space = std::get_if<HalfSpace<double>>(&body)) return {{}, 0, half_space};
+    const auto& hull = std::get<ConvexBody<double>>(body);
+    return {hull.points, hull.radius};
+  };
+  switch (pair.kind) {
+    case PairClass::kPlatformObstacles: break;
+    case PairClass::kCablesObstacles: return {cable(pair.first), fixed(bodies.obstacles[pair.second])};
+    case PairClass::kCablesCables: return {cable(pair.first), cable(pair.second)};
+    case PairClass::kCablesPlatform: return {cable(pair.first), carried(bodies.platform[pair.second])};
+  }
+  return {carried(bodies.platform[pair.first]), fixed(bodies.obstacles[pair.second])};
+}
+
+BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
+  const auto [first, second] = placed(model, pose, n);
+  BodyDistance result{n, 0, bodies_.bodies().pairs[n].clearance};
+  if (const HalfSpace<double>* half_space = second.half_space) {
+    const Point normal = half_space->normal.normalized();
+    const auto height = [&](const Point& x) { return normal.dot(x) - half_space->offset / half_space->normal.norm(); };
+    const Point lowest = *std::ranges::min_element(first.points, {}, height);
+    result.distance = height(lowest) - first.radius;
+    result.at = {lowest - first.radius * normal, lowest - height(lowest) * normal};
+    return result;
+  }
+  const NearestPoints nearest = nearest_points(first.points, second.points);
+  result.at = {weighted(first.points, nearest.first), weighted(second.points, nearest.second)};
+  double size = 0;
+  for (const Point& x : first.points) size = std::max(size, x.cwiseAbs().maxCoeff());
+  if (nearest.distance > 1e-9 * size) {
+    const Point along = nearest.apart / nearest.distance;
+    result.distance = nearest.distance - first.radius - second.radius;
+    result.at[0] -= first.radius * along;
+    result.at[1] += second.radius * along;
+    return result;
+  }
+  result.distance = -depth_of(first.points, second.points) - first.radius - second.radius;
+  return result;
+}
+
+std::vector<BodyDistance> BodyDistances::nearest(const Model<double>& model, const RigidPose& pose,
+                                                 std::size_t most) const {
+  std::vector<BodyDistance> all;
+  for (std::size_t n = 0; n < pairs(); ++n) all.push_back(at(model, pose, n));
+  std::ranges::stable_sort(all, {}, &BodyDistance::left);
+  all.resize(std::min(most, all.size()));
+  return all;
+}
+
+std::size_t DistancesAlong::worst() const {
+  return static_cast<std::size_t>(std::ranges::min_element(least, {}, &BodyDistance::left) - least.begin());
+}
+
+DistancesAlong distances_along(const BodyDistances& distances, const Sampler& sampler,
+                               const std::vector<PathSample>& samples) {
+  DistancesAlong result;
+  const std::size_t count = distances.pairs();
+  if (count == 0 || samples.empty()) return result;
+  const BodyModel<double>& bodies = distances.bodies();
+  const double reach = reach_of(bodies, sampler.model());
+  struct Known {
+    double left = 0;  ///< when it was last measured
+    double least = std::numeric_limits<double>::infinity();
+    RigidPose pose{};
+    bool is_measured = false;
+  };
+  std::vector<Known> known(count);
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<RigidPose> poses;
+  for (const PathSample& sample : samples) {
+    const RigidPose& pose = poses.emplace_back(sampler.rigid_pose(sample));
+    std::ranges::stable_sort(order, {}, [&](std::size_t n) { return known[n].left; });
+    std::optional<BodyDistance> least;
+    for (const std::size_t n : order) {
+      Known& last = known[n];
+      // A pair that was farther apart than it can have come nearer since is not the one.
+      const bool is_out =
+          last.is_measured && least && last.left - moved(bodies.pairs[n], last.pose, pose, reach) > least->left();
+      if (is_out) continue;
+      const BodyDistance now = distances.at(sampler.model(), pose, n);
+      last = {now.left(), std::min(last.least, now.left()), pose, true};
+      if (!least || now.left() < least->left()) least = now;
+    }
+    result.least.push_back(*least);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t n) { return known[n].least; });
+  order.resize(std::min(order.size(), DistancesAlong::kMostPairs));
+  struct Column {
+    std::size_t pair, least_at;
+    double left;
+    std::vector<double> distance;
+  };
+  std::vector<Column> columns;
+  for (const std::size_t n : order) {
+    Column& column = columns.emplace_back(Column{n, 0, std::numeric_limits<double>::infinity(), {}});
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const BodyDistance now = distances.at(sampler.model(), poses[k], n);
+      column.distance.push_back(now.distance);
+      if (!(now.left() < column.left)) continue;
+      column.left = now.left();
+      column.least_at = k;
+    }
+  }
+  std::ranges::stable_sort(columns, {}, &Column::left);
+  for (Column& column : columns) {
+    result.nearest.push_back(column.pair);
+    result.nearest_at.push_back(column.least_at);
+    result.clearance.push_back(bodies.pairs[column.pair].clearance);
+    result.distance.push_back(std::move(column.distance));
+  }
+  return result;
+}
+
+}  // namespace taut
