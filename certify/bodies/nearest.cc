@@ -475,13 +475,13 @@ std::vector<std::int64_t> one_of(std::size_t size, std::size_t index) {
 std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& model, const RigidPose& pose,
                                                            std::size_t pair) const {
   const Found found = find(model, pose, pair);
-  constexpr double kRounding = 1e-9;  // of the distance of hulls that meet [m]
-  if (found.nearest.distance > found.needed + kRounding) return std::nullopt;
+  constexpr double kMeeting = 1e-9;  // of the distance of hulls that meet [m]
+  if (found.nearest.distance > found.needed + kMeeting) return std::nullopt;
   Touching result{{rounded_shares(found.nearest.first), {}, found.elements}, {}};
   if (found.is_half_space) return result;
   result.nearest.second = rounded_shares(found.nearest.second);
   const auto& [first, second] = found.points;
-  if (found.nearest.distance > kRounding || first.size() * second.size() < 4) return result;
+  if (found.nearest.distance > kMeeting || first.size() * second.size() < 4) return result;
   if (const auto vertices = around_zero(first, second)) {
     auto& around = result.around.emplace();
     for (std::size_t k = 0; k < 4; ++k) {
