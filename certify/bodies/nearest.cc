@@ -104,7 +104,11 @@ NearestPoints nearest_points(std::span<const Point> first, std::span<const Point
     for (std::size_t k = 0; k < simplex.size(); ++k) {
       if (nearest.shares[k] > 0) kept.push_back(simplex[k]);
     }
-    if (kept.size() == 4) break;  // the origin is inside
+    if (kept.size() == 4) {  // the origin is inside
+      nearest.squared = 0;
+      nearest.at = Point::Zero();
+      break;
+    }
     kept.push_back(next);
     const OnSimplex closer = nearest_on_simplex(kept);
     if (!(closer.squared < nearest.squared)) break;
@@ -471,12 +475,13 @@ std::vector<std::int64_t> one_of(std::size_t size, std::size_t index) {
 std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& model, const RigidPose& pose,
                                                            std::size_t pair) const {
   const Found found = find(model, pose, pair);
-  if (found.nearest.distance > found.needed) return std::nullopt;
+  constexpr double kMeeting = 1e-9;  // of the distance of hulls that meet [m]
+  if (found.nearest.distance > found.needed + kMeeting) return std::nullopt;
   Touching result{{rounded_shares(found.nearest.first), {}, found.elements}, {}};
   if (found.is_half_space) return result;
   result.nearest.second = rounded_shares(found.nearest.second);
   const auto& [first, second] = found.points;
-  if (found.nearest.distance > 0 || first.size() * second.size() < 4) return result;
+  if (found.nearest.distance > kMeeting || first.size() * second.size() < 4) return result;
   if (const auto vertices = around_zero(first, second)) {
     auto& around = result.around.emplace();
     for (std::size_t k = 0; k < 4; ++k) {
