@@ -226,6 +226,14 @@ MeshSide BodyGaps<I, Slope>::side_at_mid(const CheckedPair<I>& pair) const {
   return of_first == MeshSide::kOutside ? side_at_mid(pair, true) : of_first;
 }
 
+template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&, bool) const;
+template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&, bool) const;
+template const PlacedMesh<Interval>* BodyGaps<Interval>::mesh(const CheckedPair<Interval>&, bool) const;
+template const PlacedMesh<MpInterval>* BodyGaps<MpInterval>::mesh(const CheckedPair<MpInterval>&, bool) const;
+template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 2>>::mesh(const CheckedPair<Interval>&,
+                                                                                    bool) const;
+template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 3>>::mesh(const CheckedPair<Interval>&,
+                                                                                    bool) const;
 template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&) const;
 template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&) const;
 template bool BodyGaps<Interval>::has_mesh(const CheckedPair<Interval>&) const;
