@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <utility>
 
+#include "base/input_error.h"
 #include "case/case_file.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
@@ -122,6 +126,132 @@ TEST(MeshBodies, OfABoxAreRefutedAsItsHullIs) {
     const Outcome outcome = outcome_of(hall(container, stack), path);
     EXPECT_EQ(outcome.verdict, Verdict::kRefuted) << container << stack << ": " << outcome.message;
   }
+}
+
+// ---- More than one direction ----------------------------------------------------------------------------------------
+
+/// An arch of three boxes in one mesh: two legs and a beam on top of them, 12 m wide and 9 m high inside, along x.
+TriangleMesh arch() {
+  TriangleMesh mesh;
+  const auto add = [&](const std::array<double, 3>& half, const std::array<double, 3>& at) {
+    const TriangleMesh box = box_mesh(half);
+    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const auto& x : box.vertices) mesh.vertices.push_back({x[0] + at[0], x[1] + at[1], x[2] + at[2]});
+    for (const auto& [a, b, c] : box.triangles) mesh.triangles.push_back({a + offset, b + offset, c + offset});
+  };
+  add({1, 1, 4.5}, {0, -7, 4.5});
+  add({1, 1, 4.5}, {0, 7, 4.5});
+  add({1, 8, 0.5}, {0, 0, 9.5});
+  return mesh;
+}
+
+/// The container moves through the arch, whose hull it enters.
+Problem through_arch(std::optional<DecimalText> clearance) {
+  Problem problem = crane();
+  problem.bodies->platform = {block("load", {0.5, 0.5, 0.5}, {"0", "0", "-1"})};
+  problem.bodies->obstacles = {{.name = "arch", .shape = mesh_text(arch(), 'c')}};
+  problem.bodies->clearance_m = {std::move(clearance), std::nullopt, std::nullopt, std::nullopt};
+  return problem;
+}
+
+TEST(MeshBodies, MayBeEnteredWhereTheyAreHollow) {
+  const Path path = path_through({{-3, 0, 6, 0, 0, 0}, {3, 0, 6, 0, 0, 0}});
+  const Outcome outcome = outcome_of(through_arch("0.5"), path);
+  ASSERT_EQ(outcome.verdict, Verdict::kProved) << outcome.message;
+  // 9 m less 5.5 m above the load, 6 m less 0.5 m to either side; less what deviations may do.
+  EXPECT_GT(outcome.clearance_m, 1);
+  EXPECT_LT(outcome.clearance_m, 3);
+  EXPECT_EQ(outcome_of(through_arch("3.6"), path).verdict, Verdict::kRefuted);
+}
+
+// ---- Inside ---------------------------------------------------------------------------------------------------------
+
+Problem with_sphere_around(TriangleMesh sphere, bool is_on_platform) {
+  Problem problem = crane();
+  const BodyText ball{.name = "ball", .shape = HullText{{{"0", "0", "0"}}, "0.1"}};
+  BodyText shell{.name = "shell", .shape = mesh_text(std::move(sphere), 'd')};
+  problem.bodies->platform = {is_on_platform ? shell : ball};
+  problem.bodies->obstacles = {is_on_platform ? ball : shell};
+  problem.bodies->obstacles[0].at_m = {"0", "0", "6.6"};
+  problem.bodies->clearance_m = {"0.1", std::nullopt, std::nullopt, std::nullopt};
+  return problem;
+}
+
+TEST(MeshBodies, AreSolidIfTheyAreClosed) {
+  const Path path = path_through({{-0.2, 0, 6.6, 0, 0, 0}, {0.2, 0, 6.6, 0, 0, 0}});
+  for (const bool is_on_platform : {false, true}) {
+    const Outcome closed = outcome_of(with_sphere_around(sphere_mesh(2, 3), is_on_platform), path);
+    EXPECT_EQ(closed.verdict, Verdict::kUndecided);
+    EXPECT_THAT(closed.message, ::testing::HasSubstr(is_on_platform ? "shell / ball" : "ball / shell"));
+    // With a hole far away it is a surface, whose both sides are outside.
+    TriangleMesh open = sphere_mesh(2, 3);
+    open.triangles.pop_back();
+    const Outcome hollow = outcome_of(with_sphere_around(std::move(open), is_on_platform), path);
+    EXPECT_EQ(hollow.verdict, Verdict::kProved) << hollow.message;
+    // And outside of the closed one the ball is clear.
+    const Path outside = path_through({{-4, 0, 6.6, 0, 0, 0}, {-3.6, 0, 6.6, 0, 0, 0}});
+    const Outcome clear = outcome_of(with_sphere_around(sphere_mesh(2, 3), is_on_platform), outside);
+    EXPECT_EQ(clear.verdict, Verdict::kProved) << clear.message;
+  }
+}
+
+// ---- The checker ----------------------------------------------------------------------------------------------------
+
+TEST(MeshBodies, AreTheProblemsOwnToTheChecker) {
+  const Problem problem = through_arch("0.5");
+  const Path path = path_through({{-3, 0, 6, 0, 0, 0}, {3, 0, 6, 0, 0, 0}});
+  const Prover prover(problem);
+  const std::string text = certificate_text(elaborate(problem, path, prove_path(prover, path, {}, {})));
+  EXPECT_EQ(checker::check(text, supplied(problem)).outcome, checker::Outcome::kAccepted);
+  EXPECT_EQ(checker::check(text, {}).outcome, checker::Outcome::kRejected);
+  const auto with = [&](const auto& change) {
+    checker::CheckOptions options;
+    options.meshes = [&](const std::string& file, const std::string& sha256) {
+      checker::SuppliedMesh mesh = supplied(problem).meshes(file, sha256);
+      change(mesh);
+      return mesh;
+    };
+    return checker::check(text, options).outcome;
+  };
+  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.sha256[0] = 'e'; }), checker::Outcome::kRejected);
+  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.triangles.clear(); }), checker::Outcome::kRejected);
+  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.triangles[0][0] = 1000; }), checker::Outcome::kRejected);
+  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.points[0] = {0, 0, 5}; }), checker::Outcome::kRejected);
+  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.points[0] = {0, 0, std::nan("")}; }),
+            checker::Outcome::kRejected);
+}
+
+TEST(MeshBodies, HaveToBeRead) {
+  Problem problem = through_arch("0.5");
+  std::get<MeshText>(problem.bodies->obstacles[0].shape).mesh = nullptr;
+  EXPECT_THROW((void)Prover(problem), InputError);
+}
+
+// ---- Size -----------------------------------------------------------------------------------------------------------
+
+TEST(MeshBodies, MayHaveAHundredThousandTriangles) {
+  Problem problem = crane();
+  problem.bodies->platform = {block("container", kContainer, kBelow)};
+  problem.bodies->obstacles = {{.name = "dome", .shape = mesh_text(sphere_mesh(2.5, 7), 'f')}};
+  validate(problem);
+  auto last = std::chrono::steady_clock::now();
+  const auto lap = [&] {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
+  };
+  const Path path = path_through({{-4, 0, 6.6, 0, 0, -0.1}, {0, 0, 6.7, 0, 0, 0}, {4, 0, 6.6, 0, 0, 0.1}});
+  const Prover prover(problem);
+  const double prepared = lap();
+  const PathProof proof = prove_path(prover, path, {}, {});
+  const double proved = lap();
+  ASSERT_EQ(proof.verdict, Verdict::kProved) << proof.reason.text();
+  const std::string text = certificate_text(elaborate(problem, path, proof));
+  const double elaborated = lap();
+  const checker::CheckResult checked = checker::check(text, supplied(problem));
+  const double confirmed = lap();
+  EXPECT_EQ(checked.outcome, checker::Outcome::kAccepted) << checked.message;
+  std::printf("131072 triangles: prepared %.3f s, proved %.3f s, elaborated %.3f s, checked %.3f s\n", prepared, proved,
+              elaborated, confirmed);
 }
 
 }  // namespace

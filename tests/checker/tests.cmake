@@ -5,6 +5,7 @@ endforeach()
 foreach(header mean_value_form loads machine motion deviation clearance witness)
   taut_add_test(checker ${header} LABELS unit laws LIBS taut_checker taut::certify taut::case)
 endforeach()
+taut_add_test(checker mesh LABELS unit LIBS taut_checker taut::certify)
 taut_add_test(checker ball LABELS unit laws LIBS taut_checker taut::certify)
 if(TAUT_LAWS)
   add_test(NAME checker.ball_laws_at_length
