@@ -40,6 +40,7 @@ PathWitness make_witness(const Prover& prover, const Segment& segment, const Seg
   witness.at = at;
   if (found.contact) {
     witness.contact = found.contact;
+    witness.depth_m = "0";  // certificates state more where the kernel shows more
     return witness;
   }
   const MarginId margin = found.margin;
