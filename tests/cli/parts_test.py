@@ -246,7 +246,8 @@ class UnderMpi(Parts):
         for name in ("hung", "headless"):
             with open(self.path(name + ".out"), "w") as out, open(self.path(name + ".err"), "w") as err:
                 jobs[name] = subprocess.Popen(
-                    ["mpirun", "--enable-recovery", "-n", "2", TAUT, "map", *LONGER, "--json", "--out", self.path(name)],
+                    ["mpirun", "--enable-recovery", "-n", "2", TAUT, "map", *LONGER, "--json",
+                     "--out", self.path(name)],
                     stdout=out, stderr=err, env=self.environment)
         pids = {(name, rank): self.working_rank(jobs[name], rank) for name in jobs for rank in ("0", "1")}
         os.kill(pids["hung", "1"], signal.SIGSTOP)
