@@ -16,6 +16,7 @@ struct MeshPiece {
   bool is_element = false;
   std::vector<Vector3<Ball>> places;  ///< what contains its points: of a node one box, of an element each of its points
   std::vector<Ball> shifts;           ///< by how much these may move
+  mutable std::vector<std::optional<Ball>> extremes{};  ///< along each vector, once it was asked for
 
   [[nodiscard]] bool may_open() const { return surface != nullptr && !is_element; }
 };
@@ -65,9 +66,16 @@ class MarginSearch {
     }
   }
 
-  /// The least of a piece along u, or the largest; one number.
-  [[nodiscard]] static Ball extreme(const SideAlong& along, const MeshPiece& piece, bool is_least) {
+  /// The least of a piece of the first body along vector k, or the largest of one of the second; one number.
+  [[nodiscard]] const Ball& extreme(std::size_t k, const MeshPiece& piece, bool is_first) const {
+    const SideAlong& along = along_[k][is_first ? 0 : 1];
     if (along.extreme) return *along.extreme;
+    piece.extremes.resize(along_.size());
+    std::optional<Ball>& known = piece.extremes[k];
+    if (!known) known = compute_extreme(along, piece, is_first);
+    return *known;
+  }
+  [[nodiscard]] static Ball compute_extreme(const SideAlong& along, const MeshPiece& piece, bool is_least) {
     std::optional<Ball> result;
     for (std::size_t k = 0; k < piece.places.size(); ++k) {
       const Vector3<Ball>& f = piece.places[k];
@@ -83,9 +91,9 @@ class MarginSearch {
   Ball evaluate(const MeshPiece& a, const MeshPiece& b) {
     constexpr std::size_t kMost = 4'000'000;
     std::optional<Ball> best;
-    for (const auto& [first, second] : along_) {
+    for (std::size_t k = 0; k < along_.size(); ++k) {
       if (++evaluated_ > kMost) throw Undefined("the elements of meshes are not told apart within 4000000 steps");
-      const Ball here = lowest(extreme(first, a, true) - extreme(second, b, false) - needed_);
+      const Ball here = lowest(extreme(k, a, true) - extreme(k, b, false) - needed_);
       best = best ? larger(*best, here) : here;
       if (enough_ ? is_enough(*best) : least_ && certainly_nonnegative(*best - *least_)) break;
     }
