@@ -16,6 +16,7 @@ struct MeshPiece {
   bool is_element = false;
   std::vector<Vector3<Ball>> places;  ///< what contains its points: of a node one box, of an element each of its points
   std::vector<Ball> shifts;           ///< by how much these may move
+  mutable std::vector<std::optional<Ball>> extremes{};  ///< along each vector, once it was asked for
 
   [[nodiscard]] bool may_open() const { return surface != nullptr && !is_element; }
 };
@@ -65,9 +66,16 @@ class MarginSearch {
     }
   }
 
-  /// The least of a piece along u, or the largest; one number.
-  [[nodiscard]] static Ball extreme(const SideAlong& along, const MeshPiece& piece, bool is_least) {
+  /// The least of a piece of the first body along vector k, or the largest of one of the second; one number.
+  [[nodiscard]] const Ball& extreme(std::size_t k, const MeshPiece& piece, bool is_first) const {
+    const SideAlong& along = along_[k][is_first ? 0 : 1];
     if (along.extreme) return *along.extreme;
+    piece.extremes.resize(along_.size());
+    std::optional<Ball>& known = piece.extremes[k];
+    if (!known) known = compute_extreme(along, piece, is_first);
+    return *known;
+  }
+  [[nodiscard]] static Ball compute_extreme(const SideAlong& along, const MeshPiece& piece, bool is_least) {
     std::optional<Ball> result;
     for (std::size_t k = 0; k < piece.places.size(); ++k) {
       const Vector3<Ball>& f = piece.places[k];
@@ -83,11 +91,11 @@ class MarginSearch {
   Ball evaluate(const MeshPiece& a, const MeshPiece& b) {
     constexpr std::size_t kMost = 4'000'000;
     std::optional<Ball> best;
-    for (const auto& [first, second] : along_) {
+    for (std::size_t k = 0; k < along_.size(); ++k) {
       if (++evaluated_ > kMost) throw Undefined("the elements of meshes are not told apart within 4000000 steps");
-      const Ball here = lowest(extreme(first, a, true) - extreme(second, b, false) - needed_);
+      const Ball here = lowest(extreme(k, a, true) - extreme(k, b, false) - needed_);
       best = best ? larger(*best, here) : here;
-      if (is_enough(*best)) break;
+      if (enough_ ? is_enough(*best) : least_ && certainly_nonnegative(*best - *least_)) break;
     }
     if (!best) throw Undefined("no direction is stated for a pair of bodies");
     return *best;
@@ -95,18 +103,21 @@ class MarginSearch {
 
   /// Whether pieces of such a margin need not be opened.
   [[nodiscard]] bool is_enough(const Ball& margin) const {
-    if (enough_ && certainly_nonnegative(margin - *enough_)) return true;
-    return least_ && certainly_nonnegative(margin - *least_);
+    if (enough_) return certainly_nonnegative(margin - *enough_);
+    return least_ && certainly_nonnegative(margin - nearly_ * *least_);
+  }
+  /// Whether what is known is not what is asked for, so that nothing more matters.
+  [[nodiscard]] bool is_lost() const {
+    if (!result_) return false;
+    return !certainly_positive(*result_) || (enough_ && certainly_negative(*result_ - *enough_));
   }
 
   /// Accounts for two pieces, of which `margin` is known.
   void descend(const MeshPiece& a, const MeshPiece& b, const Ball& margin) {
-    const bool is_lost = result_ && !certainly_positive(*result_);
     const bool are_last = !a.may_open() && !b.may_open();
-    if (is_lost || are_last || is_enough(margin)) {
+    if (are_last) least_ = least_ ? smaller(*least_, margin) : margin;
+    if (are_last || is_lost() || is_enough(margin)) {
       result_ = result_ ? smaller(*result_, margin) : margin;
-      // Nothing is opened for a hundredth more.
-      if (are_last) least_ = Ball(mpq_class(99, 100)) * *result_;
       return;
     }
     const bool opens_a = a.may_open() && (!b.may_open() || size(a) >= scale_ * size(b));
@@ -153,7 +164,8 @@ class MarginSearch {
   bool moves_ = false;
   double scale_ = 1;
   std::size_t evaluated_ = 0;
-  std::optional<Ball> least_;   ///< once an element was looked at: nearly what is known not to be exceeded
+  const Ball nearly_{mpq_class(99, 100)};  ///< nothing is opened for a hundredth more
+  std::optional<Ball> least_;   ///< of the elements that were looked at
   std::optional<Ball> result_;  ///< of all that is accounted for
 };
 

@@ -3,9 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <functional>
 #include <utility>
 
 #include "base/input_error.h"
@@ -221,6 +222,71 @@ TEST(MeshBodies, AreTheProblemsOwnToTheChecker) {
             checker::Outcome::kRejected);
 }
 
+/// Of certificates that were changed before they were written.
+checker::Outcome outcome_of_changed(const Problem& problem, const Certificate& certificate,
+                                    const std::function<void(Certificate&)>& change) {
+  Certificate changed = certificate;
+  change(changed);
+  return checker::check(certificate_text(changed), supplied(problem)).outcome;
+}
+
+TEST(MeshBodies, NeedAllTheirDirections) {
+  const Problem problem = through_arch("0.5");
+  const Path path = path_through({{-3, 0, 6, 0, 0, 0}, {3, 0, 6, 0, 0, 0}});
+  const Certificate certificate = elaborate(problem, path, prove_path(Prover(problem), path, {}, {}));
+  ASSERT_EQ(certificate.verdict, Verdict::kProved);
+  ASSERT_FALSE(certificate.segments.empty());
+  std::size_t most = 0;
+  for (const PairDirections& directions : certificate.segments[0].directions) {
+    most = std::max(most, directions.of(0).size());
+  }
+  EXPECT_GE(most, 2U);
+  const auto with = [&](const std::function<void(std::vector<Direction>&)>& change) {
+    return outcome_of_changed(problem, certificate, [&](Certificate& changed) {
+      for (PairDirections& directions : changed.segments[0].directions) {
+        std::vector<Direction> list = directions.lists.at(0);
+        change(list);
+        directions.set(0, list);
+      }
+    });
+  };
+  using List = std::vector<Direction>;
+  EXPECT_EQ(with([](List&) {}), checker::Outcome::kAccepted);
+  EXPECT_EQ(with([](List& list) { list.resize(1); }), checker::Outcome::kRejected);
+  EXPECT_EQ(with([](List& list) {
+              for (Direction& direction : list) {
+                for (int& x : direction.u) x = -x;
+              }
+            }),
+            checker::Outcome::kRejected);
+  EXPECT_EQ(with([](List& list) {
+              for (Direction& direction : list) direction.in_platform = true;
+            }),
+            checker::Outcome::kMalformed);
+  EXPECT_EQ(with([](List& list) {
+              while (list.size() <= 256) list.push_back(list[0]);
+            }),
+            checker::Outcome::kMalformed);
+}
+
+TEST(MeshBodies, AreTouchedInOneOfTheirElements) {
+  const Problem problem = through_arch("3.6");
+  const Path path = path_through({{-3, 0, 6, 0, 0, 0}, {3, 0, 6, 0, 0, 0}});
+  const Certificate certificate = elaborate(problem, path, prove_path(Prover(problem), path, {}, {}));
+  ASSERT_EQ(certificate.verdict, Verdict::kRefuted);
+  const auto with = [&](std::optional<std::uint32_t> element) {
+    return outcome_of_changed(problem, certificate, [&](Certificate& changed) {
+      changed.witness->violation.contact->points.elements[1] = element;
+    });
+  };
+  const std::uint32_t element = certificate.witness->violation.contact->points.elements[1].value();
+  EXPECT_GE(element, 24U);  // of the beam
+  EXPECT_EQ(with(element), checker::Outcome::kAccepted);
+  EXPECT_EQ(with(0), checker::Outcome::kRejected);  // of a leg
+  EXPECT_EQ(with(36), checker::Outcome::kRejected);
+  EXPECT_EQ(with(std::nullopt), checker::Outcome::kMalformed);
+}
+
 TEST(MeshBodies, HaveToBeRead) {
   Problem problem = through_arch("0.5");
   std::get<MeshText>(problem.bodies->obstacles[0].shape).mesh = nullptr;
@@ -234,10 +300,10 @@ TEST(MeshBodies, MayHaveAHundredThousandTriangles) {
   problem.bodies->platform = {block("container", kContainer, kBelow)};
   problem.bodies->obstacles = {{.name = "dome", .shape = mesh_text(sphere_mesh(2.5, 7), 'f')}};
   validate(problem);
-  auto last = std::chrono::steady_clock::now();
-  const auto lap = [&] {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
+  std::clock_t last = std::clock();
+  const auto lap = [&] {  // of all threads
+    const std::clock_t now = std::clock();
+    return static_cast<double>(now - std::exchange(last, now)) / CLOCKS_PER_SEC;
   };
   const Path path = path_through({{-4, 0, 6.6, 0, 0, -0.1}, {0, 0, 6.7, 0, 0, 0}, {4, 0, 6.6, 0, 0, 0.1}});
   const Prover prover(problem);
