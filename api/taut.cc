@@ -15,6 +15,7 @@
 #include <new>
 
 #include "app/audit.h"
+#include "app/meshes.h"
 #include "app/plan.h"
 #include "app/prove.h"
 #include "app/recheck.h"
@@ -337,8 +338,9 @@ checker::CheckResult unchecked(const std::string& text, const std::string& name)
 }
 
 /// A certificate that was just made, once the checker has confirmed it.
-Certificate checked_certificate(std::string text, double max_seconds, const std::stop_token& stop) {
-  checker::CheckResult checked = recheck(text, max_seconds, stop);
+Certificate checked_certificate(std::string text, const taut::Problem& problem, double max_seconds,
+                                const std::stop_token& stop) {
+  checker::CheckResult checked = recheck(text, max_seconds, stop, meshes_of(problem));
   require_confirmed(checked);
   if (checked.outcome == checker::Outcome::kUnchecked && stop.stop_requested()) throw Interrupted("interrupted");
   return certificate_of(std::move(text), std::move(checked));
@@ -682,8 +684,8 @@ Certificate prove(const Case& the_case, const Path& path, const ProveOptions& op
     certificate.illustration = {{"kind", "proof"}};
     add_stated(certificate.illustration, about, decoration);
     if (options.stop.stop_requested()) throw Interrupted("interrupted");
-    return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), options.max_check_seconds,
-                               options.stop);
+    return checked_certificate(certificate_text(certificate, key ? &*key : nullptr), about.problem,
+                               options.max_check_seconds, options.stop);
   });
 }
 
@@ -725,7 +727,7 @@ Certificate audit_input(const Case& the_case, const PathInput& path, const Audit
          key ? &*key : nullptr, options.headroom_seconds},
         [&](std::string_view piece) { text += piece; }, [](std::string_view) {}, progress, relay.token());
     if (audited.interrupted) throw Interrupted("interrupted");
-    return checked_certificate(std::move(text), options.max_check_seconds, relay.token());
+    return checked_certificate(std::move(text), content.the_case.problem, options.max_check_seconds, relay.token());
   };
   return prove_path_within(relay, work);
 }
@@ -794,6 +796,7 @@ CheckResult check(const std::string& certificate_text, const CheckOptions& optio
     if (options.the_case) {
       problem = to_json(options.the_case->content().the_case.problem);
       request.problem = &problem;
+      request.meshes = meshes_of(options.the_case->content().the_case.problem);
     }
     const checker::CheckResult checked = checker::check(certificate_text, request);
     CheckResult result;

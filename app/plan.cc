@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/illustration.h"
+#include "app/meshes.h"
 #include "certificate/certificate_writer.h"
 #include "certificate/elaborate.h"
 #include "certify/undecided.h"
@@ -82,7 +83,7 @@ bool try_no_path(const Case& the_case, const PlannedCaseOptions& options, const 
   result.no_path = seek_no_path(the_case, separation, options.key);
   if (result.no_path->answer != NoPathAttempt::Answer::kApart) return false;
   result.text = result.no_path->certificate;
-  result.checked = recheck(result.text, options.max_seconds, stop);
+  result.checked = recheck(result.text, options.max_seconds, stop, meshes_of(the_case.problem));
   require_confirmed(result.checked);
   return true;
 }
@@ -110,7 +111,8 @@ PlannedCase plan_case(const Case& the_case, Planner& planner, const PlannedCaseO
     if (result.as_items) illustration["as_items"] = to_json(result.as_items);
   }
   result.text = certificate_text(certificate, options.key);
-  result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop);
+  result.checked = recheck(result.text, options.max_seconds, stop.stop_requested() ? std::stop_token() : stop,
+                           meshes_of(the_case.problem));
   require_confirmed(result.checked);
   return result;
 }

@@ -12,8 +12,10 @@ constexpr const char* kChecker = "taut-check " TAUT_VERSION;
 
 }  // namespace
 
-checker::CheckResult recheck(const std::string& bytes, double max_seconds, const std::stop_token& stop) {
+checker::CheckResult recheck(const std::string& bytes, double max_seconds, const std::stop_token& stop,
+                             const checker::MeshSupplier& meshes) {
   checker::CheckOptions options;
+  options.meshes = meshes;
   options.max_seconds = max_seconds;
   options.stop = stop;
   try {

@@ -18,7 +18,9 @@ inline constexpr std::uintmax_t kMostCheckedBytes = std::uintmax_t{128} << 20U;
 
 /// What the checker says of a certificate's bytes: "unchecked" if it is asked to stop.
 /// @param max_seconds  the budget; 0: the certificate is read, and unchecked where it claims anything.
-[[nodiscard]] checker::CheckResult recheck(const std::string& bytes, double max_seconds, const std::stop_token& stop);
+/// @param meshes  where the certificate's problem may have some (app/meshes.h)
+[[nodiscard]] checker::CheckResult recheck(const std::string& bytes, double max_seconds, const std::stop_token& stop,
+                                           const checker::MeshSupplier& meshes = {});
 
 /// The result for a certificate that is too long to be checked here.
 [[nodiscard]] checker::CheckResult too_long_to_check();

@@ -174,8 +174,9 @@ class BodyReader {
     } catch (const InputError& error) {
       field.complain(fmt::format("got '{}', {}", excerpt(name), error.what()));
     }
-    body.shape = MeshText{name, mesh->sha256, decimal_to_si("1", unit)};
-    result_.meshes.push_back({body.name, std::move(mesh)});
+    body.shape =
+        MeshText{name, mesh->sha256, decimal_to_si("1", unit), std::make_shared<const IndexedMesh>(mesh->mesh)};
+    result_.meshes.push_back({body.name, std::move(mesh), folder_ / name});
   }
 
   const Unit& length_;

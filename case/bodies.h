@@ -23,6 +23,7 @@ struct EnclosedCylinder {
 struct MeshOfBody {
   std::string body;  ///< its name
   std::shared_ptr<const LoadedMesh> mesh;
+  std::filesystem::path path;  ///< of its file
 };
 
 /// The bodies of a case: the exact problem, and what people should know of how it was made.

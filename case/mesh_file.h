@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "problem/triangle_mesh.h"
+
 namespace taut {
 
 /// The faces of a mesh as a file has them.
@@ -39,13 +41,6 @@ inline constexpr const char* kMeshUnitExpected = "the unit of the mesh's coordin
 /// What the bytes of a file with such an extension say. @pre is_mesh_name()
 /// @throws InputError "which is no whole stl file, expected a mesh"
 [[nodiscard]] PolygonSoup read_polygons(const std::string& extension, const std::string& bytes);
-
-/// A mesh with each point once. Triangles differ, and each has three different corners.
-struct TriangleMesh {
-  std::vector<std::array<double, 3>> vertices;          ///< finite, at most kFarthestMesh; all are used
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< 1 to kMostMeshTriangles
-  std::vector<std::array<std::uint32_t, 2>> needles;    ///< segments that no triangle has as an edge; see below
-};
 
 /// What a file holds, and what was done to it.
 struct MeshReport {

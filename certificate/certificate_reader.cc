@@ -201,11 +201,23 @@ Direction direction_from_json(const JsonCursor& entry) {
   return result;
 }
 
-/// The direction of one pair: an index of the table, or null against a half-space.
-Direction read_apart(const JsonCursor& entry, std::span<const Direction> table) {
-  if (entry.is_null()) return {};
+/// The directions of one pair: an index of the table, null against a half-space, or a list of a pair with a mesh.
+std::vector<Direction> read_apart(const JsonCursor& entry, std::span<const Direction> table) {
+  if (entry.is_null()) return {{}};
   if (table.empty()) entry.fail("none, as the path states no direction");
-  return table[static_cast<std::size_t>(entry.integer(0, static_cast<std::int64_t>(table.size()) - 1))];
+  const auto last = static_cast<std::int64_t>(table.size()) - 1;
+  const auto at = [&](const JsonCursor& index) { return table[static_cast<std::size_t>(index.integer(0, last))]; };
+  if (!entry.value().is_array()) return {at(entry)};
+  std::vector<Direction> result;
+  for (const JsonCursor& index : entry.elements()) result.push_back(at(index));
+  if (result.empty()) entry.fail("a direction");
+  return result;
+}
+
+void set_apart(PairDirections& directions, std::size_t pair, std::vector<Direction> apart) {
+  directions.lists.erase(pair);
+  if (apart.size() > 1) directions.lists[pair] = apart;
+  directions.single.at(pair) = apart.front();
 }
 
 /// `apart` of a segment and of its boxes.
@@ -214,15 +226,17 @@ std::vector<PairDirections> read_directions(const JsonCursor& segment, std::span
   const std::vector<JsonCursor> boxes = segment.at("boxes").elements();
   if (boxes.empty()) return result;
   PairDirections of_all;
-  for (const JsonCursor& entry : segment.at("apart").elements()) of_all.push_back(read_apart(entry, table));
+  const std::vector<JsonCursor> entries = segment.at("apart").elements();
+  of_all.single.resize(entries.size());
+  for (std::size_t n = 0; n < entries.size(); ++n) set_apart(of_all, n, read_apart(entries[n], table));
   for (const JsonCursor& box : boxes) {
     PairDirections& of_box = result.emplace_back(of_all);
     if (!box.contains("apart")) continue;
     for (const JsonCursor& change : box.at("apart").elements()) {
       const std::vector<JsonCursor> parts = change.elements(2);
-      if (of_all.empty()) parts[0].fail("none, as no pair is checked");
-      const auto pair = parts[0].integer(0, static_cast<std::int64_t>(of_all.size()) - 1);
-      of_box[static_cast<std::size_t>(pair)] = read_apart(parts[1], table);
+      if (entries.empty()) parts[0].fail("none, as no pair is checked");
+      const auto pair = parts[0].integer(0, static_cast<std::int64_t>(entries.size()) - 1);
+      set_apart(of_box, static_cast<std::size_t>(pair), read_apart(parts[1], table));
     }
   }
   return result;
@@ -374,7 +388,15 @@ void read_contact(const JsonCursor& witness, Witness& result) {
   constexpr std::int64_t kMostPairs = std::numeric_limits<int>::max();
   PairContact& contact = result.violation.contact.emplace();
   contact.pair = static_cast<std::size_t>(witness.at("pair").integer(0, kMostPairs));
-  contact.points = {read_shares(weights[0]), read_shares(weights[1])};
+  contact.points = {read_shares(weights[0]), read_shares(weights[1]), {}};
+  if (witness.contains("elements")) {
+    const std::vector<JsonCursor> elements = witness.at("elements").elements(2);
+    for (std::size_t side = 0; side < 2; ++side) {
+      constexpr std::int64_t kMostElements = std::numeric_limits<std::uint32_t>::max();
+      if (elements[side].is_null()) continue;
+      contact.points.elements[side] = static_cast<std::uint32_t>(elements[side].integer(0, kMostElements));
+    }
+  }
   result.violation.depth_m = decimal(witness.at("depth_m"));
   result.at_box = read_proof_at(witness.at("proof"), result.violation.at);
 }

@@ -33,12 +33,22 @@ void append_hex_floats(std::string& text, std::span<const double> values) {
   text += ']';
 }
 
-std::string claim_of(Verdict verdict, bool has_items, const std::optional<std::array<bool, kPairClasses>>& checked) {
+/// Whether a body of a problem is a mesh.
+bool has_meshes(const json& problem) {
+  if (!problem.contains("bodies")) return false;
+  const auto is_mesh = [](const json& body) { return body.contains("mesh"); };
+  const json& bodies = problem["bodies"];
+  return std::ranges::any_of(bodies["platform"], is_mesh) || std::ranges::any_of(bodies["obstacles"], is_mesh);
+}
+
+std::string claim_of(Verdict verdict, const json& problem,
+                     const std::optional<std::array<bool, kPairClasses>>& checked) {
   if (verdict == Verdict::kUndecided) return checker::kUndecidedClaim;
   const bool is_proved = verdict == Verdict::kProved;
   std::string claim = is_proved ? checker::kProvedClaim : checker::kRefutedClaim;
-  if (has_items) claim += checker::kItemsClause;
+  if (problem["load"].contains("items")) claim += checker::kItemsClause;
   if (checked) claim += checker::bodies_clause(is_proved, *checked);
+  if (has_meshes(problem)) claim += checker::kMeshClause;
   return claim;
 }
 
@@ -196,6 +206,10 @@ json to_json(const Witness& witness) {
     result["depth_m"] = violation.depth_m;
     result["pair"] = pair;
     result["weights"] = json::array({rationals(points.first), rationals(points.second)});
+    const auto& [first, second] = points.elements;
+    if (first || second) {
+      result["elements"] = {first ? json(*first) : json(), second ? json(*second) : json()};
+    }
     result["proof"] = checker::proof_to_json(witness.at_box);
     return result;
   }
@@ -304,12 +318,15 @@ std::size_t CertificateWriter::index_of(const Direction& direction) {
   return at->second;
 }
 
-/// An entry of `apart` for each pair: null against a half-space.
+/// An entry of `apart` for each pair.
 json CertificateWriter::apart(const PairDirections& directions) {
   json result = json::array();
-  for (const Direction& direction : directions) {
-    const bool is_of_half_space = direction.u == std::array<int, 3>{};
-    result.push_back(is_of_half_space ? json() : json(index_of(direction)));
+  for (std::size_t pair = 0; pair < directions.single.size(); ++pair) {
+    std::vector<std::size_t> indices;
+    for (const Direction& direction : directions.of(pair)) {
+      if (!is_of_half_space(direction)) indices.push_back(index_of(direction));
+    }
+    result.push_back(checker::apart_to_json(indices));
   }
   return result;
 }
@@ -358,7 +375,7 @@ void CertificateWriter::emit_path(const Write& write) const {
 /// Writes all but the footer, the signature and the brace at the end.
 void CertificateWriter::emit(const Certificate& rest, const Write& write, const std::string& path_digest) const {
   const bool is_undecided = rest.verdict == Verdict::kUndecided;
-  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_["load"].contains("items"), checked_)));
+  write("{\"claim\":" + canonical(claim_of(rest.verdict, problem_, checked_)));
   write(",\"format\":\"taut-certificate\",\"generator\":" + canonical({{"name", "taut"}, {"version", TAUT_VERSION}}));
   write(",\"illustration\":" + canonical(rest.illustration));
   write(",\"margins\":" + canonical(rest.margins ? to_json(*rest.margins) : json::object()));

@@ -114,7 +114,9 @@ checker::Witness statement(const PathWitness& found) {
   }
   if (found.contact) {
     result.pair = found.contact->pair;
-    result.weights = {exact_shares(found.contact->points.first), exact_shares(found.contact->points.second)};
+    const PointPair& points = found.contact->points;
+    result.weights = {exact_shares(points.first), exact_shares(points.second)};
+    for (std::size_t side = 0; side < 2; ++side) result.elements[side] = points.elements[side];
     return result;
   }
   result.cable = static_cast<std::size_t>(found.margin.cable);
@@ -122,9 +124,31 @@ checker::Witness statement(const PathWitness& found) {
   return result;
 }
 
+std::shared_ptr<const checker::Surface> to_kernel(const TriangleMesh& mesh) {
+  return std::make_shared<const checker::Surface>(mesh.vertices, mesh.triangles, mesh.needles);
+}
+
+/// Hands over the meshes of bodies, which the JSON of a problem only names.
+void supply_meshes(const std::vector<BodyText>& texts, std::vector<checker::RigidBody>& bodies,
+                   std::map<std::string, std::shared_ptr<const checker::Surface>>& known) {
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    const auto* text = std::get_if<MeshText>(&texts[k].shape);
+    if (text == nullptr || text->mesh == nullptr) continue;
+    std::shared_ptr<const checker::Surface>& surface = known[text->sha256];
+    if (surface == nullptr) surface = to_kernel(text->mesh->mesh());
+    std::get<checker::MeshShape>(bodies.at(k).shape).surface = surface;
+  }
+}
+
 checker::Problem to_kernel(const Problem& problem) {
   const nlohmann::json json = to_json(problem);
-  return checker::read_problem(checker::Cursor(json, "problem"));
+  checker::Problem result = checker::read_problem(checker::Cursor(json, "problem"));
+  if (problem.bodies) {
+    std::map<std::string, std::shared_ptr<const checker::Surface>> known;  // by digest
+    supply_meshes(problem.bodies->platform, result.bodies->platform, known);
+    supply_meshes(problem.bodies->obstacles, result.bodies->obstacles, known);
+  }
+  return result;
 }
 
 // ---- Witnesses ------------------------------------------------------------------------------------------------------
@@ -180,12 +204,14 @@ class Elaborator::Search {
     directions_ = directions;
     path_.directions.clear();
     apart_.clear();
-    for (const Direction& direction : directions) {
-      const bool is_of_half_space = direction.u == std::array<int, 3>{};
-      apart_.push_back(is_of_half_space ? std::nullopt : std::optional(path_.directions.size()));
-      if (is_of_half_space) continue;
-      path_.directions.push_back(
-          {direction.in_platform ? checker::Axes::kPlatform : checker::Axes::kWorld, direction.u});
+    for (std::size_t pair = 0; pair < directions.single.size(); ++pair) {
+      std::vector<std::size_t>& of_pair = apart_.emplace_back();
+      for (const Direction& direction : directions.of(pair)) {
+        if (is_of_half_space(direction)) continue;
+        of_pair.push_back(path_.directions.size());
+        path_.directions.push_back(
+            {direction.in_platform ? checker::Axes::kPlatform : checker::Axes::kWorld, direction.u});
+      }
     }
   }
 
@@ -275,7 +301,7 @@ class Elaborator::Search {
         arb_mul_2exp_si(r, r, 24 - bits);
       });
       const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
-      const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights) - slack;
+      const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements) - slack;
       if (!certainly_nonnegative(depth)) return false;
       constexpr int kDigits = 6;
       deeper.depth_m = BigFloat(lower_bound(depth)).to_decimal(kDigits, MPFR_RNDD);

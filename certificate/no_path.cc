@@ -85,7 +85,7 @@ json to_json(const checker::ContactReason& reason) {
     return list;
   };
   json points = json::array();
-  for (const checker::ContactWeights& of : reason.points) points.push_back({texts(of[0]), texts(of[1])});
+  for (const checker::ContactWeights& of : reason.points) points.push_back(json::array({texts(of[0]), texts(of[1])}));
   return {{"pair", reason.pair}, {"points", std::move(points)}};
 }
 

@@ -485,30 +485,71 @@ BodiesBox<I> bodies_box(const ProofModel<I>& problem, const BoxEnclosure<I>& box
           deviates ? &*box.disturbance : nullptr};
 }
 
+using AtMid = BoxVerdict::NearPair::AtMid;
+
+/// A lower bound of how much farther than its clearance a pair is apart, and what holds where it is not positive.
+struct PairBound {
+  double lower = 0;
+  AtMid at_mid = AtMid::kUnknown;
+};
+
+template <class I>
+PairBound bound_along(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, const Direction& direction) {
+  const GapBound<I> bound = gaps.along(pair, direction);
+  PairBound result{lower_bound(bound.disturbed)};
+  const double lost = lower_bound(bound.value.range) - result.lower;  // to deviations
+  const double at_mid = lower_bound(bound.value.at_mid);
+  if (at_mid > 0) result.at_mid = at_mid - lost > 0 ? AtMid::kApart : AtMid::kApartUndisturbed;
+  return result;
+}
+
+constexpr double kJustPositive = std::numeric_limits<double>::min();
+
+/// @param enough  no larger bound is needed; it is positive
+template <class I>
+PairBound bound_of_mesh(const BodyGaps<I>& gaps, const CheckedPair<I>& pair, std::span<const Direction> directions,
+                        double enough) {
+  using Where = typename BodyGaps<I>::Where;
+  PairBound result{gaps.of_mesh(pair, directions, Where::kBox, enough)};
+  if (result.lower > 0) return result;
+  const auto is_apart = [&](Where where) { return gaps.of_mesh(pair, directions, where, kJustPositive) > 0; };
+  if (is_apart(Where::kMid)) {
+    result.at_mid = AtMid::kApart;
+  } else if (is_apart(Where::kMidUndisturbed)) {
+    result.at_mid = AtMid::kApartUndisturbed;
+  }
+  return result;
+}
+
 /// Of a box on which all else is proved.
 template <class I>
 void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure, const PairDirections& directions,
                   BoxVerdict& verdict) {
-  if (directions.size() != problem.bodies->pairs.size()) throw std::logic_error("directions of other pairs");
+  if (directions.single.size() != problem.bodies->pairs.size()) throw std::logic_error("directions of other pairs");
   if (problem.tolerance && !enclosure.disturbance) throw std::logic_error("a proved box without its deviations");
   const BodiesBox<I> box = bodies_box(problem, enclosure);
   const BodyGaps<I> gaps(box);
   if (!gaps.have_cables_length()) verdict.kind = BoxVerdict::Kind::kNear;
-  for (std::size_t n = 0; n < directions.size(); ++n) {
+  for (std::size_t n = 0; n < directions.single.size(); ++n) {
     const CheckedPair<I>& pair = problem.bodies->pairs[n];
     // Of a pair that is farther apart than another one, nothing more is asked.
-    if (const double rough = gaps.rough(pair, directions[n]); rough > 0 && rough >= verdict.clearance_m) continue;
-    const GapBound<I> bound = gaps.along(pair, directions[n]);
-    const double lower = lower_bound(bound.disturbed);
-    verdict.clearance_m = std::min(verdict.clearance_m, lower);
-    if (lower > 0) continue;
+    const double rough = gaps.rough(pair, directions.single[n]);
+    if (rough > 0 && rough >= verdict.clearance_m) continue;
+    const PairBound bound = gaps.has_mesh(pair)
+                                ? bound_of_mesh(gaps, pair, directions.of(n), std::max(verdict.clearance_m, kJustPositive))
+                                : bound_along(gaps, pair, directions.single[n]);
+    verdict.clearance_m = std::min(verdict.clearance_m, bound.lower);
+    if (bound.lower > 0) continue;
     verdict.kind = BoxVerdict::Kind::kNear;
-    using AtMid = BoxVerdict::NearPair::AtMid;
-    const double lost = lower_bound(bound.value.range) - lower;  // to deviations
-    const double at_mid = lower_bound(bound.value.at_mid);
-    verdict.near.push_back({n, at_mid - lost > 0 ? AtMid::kApart
-                               : at_mid > 0      ? AtMid::kApartUndisturbed
-                                                 : AtMid::kUnknown});
+    verdict.near.push_back({n, bound.at_mid});
+  }
+  for (std::size_t n = 0; verdict.kind == BoxVerdict::Kind::kProved && n < directions.single.size(); ++n) {
+    const CheckedPair<I>& pair = problem.bodies->pairs[n];
+    const MeshSide side = gaps.has_mesh(pair) ? gaps.side_at_mid(pair) : MeshSide::kOutside;
+    if (side == MeshSide::kOutside) continue;
+    const bool is_inside = side == MeshSide::kInside;
+    verdict.kind = is_inside ? BoxVerdict::Kind::kInside : BoxVerdict::Kind::kNear;
+    verdict.near.push_back({n, AtMid::kUnknown});
   }
 }
 

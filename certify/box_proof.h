@@ -117,6 +117,7 @@ struct BoxVerdict {
     kSpansKnot,     ///< T reaches across an inner pose of the reference, and nothing was tried
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kNear,          ///< as kProved, but some pairs of bodies are not shown to be apart along the given directions
+    kInside,        ///< as kProved, but of one pair a part of a body is inside of the other, a closed mesh, at the midpoint
     kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
@@ -136,7 +137,7 @@ struct BoxVerdict {
     std::size_t pair = 0;
     AtMid at_mid = AtMid::kUnknown;
   };
-  std::vector<NearPair> near;  ///< only if kNear; none: the free ends of a cable may meet
+  std::vector<NearPair> near;  ///< only if kNear, or one if kInside; none: the free ends of a cable may meet
   /// The largest share of its value at the midpoint that a margin may lose over the box: less than 1 if kProved. It
   /// proves nothing, and tells which size of box would do. Infinite where it is not known.
   double strain = std::numeric_limits<double>::infinity();

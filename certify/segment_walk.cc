@@ -152,7 +152,8 @@ SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double cl
   const RigidPose middle = sampler.rigid_pose(segment, 0.5);
   PairDirections rough;
   for (std::size_t n = 0; n < prover.bodies()->bodies().pairs.size(); ++n) {
-    rough.push_back(prover.bodies()->rough_direction(sampler.model(), middle, n));
+    rough.single.push_back(prover.bodies()->rough_direction(sampler.model(), middle, n));
+    if (prover.bodies()->needs_list(n)) rough.lists[n] = {rough.single.back()};
   }
   directions_ = std::make_shared<const PairDirections>(std::move(rough));
 }
@@ -230,6 +231,10 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
       ladder_.judge(task.rung, segment_, task.box, clearance_, task.continuation_steps, directions_.get());
   switch (verdict.kind) {
     case Kind::kNear: return examine_bodies(task, verdict);
+    case Kind::kInside: {
+      const std::string where = " " + pair_name(verdict.near.front().pair) + " (inside)";
+      return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, where}};
+    }
     case Kind::kProved: return {Step::Kind::kProved, verdict};
     case Kind::kRefuted: return {Step::Kind::kRefuted, verdict, SegmentWitness{false, verdict.worst, task.box}};
     case Kind::kTooClose: return {Step::Kind::kGiveUp, verdict, {}, Undecided::kClearance};
@@ -311,14 +316,13 @@ SegmentWalk::Step SegmentWalk::examine_singular(const Task& task, const BoxVerdi
 // ---- Bodies ---------------------------------------------------------------------------------------------------------
 
 SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict& verdict) {
-  constexpr std::array kFineness = {Direction::kFine, Direction::kLargest};
   const bool may_split = task.box.depth < ladder_.deepest(task.rung);
   if (verdict.near.empty()) {
     if (task.box.depth < prover_.options().tolerance_depth) return {Step::Kind::kSplit, verdict};
     return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
   }
   const double s = task.box.mid().approx();
-  if (task.redirections < kFineness.size() && redirect(task.box, verdict, kFineness[task.redirections])) {
+  if (task.redirections < kMostRedirections && redirect(task.box, verdict, task.redirections)) {
     return {Step::Kind::kRedirect, verdict};
   }
 
@@ -341,16 +345,20 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
   return give_up;
 }
 
-/// Takes the directions along which the near pairs are farthest apart at the middle of a box. @returns whether any is another one.
-bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, int largest) {
+/// Takes the directions along which the near pairs are farthest apart at the middle of a box, with more digits and for meshes more of
+/// them each time. @returns whether any is another one.
+bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, std::size_t time) {
+  constexpr std::array<int, kMostRedirections> kLargest = {Direction::kFine, Direction::kLargest};
+  constexpr std::array<double, kMostRedirections> kShare = {0.5, 0.9};  // of a mesh's gap
   const PoseSampler& sampler = prover_.sampler();
   const auto pose_at = [&](const Dyadic& s) { return sampler.rigid_pose(segment_, s.approx()); };
   const RigidPose pose = pose_at(box.mid());
   const std::array<RigidPose, 2> ends{pose_at(box.lower()), pose_at(box.upper())};
   PairDirections turned = *directions_;
   for (const auto& near : verdict.near) {
-    const auto direction = prover_.bodies()->direction(sampler.model(), pose, near.pair, largest, ends);
-    if (direction) turned[near.pair] = *direction;
+    std::vector<Direction> directions =
+        prover_.bodies()->directions(sampler.model(), pose, near.pair, kLargest.at(time), kShare.at(time), ends);
+    if (!directions.empty()) turned.set(near.pair, std::move(directions));
   }
   if (turned == *directions_) return false;
   directions_ = std::make_shared<const PairDirections>(std::move(turned));

@@ -80,7 +80,7 @@ class SegmentWalk {
   [[nodiscard]] Step examine_motion(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_singular(const Task& task, const BoxVerdict& verdict);
   [[nodiscard]] Step examine_bodies(const Task& task, const BoxVerdict& verdict);
-  [[nodiscard]] bool redirect(const DyadicBox& box, const BoxVerdict& verdict, int largest);
+  [[nodiscard]] bool redirect(const DyadicBox& box, const BoxVerdict& verdict, std::size_t time);
   [[nodiscard]] std::optional<Step> refute_contact(const Task& task, const BoxVerdict& verdict, std::size_t pair);
   [[nodiscard]] std::string pair_name(std::size_t pair) const;
   [[nodiscard]] double gap(std::size_t pair, double s) const;
@@ -96,6 +96,8 @@ class SegmentWalk {
   void take_given_up(const Task& task, Step step);
   void report(const Task& task, SurveyedBox::Kind kind, Step step);
   void split(const Task& task, std::size_t rung);
+
+  static constexpr std::size_t kMostRedirections = 2;  ///< of one box
 
   const Prover& prover_;
   const PrecisionLadder& ladder_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <thread>
 
 #include "base/sha256.h"
@@ -185,23 +186,53 @@ ConfirmOptions confirm_options(const CheckOptions& options, std::chrono::steady_
   return result;
 }
 
+/// Takes the meshes that the problem names. @throws Rejected where one is not supplied
+void supply_meshes(Problem& problem, const CheckOptions& options, CheckResult& result) {
+  if (!problem.bodies) return;
+  std::map<std::string, std::shared_ptr<const Surface>> known;  // by digest
+  for (auto* bodies : {&problem.bodies->platform, &problem.bodies->obstacles}) {
+    for (RigidBody& body : *bodies) {
+      auto* const mesh = std::get_if<MeshShape>(&body.shape);
+      if (mesh == nullptr) continue;
+      std::shared_ptr<const Surface>& surface = known[mesh->sha256];
+      if (surface == nullptr) {
+        const std::string name = "the mesh " + mesh->file;
+        if (!options.meshes) throw Rejected(name + " was not supplied");
+        SuppliedMesh supplied = options.meshes(mesh->file, mesh->sha256);
+        if (supplied.sha256 != mesh->sha256) throw Rejected(name + " is another one: its SHA-256 differs");
+        if (options.keeps_certificate) result.meshes.push_back(supplied);
+        try {
+          surface = std::make_shared<const Surface>(std::move(supplied.points), std::move(supplied.triangles),
+                                                    supplied.needles);
+        } catch (const Undefined& error) {
+          throw Rejected(name + ": " + error.what());
+        }
+      }
+      mesh->surface = surface;
+    }
+  }
+}
+
 using TimePoint = std::chrono::steady_clock::time_point;
 
 /// @returns what is proved; nothing where the certificate claims nothing
 std::optional<Theorem::Verdict> check_path(const std::string& bytes, Outline outline, const CheckOptions& options,
                                            TimePoint start, CheckResult& result) {
-  const Certificate certificate = read_certificate(std::move(outline));
+  Certificate certificate = read_certificate(std::move(outline));
   keep(bytes, options, result);
   result.signer = certificate.signer;
   result.is_audit = certificate.problem.query.empty();
   result.counts = {certificate.segment_texts.size(), certificate.boxes, 0};
   require_asked_for(certificate, options, result);
+  if (options.meshes) supply_meshes(certificate.problem, options, result);
   if (certificate.verdict == Verdict::kUndecided) {
     result.outcome = Outcome::kUndecided;
     result.message = "the certificate claims nothing: " + printable(certificate.undecided_reason);
     return std::nullopt;
   }
-  result.counts = confirm(certificate, confirm_options(options, start));
+  const ConfirmOptions how = confirm_options(options, start);
+  if (!options.meshes) supply_meshes(certificate.problem, options, result);
+  result.counts = confirm(certificate, how);
   result.message = describe_accepted(certificate, result);
   return theorem_verdict(certificate.verdict);
 }

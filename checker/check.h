@@ -3,13 +3,16 @@
 //
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
 // arithmetic, and no search. To believe "accepted", read in this order: theorem.h; in kernel/ (the mathematics)
-// errors.h, ball.h, mean_value_form.h, expression.h, linear.h, statement.h, loads.h, bodies.h, machine.h,
-// zero.h, motion.h, deviation.h, clearance.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and
+// errors.h, ball.h, mean_value_form.h, expression.h, linear.h, surface.h, statement.h, loads.h, bodies.h,
+// machine.h, zero.h, motion.h, deviation.h, clearance.h, mesh_clearance.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and
 // confirm.cc (what is proved of which poses); then format/ (that the numbers are those of the file);
 // format/signature.h if it matters who wrote it.
 // For "no path": cell_form.h, outside.h and .cc in kernel/, then no_path.h and .cc.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -54,6 +57,17 @@ struct ExpectedPath {
   std::string certificate_sha256;  ///< that the file names as its certificate's; empty where it names none
 };
 
+/// A mesh as somebody has read it from its file, whose SHA-256 comes with it. The checker compares the digest, and
+/// takes for granted that these are the file's points and faces.
+struct SuppliedMesh {
+  std::string sha256;
+  std::vector<std::array<double, 3>> points;             ///< in the file's unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< indices of points
+  std::vector<std::array<std::uint32_t, 2>> needles;     ///< segments that are no edge of a triangle
+};
+/// Looks for the file that a certificate names, with this digest. It may throw, and check() lets that pass.
+using MeshSupplier = std::function<SuppliedMesh(const std::string& file, const std::string& sha256)>;
+
 struct CheckOptions {
   const nlohmann::json* problem = nullptr;   ///< where not null: what the certificate's `problem` must equal
   const ExpectedPath* path = nullptr;        ///< where not null: what its `path` must equal
@@ -61,6 +75,7 @@ struct CheckOptions {
   std::vector<std::string> trusted{};        ///< unless empty: public keys (signature.h), one of which must have signed
   unsigned threads = 0;                      ///< to prove with; 0: as many as there are cores
   std::optional<double> max_seconds{};       ///< budget; 0: read and compare, but prove nothing; nothing: no end
+  MeshSupplier meshes{};                     ///< where the problem has meshes
   std::stop_token stop{};                    ///< asks to stop: looked at before each box
   /// Whether result and theorem hold what was read as JSON, for whoever shows it; takes many times the file's memory.
   bool keeps_certificate = true;
@@ -74,6 +89,7 @@ struct CheckResult {
   std::shared_ptr<const nlohmann::json> certificate;
   std::string sha256;                     ///< of the bytes
   std::string signer;                     ///< public key whose signature was verified, or empty
+  std::vector<SuppliedMesh> meshes;       ///< that were supplied, each once, if `certificate` is kept
   bool is_trusted = false;                ///< whether the signer is one of those asked for
   bool is_audit = false;                  ///< the path itself is what was asked about
   Theorem::Counts counts;                 ///< as far as the check went

@@ -86,7 +86,7 @@ class Confirmation {
     for (std::size_t i = 0; i < segment.boxes.size(); ++i) {
       const Box& box = segment.boxes[i];
       at_precision(box.bits, name_of(k, box), [&](const Machine& machine) {
-        const Bounds bounds = prove_box(machine, problem_, path_, k, box, segment.apart_of(i));
+        const Bounds bounds = prove_box(machine, problem_, path_, k, box, segment.apart_of(i), margins.clearance);
         const auto require = [](const Ball& bound, const mpq_class& claimed, const std::string& what) {
           if (certainly_nonnegative(bound - Ball(claimed))) return;
           throw Undefined(what + " is not proved as claimed");

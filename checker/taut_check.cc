@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@
 #include "base/process.h"
 #include "base/sanitize.h"
 #include "case/case_file.h"
+#include "case/mesh_search.h"
 #include "checker/arguments.h"
 #include "checker/check.h"
 #include "checker/format/signature.h"
@@ -90,9 +92,25 @@ struct Arguments {
   std::vector<std::string> key_paths;
   unsigned threads = 0;
   std::optional<double> max_seconds;
+  std::string meshes;  ///< a folder
   bool as_json = false;
   bool quiet = false;
 };
+
+/// Looks for meshes in the folder that is named, else beside the case and beside the certificate.
+MeshSupplier meshes_of(const Arguments& arguments) {
+  std::vector<std::filesystem::path> folders;
+  if (!arguments.meshes.empty()) {
+    folders.emplace_back(arguments.meshes);
+  } else {
+    if (!arguments.case_path.empty()) folders.push_back(std::filesystem::path(arguments.case_path).parent_path());
+    folders.push_back(std::filesystem::path(arguments.certificate_path).parent_path());
+  }
+  return [folders](const std::string& file, const std::string& sha256) {
+    const LoadedMesh loaded = find_mesh(folders, file, sha256);
+    return SuppliedMesh{loaded.sha256, loaded.mesh.vertices, loaded.mesh.triangles, loaded.mesh.needles};
+  };
+}
 
 /// With the load and the bodies that an accepted certificate is about, where no case says what they have to be.
 struct CheckedFile {
@@ -107,6 +125,7 @@ CheckedFile check_file(const Arguments& arguments) {
     options.keeps_certificate = false;
     options.threads = arguments.threads;
     options.max_seconds = arguments.max_seconds;
+    options.meshes = meshes_of(arguments);
     for (const std::string& path : arguments.key_paths) {
       options.trusted.push_back(read_public_key(read_whole(path, kMaxKeyFile), path));
     }
@@ -193,6 +212,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--trust", arguments.key_paths,
                  "reject what is not signed by this Ed25519 public key (PEM); repeatable")
       ->allow_extra_args(false);
+  app.add_option("--meshes", arguments.meshes,
+                 "folder of the meshes that the problem names (default: those of the case and the certificate)");
   constexpr unsigned kMostThreads = 1024;
   app.add_option("--threads", arguments.threads, "threads to prove with (default: one for each core)")
       ->check(CLI::Range(1U, kMostThreads));

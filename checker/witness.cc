@@ -47,7 +47,7 @@ void confirm_violation(const Machine& machine, const Problem& problem, const Pat
 void confirm_contact(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
   const Geometry geometry =
       commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
-  const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights);
+  const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements);
   if (certainly_negative(depth)) throw Rejected("the two points are farther apart than the clearance of their pair");
   const Ball excess = depth - Ball(witness.depth);
   if (certainly_negative(excess))

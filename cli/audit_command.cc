@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <list>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/audit.h"
+#include "app/meshes.h"
 #include "app/recheck.h"
 #include "app/report.h"
 #include "base/files.h"
@@ -282,8 +284,16 @@ struct AuditFiles {
     report->write(html_report(context, {"", "", date}));
     report->finish();
   }
+  void add_meshes(const Case& the_case) {
+    for (const auto& [name, bytes] : mesh_files(the_case)) {
+      meshes.emplace_back(out / name);
+      meshes.back().write(bytes);
+      meshes.back().finish();
+    }
+  }
   void publish(const ResultInputs& inputs) {
     std::vector<NewFile*> files = {&certificate};
+    for (NewFile& mesh : meshes) files.push_back(&mesh);
     if (report) files.push_back(&*report);
     if (controller) files.push_back(&*controller);
     files.push_back(&csv);  // last, so that it is never found beside a certificate that is not its own
@@ -303,6 +313,7 @@ struct AuditFiles {
   std::filesystem::path out;
   NewFile certificate, csv;
   std::optional<NewFile> report, controller;
+  std::list<NewFile> meshes;
   Sha256 digest;  ///< of the certificate
   std::uintmax_t size = 0;
 };
@@ -414,7 +425,8 @@ int run_audit(const AuditArguments& arguments) {
   const checker::CheckResult checked =
       files.size > kMostCheckedBytes
           ? too_long_to_check()
-          : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds, interruption.token());
+          : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds, interruption.token(),
+                    meshes_of(case_.problem));
   require_confirmed(checked);
   std::optional<ReportContext> context;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {
@@ -422,6 +434,7 @@ int run_audit(const AuditArguments& arguments) {
     if (!arguments.no_report) files.add_report(*context, date);
   }
   files.add_controller(step, source, checked);
+  files.add_meshes(case_);
   files.publish(inputs);
 
   if (arguments.json) {

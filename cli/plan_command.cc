@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "app/meshes.h"
 #include "app/plan.h"
 #include "app/report.h"
 #include "base/files.h"
@@ -360,6 +361,7 @@ int run_plan(const PlanArguments& arguments) {
   std::optional<ReportContext> context;
   if (!is_no_path(planned)) context.emplace(checked);
   std::vector<FileContent> files = {{out / "certificate.json", planned.text}};
+  for (auto& [name, bytes] : mesh_files(case_)) files.push_back({out / name, std::move(bytes)});
   std::vector<std::filesystem::path> remove_first = outdated_results(out, inputs);
   if (arguments.no_report) {
     remove_first.push_back(out / "report.html");

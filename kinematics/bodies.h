@@ -7,6 +7,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -15,7 +17,18 @@
 
 namespace taut {
 
-/// All points within `radius` of the convex hull of one or more points.
+/// The elements of a mesh: x = at + turn (unit f) of all points f in the file's unit.
+template <class S>
+struct PlacedMesh {
+  std::shared_ptr<const IndexedMesh> mesh;
+  S unit;  ///< [m]
+  Vector3<S> at;
+  std::optional<Matrix3<S>> turn;  ///< none: the identity
+
+  [[nodiscard]] Vector3<S> place(const std::array<double, 3>& f) const;
+};
+
+/// All points within `radius` of the convex hull of one or more points. Or a mesh, which this contains.
 template <class S>
 struct ConvexBody {
   std::vector<Vector3<S>> points;  ///< an obstacle's in W, a platform body's in P [m]
@@ -23,6 +36,8 @@ struct ConvexBody {
   /// A ball that contains all of it.
   Vector3<S> centre;
   S reach;  ///< its radius [m]
+  /// If set, the body is the mesh alone, `points` are the corners of a box around it, and `radius` is 0.
+  std::shared_ptr<const PlacedMesh<S>> mesh = nullptr;
 };
 
 /// { x : normal·x <= offset }, in W.
@@ -58,7 +73,8 @@ struct BodyModel {
   std::vector<CheckedPair<S>> pairs;
 };
 
-/// At working_precision(); for Interval under run_upward(). @pre problem.bodies, of hulls and half-spaces only
+/// At working_precision(); for Interval under run_upward(). @throws InputError for a mesh that was not read
+/// @pre problem.bodies
 template <class S>
 [[nodiscard]] BodyModel<S> make_body_model(const Problem& problem);
 

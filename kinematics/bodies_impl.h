@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <stdexcept>
 
+#include "base/input_error.h"
+#include "base/sanitize.h"
 #include "kinematics/geometry.h"
 #include "problem/decimal.h"
 #include "problem/problem.h"
@@ -21,46 +22,75 @@ Vector3<S> vector(const std::array<DecimalText, 3>& x) {
           ScalarTraits<S>::from_decimal(x[2])};
 }
 
-/// at + Rz(yaw) Ry(pitch) Rx(roll) x for each point x of a hull.
+/// Rz(yaw) Ry(pitch) Rx(roll), if that is not typed as none.
+template <class S>
+std::optional<Matrix3<S>> rotation(const BodyText& body) {
+  if (std::ranges::all_of(body.rotation_rad, [](const ExpressionText& x) { return x == "0"; })) return std::nullopt;
+  const auto angle = [&](std::size_t k) { return evaluate_constant<S>(body.rotation_rad[k]); };
+  return rotation_zyx<S>(angle(2), angle(1), angle(0));
+}
+
+/// at + r x.
+template <class S>
+Vector3<S> placed_point(const Vector3<S>& at, const std::optional<Matrix3<S>>& r, const Vector3<S>& x) {
+  Vector3<S> placed = at;
+  for (int i = 0; i < 3; ++i) {
+    placed(i) = placed(i) + (r ? S((*r)(i, 0) * x(0) + (*r)(i, 1) * x(1) + (*r)(i, 2) * x(2)) : x(i));
+  }
+  return placed;
+}
+
+/// Finds the ball around the body's points.
+template <class S>
+void surround(ConvexBody<S>& body) {
+  // Around the first point and the last, which of a box are opposite corners.
+  for (int i = 0; i < 3; ++i) {
+    body.centre(i) = S(0.5 * (lower_bound(body.points.front()(i)) + lower_bound(body.points.back()(i))));
+  }
+  body.reach = body.radius;
+  for (const Vector3<S>& x : body.points) {
+    const Vector3<S>& c = body.centre;
+    body.reach = larger(body.reach, S(euclidean_norm(x(0) - c(0), x(1) - c(1), x(2) - c(2)) + body.radius));
+  }
+}
+
 template <class S>
 ConvexBody<S> placed(const BodyText& body, const HullText& hull) {
   const Vector3<S> at = vector<S>(body.at_m);
-  std::optional<Matrix3<S>> r;  // if it is turned
-  if (std::ranges::any_of(body.rotation_rad, [](const ExpressionText& x) { return x != "0"; })) {
-    const auto angle = [&](std::size_t k) { return evaluate_constant<S>(body.rotation_rad[k]); };
-    r = rotation_zyx<S>(angle(2), angle(1), angle(0));
-  }
+  const std::optional<Matrix3<S>> r = rotation<S>(body);
   ConvexBody<S> result;
   result.radius = ScalarTraits<S>::from_decimal(hull.radius_m);
-  for (const auto& point : hull.points_m) {
-    const Vector3<S> x = vector<S>(point);
-    Vector3<S> placed = at;
-    for (int i = 0; i < 3; ++i) {
-      placed(i) = placed(i) + (r ? S((*r)(i, 0) * x(0) + (*r)(i, 1) * x(1) + (*r)(i, 2) * x(2)) : x(i));
-    }
-    result.points.push_back(placed);
+  for (const auto& point : hull.points_m) result.points.push_back(placed_point<S>(at, r, vector<S>(point)));
+  surround(result);
+  return result;
+}
+
+template <class S>
+ConvexBody<S> placed(const BodyText& body, const MeshText& text) {
+  if (text.mesh == nullptr) throw InputError("the mesh '" + sanitize(text.file) + "' of a body was not read");
+  const PlacedMesh<S> mesh{text.mesh, ScalarTraits<S>::from_decimal(text.unit_m), vector<S>(body.at_m),
+                           rotation<S>(body)};
+  ConvexBody<S> result;
+  result.radius = S(0.0);
+  const MeshBox& box = text.mesh->nodes().front().box;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    std::array<double, 3> f{};
+    for (std::size_t k = 0; k < 3; ++k) f[k] = (corner >> k & 1U) != 0 ? box.upper[k] : box.lower[k];
+    result.points.push_back(mesh.place(f));
   }
-  // Around the first point and the last, which of a box are opposite corners.
-  for (int i = 0; i < 3; ++i) {
-    result.centre(i) = S(0.5 * (lower_bound(result.points.front()(i)) + lower_bound(result.points.back()(i))));
-  }
-  result.reach = result.radius;
-  for (const Vector3<S>& x : result.points) {
-    const Vector3<S>& c = result.centre;
-    result.reach = larger(result.reach, S(euclidean_norm(x(0) - c(0), x(1) - c(1), x(2) - c(2)) + result.radius));
-  }
+  surround(result);
+  result.mesh = std::make_shared<const PlacedMesh<S>>(mesh);
   return result;
 }
 
 template <class S>
 Obstacle<S> obstacle(const BodyText& body) {
   if (const auto* hull = std::get_if<HullText>(&body.shape)) return placed<S>(body, *hull);
-  if (const auto* half = std::get_if<HalfSpaceText>(&body.shape)) {
-    const Vector3<S> normal = vector<S>(half->normal);
-    const Vector3<S> at = vector<S>(body.at_m);
-    return HalfSpace<S>{normal, normal(0) * at(0) + normal(1) * at(1) + normal(2) * at(2)};
-  }
-  throw std::logic_error("a body that is neither a hull nor a half-space");
+  if (const auto* mesh = std::get_if<MeshText>(&body.shape)) return placed<S>(body, *mesh);
+  const auto& half = std::get<HalfSpaceText>(body.shape);
+  const Vector3<S> normal = vector<S>(half.normal);
+  const Vector3<S> at = vector<S>(body.at_m);
+  return HalfSpace<S>{normal, normal(0) * at(0) + normal(1) * at(1) + normal(2) * at(2)};
 }
 
 inline bool is_same(const DecimalText& a, const DecimalText& b) { return Decimal::parse(a) == Decimal::parse(b); }
@@ -72,14 +102,17 @@ inline bool is_same(const std::array<DecimalText, 3>& a, const std::array<Decima
 }  // namespace bodies_detail
 
 template <class S>
+Vector3<S> PlacedMesh<S>::place(const std::array<double, 3>& f) const {
+  return bodies_detail::placed_point<S>(at, turn, {unit * S(f[0]), unit * S(f[1]), unit * S(f[2])});
+}
+
+template <class S>
 BodyModel<S> make_body_model(const Problem& problem) {
   using namespace bodies_detail;
   const BodiesText& text = *problem.bodies;
   BodyModel<S> model;
   for (const BodyText& body : text.platform) {
-    const auto* hull = std::get_if<HullText>(&body.shape);
-    if (hull == nullptr) throw std::logic_error("a platform body that is no hull");
-    model.platform.push_back(placed<S>(body, *hull));
+    model.platform.push_back(std::get<ConvexBody<S>>(obstacle<S>(body)));  // none is a half-space
   }
   for (const BodyText& body : text.obstacles) model.obstacles.push_back(obstacle<S>(body));
   for (std::size_t i = 0; i < kCables; ++i) {

@@ -394,6 +394,14 @@ void validate(const BodiesText& bodies) {
   static_cast<void>(clearances_of_pairs(bodies));
 }
 
+bool are_meshes_read(const BodiesText& bodies) {
+  const auto is_read = [](const BodyText& body) {
+    const auto* mesh = std::get_if<MeshText>(&body.shape);
+    return mesh == nullptr || mesh->mesh != nullptr;
+  };
+  return std::ranges::all_of(bodies.platform, is_read) && std::ranges::all_of(bodies.obstacles, is_read);
+}
+
 json to_json(const BodiesText& bodies) {
   json clearance = json::object();
   for (const PairClass kind : all_pair_classes()) {

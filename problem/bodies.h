@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@
 
 #include "base/json_cursor.h"
 #include "problem/text.h"
+#include "problem/triangle_mesh.h"
 
 namespace taut {
 
@@ -44,7 +46,12 @@ struct MeshText {
   std::string file;    ///< as the case names it
   std::string sha256;  ///< of the file's bytes: 64 lower-case hex digits
   DecimalText unit_m;  ///< > 0 [m]
-  bool operator==(const MeshText&) const = default;
+  /// What the file holds; null until it was read (case/mesh_file.h). No part of the problem's text, in which the digest
+  /// stands for it.
+  std::shared_ptr<const IndexedMesh> mesh = nullptr;
+  bool operator==(const MeshText& other) const {
+    return file == other.file && sha256 == other.sha256 && unit_m == other.unit_m;
+  }
 };
 
 struct BodyText {
@@ -118,6 +125,9 @@ struct BodyPair {
 /// Checks all that the types above promise, and that pairs with a clearance of their own exist and are checked. What is
 /// wrong with a body is named "bodies.obstacles[NAME].radius". @throws FieldError
 void validate(const BodiesText& bodies);
+
+/// Whether each mesh of the bodies was read.
+[[nodiscard]] bool are_meshes_read(const BodiesText& bodies);
 
 /// The member `bodies` of a problem: "platform" and "obstacles", lists of bodies, "cables", "clearance_m", an object
 /// with a member for each class that is checked, and, unless there are none, "pair_clearances_m".

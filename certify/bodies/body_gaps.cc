@@ -3,58 +3,11 @@
 
 #include <stdexcept>
 
+#include "certify/bodies/body_gaps_detail.h"
+
 namespace taut {
-namespace {
 
-template <class I>
-UpperOf<I> above(const I& x) {
-  return UpperOf<I>(magnitude(x));
-}
-
-template <class I>
-UpperOf<I> norm_above(const Vector3<I>& x) {
-  const UpperOf<I> a = above(x(0)), b = above(x(1)), c = above(x(2));
-  return ProofScalarTraits<I>::root(a * a + b * b + c * c);
-}
-
-template <class I, class Slope>
-SlopeForm<I, Slope> lesser(const SlopeForm<I, Slope>& a, const SlopeForm<I, Slope>& b) {
-  return -larger(-a, -b);
-}
-
-template <class I>
-I lesser(const I& a, const I& b) {
-  return -larger(-a, -b);
-}
-
-/// The constant x·y.
-template <class I>
-I dot(const std::array<I, 3>& x, const Vector3<I>& y) {
-  return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
-}
-
-template <class I, class Slope>
-SlopeForm<I, Slope> dot(const std::array<SlopeForm<I, Slope>, 3>& x, const Vector3<I>& y) {
-  return x[0] * y(0) + x[1] * y(1) + x[2] * y(2);
-}
-
-template <class I>
-bool is_of_obstacle(const CheckedPair<I>& pair) {
-  return pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
-}
-
-template <class I>
-const HalfSpace<I>* half_space(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
-  return is_of_obstacle(pair) ? std::get_if<HalfSpace<I>>(&bodies.obstacles[pair.second]) : nullptr;
-}
-
-/// The second body of a pair that is a hull.
-template <class I>
-const ConvexBody<I>& second_hull(const BodyModel<I>& bodies, const CheckedPair<I>& pair) {
-  return is_of_obstacle(pair) ? std::get<ConvexBody<I>>(bodies.obstacles[pair.second]) : bodies.platform[pair.second];
-}
-
-}  // namespace
+using namespace body_gaps_detail;
 
 template <class I, class Slope>
 BodyGaps<I, Slope>::BodyGaps(const BodiesBox<I, Slope>& box) : box_(box) {
@@ -286,9 +239,10 @@ GapBound<I, Slope> BodyGaps<I, Slope>::along(const CheckedPair<I>& pair, const D
   return result.value();
 }
 
-/// The points of a body over T, in W; of a cable the ends of its checked part.
+/// The points of a body over T, in W; of a cable the ends of its checked part, of a mesh those of an element.
 template <class I, class Slope>
-std::vector<Vector3<SlopeForm<I, Slope>>> BodyGaps<I, Slope>::points(const CheckedPair<I>& pair, bool is_first) const {
+std::vector<Vector3<SlopeForm<I, Slope>>> BodyGaps<I, Slope>::points(
+    const CheckedPair<I>& pair, bool is_first, const std::optional<std::uint32_t>& element) const {
   const auto of_platform = [&](const Vector3<I>& x) {
     Vector3<Form> y;
     for (int k = 0; k < 3; ++k) {
@@ -313,12 +267,16 @@ std::vector<Vector3<SlopeForm<I, Slope>>> BodyGaps<I, Slope>::points(const Check
     }
     return {ends[0], ends[1]};
   }
-  if (is_first || pair.kind == PairClass::kCablesPlatform) {
-    for (const Vector3<I>& x : box_.bodies.platform[n].points) result.push_back(of_platform(x));
+  const bool is_of_platform = is_first || pair.kind == PairClass::kCablesPlatform;
+  const ConvexBody<I>& body =
+      is_of_platform ? box_.bodies.platform[n] : std::get<ConvexBody<I>>(box_.bodies.obstacles[n]);
+  const auto add = [&](const Vector3<I>& x) {
+    result.push_back(is_of_platform ? of_platform(x) : Vector3<Form>{Form(x(0)), Form(x(1)), Form(x(2))});
+  };
+  if (body.mesh != nullptr) {
+    for (const auto& corner : body.mesh->mesh->points(element.value())) add(body.mesh->place(corner));
   } else {
-    for (const Vector3<I>& x : std::get<ConvexBody<I>>(box_.bodies.obstacles[n]).points) {
-      result.push_back({Form(x(0)), Form(x(1)), Form(x(2))});
-    }
+    for (const Vector3<I>& x : body.points) add(x);
   }
   return result;
 }
@@ -342,7 +300,7 @@ I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shar
     x.tighten(box_.offset);
     return only_at_mid ? x.at_mid : x.range;
   };
-  const Vector3<Form> a = mean(points(pair, true), shares.first);
+  const Vector3<Form> a = mean(points(pair, true, shares.elements[0]), shares.first);
   I radii = pair.kind == PairClass::kPlatformObstacles ? box_.bodies.platform[pair.first].radius
                                                        : box_.bodies.cable_radius[pair.first];
   if (const auto* half = half_space(box_.bodies, pair)) {
@@ -352,7 +310,7 @@ I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shar
   }
   radii = radii + (pair.kind == PairClass::kCablesCables ? box_.bodies.cable_radius[pair.second]
                                                          : second_hull(box_.bodies, pair).radius);
-  const Vector3<Form> b = mean(points(pair, false), shares.second);
+  const Vector3<Form> b = mean(points(pair, false, shares.elements[1]), shares.second);
   Vector3<Form> apart;
   for (int k = 0; k < 3; ++k) apart(k) = a(k) - b(k);
   return euclidean_norm(known(apart(0)), known(apart(1)), known(apart(2))) - radii - pair.clearance;
@@ -362,7 +320,7 @@ I BodyGaps<I, Slope>::distance(const CheckedPair<I>& pair, const PointPair& shar
 /// have one sign, 0 is a convex combination of the v_k, and the same one of either body's points is a common point.
 template <class I, class Slope>
 bool BodyGaps<I, Slope>::meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& shares) const {
-  const std::vector<Vector3<Form>> first = points(pair, true), second = points(pair, false);
+  const std::vector<Vector3<Form>> first = points(pair, true, {}), second = points(pair, false, {});
   std::array<Vector3<Form>, 4> v;
   for (std::size_t n = 0; n < 4; ++n) {
     const Vector3<Form> a = mean(first, shares[n].first), b = mean(second, shares[n].second);

@@ -14,13 +14,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "certify/arithmetic/dyadic.h"
 #include "certify/arithmetic/gradient.h"
 #include "certify/arithmetic/neumann.h"
 #include "certify/arithmetic/slope_form.h"
+#include "certify/bodies/mesh_side.h"
 #include "certify/tolerance/tolerance.h"
 #include "kinematics/bodies.h"
 
@@ -36,14 +40,35 @@ struct Direction {
   auto operator<=>(const Direction&) const = default;
 };
 
-/// One for each pair of a BodyModel, in its order.
-using PairDirections = std::vector<Direction>;
+/// Whether it stands for the normal of a half-space.
+[[nodiscard]] inline bool is_of_half_space(const Direction& direction) { return direction.u == std::array<int, 3>{}; }
+
+/// Along what the pairs of a BodyModel are told apart.
+struct PairDirections {
+  std::vector<Direction> single;  ///< of each pair, in their order; of one with a list, the list's first
+  /// Of each pair with a mesh, but those against half-spaces: each pair of their elements is apart along one of these.
+  std::map<std::size_t, std::vector<Direction>> lists;
+  bool operator==(const PairDirections&) const = default;
+
+  /// Those of pair n.
+  [[nodiscard]] std::span<const Direction> of(std::size_t n) const {
+    const auto list = lists.find(n);
+    return list == lists.end() ? std::span(&single.at(n), 1) : std::span<const Direction>(list->second);
+  }
+  /// @pre some directions; one unless the pair has a list
+  void set(std::size_t n, std::vector<Direction> directions) {
+    single.at(n) = directions.at(0);
+    if (const auto list = lists.find(n); list != lists.end()) list->second = std::move(directions);
+  }
+};
 
 /// A point of each of two bodies, as shares of its points: multiples of 1/kWhole that sum to kWhole. Of a cable, the
-/// points are the two ends of its checked part; of a half-space there are none: its nearest point is meant.
+/// points are the two ends of its checked part; of a half-space there are none: its nearest point is meant. Of a mesh,
+/// they are the three points of one of its elements.
 struct PointPair {
   static constexpr std::int64_t kWhole = std::int64_t{1} << 30;
   std::vector<std::int64_t> first, second;
+  std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes only
 };
 
 /// A share as a number in [0, 1].
@@ -84,7 +109,20 @@ class BodyGaps {
 
   /// Claim: for every t in T and every deviation the bodies of the pair are farther apart than its clearance by at
   /// least `disturbed`.
+  /// @pre neither body is a mesh
   [[nodiscard]] GapBound<I, Slope> along(const CheckedPair<I>& pair, const Direction& direction) const;
+  /// What a bound is about: all of T, or m, of all deviations or of the undisturbed machine.
+  enum class Where { kBox, kMid, kMidUndisturbed };
+  /// The same for a pair with a mesh: each pair of the bodies' elements is farther apart than the clearance by at least
+  /// what is returned, along one of the directions.
+  /// @param enough  no larger bound than this is needed
+  [[nodiscard]] double of_mesh(const CheckedPair<I>& pair, std::span<const Direction> directions, Where where,
+                               double enough) const;
+  /// Of a pair whose surfaces do not touch: kOutside if at m, of the undisturbed machine, no part of either body is
+  /// inside of the other, where that is a watertight mesh; kInside if a part certainly is.
+  [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair) const;
+  /// Whether one of its bodies is a mesh.
+  [[nodiscard]] bool has_mesh(const CheckedPair<I>& pair) const;
   /// The same from ranges alone, of balls around bodies and of whole cables: a lower bound, for pairs that are far
   /// apart.
   [[nodiscard]] double rough(const CheckedPair<I>& pair, const Direction& direction) const;
@@ -94,7 +132,8 @@ class BodyGaps {
   /// clearance there. @pre as many shares as either body has points
   [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& points, bool only_at_mid) const;
   /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T. The
-  /// vectors from the second to the first of these four pairs of points are around 0. @pre neither is a half-space
+  /// vectors from the second to the first of these four pairs of points are around 0. @pre neither is a half-space, and
+  /// neither a mesh
   [[nodiscard]] bool meet(const CheckedPair<I>& pair, const std::array<PointPair, 4>& points) const;
 
  private:
@@ -126,10 +165,14 @@ class BodyGaps {
                                                         bool in_platform) const;
   [[nodiscard]] std::array<Upper, 2> end_shifts(const CheckedPair<I>& pair, std::size_t cable, bool in_platform) const;
   [[nodiscard]] std::vector<Projection> first(const CheckedPair<I>& pair, const Turned& u, bool in_platform) const;
-  [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first) const;
+  [[nodiscard]] std::vector<Vector3<Form>> points(const CheckedPair<I>& pair, bool is_first,
+                                                  const std::optional<std::uint32_t>& element) const;
   /// The sum of shares times points.
   [[nodiscard]] static Vector3<Form> mean(const std::vector<Vector3<Form>>& points,
                                           const std::vector<std::int64_t>& shares);
+  [[nodiscard]] const PlacedMesh<I>* mesh(const CheckedPair<I>& pair, bool is_first) const;
+  class MeshGaps;
+  [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair, bool first_is_solid) const;
 
   const BodiesBox<I, Slope>& box_;
   Upper position_{}, turn_{};                       ///< of the platform, by deviations

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "certify/bodies/nearest_mesh.h"
+
 namespace taut {
 namespace {
 
@@ -102,7 +104,11 @@ NearestPoints nearest_points(std::span<const Point> first, std::span<const Point
     for (std::size_t k = 0; k < simplex.size(); ++k) {
       if (nearest.shares[k] > 0) kept.push_back(simplex[k]);
     }
-    if (kept.size() == 4) break;  // the origin is inside
+    if (kept.size() == 4) {  // the origin is inside
+      nearest.squared = 0;
+      nearest.at = Point::Zero();
+      break;
+    }
     kept.push_back(next);
     const OnSimplex closer = nearest_on_simplex(kept);
     if (!(closer.squared < nearest.squared)) break;
@@ -185,7 +191,8 @@ struct BodySampler::Found {
   NearestPoints nearest;
   double needed = 0;  ///< radii and clearance
   bool is_half_space = false;
-  std::array<std::vector<Point>, 2> points;  ///< of either body; not against a half-space
+  std::array<std::vector<Point>, 2> points;                   ///< of either body; of neither a half-space nor a mesh
+  std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes
 };
 
 const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair) const {
@@ -193,43 +200,93 @@ const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair
   return is_of_obstacle ? std::get_if<HalfSpace<double>>(&bodies_.obstacles[pair.second]) : nullptr;
 }
 
+bool BodySampler::needs_list(std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  if (pair.kind == PairClass::kCablesCables || half_space(pair) != nullptr) return false;
+  const auto is_mesh = [](const ConvexBody<double>& body) { return body.mesh != nullptr; };
+  if (pair.kind == PairClass::kCablesPlatform) return is_mesh(bodies_.platform[pair.second]);
+  return is_mesh(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second])) ||
+         (pair.kind == PairClass::kPlatformObstacles && is_mesh(bodies_.platform[pair.first]));
+}
+
+namespace {
+
+/// A body that stands still, or one that the platform carries.
+BodyInFrame in_frame(const ConvexBody<double>& body, const RigidPose* pose) {
+  BodyInFrame result;
+  if (body.mesh == nullptr) {
+    result.points = pose != nullptr ? carried(body, *pose) : body.points;
+    return result;
+  }
+  const PlacedMesh<double>& mesh = *body.mesh;
+  result.mesh = mesh.mesh.get();
+  result.origin = mesh.at;
+  result.axes = mesh.unit * (mesh.turn ? *mesh.turn : Matrix3<double>::Identity());
+  if (pose == nullptr) return result;
+  const Matrix3<double> r = pose->q.toRotationMatrix();
+  result.origin = pose->p + r * result.origin;
+  result.axes = r * result.axes;
+  return result;
+}
+
+}  // namespace
+
+/// The bodies of a pair at a pose; a half-space has no points.
+std::array<BodyInFrame, 2> BodySampler::in_world(const Model<double>& model, const RigidPose& pose,
+                                                 std::size_t n) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  std::array<BodyInFrame, 2> result;
+  if (pair.kind == PairClass::kPlatformObstacles) {
+    result[0] = in_frame(bodies_.platform[pair.first], &pose);
+  } else {
+    result[0].points = cable_ends(bodies_, model, pose, pair.first);
+  }
+  if (pair.kind == PairClass::kCablesCables) {
+    result[1].points = cable_ends(bodies_, model, pose, pair.second);
+  } else if (pair.kind == PairClass::kCablesPlatform) {
+    result[1] = in_frame(bodies_.platform[pair.second], &pose);
+  } else if (half_space(pair) == nullptr) {
+    result[1] = in_frame(std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]), nullptr);
+  }
+  return result;
+}
+
 BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
   const CheckedPair<double>& pair = bodies_.pairs.at(n);
-  const bool is_of_platform = pair.kind == PairClass::kPlatformObstacles;
-  std::vector<Point> first =
-      is_of_platform ? carried(bodies_.platform[pair.first], pose) : cable_ends(bodies_, model, pose, pair.first);
+  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
   Found found;
-  found.needed =
-      pair.clearance + (is_of_platform ? bodies_.platform[pair.first].radius : bodies_.cable_radius[pair.first]);
-  std::vector<Point> second;
-  switch (pair.kind) {
-    case PairClass::kCablesCables:
-      second = cable_ends(bodies_, model, pose, pair.second);
-      found.needed += bodies_.cable_radius[pair.second];
-      break;
-    case PairClass::kCablesPlatform:
-      second = carried(bodies_.platform[pair.second], pose);
-      found.needed += bodies_.platform[pair.second].radius;
-      break;
-    case PairClass::kPlatformObstacles:
-    case PairClass::kCablesObstacles: {
-      if (const auto* half = half_space(pair)) {
-        const Point normal = half->normal.normalized();
-        const std::size_t lowest = farthest(first, -normal);
-        found.is_half_space = true;
-        found.nearest.distance = first[lowest].dot(normal) - half->offset / half->normal.norm();
-        found.nearest.apart = normal;
-        found.nearest.first.assign(first.size(), 0.0);
-        found.nearest.first[lowest] = 1;
-        return found;
-      }
-      const auto& body = std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]);
-      second = body.points;
-      found.needed += body.radius;
+  found.needed = pair.clearance + (pair.kind == PairClass::kPlatformObstacles ? bodies_.platform[pair.first].radius
+                                                                              : bodies_.cable_radius[pair.first]);
+  if (const auto* half = half_space(pair)) {
+    const Point normal = half->normal.normalized();
+    std::vector<Point> points = bodies[0].points;
+    if (bodies[0].mesh != nullptr) {
+      found.elements[0] = lowest_element(bodies[0], normal);
+      points = points_of(bodies[0], found.elements[0]);
     }
+    const std::size_t lowest = farthest(points, -normal);
+    found.is_half_space = true;
+    found.nearest.distance = points[lowest].dot(normal) - half->offset / half->normal.norm();
+    found.nearest.apart = normal;
+    found.nearest.first.assign(points.size(), 0.0);
+    found.nearest.first[lowest] = 1;
+    return found;
   }
-  found.nearest = nearest_points(first, second);
-  found.points = {std::move(first), std::move(second)};
+  switch (pair.kind) {
+    case PairClass::kCablesCables: found.needed += bodies_.cable_radius[pair.second]; break;
+    case PairClass::kCablesPlatform: found.needed += bodies_.platform[pair.second].radius; break;
+    case PairClass::kPlatformObstacles:
+    case PairClass::kCablesObstacles:
+      found.needed += std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).radius;
+  }
+  if (bodies[0].mesh == nullptr && bodies[1].mesh == nullptr) {
+    found.nearest = nearest_points(bodies[0].points, bodies[1].points);
+    found.points = {bodies[0].points, bodies[1].points};
+    return found;
+  }
+  NearestElements nearest = nearest_elements(bodies[0], bodies[1]);
+  found.nearest = std::move(nearest.nearest);
+  found.elements = nearest.elements;
   return found;
 }
 
@@ -274,6 +331,30 @@ std::optional<Direction> BodySampler::direction(const Model<double>& model, cons
                                                          is_better_in_platform(pair, along, pose, around));
   if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
   return rounded_direction(along, in_platform, largest);
+}
+
+std::vector<Direction> BodySampler::directions(const Model<double>& model, const RigidPose& pose, std::size_t n,
+                                               int largest, double share, std::span<const RigidPose> around) const {
+  const CheckedPair<double>& pair = bodies_.pairs.at(n);
+  std::vector<Direction> result;
+  if (!needs_list(n)) {
+    if (const auto one = direction(model, pose, n, largest, around)) result.push_back(*one);
+    return result;
+  }
+  const std::array<BodyInFrame, 2> bodies = in_world(model, pose, n);
+  double needed = pair.clearance;  // a mesh has no radius
+  if (pair.kind != PairClass::kPlatformObstacles) {
+    needed += bodies_.cable_radius[pair.first];
+  } else {
+    needed += bodies_.platform[pair.first].radius + std::get<ConvexBody<double>>(bodies_.obstacles[pair.second]).radius;
+  }
+  const bool in_platform = is_best_in_platform(pair);
+  for (Point along : covering_directions(bodies[0], bodies[1], needed, share)) {
+    if (in_platform) along = pose.q.toRotationMatrix().transpose() * along;
+    const Direction rounded = rounded_direction(along, in_platform, largest);
+    if (std::ranges::find(result, rounded) == result.end()) result.push_back(rounded);
+  }
+  return result;
 }
 
 namespace {
@@ -321,7 +402,7 @@ Direction BodySampler::rough_direction(const Model<double>& model, const RigidPo
 
 PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
   const Found found = find(model, pose, pair);
-  PointPair points{rounded_shares(found.nearest.first), {}};
+  PointPair points{rounded_shares(found.nearest.first), {}, found.elements};
   if (!found.is_half_space) points.second = rounded_shares(found.nearest.second);
   return points;
 }
@@ -394,12 +475,13 @@ std::vector<std::int64_t> one_of(std::size_t size, std::size_t index) {
 std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& model, const RigidPose& pose,
                                                            std::size_t pair) const {
   const Found found = find(model, pose, pair);
-  if (found.nearest.distance > found.needed) return std::nullopt;
-  Touching result{{rounded_shares(found.nearest.first), {}}, {}};
+  constexpr double kMeeting = 1e-9;  // of the distance of hulls that meet [m]
+  if (found.nearest.distance > found.needed + kMeeting) return std::nullopt;
+  Touching result{{rounded_shares(found.nearest.first), {}, found.elements}, {}};
   if (found.is_half_space) return result;
   result.nearest.second = rounded_shares(found.nearest.second);
   const auto& [first, second] = found.points;
-  if (found.nearest.distance > 0 || first.size() * second.size() < 4) return result;
+  if (found.nearest.distance > kMeeting || first.size() * second.size() < 4) return result;
   if (const auto vertices = around_zero(first, second)) {
     auto& around = result.around.emplace();
     for (std::size_t k = 0; k < 4; ++k) {

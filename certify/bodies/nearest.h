@@ -22,18 +22,26 @@ struct NearestPoints {
 [[nodiscard]] NearestPoints nearest_points(std::span<const Vector3<double>> first,
                                            std::span<const Vector3<double>> second);
 
+struct BodyInFrame;
+
 /// The bodies of a problem in doubles.
 class BodySampler {
  public:
   explicit BodySampler(const Problem& problem);
 
   [[nodiscard]] const BodyModel<double>& bodies() const { return bodies_; }
+  /// Whether elements of a mesh have to be told apart one by one.
+  [[nodiscard]] bool needs_list(std::size_t pair) const;
   /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance.
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet.
   [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose, std::size_t pair,
                                                    int largest = Direction::kLargest,
                                                    std::span<const RigidPose> around = {}) const;
+  /// Those along which a pair with a mesh is apart at a pose, part by part: by at least this share of its gap, if there
+  /// are not too many. Of other pairs, direction(). Empty where the bodies are not clear.
+  [[nodiscard]] std::vector<Direction> directions(const Model<double>& model, const RigidPose& pose, std::size_t pair,
+                                                  int largest, double share, std::span<const RigidPose> around) const;
   /// One along which a pair may well be apart there, from its bodies' axes and middles: much cheaper.
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Its nearest points there.
@@ -64,6 +72,8 @@ class BodySampler {
   [[nodiscard]] const HalfSpace<double>* half_space(const CheckedPair<double>& pair) const;
   [[nodiscard]] bool is_better_in_platform(const CheckedPair<double>& pair, const Vector3<double>& along,
                                            const RigidPose& pose, std::span<const RigidPose> around) const;
+  [[nodiscard]] std::array<BodyInFrame, 2> in_world(const Model<double>& model, const RigidPose& pose,
+                                                    std::size_t pair) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 

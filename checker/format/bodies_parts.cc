@@ -11,7 +11,8 @@ constexpr std::size_t kMaxBodies = 64;        ///< of the platform, and as many 
 constexpr std::size_t kMaxHullPoints = 1000;  ///< bounds the work of a box, as kMaxBodies does
 constexpr std::size_t kMaxBodyName = 120;     ///< characters
 constexpr std::size_t kMaxDirections = 10'000'000;
-constexpr int kMaxComponent = 32767;  ///< of a direction
+constexpr int kMaxComponent = 32767;   ///< of a direction
+constexpr std::size_t kMaxList = 256;  ///< directions of a pair with a mesh
 
 /// "cable 3" of i = 2.
 std::string cable_name(std::size_t i) { return "cable " + std::to_string(i + 1); }
@@ -52,6 +53,17 @@ void read_half_space(const Cursor& json, RigidBody& body) {
   body.shape = std::move(half_space);
 }
 
+void read_mesh(const Cursor& json, RigidBody& body) {
+  constexpr std::size_t kMaxName = 1000;  // bytes
+  MeshShape mesh;
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  json.object("file", mesh.file, "sha256", mesh.sha256, "unit_m", mesh.unit);
+  json["sha256"].require(mesh.sha256.size() == 64 && std::ranges::all_of(mesh.sha256, is_hex), "64 hex digits");
+  json["file"].require(!mesh.file.empty() && mesh.file.size() <= kMaxName, "a name of 1 to 1000 bytes");
+  json["unit_m"].require(mesh.unit > 0, "a decimal > 0");
+  body.shape = std::move(mesh);
+}
+
 /// What is said of a body beside what it is.
 struct BodyLabel {
   std::string name;
@@ -67,7 +79,6 @@ void read_body(const Cursor& json, bool is_obstacle, const std::vector<std::stri
     rotation.elements(
         [&](const Cursor& here, std::size_t k) { body.rotation[k] = parse_expression(here.text(), {}, here.where()); });
   };
-  const auto read_mesh = [](const Cursor& mesh) { mesh.fail("no mesh: this taut-check does not know meshes"); };
   for (Expression& angle : body.rotation) angle = parse_expression("0", {}, json.where());
   json.object(
       "name", [&](const Cursor& name) { read_name(name, label.name, names); }, "at_m", body.at, "clearance_m?",
@@ -77,8 +88,9 @@ void read_body(const Cursor& json, bool is_obstacle, const std::vector<std::stri
         half_space.require(is_obstacle, "no half-space but as an obstacle");
         read_half_space(half_space, body);
       },
-      "mesh?", read_mesh);
-  json.require(json.has("hull") + json.has("half_space") == 1, "exactly one of the keys 'hull' and 'half_space'");
+      "mesh?", [&](const Cursor& mesh) { read_mesh(mesh, body); });
+  json.require(json.has("hull") + json.has("half_space") + json.has("mesh") == 1,
+               "exactly one of the keys 'hull', 'half_space' and 'mesh'");
 }
 
 void read_cables(const Cursor& json, std::array<CableBody, kCables>& cables) {
@@ -196,6 +208,7 @@ class BodiesReader {
 };
 
 std::size_t points_of(const RigidBody& body) {
+  if (std::holds_alternative<MeshShape>(body.shape)) return 3;
   const auto* const hull = std::get_if<HullShape>(&body.shape);
   return hull == nullptr ? 0 : hull->points.size();
 }
@@ -229,21 +242,46 @@ void append_direction(const Cursor& json, Path& path) {
   path.directions.push_back(direction);
 }
 
-std::optional<std::size_t> read_apart(const Cursor& json, std::size_t pair, const Problem& problem, const Path& path) {
+std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const Problem& problem, const Path& path) {
   const Bodies& bodies = problem.bodies.value();
   const CheckedPair& of = bodies.pairs.at(pair);
   if (bodies.is_against_half_space(of)) {
     json.require(json.is_null(), "null, as one body is a half-space");
-    return std::nullopt;
+    return {};
   }
-  const auto index = static_cast<std::size_t>(json.integer(0, static_cast<std::int64_t>(path.directions.size()) - 1));
-  const Axes axes = path.directions[index].axes;
-  if (of.kind == PairKind::kCableObstacle || of.kind == PairKind::kCablePlatform) {
-    const bool is_of_platform = of.kind == PairKind::kCablePlatform;
-    json.require(axes == (is_of_platform ? Axes::kPlatform : Axes::kWorld),
-                 is_of_platform ? "a direction in the axes of P" : "a direction in the axes of W");
+  std::vector<std::size_t> result;
+  const bool has_mesh = bodies.has_mesh(of);
+  const auto add = [&](const Cursor& here) {
+    const auto index = static_cast<std::size_t>(here.integer(0, static_cast<std::int64_t>(path.directions.size()) - 1));
+    const Axes axes = path.directions[index].axes;
+    const bool may_be_either = of.kind == PairKind::kCableCable || of.kind == PairKind::kPlatformObstacle;
+    if (!may_be_either || has_mesh) {
+      const bool is_of_platform = of.kind == PairKind::kCablePlatform;
+      here.require(axes == (is_of_platform ? Axes::kPlatform : Axes::kWorld),
+                   is_of_platform ? "a direction in the axes of P" : "a direction in the axes of W");
+    }
+    result.push_back(index);
+  };
+  if (!json.json().is_array()) {
+    add(json);
+    return result;
   }
-  return index;
+  json.require(has_mesh, "one index, as neither body is a mesh");
+  json.require(json.size() >= 2 && json.size() <= kMaxList, "one index, or a list of 2 to 256");
+  json.elements([&](const Cursor& here, std::size_t) { add(here); });
+  return result;
+}
+
+ContactElements read_contact_elements(const Cursor& json, std::size_t pair, const Problem& problem) {
+  const Bodies& bodies = problem.bodies.value();
+  ContactElements result;
+  json.require_size(2);
+  json.elements([&](const Cursor& here, std::size_t side) {
+    const bool is_mesh = bodies.mesh(bodies.pairs.at(pair), side == 0) != nullptr;
+    here.require(is_mesh != here.is_null(), is_mesh ? "the index of an element" : "null, as this body is no mesh");
+    if (is_mesh) result[side] = static_cast<std::size_t>(here.integer(0, std::int64_t{1} << 32U));
+  });
+  return result;
 }
 
 ContactWeights read_contact_weights(const Cursor& json, std::size_t pair, const Problem& problem) {

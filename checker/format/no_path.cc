@@ -200,6 +200,7 @@ NoPathCertificate read_no_path(Outline outline) {
   const auto read_problem_and_digest = [&](const Cursor& json) {
     is_digest(sha256(json.json()))(top["problem_sha256"]);
     result.problem = read_problem(json);
+    json.require(!result.problem.bodies || !result.problem.bodies->has_meshes(), "a problem without meshes");
     exactly(result.problem.bodies ? kNoPathVersionWithBodies : kNoPathVersion)(top["version"]);
     exactly(no_path_claim(result.problem), "the text that belongs to the verdict")(top["claim"]);
   };

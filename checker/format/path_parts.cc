@@ -77,9 +77,9 @@ ApartChanges read_changes(const Cursor& json, const Problem& problem, const Path
     here.require_size(2);
     const auto pair = static_cast<std::size_t>(here.at(0).integer(0, pairs - 1));
     here.require(changes.empty() || pair > changes.back().first, "rising pairs");
-    const std::optional<std::size_t> direction = read_apart(here.at(1), pair, problem, path);
-    here.require(direction.has_value(), "a pair neither of which is a half-space");
-    changes.emplace_back(pair, *direction);
+    std::vector<std::size_t> directions = read_apart(here.at(1), pair, problem, path);
+    here.require(!directions.empty(), "a pair neither of which is a half-space");
+    changes.emplace_back(pair, std::move(directions));
   });
   return changes;
 }
@@ -279,7 +279,7 @@ Segment read_segment(const Cursor& json, std::size_t k, const Problem& problem, 
 
 Apart Segment::apart_of(std::size_t box) const {
   Apart result = apart;
-  for (const auto& [pair, direction] : changes[box]) result[pair] = direction;
+  for (const auto& [pair, directions] : changes[box]) result[pair] = directions;
   return result;
 }
 
@@ -315,10 +315,15 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     const auto read_weights = [&](const Cursor& weights) {
       witness.weights = read_contact_weights(weights, witness.pair, problem);
     };
-    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "depth_m",
-                witness.depth, "at", witness_point(witness.at, path), "proof", proof(witness.at_box, witness.at, n),
-                "motion", read_motion);
+    const auto read_elements = [&](const Cursor& elements) {
+      witness.elements = read_contact_elements(elements, witness.pair, problem);
+    };
+    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "elements?",
+                read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
+                proof(witness.at_box, witness.at, n), "motion", read_motion);
     json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
+    const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);
+    json.require(json.has("elements") == has_mesh, "the key 'elements' where a body of the pair is a mesh");
     return witness;
   }
   mpq_class limit;

@@ -217,6 +217,7 @@ class Reader {
     if (result_.verdict != Verdict::kUndecided && !result_.problem.items.empty()) claim += kItemsClause;
     if (result_.verdict != Verdict::kUndecided && result_.problem.bodies) {
       claim += bodies_clause(result_.verdict == Verdict::kProved, result_.problem.bodies->checks);
+      if (result_.problem.bodies->has_meshes()) claim += kMeshClause;
     }
     exactly(claim, "the text that belongs to the verdict")(top_["claim"]);
   }

@@ -17,8 +17,8 @@ struct Margins {
   mpq_class clearance;     ///< of distances, minus the clearances of their pairs [m]; 0 where no bodies are stated
 };
 
-/// Pairs, by rising index, and the direction of each: what differs of a box from `apart` of its segment.
-using ApartChanges = std::vector<std::pair<std::size_t, std::size_t>>;
+/// Pairs, by rising index, and the directions of each: what differs of a box from `apart` of its segment.
+using ApartChanges = std::vector<std::pair<std::size_t, std::vector<std::size_t>>>;
 
 /// Whether poses are zeros of equations (constraints or lengths), whose existence is part of the proof.
 inline bool is_implied(const Problem& problem, const Path& path) {
@@ -47,8 +47,9 @@ struct Witness {
   Box to_box;              ///< likewise
   std::size_t pair = 0;    ///< kContact only, as the next
   ContactWeights weights;  ///< of the two points that are too near to each other
-  mpq_class depth;         ///< >= 0: by how much they are nearer than is allowed, at least [m]
-  std::size_t cable = 0;   ///< 0 to 5; of limits only, as what follows but for `motion`
+  ContactElements elements;
+  mpq_class depth;        ///< >= 0: by how much they are nearer than is allowed, at least [m]
+  std::size_t cable = 0;  ///< 0 to 5; of limits only, as what follows but for `motion`
   mpq_class value_lower;
   mpq_class value_upper;
   std::optional<WitnessDeviation> deviation;

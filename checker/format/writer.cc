@@ -28,17 +28,20 @@ Json to_json(const Direction& direction) {
   return {direction.axes == Axes::kWorld ? "W" : "P", x, y, z};
 }
 
+Json apart_to_json(const std::vector<std::size_t>& directions) {
+  if (directions.empty()) return nullptr;
+  return directions.size() == 1 ? Json(directions.front()) : Json(directions);
+}
+
 Json apart_to_json(const Apart& apart) {
   Json result = Json::array();
-  for (const std::optional<std::size_t>& direction : apart) {
-    result.push_back(direction ? Json(*direction) : Json(nullptr));
-  }
+  for (const auto& directions : apart) result.push_back(apart_to_json(directions));
   return result;
 }
 
 Json apart_to_json(const ApartChanges& changes) {
   Json result = Json::array();
-  for (const auto& [pair, direction] : changes) result.push_back({pair, direction});
+  for (const auto& [pair, directions] : changes) result.push_back({pair, apart_to_json(directions)});
   return result;
 }
 

@@ -11,6 +11,8 @@ namespace taut::checker {
 [[nodiscard]] nlohmann::json to_json(const NearZero& near);
 /// An entry of `path.directions`.
 [[nodiscard]] nlohmann::json to_json(const Direction& direction);
+/// An entry of `apart`: null, an index, or a list of them.
+[[nodiscard]] nlohmann::json apart_to_json(const std::vector<std::size_t>& directions);
 /// `apart` of a segment and, unless there are none, of a box.
 [[nodiscard]] nlohmann::json apart_to_json(const Apart& apart);
 [[nodiscard]] nlohmann::json apart_to_json(const ApartChanges& changes);

@@ -6,9 +6,20 @@
 namespace taut::checker {
 namespace {
 
-PlacedHull placed(const HullShape& hull, const RigidBody& body) {
+Matrix3<Ball> rotation(const RigidBody& body) {
   const auto angle = [&](std::size_t k) { return body.rotation[k].evaluate<MeanValueForm>({}); };
-  const Matrix3<Ball> R = range(roll_pitch_yaw(angle(0), angle(1), angle(2)));
+  return range(roll_pitch_yaw(angle(0), angle(1), angle(2)));
+}
+
+PlacedHull placed(const MeshShape& mesh, const RigidBody& body) {
+  if (mesh.surface == nullptr) throw Undefined("a mesh was not read");
+  PlacedHull result;
+  result.mesh = PlacedSurface{mesh.surface, Ball(mesh.unit), balls(body.at), rotation(body)};
+  return result;
+}
+
+PlacedHull placed(const HullShape& hull, const RigidBody& body) {
+  const Matrix3<Ball> R = rotation(body);
   PlacedHull result;
   for (const ExactVector& x : hull.points) result.points.push_back(balls(body.at) + multiply(R, balls(x)));
   result.radius = Ball(hull.radius);
@@ -23,7 +34,10 @@ PlacedHalfSpace placed(const HalfSpaceShape& half_space, const RigidBody& body) 
 
 PlacedBodies::PlacedBodies(const Problem& problem) {
   const Bodies& bodies = problem.bodies.value();
-  for (const RigidBody& body : bodies.platform) platform.push_back(placed(std::get<HullShape>(body.shape), body));
+  for (const RigidBody& body : bodies.platform) {
+    const auto* const mesh = std::get_if<MeshShape>(&body.shape);
+    platform.push_back(mesh != nullptr ? placed(*mesh, body) : placed(std::get<HullShape>(body.shape), body));
+  }
   for (const RigidBody& body : bodies.obstacles) {
     std::visit([&](const auto& shape) { obstacles.emplace_back(placed(shape, body)); }, body.shape);
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -11,10 +13,22 @@
 
 namespace taut::checker {
 
-/// All points within `radius` of the convex hull of `points` [m]: of an obstacle in W, of a platform's body in P.
+/// The points at + R (unit f) of a mesh's points f, in its file's unit.
+struct PlacedSurface {
+  std::shared_ptr<const Surface> surface;
+  Ball unit;  ///< [m]
+  Vector3<Ball> at;
+  Matrix3<Ball> R;
+  [[nodiscard]] Vector3<Ball> place(const Surface::Point& f) const {
+    return at + multiply(R, unit * Vector3<Ball>{Ball(f[0]), Ball(f[1]), Ball(f[2])});
+  }
+};
+/// All points within `radius` of the convex hull of `points` [m]: of an obstacle in W, of a platform's body in P. Or, if
+/// there is one, a mesh and nothing else.
 struct PlacedHull {
   std::vector<Vector3<Ball>> points;
   Ball radius;
+  std::optional<PlacedSurface> mesh{};
 };
 /// All x with normal . x <= offset, in W.
 struct PlacedHalfSpace {
@@ -23,8 +37,21 @@ struct PlacedHalfSpace {
 };
 
 struct PlacedBodies {
-  /// Computes at the working precision. @throws Undefined where a rotation has no value.
+  /// Computes at the working precision. @throws Undefined where a rotation has no value, and for a mesh that nobody read.
   explicit PlacedBodies(const Problem& problem);
+
+  /// The first or the second body of a pair; null where it is a cable or a half-space.
+  [[nodiscard]] const PlacedHull* hull(const CheckedPair& pair, bool is_first) const {
+    if (is_first) return pair.kind == PairKind::kPlatformObstacle ? &platform[pair.first] : nullptr;
+    if (pair.kind == PairKind::kCableCable) return nullptr;
+    return pair.kind == PairKind::kCablePlatform ? &platform[pair.second]
+                                                 : std::get_if<PlacedHull>(&obstacles[pair.second]);
+  }
+  /// The first or the second body of a pair, if it is a mesh; else null.
+  [[nodiscard]] const PlacedSurface* mesh(const CheckedPair& pair, bool is_first) const {
+    const PlacedHull* const body = hull(pair, is_first);
+    return body != nullptr && body->mesh ? &*body->mesh : nullptr;
+  }
 
   std::vector<PlacedHull> platform;
   std::vector<std::variant<PlacedHull, PlacedHalfSpace>> obstacles;

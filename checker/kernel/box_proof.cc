@@ -14,9 +14,11 @@ constexpr int kLargestScale = 1'000'000;  ///< that is stated where there is non
 constexpr int kFar = 1'000'000;           ///< likewise of a distance, where no pair is checked [m]
 
 void add_clearance(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
-                   const std::vector<Direction>& directions, const Apart& apart, Bounds& to) {
+                   const std::vector<Direction>& directions, const Apart& apart, const std::optional<mpq_class>& enough,
+                   Bounds& to) {
   to.clearance = Ball(kFar);
-  const std::vector<Ball> margins = clearance_margins(machine, geometry, loss, directions, apart);
+  const std::optional<Ball> most = enough ? std::optional(highest(Ball(*enough))) : std::nullopt;
+  const std::vector<Ball> margins = clearance_margins(machine, geometry, loss, directions, apart, most);
   for (std::size_t k = 0; k < margins.size(); ++k) {
     if (&smaller(*to.clearance, margins[k]) != &margins[k]) continue;
     to.clearance = margins[k];
@@ -27,7 +29,7 @@ void add_clearance(const Machine& machine, const Geometry& geometry, const Margi
 }  // namespace
 
 Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k, const Box& box,
-                 const Apart& apart) {
+                 const Apart& apart, const std::optional<mpq_class>& enough) {
   const Geometry geometry = commanded_geometry(machine, problem, path, k, box);
   const Inverse inverse(geometry.D);  // J is non-singular on the box
   const Tensions tensions = machine.tensions(geometry, inverse);
@@ -57,7 +59,7 @@ Bounds prove_box(const Machine& machine, const Problem& problem, const Path& pat
                       0};
     }
   }
-  if (machine.bodies) add_clearance(machine, geometry, loss, path.directions, apart, *result);
+  if (machine.bodies) add_clearance(machine, geometry, loss, path.directions, apart, enough, *result);
   return *result;
 }
 

@@ -22,8 +22,9 @@ struct Bounds {
 /// bodies of each checked pair that from its clearance.
 /// @pre the box reaches across no inner pose, and its precision is the working precision of `machine`
 /// @param apart  along which of the path's directions each pair of bodies is told apart
+/// @param enough  if given, no larger clearance of a mesh is asked for [m]
 /// @throws Undefined where that is not proved at one go. The bounds may be negative: the caller asks for more.
 [[nodiscard]] Bounds prove_box(const Machine& machine, const Problem& problem, const Path& path, std::size_t k,
-                               const Box& box, const Apart& apart = {});
+                               const Box& box, const Apart& apart = {}, const std::optional<mpq_class>& enough = {});
 
 }  // namespace taut::checker

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "checker/kernel/mesh_clearance.h"
+#include "checker/kernel/mesh_inside.h"
+
 namespace taut::checker {
 namespace {
 
@@ -32,20 +35,25 @@ struct Along {
 class Clearances {
  public:
   Clearances(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
-             std::span<const Direction> directions, const Apart& apart)
+             std::span<const Direction> directions, const Apart& apart, const std::optional<Ball>& enough)
       : machine_(machine),
         bodies_(*machine.bodies),
         geometry_(geometry),
         loss_(loss),
         directions_(directions),
-        apart_(apart) {
+        apart_(apart),
+        enough_(enough) {
     if (apart.size() != bodies_.pairs.size()) throw Undefined("no directions are stated for pairs of bodies");
     shift_ = {highest(loss.shift.position), highest(loss.shift.turn)};
   }
 
   [[nodiscard]] std::vector<Ball> margins() {
     std::vector<Ball> result;
-    for (std::size_t k = 0; k < apart_.size(); ++k) result.push_back(lowest(distance(k) - bodies_.clearance[k]));
+    for (std::size_t k = 0; k < apart_.size(); ++k) {
+      const CheckedPair& pair = bodies_.pairs[k];
+      const bool has_mesh = bodies_.mesh(pair, true) != nullptr || bodies_.mesh(pair, false) != nullptr;
+      result.push_back(has_mesh ? margin_of_mesh(k) : lowest(distance(k) - bodies_.clearance[k]));
+    }
     return result;
   }
 
@@ -71,6 +79,84 @@ class Clearances {
     return from_obstacle(n, half_space.offset / n.size);
   }
 
+  /// That of pair k, of which one body is a mesh or both.
+  [[nodiscard]] Ball margin_of_mesh(std::size_t k) {
+    const CheckedPair& pair = bodies_.pairs[k];
+    const PlacedSurface* const first = bodies_.mesh(pair, true);
+    const PlacedSurface* const second = bodies_.mesh(pair, false);
+    std::vector<BothAlong> along_all;
+    if (const auto* half_space = half_space_of(pair)) {
+      Along n = along(Axes::kWorld, half_space->normal);
+      along_all.push_back(both_along(pair, n));
+      along_all.back()[1].extreme = highest(half_space->offset / n.size);
+    } else {
+      const Axes axes = pair.kind == PairKind::kCablePlatform ? Axes::kPlatform : Axes::kWorld;
+      for (const std::size_t index : apart_[k]) along_all.push_back(both_along(pair, along_direction(index, axes)));
+    }
+    if (half_space_of(pair) == nullptr) {
+      require_outside(pair, false);
+      require_outside(pair, true);
+    }
+    return mesh_margin(first, second, along_all, {shift_.position, shift_.turn}, bodies_.clearance[k], enough_);
+  }
+
+  /// In the middle of the box, no part of the other body is inside of the first one, or of the second, if that is a
+  /// closed mesh. A part that hangs together stays on its side of a surface that it does not touch: so one point of each
+  /// is enough, at one pose.
+  void require_outside(const CheckedPair& pair, bool of_first) {
+    const PlacedSurface* const mesh = bodies_.mesh(pair, of_first);
+    if (mesh == nullptr || !mesh->surface->is_closed()) return;
+    const bool is_carried = of_first || pair.kind == PairKind::kCablePlatform;
+    const Matrix3<Ball> R = middle(geometry_.pose.R);
+    const Vector3<Ball> p = middle(geometry_.pose.p);
+    const auto require = [&](const Vector3<Ball>& x) {  // of W
+      const Vector3<Ball> here = is_carried ? multiply(transposed(R), x - p) : x;
+      if (side_of(*mesh->surface, in_unit_of(*mesh, here)) == Side::kOutside) return;
+      throw Undefined("a body may be inside of a mesh: " + pair.name);
+    };
+    if (pair.kind != PairKind::kPlatformObstacle) {  // then the other one is the cable
+      const Ball t = cuts(pair.first)[0].at;
+      return require(machine_.base[pair.first] + t * middle(geometry_.d[pair.first]));
+    }
+    const PlacedHull& other = *bodies_.hull(pair, !of_first);
+    const auto in_world = [&](const Vector3<Ball>& x) { return of_first ? x : p + multiply(R, x); };
+    if (!other.mesh) return require(in_world(other.points.front()));
+    for (const Surface::Point& part : other.mesh->surface->parts()) require(in_world(other.mesh->place(part)));
+  }
+
+  /// What is known of forms at u = 0.
+  [[nodiscard]] static Vector3<Ball> middle(const Vector3<MeanValueForm>& x) { return {x[0].at, x[1].at, x[2].at}; }
+  [[nodiscard]] static Matrix3<Ball> middle(const Matrix3<MeanValueForm>& x) {
+    return {middle(x[0]), middle(x[1]), middle(x[2])};
+  }
+
+  [[nodiscard]] const PlacedHalfSpace* half_space_of(const CheckedPair& pair) const {
+    if (pair.kind == PairKind::kCableCable || pair.kind == PairKind::kCablePlatform) return nullptr;
+    return std::get_if<PlacedHalfSpace>(&bodies_.obstacles[pair.second]);
+  }
+
+  /// Of a half-space, nothing.
+  [[nodiscard]] BothAlong both_along(const CheckedPair& pair, Along& u) {
+    const Ball unit = Ball(1) / u.size;
+    BothAlong result;
+    if (const PlacedSurface* const mesh = bodies_.mesh(pair, true)) {  // on the platform, along a vector of W
+      const Vector3<MeanValueForm>& v = turned(u);
+      result[0] =
+          taut::checker::along(*mesh, unit * dot(u.u, geometry_.pose.p), {unit * v[0], unit * v[1], unit * v[2]});
+    } else {
+      result[0].extreme = pair.kind == PairKind::kPlatformObstacle
+                              ? least(bodies_.platform[pair.first], Axes::kPlatform, u)
+                              : least_of_cable(pair.first, u);
+    }
+    if (const PlacedSurface* const mesh = bodies_.mesh(pair, false)) {
+      const auto constant = [&](std::size_t c) { return MeanValueForm(unit * u.u[c]); };
+      result[1] = taut::checker::along(*mesh, MeanValueForm(), {constant(0), constant(1), constant(2)});
+    } else if (const PlacedHull* const hull = bodies_.hull(pair, false)) {
+      result[1].extreme = highest(most(*hull, Axes::kWorld, u));
+    }
+    return result;
+  }
+
   // ---- Directions ---------------------------------------------------------------------------------------------------
 
   [[nodiscard]] static Along along(Axes axes, const Vector3<Ball>& u) { return {axes, u, sqrt(squared_norm(u))}; }
@@ -83,15 +169,17 @@ class Clearances {
 
   /// Of pair k, in the only axes that make sense of it.
   [[nodiscard]] Along& along(std::size_t k, std::optional<Axes> axes) {
-    if (!apart_[k] || *apart_[k] >= directions_.size()) {
-      throw Undefined("no direction is stated for a pair of bodies");
-    }
-    const Direction& direction = directions_[*apart_[k]];
+    if (apart_[k].size() != 1) throw Undefined("not one direction is stated for a pair of bodies");
+    return along_direction(apart_[k][0], axes);
+  }
+  [[nodiscard]] Along& along_direction(std::size_t index, std::optional<Axes> axes) {
+    if (index >= directions_.size()) throw Undefined("no direction is stated for a pair of bodies");
+    const Direction& direction = directions_[index];
     if (axes && direction.axes != *axes) throw Undefined("a pair of bodies is told apart in the wrong axes");
-    const auto known = along_.find(*apart_[k]);
+    const auto known = along_.find(index);
     if (known != along_.end()) return known->second;
     const auto& [x, y, z] = direction.u;
-    return along_.emplace(*apart_[k], along(direction.axes, {Ball(x), Ball(y), Ball(z)})).first->second;
+    return along_.emplace(index, along(direction.axes, {Ball(x), Ball(y), Ball(z)})).first->second;
   }
 
   // ---- Bodies -------------------------------------------------------------------------------------------------------
@@ -235,6 +323,7 @@ class Clearances {
   PoseShift shift_;
   std::span<const Direction> directions_;
   const Apart& apart_;
+  const std::optional<Ball>& enough_;
   std::map<std::size_t, Along> along_;  ///< by the index of the direction
   std::array<std::optional<OfCuts>, kCables> cuts_;
   std::array<std::array<std::optional<EndShift>, 2>, kCables> end_shifts_;  ///< in W and in P
@@ -254,8 +343,20 @@ Vector3<Ball> mean(const std::vector<Vector3<Ball>>& points, const std::vector<m
   return result;
 }
 
-ContactPoint of_platform(const PlacedHull& hull, const Geometry& geometry, const std::vector<mpq_class>& weights) {
-  return {range(geometry.pose.p) + multiply(range(geometry.pose.R), mean(hull.points, weights)), hull.radius};
+/// In the body's own axes.
+ContactPoint of_body(const PlacedHull& body, const std::vector<mpq_class>& weights,
+                     const std::optional<std::size_t>& element) {
+  if (!body.mesh) return {mean(body.points, weights), body.radius};
+  if (!element || *element >= body.mesh->surface->elements()) throw Undefined("no element of a mesh has this index");
+  std::vector<Vector3<Ball>> corners;
+  for (const Surface::Point& f : body.mesh->surface->corners(*element)) corners.push_back(body.mesh->place(f));
+  return {mean(corners, weights), Ball()};
+}
+
+ContactPoint of_platform(const PlacedHull& body, const Geometry& geometry, const std::vector<mpq_class>& weights,
+                         const std::optional<std::size_t>& element) {
+  const ContactPoint point = of_body(body, weights, element);
+  return {range(geometry.pose.p) + multiply(range(geometry.pose.R), point.at), point.radius};
 }
 
 ContactPoint of_cable(const Machine& machine, const Geometry& geometry, std::size_t i,
@@ -269,22 +370,26 @@ ContactPoint of_cable(const Machine& machine, const Geometry& geometry, std::siz
 }  // namespace
 
 std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry, const MarginLoss& loss,
-                                    std::span<const Direction> directions, const Apart& apart) {
-  return Clearances(machine, geometry, loss, directions, apart).margins();
+                                    std::span<const Direction> directions, const Apart& apart,
+                                    const std::optional<Ball>& enough) {
+  return Clearances(machine, geometry, loss, directions, apart, enough).margins();
 }
 
-Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair, const ContactWeights& weights) {
+Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair, const ContactWeights& weights,
+                   const ContactElements& elements) {
   const PlacedBodies& bodies = machine.bodies.value();
   const auto& [kind, first, second, clearance, name] = bodies.pairs.at(pair);
   const bool is_platform = kind == PairKind::kPlatformObstacle;
-  const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0])
+  const ContactPoint a = is_platform ? of_platform(bodies.platform[first], geometry, weights[0], elements[0])
                                      : of_cable(machine, geometry, first, weights[0]);
   const Ball allowed = a.radius + bodies.clearance[pair];
   const auto from = [&](const ContactPoint& b) { return allowed + b.radius - length_range(a.at - b.at); };
   if (kind == PairKind::kCableCable) return from(of_cable(machine, geometry, second, weights[1]));
-  if (kind == PairKind::kCablePlatform) return from(of_platform(bodies.platform[second], geometry, weights[1]));
+  if (kind == PairKind::kCablePlatform) {
+    return from(of_platform(bodies.platform[second], geometry, weights[1], elements[1]));
+  }
   if (const auto* hull = std::get_if<PlacedHull>(&bodies.obstacles[second])) {
-    return from({mean(hull->points, weights[1]), hull->radius});
+    return from(of_body(*hull, weights[1], elements[1]));
   }
   const auto& half_space = std::get<PlacedHalfSpace>(bodies.obstacles[second]);
   return allowed - (dot(half_space.normal, a.at) - half_space.offset) / sqrt(squared_norm(half_space.normal));

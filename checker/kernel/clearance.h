@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "clearance": the two bodies of every checked pair are farther apart than the pair's clearance.
 //
-// Every body is a half-space or the hull of finitely many balls, which is convex. Let the first body of a pair be the
+// Every body is a half-space, a mesh (mesh_clearance.h), or the hull of finitely many balls, which is convex. Let the first body of a pair be the
 // hull of balls (a_k, r_k), the second that of balls (b_l, s_l). For every vector u that is not 0 their distance is at
 // least
 //     min_k (u . a_k / |u| - r_k)  -  max_l (u . b_l / |u| + s_l),                                                (1)
@@ -35,6 +35,7 @@
 // anchors. The larger of what these prove is proved.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "checker/kernel/deviation.h"
@@ -45,16 +46,18 @@ namespace taut::checker {
 /// machine and pose within the tolerances [m].
 /// @param loss  what tolerances take away; of length and pose only
 /// @throws Undefined where a cable may not be longer than its free ends, and where `apart` has no direction that may be
-/// used for a pair: of W for a cable against an obstacle, of P for a cable against a body of the platform, else either.
+/// used for a pair: of W for a cable against an obstacle, of P for a cable against a body of the platform, else either;
+/// of W for a mesh and an obstacle.
+/// @param enough  if given, no larger margin of a pair with a mesh is asked for [m]
 /// @pre machine.bodies
 [[nodiscard]] std::vector<Ball> clearance_margins(const Machine& machine, const Geometry& geometry,
                                                   const MarginLoss& loss, std::span<const Direction> directions,
-                                                  const Apart& apart);
+                                                  const Apart& apart, const std::optional<Ball>& enough = {});
 
 /// By how much these points of a pair's bodies are nearer to each other than both radii and the clearance together
 /// allow [m]: the pair is not clear where that is not negative. @pre geometry is that of one place
 /// @throws Undefined where a cable may not be longer than its free ends.
 [[nodiscard]] Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair,
-                                 const ContactWeights& weights);
+                                 const ContactWeights& weights, const ContactElements& elements = {});
 
 }  // namespace taut::checker

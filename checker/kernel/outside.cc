@@ -234,6 +234,7 @@ bool OutsideProof::is_unbalanced(const OutsideReason& reason) {
 namespace {
 
 Vector3<Ball> mean(const std::vector<Vector3<Ball>>& points, const std::vector<mpq_class>& weights) {
+  if (points.empty()) throw Undefined("nothing is said of contacts with meshes");
   Vector3<Ball> result;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (weights.at(k) != 0) result = result + Ball(weights[k]) * points[k];

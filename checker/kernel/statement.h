@@ -7,7 +7,9 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "checker/kernel/expression.h"
+#include "checker/kernel/surface.h"
 
 namespace taut::checker {
 
@@ -107,10 +110,18 @@ struct HullShape {
 struct HalfSpaceShape {
   ExactVector normal;
 };
+/// The elements of a mesh, and all points inside of it if it is closed. Coordinates are those of the file with this
+/// digest, times `unit` > 0 [m].
+struct MeshShape {
+  std::string file;
+  std::string sha256;
+  mpq_class unit;
+  std::shared_ptr<const Surface> surface = nullptr;  ///< as somebody read that file; null: nobody did
+};
 /// The points at + Rz(yaw) Ry(pitch) Rx(roll) x of all points x of a shape, in W of an obstacle, in P of a body of the
 /// platform.
 struct RigidBody {
-  std::variant<HullShape, HalfSpaceShape> shape;
+  std::variant<HullShape, HalfSpaceShape, MeshShape> shape;
   ExactVector at;                      ///< [m]
   std::array<Expression, 3> rotation;  ///< roll, pitch, yaw: constants [rad]; not read of a half-space
 };
@@ -121,7 +132,7 @@ struct CableBody {
   std::array<mpq_class, 2> free_ends;
 };
 
-/// Which two bodies; obstacles are half-spaces or hulls, all others are hulls.
+/// Which two bodies; obstacles may be half-spaces, all others are hulls or meshes.
 enum class PairKind {
   kPlatformObstacle,  ///< a body of the platform and an obstacle
   kCableObstacle,
@@ -144,6 +155,26 @@ struct Bodies {
   std::array<bool, 4> checks{};    ///< by PairKind: whether its pairs are checked
   std::vector<CheckedPair> pairs;  ///< by rising kind; of one kind by first, then by second body
 
+  /// The first or the second body of a pair; null where it is a cable.
+  [[nodiscard]] const RigidBody* rigid(const CheckedPair& pair, bool is_first) const {
+    if (is_first) return pair.kind == PairKind::kPlatformObstacle ? &platform[pair.first] : nullptr;
+    if (pair.kind == PairKind::kCableCable) return nullptr;
+    return pair.kind == PairKind::kCablePlatform ? &platform[pair.second] : &obstacles[pair.second];
+  }
+  /// The first or the second body of a pair, if it is a mesh; else null.
+  [[nodiscard]] const MeshShape* mesh(const CheckedPair& pair, bool is_first) const {
+    const RigidBody* const body = rigid(pair, is_first);
+    return body == nullptr ? nullptr : std::get_if<MeshShape>(&body->shape);
+  }
+  [[nodiscard]] bool has_mesh(const CheckedPair& pair) const {
+    return mesh(pair, true) != nullptr || mesh(pair, false) != nullptr;
+  }
+
+  [[nodiscard]] bool has_meshes() const {
+    const auto is_mesh = [](const RigidBody& body) { return std::holds_alternative<MeshShape>(body.shape); };
+    return std::ranges::any_of(platform, is_mesh) || std::ranges::any_of(obstacles, is_mesh);
+  }
+
   /// Whether the second body of a pair is a half-space.
   [[nodiscard]] bool is_against_half_space(const CheckedPair& pair) const {
     return (pair.kind == PairKind::kPlatformObstacle || pair.kind == PairKind::kCableObstacle) &&
@@ -158,8 +189,11 @@ struct Direction {
 };
 
 /// A point of each of two bodies: the weights, >= 0 and 1 in sum, of the points whose hull the body is, or of the two
-/// ends of what the free ends leave of a cable; of a half-space none, whose nearest point is meant.
+/// ends of what the free ends leave of a cable; of a half-space none, whose nearest point is meant; of a mesh, of the
+/// three corners of an element.
 using ContactWeights = std::array<std::vector<mpq_class>, 2>;
+/// Which element, of each of two bodies that is a mesh.
+using ContactElements = std::array<std::optional<std::size_t>, 2>;
 
 /// K is the sum of the items and of the ellipsoid { w0 + e : e' E e <= 1 }. Where there are items, load point and
 /// wrench have no tolerances.
@@ -248,9 +282,9 @@ struct Box {
   int guesses = 1;               ///< with tolerances: evaluations of the rates before the one that must hold, 1 to 16
 };
 
-/// For each pair of bodies: the index of a direction of the path; nothing where the second body is a half-space, whose
-/// normal is taken.
-using Apart = std::vector<std::optional<std::size_t>>;
+/// For each pair of bodies: the index of a direction of the path; or, with a mesh, the indices of one or more; none
+/// where the second body is a half-space, whose normal is taken.
+using Apart = std::vector<std::vector<std::size_t>>;
 
 /// One load of an item, by the kind of its set: of a weight a mass and where its centre of gravity is, of a ball or
 /// disc a vector, of a line segment an amount, of load cases one of them.

@@ -69,10 +69,24 @@ bool is_covered(const std::vector<DyadicBox>& boxes) {
   return reached == Dyadic{1, 0};
 }
 
+/// With the meshes that the checker was given.
 Certificate certificate_of(const checker::CheckResult& checked) {
-  if (checked.theorem) return read_certificate(checked.theorem->certificate());
-  if (checked.certificate == nullptr) throw std::logic_error("a report was asked for of a malformed certificate");
-  return read_certificate(*checked.certificate);
+  if (!checked.theorem && checked.certificate == nullptr) {
+    throw std::logic_error("a report was asked for of a malformed certificate");
+  }
+  Certificate certificate =
+      read_certificate(checked.theorem ? checked.theorem->certificate() : *checked.certificate);
+  if (!certificate.problem.bodies) return certificate;
+  for (const checker::SuppliedMesh& mesh : checked.meshes) {
+    const auto indexed = std::make_shared<const IndexedMesh>(TriangleMesh{mesh.points, mesh.triangles, mesh.needles});
+    for (auto* bodies : {&certificate.problem.bodies->platform, &certificate.problem.bodies->obstacles}) {
+      for (BodyText& body : *bodies) {
+        auto* text = std::get_if<MeshText>(&body.shape);
+        if (text != nullptr && text->sha256 == mesh.sha256) text->mesh = indexed;
+      }
+    }
+  }
+  return certificate;
 }
 
 Recheck recheck_of(const checker::CheckResult& checked) {
@@ -126,7 +140,8 @@ std::optional<Witness> gravest_of(const Certificate& certificate) {
 }
 
 std::optional<BodyDistances> distances_of(const Problem& problem) {
-  return problem.bodies ? std::optional<BodyDistances>(problem) : std::nullopt;
+  const bool is_known = problem.bodies && are_meshes_read(*problem.bodies);
+  return is_known ? std::optional<BodyDistances>(problem) : std::nullopt;
 }
 
 }  // namespace

@@ -290,7 +290,7 @@ void expect_bounds(const Problem& problem, bool deviates, unsigned seed) {
     const RigidPose middle = prover.sampler().rigid_pose(segment, 0.5);
     for (std::size_t n = 0; n < bodies.pairs.size(); ++n) {
       const auto direction = prover.bodies()->direction(prover.sampler().model(), middle, n);
-      directions.push_back(
+      directions.single.push_back(
           direction.value_or(Direction{bodies.pairs[n].kind == PairClass::kCablesPlatform, {1, 2, 3}}));
     }
     const BoxEnclosure<MpInterval> enclosure = enclose_box(prover.ladder().multiprecision(1), segment, DyadicBox{}, 4);
@@ -308,14 +308,14 @@ void expect_bounds(const Problem& problem, bool deviates, unsigned seed) {
     const BodyGaps<MpInterval> gaps(box);
     ASSERT_TRUE(gaps.have_cables_length());
     std::vector<double> lower, rough;
-    for (std::size_t n = 0; n < directions.size(); ++n) {
-      lower.push_back(lower_bound(gaps.along(model.bodies->pairs[n], directions[n]).disturbed));
-      rough.push_back(gaps.rough(model.bodies->pairs[n], directions[n]));
+    for (std::size_t n = 0; n < directions.single.size(); ++n) {
+      lower.push_back(lower_bound(gaps.along(model.bodies->pairs[n], directions.single[n]).disturbed));
+      rough.push_back(gaps.rough(model.bodies->pairs[n], directions.single[n]));
     }
     for (int sample = 0; sample < 12; ++sample) {
       const double s = sample / 11.0;
       const DeviatingMachine machine = deviating(problem, prover.sampler(), segment, s, random, deviates);
-      for (std::size_t n = 0; n < directions.size(); ++n) {
+      for (std::size_t n = 0; n < directions.single.size(); ++n) {
         const double truth = true_gap(machine, bodies, bodies.pairs[n]);
         ++bounds;
         if (lower[n] > 0) ++positive;

@@ -39,8 +39,7 @@ struct TestBody {
   std::array<mpq_class, 3> angles;
 };
 
-inline TestBody test_body(std::variant<HullShape, HalfSpaceShape> shape, ExactVector at,
-                          std::array<mpq_class, 3> angles = {}) {
+inline TestBody test_body(decltype(RigidBody::shape) shape, ExactVector at, std::array<mpq_class, 3> angles = {}) {
   TestBody result{{std::move(shape), std::move(at), {}}, std::move(angles)};
   for (std::size_t k = 0; k < 3; ++k) result.body.rotation[k] = parse_expression(result.angles[k].get_str(), {}, "");
   return result;

@@ -92,7 +92,7 @@ struct ClearanceTrial {
         u = {R[0][0] * u[0] + R[1][0] * u[1] + R[2][0] * u[2], R[0][1] * u[0] + R[1][1] * u[1] + R[2][1] * u[2],
              R[0][2] * u[0] + R[1][2] * u[1] + R[2][2] * u[2]};
       }
-      apart.emplace_back(path.directions.size());
+      apart.push_back({path.directions.size()});
       path.directions.push_back({in_P ? Axes::kPlatform : Axes::kWorld, rounded(u)});
     }
     return apart;
@@ -207,8 +207,8 @@ TEST(Clearance, IsTheSeparationAlongTheStatedDirection) {
       const CheckedPair& pair = trial.bodies().pairs[p];
       const auto there = trial.at<BigFloat>(pair, 0);
       campaign::Vec<BigFloat> u;
-      if (apart[p]) {
-        const Direction& direction = trial.path.directions[*apart[p]];
+      if (!apart[p].empty()) {
+        const Direction& direction = trial.path.directions[apart[p][0]];
         for (std::size_t c = 0; c < 3; ++c) u[c] = BigFloat(static_cast<double>(direction.u[c]));
         if (direction.axes == Axes::kPlatform) u = campaign::operator*(trial.pose<BigFloat>(0).r, u);
       } else {
@@ -384,6 +384,9 @@ ClearanceTrial still_trial(const std::optional<TolerancesText>& within = std::nu
   return trial;
 }
 
+/// One pair, told apart along direction k.
+Apart along(std::size_t k) { return Apart(1, std::vector<std::size_t>(1, k)); }
+
 TEST(Clearance, IsToldFromItsLimitByANanometre) {
   const WorkingPrecision precision(64);
   ClearanceTrial trial = still_trial();
@@ -391,7 +394,7 @@ TEST(Clearance, IsToldFromItsLimitByANanometre) {
   const mpq_class nano(1, 1'000'000'000);
   trial.path.directions = {{Axes::kWorld, {0, 0, 3}}};
   for (std::size_t obstacle = 0; obstacle < 2; ++obstacle) {
-    const Apart apart = {obstacle == 0 ? std::optional<std::size_t>(0) : std::nullopt};
+    const Apart apart = obstacle == 0 ? along(0) : Apart(1);
     trial.bodies().pairs = {{PairKind::kPlatformObstacle, 0, obstacle, gap - nano}};
     EXPECT_NEAR(approx(trial.margins(apart).margins[0]), 1e-9, 1e-15);
     EXPECT_TRUE(certainly_positive(trial.margins(apart).margins[0]));
@@ -403,7 +406,7 @@ TEST(Clearance, IsToldFromItsLimitByANanometre) {
   // A direction that is turned round tells nothing apart.
   trial.path.directions = {{Axes::kWorld, {0, 0, -3}}};
   trial.bodies().pairs = {{PairKind::kPlatformObstacle, 0, 0, 0}};
-  EXPECT_TRUE(certainly_negative(trial.margins({0}).margins[0]));
+  EXPECT_TRUE(certainly_negative(trial.margins(along(0)).margins[0]));
 }
 
 TEST(Clearance, NeedsDirectionsInAxesThatMakeSense) {
@@ -420,18 +423,18 @@ TEST(Clearance, NeedsDirectionsInAxesThatMakeSense) {
     }
   };
   EXPECT_TRUE(is_refused(PairKind::kPlatformObstacle, 0, 0, {}));
-  EXPECT_TRUE(is_refused(PairKind::kPlatformObstacle, 0, 0, {std::nullopt}));
-  EXPECT_TRUE(is_refused(PairKind::kPlatformObstacle, 0, 0, {2}));
-  EXPECT_TRUE(is_refused(PairKind::kCableObstacle, 0, 0, {1}));
-  EXPECT_TRUE(is_refused(PairKind::kCablePlatform, 0, 0, {0}));
-  EXPECT_FALSE(is_refused(PairKind::kPlatformObstacle, 0, 0, {0}));
-  EXPECT_FALSE(is_refused(PairKind::kPlatformObstacle, 0, 0, {1}));
-  EXPECT_FALSE(is_refused(PairKind::kCablePlatform, 0, 0, {1}));
-  EXPECT_FALSE(is_refused(PairKind::kCableCable, 0, 1, {0}));
-  EXPECT_FALSE(is_refused(PairKind::kCableCable, 0, 1, {1}));
+  EXPECT_TRUE(is_refused(PairKind::kPlatformObstacle, 0, 0, Apart(1)));
+  EXPECT_TRUE(is_refused(PairKind::kPlatformObstacle, 0, 0, along(2)));
+  EXPECT_TRUE(is_refused(PairKind::kCableObstacle, 0, 0, along(1)));
+  EXPECT_TRUE(is_refused(PairKind::kCablePlatform, 0, 0, along(0)));
+  EXPECT_FALSE(is_refused(PairKind::kPlatformObstacle, 0, 0, along(0)));
+  EXPECT_FALSE(is_refused(PairKind::kPlatformObstacle, 0, 0, along(1)));
+  EXPECT_FALSE(is_refused(PairKind::kCablePlatform, 0, 0, along(1)));
+  EXPECT_FALSE(is_refused(PairKind::kCableCable, 0, 1, along(0)));
+  EXPECT_FALSE(is_refused(PairKind::kCableCable, 0, 1, along(1)));
   // No margin of a box is proved without directions.
   EXPECT_THROW((void)prove_box(Machine(trial.problem), trial.problem, trial.path, 0, trial.box), Undefined);
-  EXPECT_TRUE(prove_box(Machine(trial.problem), trial.problem, trial.path, 0, trial.box, {0}).clearance);
+  EXPECT_TRUE(prove_box(Machine(trial.problem), trial.problem, trial.path, 0, trial.box, along(0)).clearance);
 }
 
 TEST(Clearance, NeedsCablesThatAreLongerThanTheirFreeEnds) {
@@ -446,9 +449,9 @@ TEST(Clearance, NeedsCablesThatAreLongerThanTheirFreeEnds) {
                  .range());
   CableBody& cable = trial.bodies().cables[1];
   cable.free_ends = {mpq_class(approx(length) - 1e-3), mpq_class(9, 10000)};
-  EXPECT_NO_THROW((void)trial.margins({0}));
+  EXPECT_NO_THROW((void)trial.margins(along(0)));
   cable.free_ends[1] = mpq_class(11, 10000);
-  EXPECT_THROW((void)trial.margins({0}), Undefined);
+  EXPECT_THROW((void)trial.margins(along(0)), Undefined);
 }
 
 /// Margins of the pair of cables 0 and 1, which hang from one base anchor.
@@ -464,7 +467,7 @@ Ball margin_of_neighbours(const char* of_first, const char* of_second) {
       bodies_at(trial.bodies(), {}, {}, trial.bodies().pairs[0], campaign::make_machine<double>(trial.stated),
                 RigidPose<double>{{0, 0, 0.375}, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}});
   trial.path.directions = {{Axes::kWorld, rounded(best_direction(here))}};
-  return trial.margins({0}).margins[0];
+  return trial.margins(along(0)).margins[0];
 }
 
 TEST(Clearance, CountsTheDeviationOfOneAnchorOnce) {

@@ -14,7 +14,7 @@
 namespace taut::testing {
 namespace {
 
-struct Raster {
+struct RasterSize {
   int columns, rows;
 };
 
@@ -55,7 +55,7 @@ struct Counts {
   std::atomic<int> proved{0}, in_200_bits{0}, inside{0}, contact{0};
 };
 
-void check(const Problem& problem, const CellMap& map, const Raster& raster, int column, Counts& counts) {
+void check(const Problem& problem, const CellMap& map, const RasterSize& raster, int column, Counts& counts) {
   constexpr double kNear = 1e-3;
   constexpr double kPi = 3.14159265358979323846;
   const ExactPoses poses(problem, map.space);
@@ -97,7 +97,7 @@ TEST(Raster, ContradictsNoCellOfRobot1sSlice) {
   const Problem problem = robot1_slice();
   const CellMap map =
       subdivide(problem, make_map_space(problem.space), {.least_width = 1.0 / 8192, .undecided_share = 0.0005});
-  constexpr Raster kRaster = {2000, 1000};
+  constexpr RasterSize kRaster = {2000, 1000};
   Counts counts;
   tbb::parallel_for(0, kRaster.columns, [&](int column) { check(problem, map, kRaster, column, counts); });
   const double all = static_cast<double>(kRaster.columns) * kRaster.rows;
@@ -116,7 +116,7 @@ TEST(Raster, ContradictsNoCellWithBodies) {
   const Problem problem = with_bodies(robot1_slice());
   const CellMap map =
       subdivide(problem, make_map_space(problem.space), {.least_width = 1.0 / 4096, .undecided_share = 0.004});
-  constexpr Raster kRaster = {700, 350};
+  constexpr RasterSize kRaster = {700, 350};
   Counts counts;
   tbb::parallel_for(0, kRaster.columns, [&](int column) { check(problem, map, kRaster, column, counts); });
   const double all = static_cast<double>(kRaster.columns) * kRaster.rows;

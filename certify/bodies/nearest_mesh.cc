@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "certify/bodies/nearest_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <queue>
+
+#include "certify/bodies/mesh_cover.h"
+
+namespace taut {
+namespace {
+
+using Point = Vector3<double>;
+
+Point vector(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
+
+/// A ball around a part of a body.
+struct Bound {
+  Point centre{0, 0, 0};
+  double radius = 0;
+};
+
+/// What a search asks of one of two bodies.
+class Side {
+ public:
+  explicit Side(const BodyInFrame& body) : body_(body), scale_(body.axes.col(0).norm()) {
+    if (body.mesh != nullptr) return;
+    for (const Point& x : body.points) all_.centre += x / static_cast<double>(body.points.size());
+    for (const Point& x : body.points) all_.radius = std::max(all_.radius, (x - all_.centre).norm());
+  }
+
+  [[nodiscard]] MeshPart root() const { return {body_.mesh}; }
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] bool is_mesh() const { return body_.mesh != nullptr; }
+
+  [[nodiscard]] Bound ball(const MeshPart& part) const {
+    if (part.mesh == nullptr) return all_;
+    if (part.is_element) {
+      const std::vector<Point> x = points(part);
+      Bound result{(x[0] + x[1] + x[2]) / 3};
+      for (const Point& corner : x) result.radius = std::max(result.radius, (corner - result.centre).norm());
+      return result;
+    }
+    const MeshBox& box = part.mesh->nodes()[part.index].box;
+    const Point low = vector(box.lower), high = vector(box.upper);
+    return {body_.origin + body_.axes * (0.5 * (low + high)), 0.5 * scale_ * (high - low).norm()};
+  }
+
+  /// The corners of a node, the points of an element or those of the whole body.
+  [[nodiscard]] std::vector<Point> points(const MeshPart& part) const {
+    if (part.mesh == nullptr || part.is_element) {
+      return points_of(body_, part.is_element ? std::optional(part.index) : std::nullopt);
+    }
+    const MeshBox& box = part.mesh->nodes()[part.index].box;
+    std::vector<Point> corners;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Point f;
+      for (std::size_t k = 0; k < 3; ++k) {
+        f(static_cast<int>(k)) = (corner >> k & 1U) != 0 ? box.upper[k] : box.lower[k];
+      }
+      corners.emplace_back(body_.origin + body_.axes * f);
+    }
+    return corners;
+  }
+
+ private:
+  const BodyInFrame& body_;
+  double scale_;
+  Bound all_;
+};
+
+double distance_to_segment(const Point& x, const Point& a, const Point& b) {
+  const Point along = b - a;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0 ? std::clamp((x - a).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (x - a - t * along).norm();
+}
+
+}  // namespace
+
+std::vector<Point> points_of(const BodyInFrame& body, const std::optional<std::uint32_t>& element) {
+  if (!element) return body.points;
+  std::vector<Point> result;
+  for (const auto& corner : body.mesh->points(*element)) {
+    result.emplace_back(body.origin + body.axes * vector(corner));
+  }
+  return result;
+}
+
+NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second) {
+  const Side a(first), b(second);
+  struct Task {
+    MeshPart first, second;
+    double bound;
+    bool operator<(const Task& other) const { return bound > other.bound; }  // the least comes first
+  };
+  NearestElements best;
+  best.nearest.distance = std::numeric_limits<double>::infinity();
+  const auto rough_bound = [&](const MeshPart& x, const MeshPart& y) {
+    const Bound p = a.ball(x), q = b.ball(y);
+    if (x.mesh == nullptr && first.points.size() == 2) {
+      return distance_to_segment(q.centre, first.points[0], first.points[1]) - q.radius;
+    }
+    return (p.centre - q.centre).norm() - p.radius - q.radius;
+  };
+  std::priority_queue<Task> open;
+  const auto consider = [&](const MeshPart& x, const MeshPart& y) {
+    double bound = rough_bound(x, y);
+    if (bound >= best.nearest.distance) return;
+    const bool are_last = !x.may_open() && !y.may_open();
+    NearestPoints nearest = nearest_points(a.points(x), b.points(y));
+    if (!are_last) {
+      bound = std::max(bound, nearest.distance);
+      if (bound < best.nearest.distance) open.push({x, y, bound});
+      return;
+    }
+    if (!(nearest.distance < best.nearest.distance)) return;
+    best.nearest = std::move(nearest);
+    best.elements = {x.is_element ? std::optional(x.index) : std::nullopt,
+                     y.is_element ? std::optional(y.index) : std::nullopt};
+  };
+  consider(a.root(), b.root());
+  while (!open.empty() && open.top().bound < best.nearest.distance) {
+    const Task task = open.top();
+    open.pop();
+    if (opens_first(task.first, task.second, b.scale() / a.scale())) {
+      for (const MeshPart& part : parts_of(task.first)) consider(part, task.second);
+    } else {
+      for (const MeshPart& part : parts_of(task.second)) consider(task.first, part);
+    }
+  }
+  return best;
+}
+
+namespace {
+
+/// A body along a unit vector: of a mesh c + w·f, of others the extreme value.
+struct AlongUnit {
+  double value = 0;
+  Point of_file{0, 0, 0};
+};
+
+AlongUnit along(const BodyInFrame& body, const Point& u, bool is_least) {
+  if (body.mesh != nullptr) return {u.dot(body.origin), body.axes.transpose() * u};
+  double value = u.dot(body.points.front());
+  for (const Point& x : body.points) value = is_least ? std::min(value, u.dot(x)) : std::max(value, u.dot(x));
+  return {value};
+}
+
+double extreme(const AlongUnit& along, std::span<const MeshBox> boxes, bool is_least) {
+  if (boxes.empty()) return along.value;
+  double result = is_least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+  for (const MeshBox& box : boxes) {
+    double here = along.value;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double w = along.of_file(static_cast<int>(k));
+      here += w * ((w > 0) == is_least ? box.lower[k] : box.upper[k]);
+    }
+    result = is_least ? std::min(result, here) : std::max(result, here);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::uint32_t lowest_element(const BodyInFrame& body, const Point& u) {
+  const AlongUnit of_body = along(body, u, true);
+  const auto height = [&](std::size_t /*k*/, std::span<const MeshBox> boxes, std::span<const MeshBox> /*none*/) {
+    return extreme(of_body, boxes, true);
+  };
+  return least_gap({body.mesh}, {}, 1, height).first.index;
+}
+
+std::vector<Point> covering_directions(const BodyInFrame& first, const BodyInFrame& second, double needed,
+                                       double share) {
+  constexpr std::size_t kMost = 64;
+  const NearestElements nearest = nearest_elements(first, second);
+  const double gap = nearest.nearest.distance - needed;
+  std::vector<Point> result;
+  if (!(gap > 0) || !(nearest.nearest.distance > 0)) return result;
+  std::vector<std::array<AlongUnit, 2>> sides;
+  const auto add = [&](const Point& apart) {
+    result.push_back(apart.normalized());
+    sides.push_back({along(first, result.back(), true), along(second, result.back(), false)});
+  };
+  add(nearest.nearest.apart);
+  const Side a(first), b(second);
+  CoverOptions options;
+  options.enough = needed + share * gap;
+  options.scale = b.scale() / a.scale();
+  while (result.size() < kMost) {
+    const auto gap_along = [&](std::size_t k, std::span<const MeshBox> x, std::span<const MeshBox> y) {
+      return extreme(sides[k][0], x, true) - extreme(sides[k][1], y, false);
+    };
+    const LeastGap least = least_gap(a.root(), b.root(), sides.size(), gap_along, options);
+    if (least.gap >= options.enough || (least.first.mesh == nullptr && least.second.mesh == nullptr)) break;
+    const NearestPoints apart = nearest_points(a.points(least.first), b.points(least.second));
+    if (!(apart.distance > options.enough)) break;  // rounding
+    add(apart.apart);
+  }
+  return result;
+}
+
+}  // namespace taut

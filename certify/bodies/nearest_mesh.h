@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where two bodies come nearest of which one is a mesh, or both, in floating point; and directions along which they are
+// apart, piece by piece. Nothing here is proved.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "certify/bodies/body_gaps.h"
+#include "certify/bodies/nearest.h"
+#include "kinematics/bodies.h"
+
+namespace taut {
+
+/// A body at one pose, in one frame: points whose hull it is, or a mesh, whose point f in the file's unit is at
+/// origin + axes f.
+struct BodyInFrame {
+  std::vector<Vector3<double>> points;
+  const IndexedMesh* mesh = nullptr;
+  Vector3<double> origin{0, 0, 0};
+  Matrix3<double> axes = Matrix3<double>::Identity();  ///< a rotation times a scale
+};
+
+/// Its points, or those of an element of its mesh.
+[[nodiscard]] std::vector<Vector3<double>> points_of(const BodyInFrame& body,
+                                                     const std::optional<std::uint32_t>& element);
+
+struct NearestElements {
+  NearestPoints nearest;                                 ///< of the points of the bodies, or of their elements
+  std::array<std::optional<std::uint32_t>, 2> elements;  ///< of meshes
+};
+/// @pre one of them is a mesh
+[[nodiscard]] NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second);
+
+/// The element of a mesh with the point that has the least u·x. @pre body.mesh
+[[nodiscard]] std::uint32_t lowest_element(const BodyInFrame& body, const Vector3<double>& u);
+
+/// Unit vectors of which one for each pair of elements shows them apart by at least `needed` + share·(distance −
+/// needed); as many of them as were found, where these are too many. Empty where the bodies are not apart by more than
+/// `needed`.
+[[nodiscard]] std::vector<Vector3<double>> covering_directions(const BodyInFrame& first, const BodyInFrame& second,
+                                                               double needed, double share);
+
+}  // namespace taut

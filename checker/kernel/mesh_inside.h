@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether a point is inside of a closed mesh.
+//
+// A mesh is closed if each edge belongs to two triangles. Its inside are the points from which a ray that meets no edge
+// crosses an odd number of triangles: that number is the same, modulo 2, for each such ray, and it only changes where
+// the point crosses a triangle.
+//
+// With corners a, b, c as seen from the point, and the ray's vector r, let x = det(r, a, b), y = det(r, b, c), z =
+// det(r, c, a). If two of them have opposite signs, the line through the point along r does not meet the triangle's
+// inside, nor its edges. If all have one sign, it crosses the triangle inside, at t r with t (x + y + z) = det(a, b, c).
+#pragma once
+
+#include "checker/kernel/bodies.h"
+
+namespace taut::checker {
+
+enum class Side { kOutside, kInside, kUnknown };
+
+/// Of a point in the mesh's unit. @pre surface.is_closed()
+[[nodiscard]] Side side_of(const Surface& surface, const Vector3<Ball>& point);
+
+/// The coordinates, in the mesh's unit, of a point in the axes in which the mesh is placed.
+[[nodiscard]] Vector3<Ball> in_unit_of(const PlacedSurface& mesh, const Vector3<Ball>& point);
+
+}  // namespace taut::checker
