@@ -258,17 +258,17 @@ Html certificate_name(const Summary& s) {
               has_file ? s.recheck.sha256 : s.footer_sha256);
 }
 
-Html declaration(const Summary& s) {
+Html declaration(const ReportContext& scene, const Summary& s) {
   Html text;
   const char* last = "Acknowledged by";
   if (s.verdict == "proved") {
     last = "Lift supervisor";
     text = html(
-        "<b>By signing</b> I confirm that machine, load, limits and tolerances above and under "
+        "<b>By signing</b> I confirm that machine, load, limits{} above and under "
         "<a href=\"#robot\">Machine and load</a> are those of the machine that is used, that it moves slowly and its "
         "controller follows this path, that what the proof does not cover is covered by document "
         "<span class=\"blank\"></span>, and that taut-check accepted the {}.",
-        certificate_name(s));
+        scene.certificate.problem.bodies ? ", tolerances and bodies" : " and tolerances", certificate_name(s));
   } else if (s.verdict == "refuted") {
     text = html(
         "<b>By signing</b> I acknowledge that this move breaks the limits stated above and must not be run as it is "
@@ -383,7 +383,7 @@ Html first_page(const ReportContext& scene, const Summary& s) {
   const Html beside = is_proved ? cables(scene, s) + cables_note(scene, s) : broken(scene) + details(s);
   return html("<header class=\"first {}\">\n{}{}{}{}{}<div class=\"duo\">{}<div>{}</div></div>\n{}{}</header>\n",
               s.verdict, masthead(s.document, s.revision, s.date), title, scope(scene, s), band(scene, s), tiles(s),
-              picture(scene, s), beside, not_covered(s), declaration(s));
+              picture(scene, s), beside, not_covered(s), declaration(scene, s));
 }
 
 Html verdict_section(const Summary& s) {

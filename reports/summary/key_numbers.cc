@@ -308,14 +308,18 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
   const std::size_t k = scene.distances.worst();
   const BodyDistance& nearest = scene.distances.least[k];
   const DisplayUnit& unit = scene.illustration.units.length;
+  constexpr double kSmall = 0.1;  // in mm below
+  const DisplayUnit millimetres(*find_unit("mm"), "mm");
   const auto& proved = scene.certificate.margins ? scene.certificate.margins->clearance_m : std::nullopt;
   const bool has_bound = is_proved && proved;
   // Beyond its clearance, at least, with what deviations take; of samples, of the machine as stated.
   const double left = has_bound ? nearest_double(*proved) : nearest.left();
+  const DisplayUnit& of_left = unit.name() == "m" && std::abs(left) < kSmall ? millimetres : unit;
   const std::string size = has_bound ? truncated(*proved) : "";
-  const std::string value = has_bound  ? fmt::format("{} {} left", unit.exact(size), unit.name())
-                            : left > 0 ? fmt::format("about {} {} left", unit.down(left, kDigits), unit.name())
-                                       : fmt::format("about {} {} too near", unit.nearest(-left, kDigits), unit.name());
+  const std::string value = has_bound ? fmt::format("{} {} left", of_left.exact(size), of_left.name())
+                            : left > 0
+                                ? fmt::format("about {} {} left", of_left.down(left, kDigits), of_left.name())
+                                : fmt::format("about {} {} too near", of_left.nearest(-left, kDigits), of_left.name());
   const std::string asked = unit.exact(pairs(*scene.certificate.problem.bodies).at(nearest.pair).clearance_m);
   return KeyNumber{"clearance",
                    left > 0 ? "Least clearance left" : "Bodies too near",

@@ -74,13 +74,13 @@ function edgesOf(shape, geometry) {
 }
 
 export function bodyMaterials() {
-  const see = (opacity) => ({
+  const see = (opacity, lines = 0.9) => ({
     faces: new MeshLambertMaterial({ transparent: true, opacity, side: DoubleSide, depthWrite: false }),
-    edges: new LineBasicMaterial({ transparent: true, opacity: 0.9 }),
+    edges: new LineBasicMaterial({ transparent: true, opacity: lines }),
   });
   const inFront = { transparent: true, depthWrite: false, depthTest: false };
   return {
-    obstacle: see(0.45), carried: see(0.6), plane: see(0.13),
+    obstacle: see(0.45), carried: see(0.6), plane: see(0.16, 0.3),
     cable: new MeshLambertMaterial({ transparent: true, opacity: 0.35, depthWrite: false }),
     link: new MeshBasicMaterial(inFront), linkCasing: new MeshBasicMaterial({ ...inFront, opacity: 0.8 }),
   };
