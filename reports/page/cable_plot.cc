@@ -109,6 +109,7 @@ Html cable_plot(const ReportContext& scene, const CablePlot& plot) {
 }
 
 Html distance_plot(const ReportContext& scene, const BrokenLimit& broken) {
+  if (!scene.bodies) return {};
   if (scene.certificate.path.segments() == 0 || scene.samples.empty() || found_no_path(scene.certificate)) return {};
   const std::size_t pair = broken.bodies->pair;
   std::vector<std::pair<double, Range>> values;

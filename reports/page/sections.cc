@@ -368,7 +368,7 @@ Html stretches(const ReportContext& scene) {
   const auto place = [&](const PathPoint& point) { return html("{}", place_text(scene, position(point))); };
   const auto violation = [&](const PathWitness& end) {
     const std::string about =
-        end.contact
+        end.contact && scene.bodies
             ? fmt::format(" ({} in floating point)", apart_text(distance_at(scene, position(end.at), end.contact->pair),
                                                                 scene.illustration.units.length))
             : "";

@@ -29,7 +29,7 @@ struct BodiesStatement {
 /// The same of a case, which knows of cylinders and what is in meshes.
 [[nodiscard]] BodiesStatement bodies_statement(const CaseBodies& bodies);
 
-/// "“container” and “stack”", "cable 3 and “stack”", "cables 2 and 5".
+/// "'container' and 'stack'", "cable 3 and 'stack'", "cables 2 and 5".
 [[nodiscard]] std::string pair_words(const BodiesText& bodies, const BodyPair& pair);
 /// "platform and obstacles", "cables and obstacles", "cables among each other", "cables and platform".
 [[nodiscard]] const char* words_of(PairClass kind);

@@ -99,29 +99,46 @@ std::array<BodyDistances::Placed, 2> BodyDistances::placed(const Model<double>& 
   const BodyModel<double>& bodies = bodies_.bodies();
   const CheckedPair<double>& pair = bodies.pairs.at(n);
   const Matrix3<double> turn = pose.q.toRotationMatrix();
+  const auto is_mesh = [](const Obstacle<double>& body) {
+    const auto* convex = std::get_if<ConvexBody<double>>(&body);
+    return convex != nullptr && convex->mesh != nullptr;
+  };
+  const bool has_obstacle = pair.kind == PairClass::kPlatformObstacles || pair.kind == PairClass::kCablesObstacles;
+  const bool has_mesh = (pair.kind == PairClass::kPlatformObstacles && bodies.platform[pair.first].mesh) ||
+                        (pair.kind == PairClass::kCablesPlatform && bodies.platform[pair.second].mesh) ||
+                        (has_obstacle && is_mesh(bodies.obstacles[pair.second]));
+  // Of a mesh, the element that is nearest stands for all of it.
+  const auto elements =
+      has_mesh ? bodies_.nearest(model, pose, n).elements : std::array<std::optional<std::uint32_t>, 2>{};
+  const auto points_of = [&](const ConvexBody<double>& body, std::size_t which) {
+    if (!body.mesh || !elements[which]) return body.points;
+    std::vector<Point> points;
+    for (const auto& f : body.mesh->mesh->points(*elements[which])) points.push_back(body.mesh->place(f));
+    return points;
+  };
   const auto cable = [&](std::size_t i) -> Placed {
     const Point a = model.p_WA[i];
     const Point b = pose.p + turn * model.p_PB[i];
     const Point along = (b - a).normalized();
     return {{a + bodies.cable_free[i][0] * along, b - bodies.cable_free[i][1] * along}, bodies.cable_radius[i]};
   };
-  const auto carried = [&](const ConvexBody<double>& body) {
+  const auto carried = [&](const ConvexBody<double>& body, std::size_t which) {
     Placed result{{}, body.radius};
-    for (const Point& x : body.points) result.points.emplace_back(pose.p + turn * x);
+    for (const Point& x : points_of(body, which)) result.points.emplace_back(pose.p + turn * x);
     return result;
   };
-  const auto fixed = [](const Obstacle<double>& body) -> Placed {
+  const auto fixed = [&](const Obstacle<double>& body) -> Placed {
     if (const auto* half_space = std::get_if<HalfSpace<double>>(&body)) return {{}, 0, half_space};
     const auto& hull = std::get<ConvexBody<double>>(body);
-    return {hull.points, hull.radius};
+    return {points_of(hull, 1), hull.radius};
   };
   switch (pair.kind) {
     case PairClass::kPlatformObstacles: break;
     case PairClass::kCablesObstacles: return {cable(pair.first), fixed(bodies.obstacles[pair.second])};
     case PairClass::kCablesCables: return {cable(pair.first), cable(pair.second)};
-    case PairClass::kCablesPlatform: return {cable(pair.first), carried(bodies.platform[pair.second])};
+    case PairClass::kCablesPlatform: return {cable(pair.first), carried(bodies.platform[pair.second], 1)};
   }
-  return {carried(bodies.platform[pair.first]), fixed(bodies.obstacles[pair.second])};
+  return {carried(bodies.platform[pair.first], 0), fixed(bodies.obstacles[pair.second])};
 }
 
 BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose, std::size_t n) const {

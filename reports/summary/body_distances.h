@@ -39,7 +39,8 @@ class BodyDistances {
   /// The pairs with the least left at a pose, at most `most` of them, the least first.
   [[nodiscard]] std::vector<BodyDistance> nearest(const Model<double>& model, const RigidPose& pose,
                                                   std::size_t most) const;
-  /// What bodies of the pair consist of at a pose: points in W, around each of which a ball of the radius is [m].
+  /// What bodies of the pair consist of at a pose: all within the radius of the hull of some points in W [m]. Of a mesh
+  /// the element that is nearest to the other body.
   struct Placed {
     std::vector<Vector3<double>> points;
     double radius = 0;

@@ -54,6 +54,15 @@ void set_bodies(const ReportContext& scene, BrokenLimit& broken, const BodyDista
   broken.severity = severity_of(bodies);
 }
 
+/// What the witness alone says, where a mesh is not there to measure.
+BodyDistance proved_distance(const ReportContext& scene, const PathWitness& witness) {
+  BodyDistance result;
+  result.pair = witness.contact->pair;
+  result.clearance = nearest_double(pairs(*scene.certificate.problem.bodies).at(result.pair).clearance_m);
+  result.distance = std::max(0.0, result.clearance - nearest_double(witness.depth_m));
+  return result;
+}
+
 BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness) {
   BrokenLimit broken;
   broken.proof = witness;
@@ -61,7 +70,9 @@ BrokenLimit broken_limit(const ReportContext& scene, const PathWitness& witness)
   broken.is_reached = is_reached(scene.certificate, witness);
   broken.position = broken.to = position(witness.at);
   if (witness.contact) {
-    set_bodies(scene, broken, distance_at(scene, broken.position, witness.contact->pair));
+    set_bodies(
+        scene, broken,
+        scene.bodies ? distance_at(scene, broken.position, witness.contact->pair) : proved_distance(scene, witness));
     return broken;
   }
   broken.severity = severity(witness, scene.certificate.problem.robot);
@@ -213,7 +224,10 @@ std::string what_text(const BrokenLimit& broken) {
 
 std::string subject_text(const ReportContext& scene, const BrokenLimit& broken) {
   if (broken.is_singular) return "Singular pose";
-  if (broken.bodies) return scene.bodies.value().name(broken.bodies->pair);
+  if (broken.bodies) {
+    const BodiesText& bodies = *scene.certificate.problem.bodies;
+    return name(bodies, pairs(bodies).at(broken.bodies->pair));
+  }
   return fmt::format("Cable {}", broken.margin.cable + 1);
 }
 
@@ -242,7 +256,7 @@ std::string amount_text(const ReportContext& scene, const BrokenLimit& broken) {
 std::string where_text(const ReportContext& scene, const BrokenLimit& broken) {
   std::string text = place_in_full(scene, broken.position, broken.to);
   if (const std::string rows = rows_text(scene, broken.position); !rows.empty()) text += "; " + rows;
-  if (broken.bodies) {
+  if (broken.bodies && scene.bodies) {
     const DisplayUnit& length = scene.illustration.units.length;
     const auto& [first, second] = broken.bodies->at;
     text += broken.bodies->distance < 0 ? fmt::format("; about {}", point_in_space(first, length))

@@ -157,6 +157,9 @@ std::string limit_details(const ReportContext& scene, const PathWitness& witness
 std::string contact_details(const ReportContext& scene, const PathWitness& witness) {
   const double at = position(witness.at);
   const PathSample sample = scene.sampler.at(scene.certificate.path, at);
+  const std::string where =
+      fmt::format("Where: {}. The pose there, rounded: {}.", place_text(scene, at), pose_text(scene, sample.pose));
+  if (!scene.bodies) return where;
   const BodyDistance distance =
       scene.bodies->at(scene.sampler.model(), scene.sampler.rigid_pose(sample), witness.contact->pair);
   const DisplayUnit& unit = scene.illustration.units.length;
@@ -164,10 +167,8 @@ std::string contact_details(const ReportContext& scene, const PathWitness& witne
       distance.distance < 0 ? fmt::format("next to {}", point_in_space(distance.at[0], unit))
                             : fmt::format("at {} of the first and {} of the second",
                                           point_in_space(distance.at[0], unit), point_in_space(distance.at[1], unit));
-  return fmt::format(
-      "In floating point they are {} there, {}. Where: {}. The pose there, rounded: {}. A point of either body proves "
-      "it.",
-      apart_text(distance, unit), points, place_text(scene, at), pose_text(scene, sample.pose));
+  return fmt::format("In floating point they are {} there, {}. {} A point of either body proves it.",
+                     apart_text(distance, unit), points, where);
 }
 
 /// What a violation at the only pose of a certificate means. The checker compares that pose with the waypoints of the

@@ -22,7 +22,7 @@ namespace taut {
 
 /// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N". A tension beyond
 /// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding. Of bodies:
-/// "cable 3 and “stack” come within 200 mm of each other, the clearance asked for".
+/// "cable 3 and 'stack' come within 200 mm of each other, the clearance asked for".
 [[nodiscard]] std::string violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units);
 
 /// "0.0499 N": the value of a witness that is next to its limit, in as few digits as show it beyond the limit, rounded

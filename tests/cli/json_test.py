@@ -72,7 +72,7 @@ class Json(InFolder):
         self.assertEqual([c["class"] for c in shown["bodies"]["checked"]],
                          ["platform-obstacles", "cables-obstacles", "cables-cables", "cables-platform"])
         self.assertEqual(shown["bodies"]["not_checked"], [])
-        self.assertEqual(shown["waypoints"][0]["nearest_bodies"][0]["pair"], ["container", "stack"])
+        self.assertEqual(shown["waypoints"][0]["nearest_bodies"][0]["pair"], ["cable 1", "cable 2"])
         planned = self.printed(TAUT, "plan", case, "--out", self.path("stack"), code=0)
         self.assertEqual(planned["bodies"], shown["bodies"])
         self.assertGreater(float(planned["margins"]["clearance_m"]), 0)
@@ -88,7 +88,7 @@ class Json(InFolder):
         self.assertEqual(audited["witness"]["kind"], "contact")
         report = self.printed(TAUT, "report", self.path("plate", "certificate.json"), code=0)
         self.assertIsNone(report["bodies"]["proved_left_m"])
-        self.assertIn("“hook” and “plate”", report["headline"])
+        self.assertIn("'hook' and 'plate'", report["headline"])
 
     def test_audits(self):
         for case in sorted(glob.glob(os.path.join(AUDITS, "robot1-*.yaml"))):

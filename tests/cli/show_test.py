@@ -44,7 +44,7 @@ class Show(unittest.TestCase):
         self.assertEqual((said.returncode, said.stderr), (0, ""))
         for expected in ("Bodies that may not touch", "platform and obstacles, 2 pairs, 200 mm",
                          "cables among each other, 15 pairs, 20 mm", "28 mm thick",
-                         "“stack”, obstacle: a box of 2.4 × 6.1 × 2.6 m", "container / stack", "apart [m]"):
+                         "'stack', obstacle: a box of 2.4 × 6.1 × 2.6 m", "container / stack", "apart [m]"):
             self.assertIn(expected, said.stdout)
         self.assertNotIn("Not checked", said.stdout)
         shown = json.loads(run(TAUT, "show", case, "--json").stdout)
@@ -75,7 +75,7 @@ class Show(unittest.TestCase):
             planned = run(TAUT, "plan", case, "--out", os.path.join(folder, "out"))
             self.assertEqual(planned.returncode, 1, planned.stdout)
             self.assertRegex(planned.stdout, r"(?s)Bodies: .*Not\s+checked: cables among.*REFUTED")
-            self.assertRegex(planned.stdout, r"at\s+waypoint\s+0\s+of\s+the\s+query\s+“container”\s+and\s+“stack”")
+            self.assertRegex(planned.stdout, r"at\s+waypoint\s+0\s+of\s+the\s+query\s+'container'\s+and\s+'stack'")
             checked = run(CHECK, os.path.join(folder, "out", "certificate.json"))
             self.assertEqual(checked.returncode, 0, checked.stdout)
             self.assertIn("NOT CHECKED: cables-cables; cables-platform", checked.stdout)

@@ -130,7 +130,7 @@ TEST(ReportOfBodies, SaysWhatIsCheckedAndWhatIsNot) {
   ASSERT_NE(statement, summary.statements.end());
   EXPECT_THAT(statement->text,
               AllOf(HasSubstr("platform and obstacles, 2 pairs, 20 mm"), HasSubstr("cables and obstacles, 12 pairs"),
-                    HasSubstr("Not checked: cables among each other, cables and platform."), HasSubstr("“post”")));
+                    HasSubstr("Not checked: cables among each other, cables and platform."), HasSubstr("'post'")));
   const ScopeItem collisions = not_covered(scene.certificate.problem).front();
   EXPECT_THAT(collisions.text, AllOf(HasSubstr("not among the stated bodies"), HasSubstr("cables among each other"),
                                      HasSubstr("free ends")));
@@ -160,7 +160,7 @@ TEST(ReportOfBodies, HasTheProvedClearanceAndTheNearestPair) {
 TEST(ReportOfBodies, NamesAContactWithPairPlaceDepthAndPoints) {
   const ReportContext scene = sample::scene(sample::contact());
   // 30 mm are asked for, and 31.5 mm are missing.
-  EXPECT_EQ(headline(scene), "Refuted: on this move “plate” and “post” touch; the clearance asked for is 30 mm.");
+  EXPECT_EQ(headline(scene), "Refuted: on this move 'plate' and 'post' touch; the clearance asked for is 30 mm.");
   const std::vector<BrokenLimit> broken = broken_limits(scene);
   ASSERT_FALSE(broken.empty());
   ASSERT_TRUE(broken.front().bodies);
