@@ -61,9 +61,9 @@ struct ExpectedPath {
 /// takes for granted that these are the file's points and faces.
 struct SuppliedMesh {
   std::string sha256;
-  std::vector<std::array<double, 3>> points;             ///< in the file's unit
-  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< indices of points
-  std::vector<std::array<std::uint32_t, 2>> needles;     ///< segments that are no edge of a triangle
+  std::vector<std::array<double, 3>> points;            ///< in the file's unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points
+  std::vector<std::array<std::uint32_t, 2>> needles;    ///< segments that are no edge of a triangle
 };
 /// Looks for the file that a certificate names, with this digest. It may throw, and check() lets that pass.
 using MeshSupplier = std::function<SuppliedMesh(const std::string& file, const std::string& sha256)>;
