@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes in the checker's kernel: the bound of (2) in mesh_clearance.h against all elements one by one, in 200 bits, and
-// sides of closed meshes.
+// Meshes in the checker's kernel: the bound of (2) in mesh_clearance.h against all elements one by one, in 200 bits,
+// and sides of closed meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
