@@ -27,8 +27,7 @@ LoadedMesh find_mesh(const std::vector<std::filesystem::path>& folders, const st
   bool has_other = false;
   for (const std::filesystem::path& folder : folders) {
     looked_at += (looked_at.empty() ? "" : ", ") + (folder.empty() ? std::string(".") : sanitize(folder.string()));
-    for (const std::string& name :
-         {file, mesh_name_beside(file, sha256), mesh_name_beside(file, sha256, true)}) {
+    for (const std::string& name : {file, mesh_name_beside(file, sha256), mesh_name_beside(file, sha256, true)}) {
       std::error_code ignored;
       const std::filesystem::path path = folder / name;
       if (!std::filesystem::is_regular_file(path, ignored)) continue;

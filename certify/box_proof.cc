@@ -535,9 +535,9 @@ void judge_bodies(const ProofModel<I>& problem, const BoxEnclosure<I>& enclosure
     // Of a pair that is farther apart than another one, nothing more is asked.
     const double rough = gaps.rough(pair, directions.single[n]);
     if (rough > 0 && rough >= verdict.clearance_m) continue;
-    const PairBound bound = gaps.has_mesh(pair)
-                                ? bound_of_mesh(gaps, pair, directions.of(n), std::max(verdict.clearance_m, kJustPositive))
-                                : bound_along(gaps, pair, directions.single[n]);
+    const PairBound bound =
+        gaps.has_mesh(pair) ? bound_of_mesh(gaps, pair, directions.of(n), std::max(verdict.clearance_m, kJustPositive))
+                            : bound_along(gaps, pair, directions.single[n]);
     verdict.clearance_m = std::min(verdict.clearance_m, bound.lower);
     if (bound.lower > 0) continue;
     verdict.kind = BoxVerdict::Kind::kNear;

@@ -117,8 +117,8 @@ struct BoxVerdict {
     kSpansKnot,     ///< T reaches across an inner pose of the reference, and nothing was tried
     kOutOfRange,    ///< at the midpoint a parameter may be outside of its range (only where the motion is implied)
     kNear,          ///< as kProved, but some pairs of bodies are not shown to be apart along the given directions
-    kInside,        ///< as kProved, but of one pair a part of a body is inside of the other, a closed mesh, at the midpoint
-    kFault,         ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
+    kInside,  ///< as kProved, but of one pair a part of a body is inside of the other, a closed mesh, at the midpoint
+    kFault,   ///< some operation left its domain or overflowed: T is too wide, or the pose is not defined
   };
   Kind kind = Kind::kFault;
   MarginId worst;  ///< the margin that decided, or stood in the way

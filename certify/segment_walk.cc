@@ -345,8 +345,8 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
   return give_up;
 }
 
-/// Takes the directions along which the near pairs are farthest apart at the middle of a box, with more digits and for meshes more of
-/// them each time. @returns whether any is another one.
+/// Takes the directions along which the near pairs are farthest apart at the middle of a box, with more digits and for
+/// meshes more of them each time. @returns whether any is another one.
 bool SegmentWalk::redirect(const DyadicBox& box, const BoxVerdict& verdict, std::size_t time) {
   constexpr std::array<int, kMostRedirections> kLargest = {Direction::kFine, Direction::kLargest};
   constexpr std::array<double, kMostRedirections> kShare = {0.5, 0.9};  // of a mesh's gap

@@ -4,10 +4,10 @@
 // This checker shares with the prover the certificate's format and nothing else: own equations, own parser, own
 // arithmetic, and no search. To believe "accepted", read in this order: theorem.h; in kernel/ (the mathematics)
 // errors.h, ball.h, mean_value_form.h, expression.h, linear.h, surface.h, statement.h, loads.h, bodies.h,
-// machine.h, zero.h, motion.h, deviation.h, clearance.h, mesh_clearance.h, box_proof.h, deviant.h and their .cc; witness.h, near_waypoints.h and
-// confirm.cc (what is proved of which poses); then format/ (that the numbers are those of the file);
-// format/signature.h if it matters who wrote it.
-// For "no path": cell_form.h, outside.h and .cc in kernel/, then no_path.h and .cc.
+// machine.h, zero.h, motion.h, deviation.h, clearance.h, mesh_clearance.h, mesh_inside.h, box_proof.h, deviant.h and
+// their .cc; witness.h, near_waypoints.h and confirm.cc (what is proved of which poses); then format/ (that the numbers
+// are those of the file); format/signature.h if it matters who wrote it. For "no path": cell_form.h, outside.h and .cc
+// in kernel/, then no_path.h and .cc.
 #pragma once
 
 #include <array>
@@ -61,9 +61,9 @@ struct ExpectedPath {
 /// takes for granted that these are the file's points and faces.
 struct SuppliedMesh {
   std::string sha256;
-  std::vector<std::array<double, 3>> points;             ///< in the file's unit
-  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< indices of points
-  std::vector<std::array<std::uint32_t, 2>> needles;     ///< segments that are no edge of a triangle
+  std::vector<std::array<double, 3>> points;            ///< in the file's unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points
+  std::vector<std::array<std::uint32_t, 2>> needles;    ///< segments that are no edge of a triangle
 };
 /// Looks for the file that a certificate names, with this digest. It may throw, and check() lets that pass.
 using MeshSupplier = std::function<SuppliedMesh(const std::string& file, const std::string& sha256)>;

@@ -422,11 +422,10 @@ int run_audit(const AuditArguments& arguments) {
     return report_interruption("audit", "interrupted: nothing was written", arguments.json);
   }
   files.finish();
-  const checker::CheckResult checked =
-      files.size > kMostCheckedBytes
-          ? too_long_to_check()
-          : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds, interruption.token(),
-                    meshes_of(case_.problem));
+  const checker::CheckResult checked = files.size > kMostCheckedBytes
+                                           ? too_long_to_check()
+                                           : recheck(read_whole(files.certificate.temporary()), arguments.max_seconds,
+                                                     interruption.token(), meshes_of(case_.problem));
   require_confirmed(checked);
   std::optional<ReportContext> context;
   if (result.segments <= kMostReported && checked.certificate != nullptr) {

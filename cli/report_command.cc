@@ -73,7 +73,8 @@ int run_report(const ReportArguments& arguments) {
   const Interruption interruption;
   // Read once: what is shown is what was checked.
   const std::string bytes = read_whole(arguments.certificate_path);
-  const checker::CheckResult checked = recheck(bytes, arguments.max_seconds, interruption.token(),
+  const checker::CheckResult checked =
+      recheck(bytes, arguments.max_seconds, interruption.token(),
               meshes_in({std::filesystem::path(arguments.certificate_path).parent_path()}));
   if (checked.outcome == checker::Outcome::kMalformed) {
     // A report's reader says what it saw and where; what only the checker minds is said in its words.

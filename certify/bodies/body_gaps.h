@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether two bodies stay apart over a box of a segment, or over a cell of a map: the gap along a given direction, and the distance of two
-// given points.
+// Whether two bodies stay apart over a box of a segment, or over a cell of a map: the gap along a given direction, and
+// the distance of two given points.
 //
 // For every vector u and all points a_k, b_l and radii of two bodies,
 //   gap ‖u‖ >= min_k (u·a_k(t) − r_k ‖u‖) − max_l (u·b_l(t) + r_l ‖u‖).
@@ -8,7 +8,8 @@
 // axes of the world
 //   u·(p + R x) = u·p + (Rᵀu)·x,   the ends of cable i: u·a_i and u·p + (Rᵀu)·b_i,
 // and in those of the platform its points stand still, a point x of an obstacle is at (R u)·(x − p), and the ends of
-// cable i are (R u)·(a_i − p) and u·b_i. A cable's points at the shares λ of its length lie between them. Proofs: docs/theory.md, "Bodies".
+// cable i are (R u)·(a_i − p) and u·b_i. A cable's points at the shares λ of its length lie between them. Proofs:
+// docs/theory.md, "Bodies".
 #pragma once
 
 #include <array>

@@ -202,9 +202,10 @@ MeshSide BodyGaps<I, Slope>::side_at_mid(const CheckedPair<I>& pair, bool first_
     const Vector3<I> from(x(0) - solid->at(0), x(1) - solid->at(1), x(2) - solid->at(2));
     std::array<I, 3> f;
     for (int k = 0; k < 3; ++k) {
-      const I here = solid->turn ? I((*solid->turn)(0, k) * from(0) + (*solid->turn)(1, k) * from(1) +
-                                     (*solid->turn)(2, k) * from(2))
-                                 : from(k);
+      const I here =
+          solid->turn
+              ? I((*solid->turn)(0, k) * from(0) + (*solid->turn)(1, k) * from(1) + (*solid->turn)(2, k) * from(2))
+              : from(k);
       f[static_cast<std::size_t>(k)] = here / solid->unit;
     }
     return mesh_side(*solid->mesh, f);
@@ -231,9 +232,9 @@ template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval
 template const PlacedMesh<Interval>* BodyGaps<Interval>::mesh(const CheckedPair<Interval>&, bool) const;
 template const PlacedMesh<MpInterval>* BodyGaps<MpInterval>::mesh(const CheckedPair<MpInterval>&, bool) const;
 template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 2>>::mesh(const CheckedPair<Interval>&,
-                                                                                    bool) const;
+                                                                                     bool) const;
 template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 3>>::mesh(const CheckedPair<Interval>&,
-                                                                                    bool) const;
+                                                                                     bool) const;
 template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&) const;
 template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&) const;
 template bool BodyGaps<Interval>::has_mesh(const CheckedPair<Interval>&) const;

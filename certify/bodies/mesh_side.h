@@ -119,7 +119,8 @@ template <class I>
       return MeshSide::kOutside;
     }
   }
-  constexpr std::array<std::array<int, 3>, 4> kRays = {{{61, 97, 1009}, {1013, -89, 71}, {-83, 1019, -67}, {73, 59, -997}}};
+  constexpr std::array<std::array<int, 3>, 4> kRays = {
+      {{61, 97, 1009}, {1013, -89, 71}, {-83, 1019, -67}, {73, 59, -997}}};
   for (const auto& ray : kRays) {
     const MeshSide side = mesh_side_detail::RayCount<I>(mesh, point, ray).side();
     if (side != MeshSide::kUnknown) return side;

@@ -491,6 +491,25 @@ std::optional<BodySampler::Touching> BodySampler::touching(const Model<double>& 
   return result;
 }
 
+namespace {
+
+/// A gap that is not larger than that of a pair, from boxes around meshes. @pre it is not against a half-space
+double gap_of_boxes(const BodyModel<double>& bodies, const Model<double>& model, const RigidPose& pose, std::size_t n) {
+  const CheckedPair<double>& pair = bodies.pairs[n];
+  const bool is_of_platform = pair.kind == PairClass::kPlatformObstacles;
+  const bool is_against_platform = pair.kind == PairClass::kCablesPlatform;
+  const ConvexBody<double>& second =
+      is_against_platform ? bodies.platform[pair.second] : std::get<ConvexBody<double>>(bodies.obstacles[pair.second]);
+  const std::vector<Point> of_first =
+      is_of_platform ? carried(bodies.platform[pair.first], pose) : cable_ends(bodies, model, pose, pair.first);
+  const std::vector<Point> of_second = is_against_platform ? carried(second, pose) : second.points;
+  const double radii =
+      (is_of_platform ? bodies.platform[pair.first].radius : bodies.cable_radius[pair.first]) + second.radius;
+  return nearest_points(of_first, of_second).distance - radii - pair.clearance;
+}
+
+}  // namespace
+
 bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const {
   carried.pairs.resize(bodies_.pairs.size());
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
@@ -501,7 +520,9 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
           bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);
       if (moved < last->gap) continue;
     }
-    last = {gap(model, pose, n), pose};
+    // Boxes around meshes may tell at once.
+    const double rough = needs_list(n) ? gap_of_boxes(bodies_, model, pose, n) : 0;
+    last = {rough > 0 ? rough : gap(model, pose, n), pose};
     if (!(last->gap > 0)) return false;
   }
   return true;

@@ -23,8 +23,8 @@ struct PlacedSurface {
     return at + multiply(R, unit * Vector3<Ball>{Ball(f[0]), Ball(f[1]), Ball(f[2])});
   }
 };
-/// All points within `radius` of the convex hull of `points` [m]: of an obstacle in W, of a platform's body in P. Or, if
-/// there is one, a mesh and nothing else.
+/// All points within `radius` of the convex hull of `points` [m]: of an obstacle in W, of a platform's body in P. Or,
+/// if there is one, a mesh and nothing else.
 struct PlacedHull {
   std::vector<Vector3<Ball>> points;
   Ball radius;
@@ -37,7 +37,8 @@ struct PlacedHalfSpace {
 };
 
 struct PlacedBodies {
-  /// Computes at the working precision. @throws Undefined where a rotation has no value, and for a mesh that nobody read.
+  /// Computes at the working precision. @throws Undefined where a rotation has no value, and for a mesh that nobody
+  /// read.
   explicit PlacedBodies(const Problem& problem);
 
   /// The first or the second body of a pair; null where it is a cable or a half-space.

@@ -101,8 +101,8 @@ class Clearances {
   }
 
   /// In the middle of the box, no part of the other body is inside of the first one, or of the second, if that is a
-  /// closed mesh. A part that hangs together stays on its side of a surface that it does not touch: so one point of each
-  /// is enough, at one pose.
+  /// closed mesh. A part that hangs together stays on its side of a surface that it does not touch: so one point of
+  /// each is enough, at one pose.
   void require_outside(const CheckedPair& pair, bool of_first) {
     const PlacedSurface* const mesh = bodies_.mesh(pair, of_first);
     if (mesh == nullptr || !mesh->surface->is_closed()) return;

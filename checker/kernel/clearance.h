@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clause "clearance": the two bodies of every checked pair are farther apart than the pair's clearance.
 //
-// Every body is a half-space, a mesh (mesh_clearance.h), or the hull of finitely many balls, which is convex. Let the first body of a pair be the
-// hull of balls (a_k, r_k), the second that of balls (b_l, s_l). For every vector u that is not 0 their distance is at
-// least
+// Every body is a half-space, a mesh (mesh_clearance.h), or the hull of finitely many balls, which is convex. Let the
+// first body of a pair be the hull of balls (a_k, r_k), the second that of balls (b_l, s_l). For every vector u that is
+// not 0 their distance is at least
 //     min_k (u . a_k / |u| - r_k)  -  max_l (u . b_l / |u| + s_l),                                                (1)
 // as no point of the first has a smaller u . x / |u| than the first term, and none of the second a larger one than the
 // second. That of a half-space {x : n . x <= c} is c / |n| for u = n. Any u will do: a poor one proves less.

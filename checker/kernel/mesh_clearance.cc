@@ -165,8 +165,8 @@ class MarginSearch {
   double scale_ = 1;
   std::size_t evaluated_ = 0;
   const Ball nearly_{mpq_class(99, 100)};  ///< nothing is opened for a hundredth more
-  std::optional<Ball> least_;   ///< of the elements that were looked at
-  std::optional<Ball> result_;  ///< of all that is accounted for
+  std::optional<Ball> least_;              ///< of the elements that were looked at
+  std::optional<Ball> result_;             ///< of all that is accounted for
 };
 
 }  // namespace

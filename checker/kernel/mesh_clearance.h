@@ -4,7 +4,7 @@
 // A mesh is the union of its elements, each the hull of three points. Its distance from another body is the least of
 // its elements' distances; if both are meshes, the least over all pairs of elements. For each element, or pair, (1) of
 // clearance.h holds for every vector u, so that for a list of such vectors the largest of what they prove is proved:
-//     distance >= min over elements of max over u of [ min_k (u . a_k / |u|) - max_l (u . b_l / |u|) ].              (2)
+//     distance >= min over elements of max over u of [ min_k (u . a_k / |u|) - max_l (u . b_l / |u|) ].       (2)
 // Along one u, a mesh's point with the coordinates f in its file's unit is at c + w . f, the c and w being constants of
 // a mesh that stands still, and functions of s of one that the platform carries. The range of c + w . f over a box that
 // contains some elements bounds what each of them is; so what (2) gives for a box is not more than it is for any

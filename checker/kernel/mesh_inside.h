@@ -7,7 +7,8 @@
 //
 // With corners a, b, c as seen from the point, and the ray's vector r, let x = det(r, a, b), y = det(r, b, c), z =
 // det(r, c, a). If two of them have opposite signs, the line through the point along r does not meet the triangle's
-// inside, nor its edges. If all have one sign, it crosses the triangle inside, at t r with t (x + y + z) = det(a, b, c).
+// inside, nor its edges. If all have one sign, it crosses the triangle inside, at t r with t (x + y + z) = det(a, b,
+// c).
 #pragma once
 
 #include "checker/kernel/bodies.h"

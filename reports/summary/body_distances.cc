@@ -9,6 +9,8 @@
 #include <numeric>
 #include <span>
 
+#include "certify/bodies/nearest_mesh.h"
+
 namespace taut {
 namespace {
 
@@ -141,9 +143,49 @@ std::array<BodyDistances::Placed, 2> BodyDistances::placed(const Model<double>& 
   return {carried(bodies.platform[pair.first], 0), fixed(bodies.obstacles[pair.second])};
 }
 
+namespace {
+
+/// The first or the second body of a pair at a pose: a mesh, or else these points.
+BodyInFrame in_frame(const BodyModel<double>& bodies, const CheckedPair<double>& pair, bool is_first,
+                     const RigidPose& pose, const Points& points) {
+  const bool is_of_platform = pair.kind == (is_first ? PairClass::kPlatformObstacles : PairClass::kCablesPlatform);
+  const ConvexBody<double>* body = nullptr;
+  if (is_of_platform) {
+    body = &bodies.platform[is_first ? pair.first : pair.second];
+  } else if (!is_first && pair.kind != PairClass::kCablesCables) {
+    body = std::get_if<ConvexBody<double>>(&bodies.obstacles[pair.second]);
+  }
+  BodyInFrame result;
+  if (body == nullptr || body->mesh == nullptr) {
+    result.points = points;
+    return result;
+  }
+  const PlacedMesh<double>& mesh = *body->mesh;
+  result.mesh = mesh.mesh.get();
+  result.origin = mesh.at;
+  result.axes = mesh.unit * (mesh.turn ? *mesh.turn : Matrix3<double>::Identity());
+  if (!is_of_platform) return result;
+  const Matrix3<double> turn = pose.q.toRotationMatrix();
+  result.origin = pose.p + turn * result.origin;
+  result.axes = turn * result.axes;
+  return result;
+}
+
+}  // namespace
+
 BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose, std::size_t n) const {
-  const auto [first, second] = placed(model, pose, n);
-  BodyDistance result{n, 0, bodies_.bodies().pairs[n].clearance};
+  auto [first, second] = placed(model, pose, n);
+  const CheckedPair<double>& pair = bodies_.bodies().pairs[n];
+  BodyDistance result{n, 0, pair.clearance};
+  const BodyInFrame a = in_frame(bodies_.bodies(), pair, true, pose, first.points);
+  const BodyInFrame b = in_frame(bodies_.bodies(), pair, false, pose, second.points);
+  if (second.half_space != nullptr) {
+    if (a.mesh != nullptr) first.points = points_of(a, lowest_element(a, second.half_space->normal));
+  } else if (a.mesh != nullptr || b.mesh != nullptr) {  // what comes nearest of a mesh stands for it
+    const auto [of_first, of_second] = nearest_elements(a, b).elements;
+    first.points = points_of(a, of_first);
+    second.points = points_of(b, of_second);
+  }
   if (const HalfSpace<double>* half_space = second.half_space) {
     const Point normal = half_space->normal.normalized();
     const auto height = [&](const Point& x) { return normal.dot(x) - half_space->offset / half_space->normal.norm(); };

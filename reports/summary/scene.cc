@@ -74,8 +74,7 @@ Certificate certificate_of(const checker::CheckResult& checked) {
   if (!checked.theorem && checked.certificate == nullptr) {
     throw std::logic_error("a report was asked for of a malformed certificate");
   }
-  Certificate certificate =
-      read_certificate(checked.theorem ? checked.theorem->certificate() : *checked.certificate);
+  Certificate certificate = read_certificate(checked.theorem ? checked.theorem->certificate() : *checked.certificate);
   if (!certificate.problem.bodies) return certificate;
   for (const checker::SuppliedMesh& mesh : checked.meshes) {
     const auto indexed = std::make_shared<const IndexedMesh>(TriangleMesh{mesh.points, mesh.triangles, mesh.needles});

@@ -218,7 +218,9 @@ TEST(MeshBodies, AreTheProblemsOwnToTheChecker) {
   EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.triangles.clear(); }), checker::Outcome::kRejected);
   EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.triangles[0][0] = 1000; }), checker::Outcome::kRejected);
   EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.points[0] = {0, 0, 5}; }), checker::Outcome::kRejected);
-  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) { mesh.points[0] = {0, 0, std::nan("")}; }),
+  EXPECT_EQ(with([](checker::SuppliedMesh& mesh) {
+              mesh.points[0] = {0, 0, std::nan("")};
+            }),
             checker::Outcome::kRejected);
 }
 

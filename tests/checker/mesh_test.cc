@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes in the checker's kernel: the bound of (2) in mesh_clearance.h against all elements one by one, in 200 bits, and
-// sides of closed meshes.
+// Meshes in the checker's kernel: the bound of (2) in mesh_clearance.h against all elements one by one, in 200 bits,
+// and sides of closed meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -145,8 +145,8 @@ TEST(MeshClearance, IsTheLeastOfAllElements) {
       EXPECT_GE(approx(found), 0.98 * truth - 1e-11) << trial;
       // No more than is asked for, but that surely.
       const Ball asked = Ball(0.5 * truth);
-      EXPECT_TRUE(certainly_nonnegative(
-          mesh_margin(is_hull ? nullptr : &first, &second, both, {}, Ball(), asked) - asked));
+      EXPECT_TRUE(
+          certainly_nonnegative(mesh_margin(is_hull ? nullptr : &first, &second, both, {}, Ball(), asked) - asked));
     } else {
       EXPECT_LE(approx(found), std::max(truth, 0.0) + 1e-11) << trial;
     }

@@ -17,8 +17,8 @@ namespace taut::testing {
 inline TriangleMesh box_mesh(const std::array<double, 3>& half) {
   TriangleMesh mesh;
   for (unsigned k = 0; k < 8; ++k) {
-    mesh.vertices.push_back({(k & 1U) != 0 ? half[0] : -half[0], (k & 2U) != 0 ? half[1] : -half[1],
-                             (k & 4U) != 0 ? half[2] : -half[2]});
+    mesh.vertices.push_back(
+        {(k & 1U) != 0 ? half[0] : -half[0], (k & 2U) != 0 ? half[1] : -half[1], (k & 4U) != 0 ? half[2] : -half[2]});
   }
   for (const auto& [fixed, u, v] : {std::array{1U, 2U, 4U}, std::array{2U, 1U, 4U}, std::array{4U, 1U, 2U}}) {
     for (const unsigned side : {0U, fixed}) {
@@ -68,8 +68,7 @@ inline TriangleMesh sphere_mesh(double radius, int depth) {
 
 /// As if it had been read from a file with this digest.
 inline MeshText mesh_text(TriangleMesh mesh, char digest, DecimalText unit_m = "1") {
-  return {"mesh.stl", std::string(64, digest), std::move(unit_m),
-          std::make_shared<const IndexedMesh>(std::move(mesh))};
+  return {"mesh.stl", std::string(64, digest), std::move(unit_m), std::make_shared<const IndexedMesh>(std::move(mesh))};
 }
 
 }  // namespace taut::testing
