@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 find_package(CLI11 REQUIRED)
-add_executable(soundness soundness/soundness.cc soundness/trial.cc)
+add_executable(soundness soundness/soundness.cc soundness/trial.cc soundness/body_judge.cc
+  soundness/body_scene.cc)
 target_link_libraries(soundness
   PRIVATE taut_common taut_case taut_certificate taut_certify taut_shards CLI11::CLI11 fmt::fmt)
 target_compile_definitions(soundness PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
