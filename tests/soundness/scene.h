@@ -197,6 +197,21 @@ void for_each_feature(std::size_t points, const Visit& visit) {
   }
 }
 
+/// Whether a plane across v, a vector from the one hull's nearest point to the other's, parts them.
+template <class S>
+bool parts(const Vec<S>& v, const std::vector<Vec<S>>& a, const std::vector<Vec<S>>& b) {
+  S low = dot(v, a[0]), high = dot(v, b[0]);
+  for (const Vec<S>& x : a) {
+    const S here = dot(v, x);
+    if (here < low) low = here;
+  }
+  for (const Vec<S>& x : b) {
+    const S here = dot(v, x);
+    if (here > high) high = here;
+  }
+  return !(low - high < S(0.5) * dot(v, v));
+}
+
 /// Of hulls that do not meet, a vertex and a face, or two edges, or parts of these, have the nearest points.
 template <class S>
 NearestFeatures<S> nearest_features(const std::vector<Vec<S>>& a, const std::vector<Vec<S>>& b) {
@@ -220,15 +235,7 @@ NearestFeatures<S> nearest_features(const std::vector<Vec<S>>& a, const std::vec
       best.apart = *v;
     }
   }
-  const auto along = [&](const Vec<S>& x) { return dot(best.apart, x); };
-  S low = along(a[0]), high = along(b[0]);
-  for (const Vec<S>& x : a) {
-    if (along(x) < low) low = along(x);
-  }
-  for (const Vec<S>& x : b) {
-    if (along(x) > high) high = along(x);
-  }
-  best.overlap = low - high < S(0.5) * *least;
+  best.overlap = !parts(best.apart, a, b);
   return best;
 }
 
@@ -259,7 +266,7 @@ inline BigFloat distance_of(const SolidPair<BigFloat>& pair, const SolidPair<dou
   if (!pair[1].is_half_space) {
     const NearestFeatures<double> nearest = nearest_features(approx[0].points, approx[1].points);
     const auto v = nearest.overlap ? std::nullopt : between(pair[0].points, pair[1].points, nearest.features);
-    if (v) return root(dot(*v, *v)) - pair[0].radius - pair[1].radius;
+    if (v && parts(*v, pair[0].points, pair[1].points)) return root(dot(*v, *v)) - pair[0].radius - pair[1].radius;
   }
   return distance_of<BigFloat>(pair);
 }
