@@ -19,6 +19,8 @@
 namespace taut::campaign {
 namespace {
 
+/// With dozens of pairs a box takes long; more of them decide little.
+constexpr int kMostMultiprecisionBoxes = 60;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool is_equal(const DecimalText& a, const DecimalText& b) {
@@ -73,7 +75,7 @@ class BodyJudge {
       return;
     }
     ProofOptions options;
-    options.max_multiprecision_boxes = options_.multiprecision;
+    options.max_multiprecision_boxes = std::min(options_.multiprecision, kMostMultiprecisionBoxes);
     const Prover prover(trial_.problem, options);
     const Segment segment = trial_.law == Law::kCableLengths ? trial_.curve() : prover.prepared(trial_.curve());
     const SegmentProof proof = prover.prove(segment);

@@ -24,7 +24,11 @@
 // hold. This is tested, too: of seeds that are surveyed every margin is computed in both. Where a load has balls and
 // discs, of which the judge tries 28 vectors for each cable, that saves most of the time of a judgement.
 //
-// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--undecided] [--surveys N]
+// One seed of eight (--bodies: each) has bodies around the machine, too: hulls, half-spaces, cables, walls thinner than
+// any sampling (body_judge.cc, body_scene.cc, scene.h). There the hidden violation is of a pair's clearance, which is
+// set δ more or less than the pair's least distance.
+//
+// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--bodies] [--undecided] [--surveys N]
 // [--kernels N] [--decades N] [--multiprecision N] [--threads N] [--budget SECONDS]
 #include <fmt/format.h>
 
