@@ -24,7 +24,11 @@
 // hold. This is tested, too: of seeds that are surveyed every margin is computed in both. Where a load has balls and
 // discs, of which the judge tries 28 vectors for each cable, that saves most of the time of a judgement.
 //
-// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--undecided] [--surveys N]
+// One seed of eight (--bodies: each) has bodies around the machine, too: hulls, half-spaces, cables, walls thinner than
+// any sampling (body_judge.cc, body_scene.cc, scene.h). There the hidden violation is of a pair's clearance, which is
+// set δ more or less than the pair's least distance.
+//
+// Usage: soundness [COUNT [SEED]] [--law LAW] [--tolerances KIND] [--loads KIND] [--bodies] [--undecided] [--surveys N]
 // [--kernels N] [--decades N] [--multiprecision N] [--threads N] [--budget SECONDS]
 #include <fmt/format.h>
 
@@ -52,198 +56,53 @@
 #include "shards/dealing.h"
 #include "shards/part_files.h"
 #include "shards/ranks.h"
+#include "tests/soundness/body_judge.h"
+#include "tests/soundness/deviations.h"
+#include "tests/soundness/limits.h"
+#include "tests/soundness/tally.h"
 #include "tests/soundness/trial.h"
 
 namespace taut::campaign {
 namespace {
 
-DecimalText decimal(const BigFloat& x) {
-  char* text = nullptr;
-  mpfr_asprintf(&text, "%.45Re", x.get());
-  DecimalText result = text;
-  mpfr_free_str(text);
-  return result;
-}
-DecimalText decimal(double x) { return fmt::format("{:.6e}", x); }
-
-// ---- Quantities and their limits ------------------------------------------------------------------------------------
-
-bool is_upper(MarginKind kind) { return kind == MarginKind::kTensionMax || kind == MarginKind::kLengthMax; }
-bool is_tension(MarginKind kind) { return kind == MarginKind::kTensionMin || kind == MarginKind::kTensionMax; }
-
-template <class S>
-S quantity(const StaticsAt<S>& at, MarginId id) {
-  const auto i = static_cast<std::size_t>(id.cable);
-  switch (id.kind) {
-    case MarginKind::kTensionMin: return at.tension_low[i];
-    case MarginKind::kTensionMax: return at.tension_high[i];
-    case MarginKind::kLengthMin:
-    case MarginKind::kLengthMax: break;
-  }
-  return at.length[i];
-}
-
-/// One quantity alone, in 200 bits.
-BigFloat quantity(const MachineAt<BigFloat>& at, MarginId id) {
-  const auto i = static_cast<std::size_t>(id.cable);
-  if (!is_tension(id.kind)) return lengths(at.machine, at.pose)[i];
-  const Range<BigFloat> range = tension_range(at.machine, at.pose, i);
-  return is_upper(id.kind) ? range.high : range.low;
-}
-
-DecimalText& limit(Problem& problem, MarginId id) {
-  const auto i = static_cast<std::size_t>(id.cable);
-  Limits& limits = is_tension(id.kind) ? problem.robot.tension_N[i] : problem.robot.length_m[i];
-  return is_upper(id.kind) ? limits.upper : limits.lower;
-}
-
-constexpr std::array<MarginKind, 4> kKinds = {MarginKind::kTensionMin, MarginKind::kTensionMax, MarginKind::kLengthMin,
-                                              MarginKind::kLengthMax};
-constexpr std::size_t kMargins = kKinds.size() * kCables;
-MarginId margin_id(std::size_t k) { return {kKinds[k / kCables], static_cast<int>(k % kCables)}; }
-
-/// Limits as numbers; margins by them.
-template <class S>
-struct LimitsOf {
-  explicit LimitsOf(Problem problem) {
-    for (std::size_t k = 0; k < kMargins; ++k)
-      value[k / kCables][k % kCables] = number<S>(limit(problem, margin_id(k)));
-  }
-  [[nodiscard]] S margin(const S& quantity, MarginId id) const {
-    const S& bound = value[static_cast<std::size_t>(id.kind)][static_cast<std::size_t>(id.cable)];
-    return is_upper(id.kind) ? bound - quantity : quantity - bound;
-  }
-  [[nodiscard]] S margin(const StaticsAt<S>& at, MarginId id) const { return margin(quantity(at, id), id); }
-  std::array<std::array<S, kCables>, 4> value;
-};
-
-// ---- Deviations -----------------------------------------------------------------------------------------------------
-
-constexpr double kWithin = 1 - 1e-12;  ///< so that rounding leaves no ball
-
-void scale_to(std::span<double> block, double size) {
-  double square = 0;
-  for (const double c : block) square += c * c;
-  if (!(square > 0) || !std::isfinite(square)) return;
-  for (double& c : block) c *= size * kWithin / std::sqrt(square);
-}
-
-/// Mostly corners: every block on its sphere.
-Deviation random_deviation(Random& random) {
-  Deviation x;
-  if (one_in(random, 8)) return x;
-  const bool is_corner = !one_in(random, 4);
-  for_each_block(x, [&](std::span<double> block) {
-    for (double& c : block) c = uniform(random, -1, 1);
-    scale_to(block, is_corner ? 1 : uniform(random, 0, 1));
-  });
-  return x;
-}
-
-/// Of the blocks of a deviation, in their order, those whose tolerance is not 0.
-std::vector<bool> blocks_that_matter(const Tolerances<double>& t) {
-  std::vector<bool> result;
-  for (std::size_t i = 0; i < kCables; ++i) {
-    for (const double tolerance : {t.a[i], t.b[i], t.length[i]}) result.push_back(tolerance != 0);
-  }
-  for (const double tolerance : {t.load_point, t.position, t.turn}) result.push_back(tolerance != 0);
-  result.push_back(std::ranges::any_of(t.wrench, [](double w) { return w != 0; }));
-  return result;
-}
-
-/// Of each of N `values` the corner that makes it least, to first order around x: differences over whole balls, as
-/// tolerances are small.
-template <std::size_t N, class F>
-std::array<Deviation, N> worst_deviations(const Deviation& x, const std::vector<bool>& matters, F values) {
-  constexpr double kStep = 0.5;
-  Deviation at = x;
-  std::array<Deviation, N> worst;
-  worst.fill(x);
-  std::array<std::vector<std::span<double>>, N> blocks;
-  for (std::size_t n = 0; n < N; ++n) {
-    for_each_block(worst[n], [&](std::span<double> block) { blocks[n].push_back(block); });
-  }
-  std::size_t next = 0;
-  for_each_block(at, [&](std::span<double> block) {
-    const std::size_t b = next++;
-    std::array<std::array<double, 3>, N> slopes{};
-    for (std::size_t k = 0; k < block.size() && matters[b]; ++k) {
-      const double kept = block[k];
-      block[k] = kept + kStep;
-      const std::array<double, N> above = values(at);
-      block[k] = kept - kStep;
-      const std::array<double, N> below = values(at);
-      block[k] = kept;
-      for (std::size_t n = 0; n < N; ++n) {
-        const double slope = above[n] - below[n];
-        slopes[n][k] = std::isfinite(slope) ? slope : 0;
-      }
-    }
-    for (std::size_t n = 0; n < N; ++n) {
-      const std::span<double> direction = blocks[n][b];
-      for (std::size_t k = 0; k < block.size(); ++k) direction[k] = -slopes[n][k];
-      scale_to(direction, 1);
-    }
-  });
-  return worst;
-}
-
 // ---- Tables ---------------------------------------------------------------------------------------------------------
-
-constexpr int kDecades = 13;      // δ/range in [1e-13, 1]
-constexpr int kLeastEffect = -8;  // δ/effect in [1e-8, 1e5], and beyond
-constexpr double kMild = 0.01;    // effect/range up to which tolerances are mild
-
-using Count = std::atomic<long>;
-
-struct Decades {
-  std::array<Count, kDecades> violated{}, violated_refuted{}, clear{}, clear_decided{};
-};
-
-struct Counts {
-  Count trials{0}, skipped{0}, proved{0}, refuted{0}, undecided{0}, boxes{0}, multiprecision{0};
-};
-
-struct Tally {
-  /// δ/range exactly on a path, and by lengths; δ/effect with tolerances that are mild, and with others; δ/range by
-  /// lengths with a bad reference, and with a lost row.
-  std::array<Decades, 6> decades;
-  std::array<std::array<Counts, kToleranceKinds>, kLaws> counts;
-  std::array<std::array<Count, 3>, 4> angles;  ///< of each AngleKind: proved, refuted, undecided
-  Count wrong{0}, looked_at{0}, violated_elsewhere{0};
-  Count crossing{0}, crossing_refuted{0};  ///< segments along which det J changes its sign
-  Count surveyed{0};
-  /// Of points that were judged: margins, those asked of 200 bits, and those whose bound in binary64 was held to them.
-  Count margins{0}, margins_exact{0}, margins_compared{0};
-  Count kernel_asked{0};                        ///< boxes with a violation inside that the checker's kernel was given
-  Count kernel_proofs{0}, kernel_confirmed{0};  ///< proofs that it was given, and those for which it found boxes
-};
 
 /// Calls visit(count) for all of them, always in the same order.
 template <class Visit>
 void for_each_count(Tally& tally, const Visit& visit) {
-  for (Decades& table : tally.decades) {
-    for (auto* counts : {&table.violated, &table.violated_refuted, &table.clear, &table.clear_decided}) {
-      for (Count& count : *counts) visit(count);
-    }
-  }
-  for (auto& of_law : tally.counts) {
-    for (Counts& c : of_law) {
-      for (Count* count : {&c.trials, &c.skipped, &c.proved, &c.refuted, &c.undecided, &c.boxes, &c.multiprecision}) {
-        visit(*count);
+  const auto visit_decades = [&](auto& tables) {
+    for (Decades& table : tables) {
+      for (auto* counts : {&table.violated, &table.violated_refuted, &table.clear, &table.clear_decided}) {
+        for (Count& count : *counts) visit(count);
       }
     }
+  };
+  visit_decades(tally.decades);
+  visit_decades(tally.bodies.decades);
+  for (auto* counts : {&tally.counts, &tally.bodies.counts}) {
+    for (auto& of_law : *counts) {
+      for (Counts& c : of_law) {
+        for (Count* count : {&c.trials, &c.skipped, &c.proved, &c.refuted, &c.undecided, &c.boxes, &c.multiprecision}) {
+          visit(*count);
+        }
+      }
+    }
+  }
+  for (auto& of_class : tally.bodies.classes) {
+    for (Count& count : of_class) visit(count);
   }
   for (auto& of_angles : tally.angles) {
     for (Count& count : of_angles) visit(count);
   }
   for (Count* count : {&tally.wrong, &tally.looked_at, &tally.violated_elsewhere, &tally.crossing,
                        &tally.crossing_refuted, &tally.surveyed, &tally.margins, &tally.margins_exact,
-                       &tally.margins_compared, &tally.kernel_asked, &tally.kernel_proofs, &tally.kernel_confirmed}) {
+                       &tally.margins_compared, &tally.kernel_asked, &tally.kernel_proofs, &tally.kernel_confirmed,
+                       &tally.bodies.walls, &tally.bodies.walls_refuted, &tally.bodies.pairs}) {
     visit(*count);
   }
 }
-static_assert(sizeof(Tally) == sizeof(Count) * (6 * 4 * kDecades + 7 * kLaws * kToleranceKinds + 3 * 4 + 12),
+static_assert(sizeof(Tally) ==
+                  sizeof(Count) * (9 * 4 * kDecades + 14 * kLaws * kToleranceKinds + 3 * 4 + 3 * kPairClasses + 15),
               "for_each_count() visits all that a Tally has");
 
 std::string text_of(Tally& tally) {
@@ -262,20 +121,6 @@ void add(Tally& tally, const std::string& text) {
 }
 
 // ---- A trial --------------------------------------------------------------------------------------------------------
-
-struct Options {
-  long count = 2000;
-  std::uint64_t seed = 20261121;
-  std::optional<Law> law;
-  std::optional<ToleranceKind> tolerances;
-  std::optional<LoadKind> loads;
-  bool list_undecided = false;
-  std::uint64_t surveys =
-      16;  ///< of so many seeds one is surveyed, and judged if det J changes its sign: a hundred times the work
-  std::uint64_t kernels = 1;  ///< of so many seeds one is given to the checker's kernel
-  int decades = kDecades;     ///< only the so many smallest decades of δ
-  int multiprecision = ProofOptions().max_multiprecision_boxes;
-};
 
 class Judge {
  public:
@@ -498,27 +343,6 @@ class Judge {
       include(*at);
     }
     return std::isfinite(tension_[1] - tension_[0]) && tension_[1] > tension_[0];
-  }
-
-  template <class F>
-  static double golden_section(F value, double low, double high) {
-    constexpr double kRatio = 0.6180339887498949;
-    double s1 = high - kRatio * (high - low);
-    double s2 = low + kRatio * (high - low);
-    double value1 = value(s1);
-    double value2 = value(s2);
-    for (int k = 0; k < 40; ++k) {
-      if (value1 < value2) {
-        high = std::exchange(s2, s1);
-        value2 = value1;
-        value1 = value(s1 = high - kRatio * (high - low));
-      } else {
-        low = std::exchange(s1, s2);
-        value1 = value2;
-        value2 = value(s2 = low + kRatio * (high - low));
-      }
-    }
-    return 0.5 * (low + high);
   }
 
   /// Of a path along which floating point sees the sign of det J change.
@@ -893,12 +717,12 @@ double print_decades(const Decades& table, const char* title, const char* unit, 
   return static_cast<double>(decided) / static_cast<double>(std::max(1L, clear));
 }
 
-/// Verdicts by law and tolerances, and by angles.
-void print_counts(const Tally& tally) {
+/// Verdicts by law and tolerances.
+void print_counts(const std::array<std::array<Counts, kToleranceKinds>, kLaws>& counts) {
   fmt::print("law            tolerances    trials  skipped   proved  refuted undecided  boxes/trial  in MPFR\n");
   for (std::size_t l = 0; l < kLaws; ++l) {
     for (std::size_t t = 0; t < kToleranceKinds; ++t) {
-      const Counts& c = tally.counts[l][t];
+      const Counts& c = counts[l][t];
       if (c.trials == 0) continue;
       const long judged = std::max(1L, c.trials - c.skipped);
       fmt::print("{:<14} {:<10} {:9d} {:8d} {:8d} {:8d} {:9d} {:12.1f} {:8.3f}\n", kLawNames[l], kToleranceNames[t],
@@ -907,6 +731,9 @@ void print_counts(const Tally& tally) {
                  static_cast<double>(c.multiprecision) / static_cast<double>(judged));
     }
   }
+}
+
+void print_angles(const Tally& tally) {
   for (const AngleKind kind :
        {AngleKind::kTiltAndTorsion, AngleKind::kRollPitchYaw, AngleKind::kZyz, AngleKind::kAxis}) {
     const auto& [proved, refuted, undecided] = tally.angles[static_cast<std::size_t>(kind)];
@@ -915,23 +742,39 @@ void print_counts(const Tally& tally) {
   }
 }
 
+/// @returns the share decided of clear trials without tolerances
+double print_bodies(const BodyTally& tally) {
+  fmt::print("\nWith bodies\n");
+  print_counts(tally.counts);
+  for (const PairClass kind : all_pair_classes()) {
+    const auto& [proved, refuted, undecided] = tally.classes[static_cast<std::size_t>(kind)];
+    fmt::print("{:<20} {:8d} proved {:8d} refuted {:8d} undecided\n", name(kind), proved.load(), refuted.load(),
+               undecided.load());
+  }
+  fmt::print("{} paths through thin walls, {} of them refuted\n", tally.walls.load(), tally.walls_refuted.load());
+  fmt::print("{} distances in 200 bits\n", tally.pairs.load());
+  const double share =
+      print_decades(tally.decades[0], "Bodies along paths of poses, without tolerances", "size", -kDecades, -9);
+  print_decades(tally.decades[1], "Bodies along paths of cable lengths, without tolerances", "size", -kDecades, -9);
+  print_decades(tally.decades[2], "Bodies with tolerances", "size", -kDecades, -9);
+  return share;
+}
+
+/// Of so many seeds one is of bodies, unless all are or none.
+constexpr std::uint64_t kBodiesEvery = 8;
+
 /// Seeds that are judged together, on one thread.
 constexpr long kPart = 256;
 
 /// What determines all counts.
 nlohmann::json work_of(const Options& options) {
   const auto number = [](const auto& value) { return value ? static_cast<int>(*value) : -1; };
-  return {{"command", "soundness"},
-          {"taut", TAUT_VERSION},
-          {"count", options.count},
-          {"seed", options.seed},
-          {"law", number(options.law)},
-          {"tolerances", number(options.tolerances)},
-          {"loads", number(options.loads)},
-          {"surveys", options.surveys},
-          {"kernels", options.kernels},
-          {"decades", options.decades},
-          {"multiprecision", options.multiprecision}};
+  return {{"command", "soundness"},         {"taut", TAUT_VERSION},
+          {"count", options.count},         {"seed", options.seed},
+          {"law", number(options.law)},     {"tolerances", number(options.tolerances)},
+          {"loads", number(options.loads)}, {"bodies", number(options.bodies)},
+          {"surveys", options.surveys},     {"kernels", options.kernels},
+          {"decades", options.decades},     {"multiprecision", options.multiprecision}};
 }
 
 std::string run_part(const Options& options, const Task& task) {
@@ -939,7 +782,12 @@ std::string run_part(const Options& options, const Task& task) {
   Tally tally;
   const long first = kPart * static_cast<long>(task.part);
   for (long k = first; k < std::min(options.count, first + kPart); ++k) {
-    Judge(options.seed + static_cast<std::uint64_t>(k), options, tally).run();
+    const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(k);
+    if (options.bodies.value_or(seed % kBodiesEvery == kBodiesEvery - 1)) {
+      judge_bodies(seed, options, tally);
+    } else {
+      Judge(seed, options, tally).run();
+    }
   }
   return text_of(tally);
 }
@@ -996,7 +844,8 @@ int run(const Options& options, const Campaign& campaign) {
   const long done = judge_all(options, campaign, tally);
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  print_counts(tally);
+  print_counts(tally.counts);
+  print_angles(tally);
   const std::array<double, 4> share = {
       print_decades(tally.decades[0], "Paths of poses, without tolerances", "range", -kDecades, -9),
       print_decades(tally.decades[1], "Paths of cable lengths, without tolerances", "range", -kDecades, -9),
@@ -1009,6 +858,7 @@ int run(const Options& options, const Campaign& campaign) {
       tally.decades[5],
       "Paths of cable lengths with a lost row (a singular pose on the way to it), with and without tolerances", "range",
       -kDecades, -9);
+  print_bodies(tally.bodies);
   fmt::print("\n{} segments, seed {}: {:.1f} s, {:.0f} a second, {:.2f} ms of processor time each\n", done,
              options.seed, elapsed, static_cast<double>(done) / elapsed,
              1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC / static_cast<double>(done));
@@ -1053,6 +903,8 @@ int main(int argc, char** argv) {
   app.add_option("--tolerances", tolerances, "one kind only")
       ->transform(CLI::CheckedTransformer(by_name(kToleranceNames)));
   app.add_option("--loads", loads, "one kind only")->transform(CLI::CheckedTransformer(by_name(kLoadNames)));
+  app.add_flag("--bodies,!--no-bodies", options.bodies,
+               "with bodies around the machine, or without; else one seed of eight is");
   app.add_flag("--undecided", options.list_undecided,
                "list what is not decided, but for violations by tolerances, with reasons");
   app.add_option("--surveys", options.surveys,

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 find_package(CLI11 REQUIRED)
-add_executable(soundness soundness/soundness.cc soundness/trial.cc)
+add_executable(soundness soundness/soundness.cc soundness/trial.cc soundness/body_judge.cc
+  soundness/body_scene.cc)
 target_link_libraries(soundness
   PRIVATE taut_common taut_case taut_certificate taut_certify taut_shards CLI11::CLI11 fmt::fmt)
 target_compile_definitions(soundness PRIVATE TAUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 add_test(NAME soundness.campaign COMMAND soundness 500)
 set_tests_properties(soundness.campaign PROPERTIES LABELS "laws" TIMEOUT 300)
+add_test(NAME soundness.bodies COMMAND soundness 120 --bodies --kernels 4)
+set_tests_properties(soundness.bodies PROPERTIES LABELS "laws" TIMEOUT 300)
+add_test(NAME soundness.larger_campaign_with_bodies COMMAND soundness 1500 --bodies --kernels 4)
+set_tests_properties(soundness.larger_campaign_with_bodies PROPERTIES LABELS "slow" TIMEOUT 600)
 add_test(NAME soundness.larger_campaign COMMAND soundness 3000)
 set_tests_properties(soundness.larger_campaign PROPERTIES LABELS "slow" TIMEOUT 600)
 add_test(NAME soundness.long_campaign COMMAND soundness 10000000 7 --budget 60)

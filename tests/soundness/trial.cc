@@ -103,6 +103,17 @@ Problem random_robot(Random& random, double& size) {
   return problem;
 }
 
+/// Pairs of cables with one anchor, as in an octahedral machine: at the base 1 and 2, 3 and 4, 5 and 6; at the platform
+/// 2 and 3, 4 and 5, 6 and 1.
+void share_anchors(Problem& problem, Random& random) {
+  for (std::size_t k = 0; k < kCables; k += 2) {
+    if (one_in(random, 2)) problem.robot.base_anchors_m[k + 1] = problem.robot.base_anchors_m[k];
+    if (one_in(random, 2)) {
+      problem.robot.platform_anchors_m[(k + 2) % kCables] = problem.robot.platform_anchors_m[k + 1];
+    }
+  }
+}
+
 // ---- Loads ----------------------------------------------------------------------------------------------------------
 
 RationalVector random_vector(Random& random, double size) {
@@ -314,6 +325,7 @@ void choose_space(Trial& trial, Random& random, bool constrained) {
     set_pose(trial, sphere_pose);
   } else {
     trial.problem = random_robot(random, trial.size);
+    if (trial.shares_anchors) share_anchors(trial.problem, random);
     from = random_coordinates(random, trial.size);
     walk(trial, random, {trial.size, trial.size, trial.size, 1, 1, 1});
     set_pose(trial, six_coordinates);
@@ -336,6 +348,7 @@ Quaternion<double> product(const Quaternion<double>& a, const Quaternion<double>
 /// Quaternions of any length and sign; steps from none to nearly half a turn, mostly a tenth of a radian.
 void choose_poses(Trial& trial, Random& random) {
   trial.problem = random_robot(random, trial.size);
+  if (trial.shares_anchors) share_anchors(trial.problem, random);
   trial.problem.space = coordinate_space();
   trial.problem.query.clear();
   const auto direction = [&] {
@@ -482,8 +495,9 @@ Vector parameters_at(const Trial& trial, const BigFloat& s) {
 }  // namespace
 
 Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances,
-                 std::optional<LoadKind> loads) {
+                 std::optional<LoadKind> loads, bool shares_anchors) {
   Trial trial;
+  trial.shares_anchors = shares_anchors;
   // Half of all trials have no tolerances, and a quarter one kind of them.
   constexpr std::uint64_t kKinds = kToleranceKinds - 2;  // one at a time
   const std::uint64_t drawn = random() % (4 * kKinds);

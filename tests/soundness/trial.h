@@ -49,7 +49,8 @@ struct Trial {
   Law law = Law::kStraight;
   ToleranceKind tolerances = ToleranceKind::kNone;
   Interpolation interpolation = Interpolation::kStraight;
-  double size = 1;  ///< of the robot [m]
+  double size = 1;              ///< of the robot [m]
+  bool shares_anchors = false;  ///< of a random robot: some cables share anchors
   PoseTube pose_tube;
   std::vector<InnerPose> inner_poses;
   /// Under the law of cable lengths: made to mislead, not proposed as an audit does.
@@ -73,7 +74,7 @@ struct Trial {
 
 /// All but limits, pose tubes and inner poses. Within PrecisionScope(oracle::kBits).
 [[nodiscard]] Trial make_trial(Random& random, std::optional<Law> law, std::optional<ToleranceKind> tolerances,
-                               std::optional<LoadKind> loads);
+                               std::optional<LoadKind> loads, bool shares_anchors = false);
 
 template <class S>
 struct MachineAt {
