@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case says of bodies (docs/case-format.md, "bodies"): what may not touch what, and how far apart it has to stay.
+// What a case says of bodies (docs/case-format.md, "bodies"): what may not touch what, and how far apart it has to
+// stay.
 #pragma once
 
 #include <filesystem>

@@ -23,12 +23,12 @@ struct PathPoint {
 struct PathWitness {
   PathPoint at;
   bool singular = false;
-  PathPoint to;                                          ///< the second point; only if singular
-  std::optional<PairContact> contact = {};               ///< only if bodies are too near; then nothing below is set,
-  DecimalText depth_m;                                   ///< but that they are nearer by this much than allowed, or more
-  MarginId margin;                                       ///< unless singular
-  DecimalText value_lower, value_upper;                  ///< enclosure of f0 − v, f0 + v or d [N, m]; unless singular
-  DecimalText limit;                                     ///< the limit it violates; unless singular
+  PathPoint to;                             ///< the second point; only if singular
+  std::optional<PairContact> contact = {};  ///< only if bodies are too near; then nothing below is set,
+  DecimalText depth_m;                      ///< but that they are nearer by this much than allowed, or more
+  MarginId margin;                          ///< unless singular
+  DecimalText value_lower, value_upper;     ///< enclosure of f0 − v, f0 + v or d [N, m]; unless singular
+  DecimalText limit;                        ///< the limit it violates; unless singular
   std::shared_ptr<const Deviation> deviation = nullptr;  ///< within the tolerances; null: of the undisturbed machine
 };
 

@@ -16,8 +16,8 @@ namespace taut {
 [[nodiscard]] const Limits& limits_of(const RobotText& robot, MarginId margin);
 
 /// By how much a violation is proved to break its limit, as a share of the width between the two limits of that
-/// quantity: 0.1 is a tenth of it. Infinite for a singular pose. Bodies that are too near come next, the deepest contact
-/// first: that is a million, and how much nearer than allowed they are [m].
+/// quantity: 0.1 is a tenth of it. Infinite for a singular pose. Bodies that are too near come next, the deepest
+/// contact first: that is a million, and how much nearer than allowed they are [m].
 [[nodiscard]] double severity(const PathWitness& witness, const RobotText& robot);
 
 }  // namespace taut

@@ -43,7 +43,7 @@ void read_pose_tube(const Cursor& json, Path& path);
 void append_direction(const Cursor& json, Path& path);
 /// An entry of `apart` for a pair of the problem's bodies.
 [[nodiscard]] std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const Problem& problem,
-                                                    const Path& path);
+                                                  const Path& path);
 /// `elements` of a witness of contact between the bodies of a pair, one of which is a mesh.
 [[nodiscard]] ContactElements read_contact_elements(const Cursor& json, std::size_t pair, const Problem& problem);
 /// `weights` of a witness of contact between the bodies of a pair.

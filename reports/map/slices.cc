@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kMostNodes = 1'500'000;  ///< of the page, a digit each
 
-/// A node in the page is a digit, or the character behind '9': the axis that was halved, or kLeafDigit and what is shown of a leaf.
+/// A node in the page is a digit, or the character behind '9': the axis that was halved, or kLeafDigit and what is
+/// shown of a leaf.
 constexpr int kLeafDigit = 3;
 enum Shown { kUndecided, kInside, kLength, kTension, kUnbalanced, kContact, kReachable, kInsideCutOff };
 static_assert(kContact == static_cast<int>(CellKind::kContact));

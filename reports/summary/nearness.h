@@ -27,8 +27,8 @@ enum class Nearness { kCalm, kNear, kClose, kOut };
 [[nodiscard]] Nearness nearness_of_length(const Range& length, double lower_limit, double upper_limit);
 
 /// How near two bodies come to the clearance asked of them: by the clearance as a share of their distance, near from
-/// 75 % and close from 95 %; where it is 0, by the distance as a share of `size`, such as that of the machine, near below
-/// 1 % and close below 0.2 %. @param distance  in m, like the others
+/// 75 % and close from 95 %; where it is 0, by the distance as a share of `size`, such as that of the machine, near
+/// below 1 % and close below 0.2 %. @param distance  in m, like the others
 [[nodiscard]] Nearness nearness_of_bodies(double distance, double clearance, double size);
 
 }  // namespace taut

@@ -21,8 +21,8 @@ namespace taut {
 [[nodiscard]] std::string headline(const ReportContext& scene);
 
 /// "the tension of cable 3 reaches at least 0.81 N, not below its upper limit of 0.5 N". A tension beyond
-/// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding. Of bodies:
-/// "cable 3 and 'stack' come within 200 mm of each other, the clearance asked for".
+/// kSingularTension times the robot's greatest limit is called what it is: a singular pose, but for rounding. Of
+/// bodies: "cable 3 and 'stack' come within 200 mm of each other, the clearance asked for".
 [[nodiscard]] std::string violation_text(const PathWitness& witness, const Problem& problem, const DisplayUnits& units);
 
 /// "0.0499 N": the value of a witness that is next to its limit, in as few digits as show it beyond the limit, rounded
@@ -62,7 +62,8 @@ struct Statement {
                                        const DecimalText& wrench_scale, const DisplayUnits& units,
                                        const std::optional<DecimalText>& clearance_m = {});
 
-/// The bodies of a problem in sentences: pairs and their clearances, what is not checked, each body. @pre problem.bodies
+/// The bodies of a problem in sentences: pairs and their clearances, what is not checked, each body. @pre
+/// problem.bodies
 [[nodiscard]] std::string bodies_text(const Problem& problem);
 /// "about 0.12 m apart" or "about 30 mm deep in each other": in floating point.
 [[nodiscard]] std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit);

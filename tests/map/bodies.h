@@ -26,8 +26,8 @@ inline BodyText capsule(const std::string& name, PointText from, PointText to, c
   return {.name = name, .shape = HullText{{std::move(from), std::move(to)}, radius}};
 }
 
-/// Robot 1, which turns a stick and a box, beside two bars, a turned plate, a ball and a floor. Two of its pairs have no
-/// thickness at all.
+/// Robot 1, which turns a stick and a box, beside two bars, a turned plate, a ball and a floor. Two of its pairs have
+/// no thickness at all.
 inline Problem with_bodies(Problem problem) {
   BodiesText bodies;
   bodies.platform = {capsule("stick", {"0", "0", "0"}, {"0", "0", "0.15"}, "0.006"),
