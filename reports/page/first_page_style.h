@@ -129,8 +129,14 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .checks { font-size: 7.8pt; padding-left: 10pt; } .checks li { margin: 1.5pt 0; }
   .tiles { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 6pt; margin: 7pt 0; }
   .tiles:has(.tile:nth-child(5)) { grid-template-columns: repeat(5, minmax(0, 1fr)); }
+  .first:has(.tile:nth-child(5)) .headline { font-size: 8.4pt; line-height: 1.25; }
+  .first:has(.tile:nth-child(5)) :is(.uncovered, .scope) { font-size: 7.6pt; line-height: 1.3; }
+  .first:has(.tile:nth-child(5)) .cables :is(td, th) { padding-top: 1.5pt; padding-bottom: 1.5pt; }
+  .first:has(.tile:nth-child(5)) :is(.note, .declaration) { font-size: 7pt; line-height: 1.25; }
   .tile { padding: 4pt 7pt 5pt; border-radius: 6pt; border-top-width: 2.5pt; }
-  .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value, .tiles:has(.tile:nth-child(5)) .value { font-size: 12pt; }
+  .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value { font-size: 12pt; }
+  .tiles:has(.tile:nth-child(5)) .value { font-size: 9.5pt; }
+  .tiles:has(.tile:nth-child(5)) .detail { font-size: 6.8pt; }
   .details { font-size: 7.8pt; line-height: 1.3; margin: 3pt 0; } .details p { margin: 2pt 0; }
   .duo { gap: 10pt; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 41fr) minmax(0, 59fr); }
