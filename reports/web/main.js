@@ -198,7 +198,9 @@ function explainPicture(holder) {
     note("Colours are of this place, in floating point, by the limit that is nearer: of tension over all loads, or " +
       `of length. ${ground} for whatever carries the anchors; the grid is level.`);
   }
-  if (viewer.bodies?.cablesAreThin) note("Cables are checked with their diameters, which are too thin to be seen here.");
+  if (viewer.bodies?.cablesAreThin) {
+    note("Cables are checked with their diameters, which are too thin to be seen here.");
+  }
   if (data.tube_m === null || !data.is_found) return;
   const size = `${data.tube_m * data.lengthUnit.factor} ${data.lengthUnit.name}`;
   note(viewer.tubeIsThin
