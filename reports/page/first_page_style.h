@@ -37,8 +37,8 @@ inline constexpr const char* kFirstPageStyle = R"css(
 }
 .checks li { margin: 3px 0; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(225px, 1fr)); gap: 12px; margin: 14px 0; }
-.tiles:has(:nth-child(5)) { grid-template-columns: repeat(auto-fit, minmax(178px, 1fr)); }
-.tiles:has(:nth-child(5)) .value { font-size: 19px; }
+.tiles:has(.tile:nth-child(5)) { grid-template-columns: repeat(auto-fit, minmax(178px, 1fr)); }
+.tiles:has(.tile:nth-child(5)) .value { font-size: 19px; }
 .tile {
   border: 1px solid var(--line); border-top: 4px solid var(--calm); border-radius: 10px; padding: 9px 14px 10px;
 }
@@ -108,9 +108,9 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .checks { border-left: none; border-top: 1px solid rgb(255 255 255 / 0.5); padding: 8px 0 0; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 1fr); }
   .scope > div, .facts > div { grid-template-columns: minmax(0, 1fr); gap: 0; }
-  .tiles, .tiles:has(:nth-child(5)) { grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 8px; }
+  .tiles, .tiles:has(.tile:nth-child(5)) { grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 8px; }
   .tile { padding: 7px 10px 8px; }
-  .tile .value, .tiles:has(:nth-child(5)) .value { font-size: 16px; }
+  .tile .value, .tiles:has(.tile:nth-child(5)) .value { font-size: 16px; }
   .uncovered ul { columns: 1; }
   .signatures { grid-template-columns: minmax(0, 1fr); }
 }
@@ -128,9 +128,15 @@ inline constexpr const char* kFirstPageStyle = R"css(
   .band .headline { font-size: 9.6pt; }
   .checks { font-size: 7.8pt; padding-left: 10pt; } .checks li { margin: 1.5pt 0; }
   .tiles { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 6pt; margin: 7pt 0; }
-  .tiles:has(:nth-child(5)) { grid-template-columns: repeat(5, minmax(0, 1fr)); }
+  .tiles:has(.tile:nth-child(5)) { grid-template-columns: repeat(5, minmax(0, 1fr)); }
+  .first:has(.tile:nth-child(5)) .headline { font-size: 8.4pt; line-height: 1.25; }
+  .first:has(.tile:nth-child(5)) :is(.uncovered, .scope) { font-size: 7.6pt; line-height: 1.3; }
+  .first:has(.tile:nth-child(5)) .cables :is(td, th) { padding-top: 1.5pt; padding-bottom: 1.5pt; }
+  .first:has(.tile:nth-child(5)) :is(.note, .declaration) { font-size: 7pt; line-height: 1.25; }
   .tile { padding: 4pt 7pt 5pt; border-radius: 6pt; border-top-width: 2.5pt; }
-  .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value, .tiles:has(:nth-child(5)) .value { font-size: 12pt; }
+  .tile dt, .tile .detail { font-size: 7.4pt; } .tile .value { font-size: 12pt; }
+  .tiles:has(.tile:nth-child(5)) .value { font-size: 9.5pt; }
+  .tiles:has(.tile:nth-child(5)) .detail { font-size: 6.8pt; }
   .details { font-size: 7.8pt; line-height: 1.3; margin: 3pt 0; } .details p { margin: 2pt 0; }
   .duo { gap: 10pt; }
   .duo:has(> figure) { grid-template-columns: minmax(0, 41fr) minmax(0, 59fr); }

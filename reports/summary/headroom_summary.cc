@@ -117,10 +117,7 @@ TightPlace place_from_json(const JsonCursor& object) {
 json to_json(const PathWitness& witness) {
   if (witness.singular) return {{"segment", witness.at.index}, {"singular", true}};
   if (witness.contact) {
-    return {{"segment", witness.at.index},
-            {"singular", false},
-            {"pair", witness.contact->pair},
-            {"depth_m", witness.depth_m}};
+    return {{"segment", witness.at.index}, {"singular", false}, {"pair", witness.contact->pair}};
   }
   json result = margin_json(witness.margin);
   result.update({{"singular", false},
@@ -139,8 +136,6 @@ PathWitness violation_from_json(const JsonCursor& object) {
   if (result.singular) return result;
   if (object.contains("pair")) {
     result.contact.emplace().pair = static_cast<std::size_t>(object.at("pair").integer(0, kMostPairs));
-    (void)decimal_from_json(object.at("depth_m"));
-    result.depth_m = object.at("depth_m").text();
     return result;
   }
   result.margin = margin_of(object);

@@ -389,7 +389,7 @@ std::string headline(const ReportContext& scene) {
         "length limit, {}no singular pose is met{}.",
         certificate.problem.tolerances ? " and every machine within the stated tolerances" : "",
         certificate.problem.bodies ? "" : "and ",
-        certificate.problem.bodies ? ", and all checked bodies stay farther apart than their clearances" : "");
+        certificate.problem.bodies ? ", and all checked bodies keep their clearances" : "");
   }
   if (found_no_path(certificate)) {
     return "The planner found no path. That does not prove that there is none. Nothing is claimed.";

@@ -172,7 +172,7 @@ export class Bodies {
   }
 
   /// @param where of the samples: index, and the share of the way to the next
-  /// @param ends  of the cables at the platform
+  /// @param ends of the cables at the platform
   show([k, t], ends) {
     this.cables.forEach((mesh, i) => {
       if (!mesh) return;

@@ -44,7 +44,7 @@ class Show(unittest.TestCase):
         self.assertEqual((said.returncode, said.stderr), (0, ""))
         for expected in ("Bodies that may not touch", "platform and obstacles, 2 pairs, 200 mm",
                          "cables among each other, 15 pairs, 20 mm", "28 mm thick",
-                         "'stack', obstacle: a box of 2.4 × 6.1 × 2.6 m", "container / stack", "apart [m]"):
+                         "'stack', obstacle: a box of 2.4 × 6.1 × 2.6 m", "cable 1 / cable 2", "apart [m]"):
             self.assertIn(expected, said.stdout)
         self.assertNotIn("Not checked", said.stdout)
         shown = json.loads(run(TAUT, "show", case, "--json").stdout)

@@ -125,7 +125,7 @@ TEST(BodyDistances, AreNoneOfAProblemWithoutBodies) {
 TEST(ReportOfBodies, SaysWhatIsCheckedAndWhatIsNot) {
   const ReportContext scene = proved();
   const Summary summary(scene, {});
-  EXPECT_THAT(summary.headline, HasSubstr("all checked bodies stay farther apart than their clearances"));
+  EXPECT_THAT(summary.headline, HasSubstr("all checked bodies keep their clearances"));
   const auto statement = std::ranges::find(summary.statements, std::string("clearance"), &Statement::key);
   ASSERT_NE(statement, summary.statements.end());
   EXPECT_THAT(statement->text,

@@ -650,8 +650,8 @@ test("a contact is named with pair, place and depth, and the move opens where it
   const page = await open("contact.html");
   assert.match(await page.innerText(".headline"), /'plate' and 'post' touch; the clearance asked for is 30 mm/);
   assert.match(await page.innerText("table.broken"), /plate \/ post in each other\s+about [0-9.]+ mm deep/);
-  const readout = await page.innerText(".readout-table .bodies.out");
-  assert.match(readout, /plate \/ post, in each other, about [0-9.]+ mm deep/);
+  assert.match(await page.innerText(".readout-table .bodies.out"),
+    /plate \/ post, in each other, about [0-9.]+ mm deep/);
   assert.match(await page.innerText(".checks"), /not checked: cables among each other, cables and platform/);
   await close(page);
 });
