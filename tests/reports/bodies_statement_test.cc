@@ -119,7 +119,7 @@ TEST(BodiesStatement, NotesClearancesOfPairsPrismsAndMeshes) {
   bodies.text.platform.push_back(tool);
   auto mesh = std::make_shared<LoadedMesh>(repaired(
       {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 30}, {1, 0, 0}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {4, 2, 3}}}));
-  bodies.meshes = {{"tool", mesh}};
+  bodies.meshes = {{"tool", mesh, {}}};
   const BodiesStatement closed = bodies_statement(bodies);
   EXPECT_THAT(closed.bodies, SizeIs(5));
   EXPECT_EQ(closed.bodies[1].second, "on the platform: the mesh 'tool.stl', whose unit is 1 mm");
