@@ -26,9 +26,11 @@ def bodies_clause(verdict, bodies):
     """What follows a claim where there are bodies."""
     names = ('platform-obstacles', 'cables-obstacles', 'cables-cables', 'cables-platform')
     checked = [n for n in names if n in bodies['clearance_m']]
-    return '%s%s Pairs that are checked: %s. Pairs that are not checked: %s.' % (
+    meshes = any('mesh' in body for body in bodies['platform'] + bodies['obstacles'])
+    return '%s%s Pairs that are checked: %s. Pairs that are not checked: %s.%s' % (
         text_of('kClearClause' if verdict == 'proved' else 'kContactClause'), text_of('kBodiesClause'),
-        ', '.join(checked) or 'none', ', '.join(n for n in names if n not in checked) or 'none')
+        ', '.join(checked) or 'none', ', '.join(n for n in names if n not in checked) or 'none',
+        text_of('kMeshClause') if meshes else '')
 
 
 CLAIMS = claims()
