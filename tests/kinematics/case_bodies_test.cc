@@ -398,10 +398,11 @@ TEST_F(MeshesOfACase, ThatAreWrongAreRejectedWithTheirPlace) {
   expect_tool_rejected("box: [1, 1, 1], unit: mm", "got 'unit' beside 'box', expected it beside 'mesh' only");
 }
 
-TEST(CaseFile, DoesNotKnowBodiesYet) {
-  const std::string text = "taut: 1\nname: x\nbodies: {clearance: 1}\n";
-  EXPECT_THAT([&] { (void)parse_case(text, "x.yaml"); },
-              ThrowsMessage<InputError>(HasSubstr("got the unknown key 'bodies'")));
+TEST(CaseFile, ReadsBodiesIntoTheProblem) {
+  const Case stack = load_case(TAUT_SOURCE_DIR "/cases/cranes/portal-20t-stack.yaml");
+  ASSERT_TRUE(stack.bodies && stack.problem.bodies);
+  EXPECT_EQ(stack.bodies->text, *stack.problem.bodies);
+  EXPECT_EQ(pairs(*stack.problem.bodies).size(), 2U + 12 + 15 + 6);
 }
 
 }  // namespace

@@ -495,8 +495,8 @@ TEST(Abi, HasTypesOfTheseSizes) {
   EXPECT_EQ(sizeof(taut::Path), 56U);
   EXPECT_EQ(sizeof(taut::Waypoint), 48U);
   EXPECT_EQ(sizeof(taut::Table), 48U);
-  EXPECT_EQ(sizeof(taut::Witness), 128U);
-  EXPECT_EQ(sizeof(taut::Stretch), 376U);
+  EXPECT_EQ(sizeof(taut::Witness), 200U);
+  EXPECT_EQ(sizeof(taut::Stretch), 520U);
   EXPECT_EQ(sizeof(taut::Sample), 216U);
   EXPECT_EQ(sizeof(taut::Certificate), 16U);
   EXPECT_EQ(sizeof(taut::Theorem), 16U);

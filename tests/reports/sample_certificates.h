@@ -113,7 +113,7 @@ inline nlohmann::json contact() {
   nlohmann::json result = with_bodies(certificate());
   result["verdict"] = "refuted";
   // The post stands where the plate is.
-  result["problem"]["bodies"]["obstacles"][1]["at_m"] = {"0.1", "0.05", "0"};
+  result["problem"]["bodies"]["obstacles"][1]["at_m"] = {"0", "0", "0"};
   result["witness"] = nlohmann::json::parse(R"({"at": {"segment": 1, "s": "3/8"}, "kind": "contact", "pair": 1,
       "depth_m": "0.0315", "weights": [["1/4","1/4","1/4","1/4"], ["1/2","1/2"]], "proof": {"bits": 64},
       "motion": []})");
