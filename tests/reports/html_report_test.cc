@@ -293,7 +293,8 @@ TEST(HtmlReport, SaysWhereARefutedMotionFails) {
   EXPECT_THAT(page, HasSubstr("of turning (segment 1). The pose there, rounded: p = (0, 0, 350) mm"));
   EXPECT_THAT(page, HasSubstr("in floating-point samples: not proved")) << "no box is proved";
   EXPECT_THAT(page, Not(HasSubstr("PROVED")));
-  EXPECT_THAT(page, HasSubstr("<b><bdi>Cable 3</bdi></b> above its top tension</td><td>at least 0.812 N; limit 0.5 N</td>"));
+  EXPECT_THAT(page, HasSubstr("<b><bdi>Cable 3</bdi></b> above its top tension</td>"
+                              "<td>at least 0.812 N; limit 0.5 N</td>"));
   EXPECT_THAT(page, Not(HasSubstr("id=\"margins\"")));
 }
 
