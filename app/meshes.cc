@@ -17,17 +17,18 @@ checker::SuppliedMesh supplied(const TriangleMesh& mesh, std::string sha256) {
 }  // namespace
 
 checker::MeshSupplier meshes_of(const Problem& problem) {
-  std::map<std::string, std::shared_ptr<const IndexedMesh>> meshes;  // by digest
+  // By name and digest: how bytes are read depends on the name, too.
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const IndexedMesh>> meshes;
   if (problem.bodies) {
     for (const auto* bodies : {&problem.bodies->platform, &problem.bodies->obstacles}) {
       for (const BodyText& body : *bodies) {
         const auto* text = std::get_if<MeshText>(&body.shape);
-        if (text != nullptr && text->mesh != nullptr) meshes[text->sha256] = text->mesh;
+        if (text != nullptr && text->mesh != nullptr) meshes[{text->file, text->sha256}] = text->mesh;
       }
     }
   }
   return [meshes = std::move(meshes)](const std::string& file, const std::string& sha256) {
-    const auto found = meshes.find(sha256);
+    const auto found = meshes.find({file, sha256});
     if (found == meshes.end()) throw InputError("the mesh '" + excerpt(file) + "' was not read");
     return supplied(found->second->mesh(), sha256);
   };

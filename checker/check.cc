@@ -189,12 +189,13 @@ ConfirmOptions confirm_options(const CheckOptions& options, std::chrono::steady_
 /// Takes the meshes that the problem names. @throws Rejected where one is not supplied
 void supply_meshes(Problem& problem, const CheckOptions& options, CheckResult& result) {
   if (!problem.bodies) return;
-  std::map<std::string, std::shared_ptr<const Surface>> known;  // by digest
+  // By name and digest: how bytes are read depends on the name, too.
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Surface>> known;
   for (auto* bodies : {&problem.bodies->platform, &problem.bodies->obstacles}) {
     for (RigidBody& body : *bodies) {
       auto* const mesh = std::get_if<MeshShape>(&body.shape);
       if (mesh == nullptr) continue;
-      std::shared_ptr<const Surface>& surface = known[mesh->sha256];
+      std::shared_ptr<const Surface>& surface = known[{mesh->file, mesh->sha256}];
       if (surface == nullptr) {
         const std::string name = "the mesh " + mesh->file;
         if (!options.meshes) throw Rejected(name + " was not supplied");

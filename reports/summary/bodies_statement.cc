@@ -206,8 +206,13 @@ std::string mesh_note(const std::string& body, const LoadedMesh& loaded, const R
       fmt::format("{}: {}, from {} to {} mm in its own axes", quoted_name(body),
                   plural(loaded.mesh.triangles.size(), "triangle"), corner(report.lower), corner(report.upper));
   text += report.is_watertight() ? fmt::format(", watertight, {}", plural(report.closed_components, "closed part"))
-                                 : fmt::format(", not watertight: {} of one triangle, {} of more than two",
-                                               plural(report.edges_of_one, "edge"), report.edges_of_many);
+                                 : fmt::format(
+                                       ", not watertight: {} of one triangle, {} of more than two: it has no "
+                                       "inside, and only its surface is checked",
+                                       plural(report.edges_of_one, "edge"), report.edges_of_many);
+  if (report.is_watertight() && report.closed_components > 1) {
+    text += ": where these overlap, or one is in another, counts as outside";
+  }
   std::vector<std::string> repairs;
   const auto add = [&](std::size_t count, const char* what, const char* done) {
     if (count > 0) repairs.push_back(fmt::format("{} {}", plural(count, what), done));
@@ -215,7 +220,7 @@ std::string mesh_note(const std::string& body, const LoadedMesh& loaded, const R
   add(report.split_faces, "face", "split into triangles");
   add(report.merged_points, "point", "merged with an equal one");
   add(report.unused_points, "unused point", "left out");
-  add(report.dropped_triangles, "triangle", "left out, as it is there twice or has no area");
+  add(report.dropped_triangles, "triangle", "left out: it is there twice, or is a segment, which stays");
   add(report.flat_triangles, "triangle", "without area kept");
   return repairs.empty() ? text : fmt::format("{}; {}", text, fmt::join(repairs, ", "));
 }

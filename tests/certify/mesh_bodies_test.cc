@@ -322,5 +322,27 @@ TEST(MeshBodies, MayHaveAHundredThousandTriangles) {
               elaborated, confirmed);
 }
 
+/// How a file is read depends on its name: the same bytes may be one mesh as STL and another one as OBJ.
+TEST(MeshBodies, AreReadBodyByBodyWhereNamesDiffer) {
+  Problem problem = hall(true, true, false);
+  auto& container = std::get<MeshText>(problem.bodies->platform[0].shape);
+  auto& stack = std::get<MeshText>(problem.bodies->obstacles[0].shape);
+  stack.sha256 = container.sha256;
+  container.file = "same.stl";
+  stack.file = "same.obj";
+  const Path path = path_through({{-4, 0, 8, 0, 0, 0}, {-3.9, 0, 8, 0, 0, 0}});
+  const Prover prover(problem);
+  const std::string text = certificate_text(elaborate(problem, path, prove_path(prover, path, {}, {})));
+  std::vector<std::string> asked;
+  checker::CheckOptions options;
+  options.meshes = [&](const std::string& file, const std::string& sha256) {
+    asked.push_back(file);
+    const TriangleMesh& mesh = (file == container.file ? container : stack).mesh->mesh();
+    return checker::SuppliedMesh{sha256, mesh.vertices, mesh.triangles, mesh.needles};
+  };
+  EXPECT_EQ(checker::check(text, options).outcome, checker::Outcome::kAccepted);
+  EXPECT_EQ(asked, (std::vector<std::string>{"same.stl", "same.obj"}));
+}
+
 }  // namespace
 }  // namespace taut

@@ -67,6 +67,7 @@ class EndToEnd(InFolder):
                 self.assertEqual(planned.stderr, "", "no progress where stderr is no terminal")
                 results = {"certificate.json"} | ({"report.html"} if is_reported else set())
                 results |= {"controller.csv", "path.csv"} if verdict == "proved" else set()
+                results |= {"sphere.stl"} if "mesh: sphere.stl" in text_of(case) else set()
                 self.assertEqual(set(os.listdir(out)), results)
                 checked = run(CHECK, os.path.join(out, "certificate.json"), case)
                 self.assertEqual(checked.returncode, 2 if verdict == "undecided" else 0,

@@ -129,9 +129,11 @@ TEST(BodiesStatement, NotesClearancesOfPairsPrismsAndMeshes) {
                           "'tool': 4 triangles, from (0, 0, 0) to (1, 2, 30) mm in its own axes, watertight, 1 closed "
                           "part; 1 point merged with an equal one"));
   *mesh = repaired({{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{0, 1, 2}, {2, 1, 0}}});
-  EXPECT_EQ(bodies_statement(bodies).notes.back(),
-            "'tool': 1 triangle, from (0, 0, 0) to (1, 2, 0) mm in its own axes, not watertight: 3 edges of one "
-            "triangle, 0 of more than two; 1 triangle left out, as it is there twice or has no area");
+  EXPECT_EQ(
+      bodies_statement(bodies).notes.back(),
+      "'tool': 1 triangle, from (0, 0, 0) to (1, 2, 0) mm in its own axes, not watertight: 3 edges of one "
+      "triangle, 0 of more than two: it has no inside, and only its surface is checked; 1 triangle left out: it is "
+      "there twice, or is a segment, which stays");
 }
 
 }  // namespace
