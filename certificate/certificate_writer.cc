@@ -234,10 +234,14 @@ class CertificateWriter::Spool {
   /// @param folder  of the file; empty: the items are kept in memory.
   explicit Spool(const std::filesystem::path& folder) : folder_(folder) {
     if (folder.empty()) return;
-    std::string name = (folder / ".taut.XXXXXX").string();
-    const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
-    if (descriptor < 0) fail();
-    ::unlink(name.c_str());
+    // Without a name, so that a kill at any moment leaves nothing; not every file system can.
+    int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (descriptor < 0) {
+      std::string name = (folder / ".taut.XXXXXX").string();
+      descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+      if (descriptor < 0) fail();
+      ::unlink(name.c_str());
+    }
     file_ = ::fdopen(descriptor, "w+b");
     if (file_ == nullptr) fail();
   }

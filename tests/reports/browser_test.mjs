@@ -141,7 +141,7 @@ const PAGES = {
   "robot1-geodesic": { panels: 17 },
   "robot1-cable-lengths": { panels: 17 },
   "robot1-straight-qs-qg": { plane: true, panels: 17, stretches: true },
-  [STACK]: { panels: 24 },
+  [STACK]: { panels: 24, tolerances: true },
   "bodies.html": { plane: true, panels: 24 },
   "contact.html": { plane: true, panels: 21 },
   "thin-plate": { panels: 19, stretches: true },
