@@ -20,7 +20,7 @@ inline constexpr const char* kFirstPageStyle = R"css(
 .scope dt { color: var(--soft); font-weight: 600; }
 .scope dd { margin: 0; overflow-wrap: anywhere; }
 .band {
-  display: grid; grid-template-columns: auto 1fr auto; align-items: center; gap: 10px 24px;
+  display: grid; grid-template-columns: auto minmax(0, 1fr) fit-content(36%); align-items: center; gap: 10px 24px;
   border-radius: 10px; padding: 14px 22px; color: #fff;
 }
 .band.proved { background: #15653c; }

@@ -162,17 +162,24 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   #path > details { columns: 2; column-gap: 8mm; }
   #path > details:not(:has(tr:nth-child(25))) { break-inside: avoid; }
   p:has(+ .scroll), p:has(+ details) { break-after: avoid; }
-  /* What is broken: the plot stands below the picture, so that all fits the first page. */
+  /* What is broken: the plot stands below the picture, or beside one that bodies are explained under, so that all fits
+     the first page. */
   .duo:has(.broken) {
-    grid-template-columns: minmax(0, 34fr) minmax(0, 66fr); grid-template-rows: auto auto 1fr; row-gap: 0;
+    grid-template-columns: minmax(0, 34fr) minmax(0, 66fr); grid-template-rows: min-content min-content 1fr auto;
+    row-gap: 0;
   }
   .duo:has(.broken) > div { display: contents; }
-  .duo:has(.broken) > .machine { grid-area: 1 / 1; }
+  .duo:has(.broken) > .machine { grid-area: 1 / 1 / span 3; }
   .duo:has(.broken) > .machine > svg { max-height: 52mm; }
-  .duo:has(.broken) .cable-plot { grid-area: 2 / 1 / span 2; }
+  .duo:has(.broken) .cable-plot { grid-area: 4 / 1; }
   .duo:has(.broken) .scroll { grid-area: 1 / 2; }
   .duo:has(.broken) .note { grid-area: 2 / 2; }
-  .duo:has(.broken) .details { grid-area: 3 / 2; }
+  .duo:has(.broken) .details { grid-area: 3 / 2 / span 2; }
+  .duo:has(.broken):has(> .machine > .note) > .machine { grid-row: 1 / span 4; }
+  .duo:has(.broken):has(> .machine > .note) .cable-plot { grid-area: 4 / 2; }
+  .duo:has(.broken):has(> .machine > .note) .cable-plot > svg { max-height: 20mm; }
+  .duo:has(.broken):has(> .machine > .note) .details { grid-row: 3; }
+  .first:has(.machine > .note):has(.broken) .uncovered { font-size: 7.4pt; padding: 3pt 9pt; }
   .first .broken { font-size: 6.9pt; line-height: 1.22; }
   .first .broken td { overflow-wrap: break-word; padding: 1.2pt 6pt 1.2pt 0; }
   .first:has(.broken) .uncovered li { margin: 0; }

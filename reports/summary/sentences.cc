@@ -300,7 +300,8 @@ std::string apart_text(const BodyDistance& distance, const DisplayUnit& unit) {
 }
 
 std::string point_in_space(const Vector3<double>& at, const DisplayUnit& unit) {
-  const auto shown = [&](double x) { return fmt::format("{:.5g}", unit.approx(x) + 0.0); };
+  // To a tenth of a millimetre; 0.0 takes the sign from a 0.
+  const auto shown = [&](double x) { return unit.fixed(std::round(1e4 * x) / 1e4 + 0.0, 4); };
   return fmt::format("({}, {}, {}) {}", shown(at(0)), shown(at(1)), shown(at(2)), unit.name());
 }
 
