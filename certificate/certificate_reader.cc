@@ -388,7 +388,8 @@ void read_contact(const JsonCursor& witness, Witness& result) {
   constexpr std::int64_t kMostPairs = std::numeric_limits<int>::max();
   PairContact& contact = result.violation.contact.emplace();
   contact.pair = static_cast<std::size_t>(witness.at("pair").integer(0, kMostPairs));
-  contact.points = {read_shares(weights[0]), read_shares(weights[1]), {}};
+  contact.points = {read_shares(weights[0]), read_shares(weights[1]), {}, {}};
+  if (witness.contains("inside")) contact.points.inside = witness.at("inside").text() == "first" ? 0 : 1;
   if (witness.contains("elements")) {
     const std::vector<JsonCursor> elements = witness.at("elements").elements(2);
     for (std::size_t side = 0; side < 2; ++side) {

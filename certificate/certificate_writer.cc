@@ -205,9 +205,10 @@ json to_json(const Witness& witness) {
     result["kind"] = "contact";
     result["depth_m"] = violation.depth_m;
     result["pair"] = pair;
+    if (points.inside) result["inside"] = *points.inside == 0 ? "first" : "second";
     result["weights"] = json::array({rationals(points.first), rationals(points.second)});
     const auto& [first, second] = points.elements;
-    if (first || second) {
+    if (first || second || points.inside) {
       result["elements"] = {first ? json(*first) : json(), second ? json(*second) : json()};
     }
     result["proof"] = checker::proof_to_json(witness.at_box);

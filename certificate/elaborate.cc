@@ -117,6 +117,7 @@ checker::Witness statement(const PathWitness& found) {
     const PointPair& points = found.contact->points;
     result.weights = {exact_shares(points.first), exact_shares(points.second)};
     for (std::size_t side = 0; side < 2; ++side) result.elements[side] = points.elements[side];
+    result.inside = points.inside;
     return result;
   }
   result.cable = static_cast<std::size_t>(found.margin.cable);
@@ -301,7 +302,7 @@ class Elaborator::Search {
         arb_mul_2exp_si(r, r, 24 - bits);
       });
       const checker::Geometry geometry = commanded_geometry(machine, elaborator_.problem_, path_, 0, witness.at_box);
-      const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements) - slack;
+      const Ball depth = witnessed_depth(machine, geometry, witness) - slack;
       if (!certainly_nonnegative(depth)) return false;
       constexpr int kDigits = 6;
       deeper.depth_m = BigFloat(lower_bound(depth)).to_decimal(kDigits, MPFR_RNDD);

@@ -704,6 +704,7 @@ Contact contact(const ProofModel<I>& problem, const Segment& segment, const Dyad
   const BodyGaps<I> gaps(bodies);
   const CheckedPair<I>& checked = problem.bodies->pairs.at(pair);
   if (!gaps.have_cables_length()) return Contact::kUnknown;
+  if (points.inside) return gaps.is_inside_at_mid(checked, points) ? Contact::kAtMid : Contact::kUnknown;
   if (certainly_nonpositive(gaps.distance(checked, points, false))) return Contact::kThroughout;
   return certainly_nonpositive(gaps.distance(checked, points, true)) ? Contact::kAtMid : Contact::kUnknown;
 }

@@ -232,6 +232,7 @@ SegmentWalk::Step SegmentWalk::examine(const Task& task) {
   switch (verdict.kind) {
     case Kind::kNear: return examine_bodies(task, verdict);
     case Kind::kInside: {
+      if (auto refuted = refute_contact(task, verdict, verdict.near.front().pair)) return *std::move(refuted);
       const std::string where = " " + pair_name(verdict.near.front().pair) + " (inside)";
       return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, where}};
     }

@@ -44,10 +44,15 @@ void confirm_violation(const Machine& machine, const Problem& problem, const Pat
   }
 }
 
+Ball witnessed_depth(const Machine& machine, const Geometry& geometry, const Witness& witness) {
+  if (!witness.inside) return contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements);
+  return depth_inside(machine, geometry, witness.pair, *witness.inside, witness.weights, witness.elements);
+}
+
 void confirm_contact(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness) {
   const Geometry geometry =
       commanded_geometry(machine, problem, path, witness.at.segment, at_place(witness.at, witness.at_box));
-  const Ball depth = contact_depth(machine, geometry, witness.pair, witness.weights, witness.elements);
+  const Ball depth = witnessed_depth(machine, geometry, witness);
   if (certainly_negative(depth)) throw Rejected("the two points are farther apart than the clearance of their pair");
   const Ball excess = depth - Ball(witness.depth);
   if (certainly_negative(excess))

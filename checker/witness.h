@@ -29,8 +29,13 @@ namespace taut::checker {
 /// @throws Rejected where it is certainly outside; Undefined where that can't be told.
 void confirm_violation(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness);
 
+/// By how much the bodies of a witness of contact are nearer than is allowed, at least, for the machine as stated.
+/// @pre geometry is that of its pose
+/// @throws Undefined where it can't be told.
+[[nodiscard]] Ball witnessed_depth(const Machine& machine, const Geometry& geometry, const Witness& witness);
+
 /// Confirms that the two points of a witness of contact, of the machine as stated and at its pose, are no farther apart
-/// than the radii around them and the clearance of the pair are together.
+/// than the radii around them and the clearance of the pair are together; or that one point is inside of a closed mesh.
 /// @throws Rejected where they certainly are; Undefined where that can't be told.
 void confirm_contact(const Machine& machine, const Problem& problem, const Path& path, const Witness& witness);
 

@@ -65,11 +65,12 @@ struct PairDirections {
 
 /// A point of each of two bodies, as shares of its points: multiples of 1/kWhole that sum to kWhole. Of a cable, the
 /// points are the two ends of its checked part; of a half-space there are none: its nearest point is meant. Of a mesh,
-/// they are the three points of one of its elements.
+/// they are the three points of one of its elements; or none, where the other body's point is inside of it.
 struct PointPair {
   static constexpr std::int64_t kWhole = std::int64_t{1} << 30;
   std::vector<std::int64_t> first, second;
   std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes only
+  std::optional<std::size_t> inside = {};  ///< the body, 0 or 1, of which the other's point is inside: a closed mesh
 };
 
 /// A share as a number in [0, 1].
@@ -132,6 +133,9 @@ class BodyGaps {
   /// machine, at every t of T; `only_at_mid`: at m. Where it is not positive, the pair is not apart by more than its
   /// clearance there. @pre as many shares as either body has points
   [[nodiscard]] I distance(const CheckedPair<I>& pair, const PointPair& points, bool only_at_mid) const;
+  /// Claim, if true: at m, on the undisturbed machine, this point of one body is inside of the other, a watertight
+  /// mesh. @pre points.inside
+  [[nodiscard]] bool is_inside_at_mid(const CheckedPair<I>& pair, const PointPair& points) const;
   /// Claim, if true: the two bodies of the pair, of the undisturbed machine, have a common point at every t of T. The
   /// vectors from the second to the first of these four pairs of points are around 0. @pre neither is a half-space, and
   /// neither a mesh
@@ -174,6 +178,8 @@ class BodyGaps {
   [[nodiscard]] const PlacedMesh<I>* mesh(const CheckedPair<I>& pair, bool is_first) const;
   class MeshGaps;
   [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair, bool first_is_solid) const;
+  /// On which side of the first or the second body, a watertight mesh, a point of W is at m.
+  [[nodiscard]] MeshSide side_at_mid(const CheckedPair<I>& pair, bool first_is_solid, const Vector3<I>& point) const;
 
   const BodiesBox<I, Slope>& box_;
   Upper position_{}, turn_{};                       ///< of the platform, by deviations

@@ -174,6 +174,28 @@ double BodyGaps<I, Slope>::of_mesh(const CheckedPair<I>& pair, std::span<const D
   return MeshGaps(*this, pair, directions, where).least(enough);
 }
 
+template <class I, class Slope>
+MeshSide BodyGaps<I, Slope>::side_at_mid(const CheckedPair<I>& pair, bool first_is_solid,
+                                         const Vector3<I>& point) const {
+  const PlacedMesh<I>& solid = *mesh(pair, first_is_solid);
+  Vector3<I> x = point;
+  const bool is_of_platform = first_is_solid || pair.kind == PairClass::kCablesPlatform;
+  for (int k = 0; is_of_platform && k < 3; ++k) {
+    x(k) = box_.r_WP(0, k).at_mid * (point(0) - box_.p_WP(0).at_mid) +
+           box_.r_WP(1, k).at_mid * (point(1) - box_.p_WP(1).at_mid) +
+           box_.r_WP(2, k).at_mid * (point(2) - box_.p_WP(2).at_mid);
+  }
+  const Vector3<I> from(x(0) - solid.at(0), x(1) - solid.at(1), x(2) - solid.at(2));
+  std::array<I, 3> f;
+  for (int k = 0; k < 3; ++k) {
+    const I here = solid.turn
+                       ? I((*solid.turn)(0, k) * from(0) + (*solid.turn)(1, k) * from(1) + (*solid.turn)(2, k) * from(2))
+                       : from(k);
+    f[static_cast<std::size_t>(k)] = here / solid.unit;
+  }
+  return mesh_side(*solid.mesh, f);
+}
+
 /// Of the other body, one point of each part that hangs together is enough: it stays on one side of a surface that it
 /// does not touch.
 template <class I, class Slope>
@@ -182,43 +204,33 @@ MeshSide BodyGaps<I, Slope>::side_at_mid(const CheckedPair<I>& pair, bool first_
   if (solid == nullptr || !solid->mesh->is_watertight() || half_space(box_.bodies, pair) != nullptr) {
     return MeshSide::kOutside;
   }
-  const auto at_mid = [](const Form& x) { return x.at_mid; };
-  const auto in_world = [&](const Vector3<I>& x, bool is_of_platform) {
-    Vector3<I> y = x;
-    for (int k = 0; is_of_platform && k < 3; ++k) {
-      y(k) = at_mid(box_.p_WP(k)) + at_mid(box_.r_WP(k, 0)) * x(0) + at_mid(box_.r_WP(k, 1)) * x(1) +
-             at_mid(box_.r_WP(k, 2)) * x(2);
-    }
-    return y;
-  };
-  const bool is_of_platform = first_is_solid || pair.kind == PairClass::kCablesPlatform;
-  const auto side_of = [&](const Vector3<I>& world) {
-    Vector3<I> x = world;
-    for (int k = 0; is_of_platform && k < 3; ++k) {
-      x(k) = at_mid(box_.r_WP(0, k)) * (world(0) - at_mid(box_.p_WP(0))) +
-             at_mid(box_.r_WP(1, k)) * (world(1) - at_mid(box_.p_WP(1))) +
-             at_mid(box_.r_WP(2, k)) * (world(2) - at_mid(box_.p_WP(2)));
-    }
-    const Vector3<I> from(x(0) - solid->at(0), x(1) - solid->at(1), x(2) - solid->at(2));
-    std::array<I, 3> f;
-    for (int k = 0; k < 3; ++k) {
-      const I here =
-          solid->turn
-              ? I((*solid->turn)(0, k) * from(0) + (*solid->turn)(1, k) * from(1) + (*solid->turn)(2, k) * from(2))
-              : from(k);
-      f[static_cast<std::size_t>(k)] = here / solid->unit;
-    }
-    return mesh_side(*solid->mesh, f);
-  };
   if (const PlacedMesh<I>* other = mesh(pair, !first_is_solid)) {
     for (const std::uint32_t vertex : other->mesh->components()) {
-      const Vector3<I> x = in_world(other->place(other->mesh->mesh().vertices[vertex]), !first_is_solid);
-      if (const MeshSide side = side_of(x); side != MeshSide::kOutside) return side;
+      Vector3<I> x = other->place(other->mesh->mesh().vertices[vertex]);
+      if (!first_is_solid) {
+        const Vector3<I> of_platform = x;
+        for (int k = 0; k < 3; ++k) {
+          x(k) = box_.p_WP(k).at_mid + box_.r_WP(k, 0).at_mid * of_platform(0) +
+                 box_.r_WP(k, 1).at_mid * of_platform(1) + box_.r_WP(k, 2).at_mid * of_platform(2);
+        }
+      }
+      if (const MeshSide side = side_at_mid(pair, first_is_solid, x); side != MeshSide::kOutside) return side;
     }
     return MeshSide::kOutside;
   }
   const Vector3<Form> x = points(pair, !first_is_solid, {}).front();
-  return side_of({at_mid(x(0)), at_mid(x(1)), at_mid(x(2))});
+  return side_at_mid(pair, first_is_solid, {x(0).at_mid, x(1).at_mid, x(2).at_mid});
+}
+
+template <class I, class Slope>
+bool BodyGaps<I, Slope>::is_inside_at_mid(const CheckedPair<I>& pair, const PointPair& shares) const {
+  const bool first_is_solid = shares.inside == std::size_t{0};
+  const PlacedMesh<I>* solid = mesh(pair, first_is_solid);
+  if (solid == nullptr || !solid->mesh->is_watertight()) return false;
+  const std::size_t other = first_is_solid ? 1 : 0;
+  const Vector3<Form> x =
+      mean(points(pair, !first_is_solid, shares.elements[other]), first_is_solid ? shares.second : shares.first);
+  return side_at_mid(pair, first_is_solid, {x(0).at_mid, x(1).at_mid, x(2).at_mid}) == MeshSide::kInside;
 }
 
 template <class I, class Slope>
@@ -229,6 +241,11 @@ MeshSide BodyGaps<I, Slope>::side_at_mid(const CheckedPair<I>& pair) const {
 
 template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&, bool) const;
 template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&, bool) const;
+template MeshSide BodyGaps<Interval>::side_at_mid(const CheckedPair<Interval>&, bool, const Vector3<Interval>&) const;
+template MeshSide BodyGaps<MpInterval>::side_at_mid(const CheckedPair<MpInterval>&, bool,
+                                                    const Vector3<MpInterval>&) const;
+template bool BodyGaps<Interval>::is_inside_at_mid(const CheckedPair<Interval>&, const PointPair&) const;
+template bool BodyGaps<MpInterval>::is_inside_at_mid(const CheckedPair<MpInterval>&, const PointPair&) const;
 template const PlacedMesh<Interval>* BodyGaps<Interval>::mesh(const CheckedPair<Interval>&, bool) const;
 template const PlacedMesh<MpInterval>* BodyGaps<MpInterval>::mesh(const CheckedPair<MpInterval>&, bool) const;
 template const PlacedMesh<Interval>* BodyGaps<Interval, Gradient<Interval, 2>>::mesh(const CheckedPair<Interval>&,

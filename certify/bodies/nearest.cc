@@ -148,6 +148,7 @@ std::vector<Point> carried(const ConvexBody<double>& body, const RigidPose& pose
 /// As multiples of 1/kWhole that sum to kWhole.
 std::vector<std::int64_t> rounded_shares(const std::vector<double>& shares) {
   std::vector<std::int64_t> result;
+  if (shares.empty()) return result;
   for (const double share : shares) {
     result.push_back(std::llround(std::clamp(share, 0.0, 1.0) * static_cast<double>(PointPair::kWhole)));
   }
@@ -193,6 +194,7 @@ struct BodySampler::Found {
   bool is_half_space = false;
   std::array<std::vector<Point>, 2> points;                   ///< of either body; of neither a half-space nor a mesh
   std::array<std::optional<std::uint32_t>, 2> elements = {};  ///< of meshes
+  std::optional<std::size_t> inside = {};                     ///< as in PointPair; then the distance is negative
 };
 
 const HalfSpace<double>* BodySampler::half_space(const CheckedPair<double>& pair) const {
@@ -287,6 +289,15 @@ BodySampler::Found BodySampler::find(const Model<double>& model, const RigidPose
   NearestElements nearest = nearest_elements(bodies[0], bodies[1]);
   found.nearest = std::move(nearest.nearest);
   found.elements = nearest.elements;
+  if (!(found.nearest.distance > 0)) return found;
+  if (auto point = point_inside(bodies[0], bodies[1])) {
+    found.inside = point->solid;
+    found.nearest.distance *= -1;
+    found.elements[point->solid].reset();
+    found.elements[1 - point->solid] = point->element;
+    (point->solid == 0 ? found.nearest.first : found.nearest.second).clear();
+    (point->solid == 0 ? found.nearest.second : found.nearest.first) = std::move(point->shares);
+  }
   return found;
 }
 
@@ -402,9 +413,7 @@ Direction BodySampler::rough_direction(const Model<double>& model, const RigidPo
 
 PointPair BodySampler::nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
   const Found found = find(model, pose, pair);
-  PointPair points{rounded_shares(found.nearest.first), {}, found.elements};
-  if (!found.is_half_space) points.second = rounded_shares(found.nearest.second);
-  return points;
+  return {rounded_shares(found.nearest.first), rounded_shares(found.nearest.second), found.elements, found.inside};
 }
 
 namespace {

@@ -32,7 +32,8 @@ class BodySampler {
   [[nodiscard]] const BodyModel<double>& bodies() const { return bodies_; }
   /// Whether elements of a mesh have to be told apart one by one.
   [[nodiscard]] bool needs_list(std::size_t pair) const;
-  /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance.
+  /// How much farther than its clearance a pair is apart at a pose [m]; where hulls meet, minus radii and clearance;
+  /// where a part of one body is inside of the other, a watertight mesh, minus how far surfaces are apart as well.
   [[nodiscard]] double gap(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
   /// Along which a pair is farthest apart at a pose, with components up to `largest`; nothing where hulls meet.
   [[nodiscard]] std::optional<Direction> direction(const Model<double>& model, const RigidPose& pose, std::size_t pair,

@@ -8,6 +8,7 @@
 #include <queue>
 
 #include "certify/bodies/mesh_cover.h"
+#include "certify/bodies/mesh_side.h"
 
 namespace taut {
 namespace {
@@ -132,6 +133,52 @@ NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& se
     }
   }
   return best;
+}
+
+namespace {
+
+bool is_inside(const BodyInFrame& solid, const Point& point) {
+  const Point f = solid.axes.transpose() * (point - solid.origin) / solid.axes.col(0).squaredNorm();
+  MeshSide side = MeshSide::kUnknown;
+  const bool is_known =
+      run_upward([&] { side = mesh_side<Interval>(*solid.mesh, {Interval(f(0)), Interval(f(1)), Interval(f(2))}); });
+  return is_known && side == MeshSide::kInside;
+}
+
+/// An element with a vertex, and the vertex as shares of its points.
+std::pair<std::uint32_t, std::vector<double>> element_with(const IndexedMesh& mesh, std::uint32_t vertex) {
+  const auto& at = mesh.mesh().vertices[vertex];
+  for (std::uint32_t element = 0;; ++element) {
+    const auto corners = mesh.points(element);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (corners[k] != at) continue;
+      std::vector<double> shares(corners.size());
+      shares[k] = 1;
+      return {element, shares};
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<PointInside> point_inside(const BodyInFrame& first, const BodyInFrame& second) {
+  const std::array<const BodyInFrame*, 2> bodies = {&first, &second};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const BodyInFrame &solid = *bodies[k], &other = *bodies[1 - k];
+    if (solid.mesh == nullptr || !solid.mesh->is_watertight()) continue;
+    if (other.mesh == nullptr) {
+      if (!is_inside(solid, other.points.front())) continue;
+      std::vector<double> shares(other.points.size());
+      shares.front() = 1;
+      return PointInside{k, std::move(shares), {}};
+    }
+    for (const std::uint32_t vertex : other.mesh->components()) {
+      if (!is_inside(solid, other.origin + other.axes * vector(other.mesh->mesh().vertices[vertex]))) continue;
+      auto [element, shares] = element_with(*other.mesh, vertex);
+      return PointInside{k, std::move(shares), element};
+    }
+  }
+  return std::nullopt;
 }
 
 namespace {

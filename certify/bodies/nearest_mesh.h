@@ -33,6 +33,15 @@ struct NearestElements {
 /// @pre one of them is a mesh
 [[nodiscard]] NearestElements nearest_elements(const BodyInFrame& first, const BodyInFrame& second);
 
+/// A point of one body that is inside of the other, a watertight mesh.
+struct PointInside {
+  std::size_t solid = 0;                 ///< the mesh: 0 the first, 1 the second
+  std::vector<double> shares;            ///< of the other body's points, or of those of an element of it
+  std::optional<std::uint32_t> element;  ///< of the other body, if that is a mesh
+};
+/// Looks at one point of each part of a body that hangs together: enough where surfaces do not touch.
+[[nodiscard]] std::optional<PointInside> point_inside(const BodyInFrame& first, const BodyInFrame& second);
+
 /// The element of a mesh with the point that has the least u·x. @pre body.mesh
 [[nodiscard]] std::uint32_t lowest_element(const BodyInFrame& body, const Vector3<double>& u);
 

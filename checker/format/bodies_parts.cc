@@ -272,21 +272,35 @@ std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const 
   return result;
 }
 
-ContactElements read_contact_elements(const Cursor& json, std::size_t pair, const Problem& problem) {
+std::size_t read_contact_inside(const Cursor& json, std::size_t pair, const Problem& problem) {
+  static constexpr std::array<std::pair<const char*, std::size_t>, 2> kSides = {{{"first", 0}, {"second", 1}}};
+  const std::size_t solid = json.one_of<std::size_t>(kSides, "first or second");
+  const Bodies& bodies = problem.bodies.value();
+  const CheckedPair& of = bodies.pairs.at(pair);
+  json.require(bodies.mesh(of, solid == 0) != nullptr, "a body that is a mesh");
+  json.require(!bodies.is_against_half_space(of), "no half-space");
+  return solid;
+}
+
+ContactElements read_contact_elements(const Cursor& json, std::size_t pair, const std::optional<std::size_t>& inside,
+                                      const Problem& problem) {
   const Bodies& bodies = problem.bodies.value();
   ContactElements result;
   json.require_size(2);
   json.elements([&](const Cursor& here, std::size_t side) {
-    const bool is_mesh = bodies.mesh(bodies.pairs.at(pair), side == 0) != nullptr;
-    here.require(is_mesh != here.is_null(), is_mesh ? "the index of an element" : "null, as this body is no mesh");
+    const bool is_mesh = side != inside && bodies.mesh(bodies.pairs.at(pair), side == 0) != nullptr;
+    here.require(is_mesh != here.is_null(),
+                 is_mesh ? "the index of an element" : "null, as this body is no mesh or has the other's point inside");
     if (is_mesh) result[side] = static_cast<std::size_t>(here.integer(0, std::int64_t{1} << 32U));
   });
   return result;
 }
 
-ContactWeights read_contact_weights(const Cursor& json, std::size_t pair, const Problem& problem) {
+ContactWeights read_contact_weights(const Cursor& json, std::size_t pair, const std::optional<std::size_t>& inside,
+                                    const Problem& problem) {
   const Bodies& bodies = problem.bodies.value();
-  const std::array<std::size_t, 2> sizes = weights_of(bodies, bodies.pairs.at(pair));
+  std::array<std::size_t, 2> sizes = weights_of(bodies, bodies.pairs.at(pair));
+  if (inside) sizes.at(*inside) = 0;
   ContactWeights result;
   json.require_size(2);
   json.elements([&](const Cursor& here, std::size_t side) {

@@ -152,7 +152,7 @@ ContactReason read_contact(const Cursor& json, const Problem& problem) {
     points.require(points.size() == 1 || (may_be_four && points.size() == 4),
                    may_be_four ? "the points of one or four places" : "the points of one place");
     points.elements([&](const Cursor& weights, std::size_t) {
-      result.points.push_back(read_contact_weights(weights, result.pair, problem));
+      result.points.push_back(read_contact_weights(weights, result.pair, {}, problem));
     });
   };
   json.object("pair", read_pair, "points", read_points);

@@ -44,10 +44,15 @@ void append_direction(const Cursor& json, Path& path);
 /// An entry of `apart` for a pair of the problem's bodies.
 [[nodiscard]] std::vector<std::size_t> read_apart(const Cursor& json, std::size_t pair, const Problem& problem,
                                                   const Path& path);
-/// `elements` of a witness of contact between the bodies of a pair, one of which is a mesh.
-[[nodiscard]] ContactElements read_contact_elements(const Cursor& json, std::size_t pair, const Problem& problem);
+/// `inside` of a witness of contact between the bodies of a pair: the mesh, 0 the first body or 1 the second.
+[[nodiscard]] std::size_t read_contact_inside(const Cursor& json, std::size_t pair, const Problem& problem);
+/// `elements` of a witness of contact between the bodies of a pair, one of which is a mesh. The body that has the
+/// other's point inside has none, and no weights.
+[[nodiscard]] ContactElements read_contact_elements(const Cursor& json, std::size_t pair,
+                                                    const std::optional<std::size_t>& inside, const Problem& problem);
 /// `weights` of a witness of contact between the bodies of a pair.
-[[nodiscard]] ContactWeights read_contact_weights(const Cursor& json, std::size_t pair, const Problem& problem);
+[[nodiscard]] ContactWeights read_contact_weights(const Cursor& json, std::size_t pair,
+                                                  const std::optional<std::size_t>& inside, const Problem& problem);
 
 void read_margins(const Cursor& json, const Problem& problem, Margins& margins);
 [[nodiscard]] Segment read_segment(const Cursor& json, std::size_t k, const Problem& problem, const Path& path);

@@ -313,13 +313,16 @@ Witness read_witness(const Cursor& json, const Problem& problem, const Path& pat
     json["kind"].require(problem.bodies && !problem.bodies->pairs.empty(), "no contact where no pair is checked");
     const auto last = static_cast<std::int64_t>(problem.bodies->pairs.size()) - 1;
     const auto read_weights = [&](const Cursor& weights) {
-      witness.weights = read_contact_weights(weights, witness.pair, problem);
+      witness.weights = read_contact_weights(weights, witness.pair, witness.inside, problem);
     };
     const auto read_elements = [&](const Cursor& elements) {
-      witness.elements = read_contact_elements(elements, witness.pair, problem);
+      witness.elements = read_contact_elements(elements, witness.pair, witness.inside, problem);
     };
-    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "weights", read_weights, "elements?",
-                read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
+    const auto read_inside = [&](const Cursor& inside) {
+      witness.inside = read_contact_inside(inside, witness.pair, problem);
+    };
+    json.object("kind", ignore, "pair", integer(witness.pair, 0, last), "inside?", read_inside, "weights", read_weights,
+                "elements?", read_elements, "depth_m", witness.depth, "at", witness_point(witness.at, path), "proof",
                 proof(witness.at_box, witness.at, n), "motion", read_motion);
     json["depth_m"].require(witness.depth >= 0, "a depth >= 0");
     const bool has_mesh = problem.bodies->has_mesh(problem.bodies->pairs[witness.pair]);

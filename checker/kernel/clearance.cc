@@ -395,4 +395,25 @@ Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t
   return allowed - (dot(half_space.normal, a.at) - half_space.offset) / sqrt(squared_norm(half_space.normal));
 }
 
+Ball depth_inside(const Machine& machine, const Geometry& geometry, std::size_t n, std::size_t solid,
+                  const ContactWeights& weights, const ContactElements& elements) {
+  const PlacedBodies& bodies = machine.bodies.value();
+  const CheckedPair& pair = bodies.pairs.at(n);
+  const PlacedSurface* const mesh = bodies.mesh(pair, solid == 0);
+  if (mesh == nullptr || !mesh->surface->is_closed()) throw Undefined("the body has no inside: " + pair.name);
+  const std::size_t other = 1 - solid;
+  const bool is_of_platform = pair.kind == PairKind::kPlatformObstacle && solid == 1;
+  const ContactPoint point =
+      pair.kind != PairKind::kPlatformObstacle ? of_cable(machine, geometry, pair.first, weights[other])
+      : is_of_platform ? of_platform(*bodies.hull(pair, true), geometry, weights[other], elements[other])
+                       : of_body(*bodies.hull(pair, false), weights[other], elements[other]);
+  const bool is_carried = solid == 0 || pair.kind == PairKind::kCablePlatform;
+  const Vector3<Ball> here =
+      is_carried ? multiply(transposed(range(geometry.pose.R)), point.at - range(geometry.pose.p)) : point.at;
+  if (side_of(*mesh->surface, in_unit_of(*mesh, here)) != Side::kInside) {
+    throw Undefined("the point may be outside of the mesh: " + pair.name);
+  }
+  return bodies.clearance[n];
+}
+
 }  // namespace taut::checker

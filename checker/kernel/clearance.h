@@ -60,4 +60,11 @@ namespace taut::checker {
 [[nodiscard]] Ball contact_depth(const Machine& machine, const Geometry& geometry, std::size_t pair,
                                  const ContactWeights& weights, const ContactElements& elements = {});
 
+/// Confirms that this point of one body of a pair is inside of the other, `solid`: 0 the first, 1 the second, a closed
+/// mesh, so that the bodies have it in common. @returns the pair's clearance [m]
+/// @pre geometry is that of one place
+/// @throws Undefined where this is not certain, and where a cable may not be longer than its free ends.
+[[nodiscard]] Ball depth_inside(const Machine& machine, const Geometry& geometry, std::size_t pair, std::size_t solid,
+                                const ContactWeights& weights, const ContactElements& elements = {});
+
 }  // namespace taut::checker

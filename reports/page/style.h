@@ -177,7 +177,7 @@ svg .platform { stroke: var(--curve); stroke-width: 1.6; fill: var(--platform); 
   .duo:has(.broken) .details { grid-area: 3 / 2 / span 2; }
   .duo:has(.broken):has(> .machine > .note) > .machine { grid-row: 1 / span 4; }
   .duo:has(.broken):has(> .machine > .note) .cable-plot { grid-area: 4 / 2; }
-  .duo:has(.broken):has(> .machine > .note) .cable-plot > svg { max-height: 20mm; }
+  .duo:has(.broken):has(> .machine > .note) .cable-plot > svg { max-height: 15mm; }
   .duo:has(.broken):has(> .machine > .note) .details { grid-row: 3; }
   .first:has(.machine > .note):has(.broken) .uncovered { font-size: 7.4pt; padding: 3pt 9pt; }
   .first .broken { font-size: 6.9pt; line-height: 1.22; }

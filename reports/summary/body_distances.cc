@@ -179,12 +179,14 @@ BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose
   BodyDistance result{n, 0, pair.clearance};
   const BodyInFrame a = in_frame(bodies_.bodies(), pair, true, pose, first.points);
   const BodyInFrame b = in_frame(bodies_.bodies(), pair, false, pose, second.points);
+  bool is_inside = false;
   if (second.half_space != nullptr) {
     if (a.mesh != nullptr) first.points = points_of(a, lowest_element(a, second.half_space->normal));
   } else if (a.mesh != nullptr || b.mesh != nullptr) {  // what comes nearest of a mesh stands for it
     const auto [of_first, of_second] = nearest_elements(a, b).elements;
     first.points = points_of(a, of_first);
     second.points = points_of(b, of_second);
+    is_inside = point_inside(a, b).has_value();
   }
   if (const HalfSpace<double>* half_space = second.half_space) {
     const Point normal = half_space->normal.normalized();
@@ -200,7 +202,8 @@ BodyDistance BodyDistances::at(const Model<double>& model, const RigidPose& pose
   for (const Point& x : first.points) size = std::max(size, x.cwiseAbs().maxCoeff());
   if (nearest.distance > 1e-9 * size) {
     const Point along = nearest.apart / nearest.distance;
-    result.distance = nearest.distance - first.radius - second.radius;
+    // Of what is inside of a mesh: how far its surface is, which is less than how deep the bodies are in each other.
+    result.distance = (is_inside ? -nearest.distance : nearest.distance) - first.radius - second.radius;
     result.at[0] -= first.radius * along;
     result.at[1] += second.radius * along;
     return result;

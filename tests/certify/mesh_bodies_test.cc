@@ -182,8 +182,7 @@ TEST(MeshBodies, AreSolidIfTheyAreClosed) {
   const Path path = path_through({{-0.2, 0, 6.6, 0, 0, 0}, {0.2, 0, 6.6, 0, 0, 0}});
   for (const bool is_on_platform : {false, true}) {
     const Outcome closed = outcome_of(with_sphere_around(sphere_mesh(2, 3), is_on_platform), path);
-    EXPECT_EQ(closed.verdict, Verdict::kUndecided);
-    EXPECT_THAT(closed.message, ::testing::HasSubstr(is_on_platform ? "shell / ball" : "ball / shell"));
+    EXPECT_EQ(closed.verdict, Verdict::kRefuted) << closed.message;
     // With a hole far away it is a surface, whose both sides are outside.
     TriangleMesh open = sphere_mesh(2, 3);
     open.triangles.pop_back();
@@ -230,6 +229,46 @@ checker::Outcome outcome_of_changed(const Problem& problem, const Certificate& c
   Certificate changed = certificate;
   change(changed);
   return checker::check(certificate_text(changed), supplied(problem)).outcome;
+}
+
+TEST(MeshBodies, AreTouchedByWhatIsInside) {
+  const Path path = path_through({{-0.2, 0, 6.6, 0, 0, 0}, {0.2, 0, 6.6, 0, 0, 0}});
+  for (const bool is_on_platform : {false, true}) {
+    const Problem problem = with_sphere_around(sphere_mesh(2, 3), is_on_platform);
+    const std::size_t solid = is_on_platform ? 0 : 1;
+    const Certificate certificate = elaborate(problem, path, prove_path(Prover(problem), path, {}, {}));
+    ASSERT_EQ(certificate.verdict, Verdict::kRefuted);
+    const PairContact& contact = *certificate.witness->violation.contact;
+    EXPECT_EQ(contact.points.inside, solid);
+    EXPECT_NEAR(std::stod(certificate.witness->violation.depth_m), 0.1, 1e-6);  // the clearance
+    const auto with = [&](const std::function<void(PathWitness&)>& change) {
+      return outcome_of_changed(problem, certificate,
+                                [&](Certificate& changed) { change(changed.witness->violation); });
+    };
+    EXPECT_EQ(with([](PathWitness&) {}), checker::Outcome::kAccepted);
+    EXPECT_EQ(with([](PathWitness& witness) { witness.depth_m = "0.1000001"; }), checker::Outcome::kRejected);
+    EXPECT_EQ(with([](PathWitness& witness) { witness.contact->points.inside.reset(); }),
+              checker::Outcome::kMalformed);
+    EXPECT_EQ(with([&](PathWitness& witness) { witness.contact->points.inside = 1 - solid; }),
+              checker::Outcome::kMalformed);
+    // The mesh next to the ball, which is stated to be at another place, is not around it.
+    Problem aside = problem;
+    aside.bodies->obstacles[0].at_m = {"0", "0", "12"};
+    const auto aside_certificate = [&] {
+      Certificate changed = certificate;
+      changed.problem = aside;
+      return checker::check(certificate_text(changed), supplied(aside)).outcome;
+    };
+    EXPECT_EQ(aside_certificate(), checker::Outcome::kRejected);
+    // With a hole in it, the mesh has no inside.
+    checker::CheckOptions options;
+    options.meshes = [&](const std::string& file, const std::string& sha256) {
+      checker::SuppliedMesh mesh = supplied(problem).meshes(file, sha256);
+      mesh.triangles.pop_back();
+      return mesh;
+    };
+    EXPECT_EQ(checker::check(certificate_text(certificate), options).outcome, checker::Outcome::kRejected);
+  }
 }
 
 TEST(MeshBodies, NeedAllTheirDirections) {
