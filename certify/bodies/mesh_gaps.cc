@@ -188,9 +188,9 @@ MeshSide BodyGaps<I, Slope>::side_at_mid(const CheckedPair<I>& pair, bool first_
   const Vector3<I> from(x(0) - solid.at(0), x(1) - solid.at(1), x(2) - solid.at(2));
   std::array<I, 3> f;
   for (int k = 0; k < 3; ++k) {
-    const I here = solid.turn
-                       ? I((*solid.turn)(0, k) * from(0) + (*solid.turn)(1, k) * from(1) + (*solid.turn)(2, k) * from(2))
-                       : from(k);
+    const I here =
+        solid.turn ? I((*solid.turn)(0, k) * from(0) + (*solid.turn)(1, k) * from(1) + (*solid.turn)(2, k) * from(2))
+                   : from(k);
     f[static_cast<std::size_t>(k)] = here / solid.unit;
   }
   return mesh_side(*solid.mesh, f);

@@ -140,8 +140,9 @@ namespace {
 bool is_inside(const BodyInFrame& solid, const Point& point) {
   const Point f = solid.axes.transpose() * (point - solid.origin) / solid.axes.col(0).squaredNorm();
   MeshSide side = MeshSide::kUnknown;
-  const bool is_known =
-      run_upward([&] { side = mesh_side<Interval>(*solid.mesh, {Interval(f(0)), Interval(f(1)), Interval(f(2))}); });
+  const bool is_known = run_upward([&] {
+    side = mesh_side<Interval>(*solid.mesh, {Interval(f(0)), Interval(f(1)), Interval(f(2))});
+  });
   return is_known && side == MeshSide::kInside;
 }
 

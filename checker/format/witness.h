@@ -49,8 +49,8 @@ struct Witness {
   ContactWeights weights;  ///< of the two points that are too near to each other
   ContactElements elements;
   std::optional<std::size_t> inside;  ///< the body, 0 or 1, of which the other's point is inside: then it has no point
-  mpq_class depth;        ///< >= 0: by how much they are nearer than is allowed, at least [m]
-  std::size_t cable = 0;  ///< 0 to 5; of limits only, as what follows but for `motion`
+  mpq_class depth;                    ///< >= 0: by how much they are nearer than is allowed, at least [m]
+  std::size_t cable = 0;              ///< 0 to 5; of limits only, as what follows but for `motion`
   mpq_class value_lower;
   mpq_class value_upper;
   std::optional<WitnessDeviation> deviation;

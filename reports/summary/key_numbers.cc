@@ -316,10 +316,9 @@ std::optional<KeyNumber> clearance_number(const ReportContext& scene, bool is_pr
   const double left = has_bound ? nearest_double(*proved) : nearest.left();
   const DisplayUnit& of_left = unit.name() == "m" && std::abs(left) < kSmall ? millimetres : unit;
   const std::string size = has_bound ? truncated(*proved) : "";
-  const std::string value = has_bound ? fmt::format("{} {} left", of_left.exact(size), of_left.name())
-                            : left > 0
-                                ? fmt::format("about {} {} left", of_left.down(left, kDigits), of_left.name())
-                                : fmt::format("{} {}", of_left.nearest(-left, kDigits), of_left.name());
+  const std::string value = has_bound  ? fmt::format("{} {} left", of_left.exact(size), of_left.name())
+                            : left > 0 ? fmt::format("about {} {} left", of_left.down(left, kDigits), of_left.name())
+                                       : fmt::format("{} {}", of_left.nearest(-left, kDigits), of_left.name());
   const std::string asked = unit.exact(pairs(*scene.certificate.problem.bodies).at(nearest.pair).clearance_m);
   return KeyNumber{"clearance",
                    left > 0 ? "Least clearance left" : "Bodies too near, by about",

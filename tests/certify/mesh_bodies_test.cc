@@ -247,8 +247,7 @@ TEST(MeshBodies, AreTouchedByWhatIsInside) {
     };
     EXPECT_EQ(with([](PathWitness&) {}), checker::Outcome::kAccepted);
     EXPECT_EQ(with([](PathWitness& witness) { witness.depth_m = "0.1000001"; }), checker::Outcome::kRejected);
-    EXPECT_EQ(with([](PathWitness& witness) { witness.contact->points.inside.reset(); }),
-              checker::Outcome::kMalformed);
+    EXPECT_EQ(with([](PathWitness& witness) { witness.contact->points.inside.reset(); }), checker::Outcome::kMalformed);
     EXPECT_EQ(with([&](PathWitness& witness) { witness.contact->points.inside = 1 - solid; }),
               checker::Outcome::kMalformed);
     // The mesh next to the ball, which is stated to be at another place, is not around it.
