@@ -176,6 +176,11 @@ TEST(CaseCables, MayHaveOneOrSixOfEach) {
 constexpr const char* kDeck = "platform: [{name: deck, box: [1, 1, 1 mm]}]\n";
 constexpr const char* kPost = "obstacles: [{name: post, ball: {radius: 1}}]\n";
 
+TEST(CasePairs, AreAtLeastOneClass) {
+  expect_rejected("{clearance: 1, platform: [{name: f, ball: {radius: 1}}], obstacles: [], pairs: []}",
+                  "bodies.pairs: got an empty list, expected one class of pairs or more");
+}
+
 TEST(CasePairs, AreAllThatThereAreBodiesForUnlessStated) {
   const auto checked = [](const std::string& yaml) {
     std::string classes;
