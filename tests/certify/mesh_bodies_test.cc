@@ -23,8 +23,11 @@ namespace {
 
 using testing::at;
 using testing::box_mesh;
+using testing::joined_meshes;
 using testing::mesh_text;
+using testing::one_sided_mesh;
 using testing::sphere_mesh;
+using testing::twice_wound_mesh;
 
 /// The crane of the cases with tolerances. Its bodies are the caller's.
 Problem crane() {

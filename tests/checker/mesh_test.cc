@@ -16,7 +16,10 @@ namespace taut::checker {
 namespace {
 
 using taut::testing::box_mesh;
+using taut::testing::joined_meshes;
+using taut::testing::one_sided_mesh;
 using taut::testing::sphere_mesh;
+using taut::testing::twice_wound_mesh;
 
 std::shared_ptr<const Surface> surface_of(const TriangleMesh& mesh) {
   return std::make_shared<const Surface>(mesh.vertices, mesh.triangles, mesh.needles);
