@@ -50,13 +50,13 @@ std::uint32_t little_endian(const std::string& bytes, std::size_t at) {
 }
 
 /// A binary STL file says how many triangles follow; CGAL would make room for as many as it says.
-bool is_cut_stl(const std::string& bytes) {
+bool is_not_whole_stl(const std::string& bytes) {
   if (is_text_stl(bytes)) return false;
   if (bytes.size() < kStlHead) return true;
-  return bytes.size() < kStlHead + kStlPiece * static_cast<std::size_t>(little_endian(bytes, kStlHead - 4));
+  return bytes.size() != kStlHead + kStlPiece * static_cast<std::size_t>(little_endian(bytes, kStlHead - 4));
 }
 
-/// CGAL takes a point that is no number for one that it has read before. @pre !is_cut_stl
+/// CGAL takes a point that is no number for one that it has read before. @pre !is_not_whole_stl
 void require_numbers(const std::string& bytes) {
   const std::size_t count = little_endian(bytes, kStlHead - 4);
   for (std::size_t t = 0; t < count; ++t) {
@@ -163,7 +163,7 @@ bool read_by_cgal(const std::string& extension, const std::string& bytes, std::v
 /// Reads a whole file. False if it is none.
 bool read_file(const std::string& extension, const std::string& bytes, std::vector<CgalPoint>& points,
                std::vector<std::vector<std::size_t>>& faces) {
-  if (extension == ".stl" && is_cut_stl(bytes)) return false;
+  if (extension == ".stl" && is_not_whole_stl(bytes)) return false;
   require_plain(extension, bytes);
   if (extension == ".obj" && bytes.find('\t') != std::string::npos) {  // CGAL does not take tabs in faces for blanks
     std::string with_blanks = bytes;
