@@ -105,6 +105,16 @@ bool is_number(std::string_view word) {
   return error != std::errc::invalid_argument && end == word.data() + word.size();
 }
 
+/// Three coordinates, maybe with a colour, or with a weight of 1: CGAL does not divide by it.
+bool is_point(const std::vector<std::string>& words) {
+  if (!std::ranges::all_of(words, is_number)) return false;
+  if (words.size() == 4) {
+    const std::string& weight = words.back();
+    return weight == "1" || (weight.starts_with("1.") && weight.find_first_not_of('0', 2) == std::string::npos);
+  }
+  return words.size() == 3 || words.size() == 6;
+}
+
 /// Refuses text in which a coordinate of a corner is followed by anything but a blank.
 void require_plain_corners(const std::string& text) {
   std::istringstream words(text);
@@ -132,10 +142,10 @@ void require_plain_lines(const std::string& bytes) {
     }
     if (word != "f" && word != "v") continue;
     const bool is_face = word == "f";
-    while (words >> word && !word.starts_with('#')) {
-      if (is_face ? is_corner(word) : is_number(word)) continue;
-      fail(fmt::format("in which line {} is no {}, expected a mesh", number, is_face ? "face" : "point"));
-    }
+    std::vector<std::string> parts;
+    while (words >> word && !word.starts_with('#')) parts.push_back(word);
+    if (is_face ? std::ranges::all_of(parts, is_corner) : is_point(parts)) continue;
+    fail(fmt::format("in which line {} is no {}, expected a mesh", number, is_face ? "face" : "point"));
   }
 }
 

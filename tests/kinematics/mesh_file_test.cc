@@ -298,6 +298,10 @@ TEST_F(MeshFiles, WithMoreBehindANumberAreRejected) {
     expect_rejected("z.obj", obj(z), "in which line 1 is no point");
   }
   expect_rejected("large.stl", stl("1e999"), "which is no whole stl file");
+  for (const std::string z : {"1 2", "1 0.5", "1 1 1", "1 1.01", "1 1 0 0 0"}) {
+    expect_rejected("weight.obj", obj(z), "in which line 1 is no point");
+  }
+  for (const std::string z : {"1 1", "1 1.0", "1 0.5 0.5 0.5"}) EXPECT_EQ(load("z.obj", obj(z)).mesh.vertices[0][2], 1);
 }
 
 TEST_F(MeshFiles, OfPlyAreRead) {
