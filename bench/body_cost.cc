@@ -7,7 +7,7 @@
 // of platform and obstacles and of cables only, and without bodies, in turns in one run; ratios are medians of the
 // rounds' ones. Times are of this thread's processor.
 //
-// Usage: body_cost [--quick]; Markdown on stdout.
+// Usage: body_cost [--quick | --proofs]; Markdown on stdout. --proofs: without the mesh.
 #include <string_view>
 
 #include "bench/scenes.h"
@@ -106,7 +106,8 @@ void compare_proofs(bool is_quick) {
   fmt::print("| path | pairs | of them | proved | boxes judged | a segment, us | **ratio** |\n");
   fmt::print("|---|---|---|---|---|---|---|\n");
   const std::string crane = "cranes/portal-20t-between.yaml";
-  std::vector<Kind> with = kinds(crane, "{default: 200 mm, cables-cables: 20 mm, cables-platform: 10 mm}", bench::kHall);
+  std::vector<Kind> with =
+      kinds(crane, "{default: 200 mm, cables-cables: 20 mm, cables-platform: 10 mm}", bench::kHall);
   for (Kind& kind : with) {
     kind.problem.query = {{"-4", "0", "6.8", "0", "0", "-0.1"}, {"4", "0", "6.8", "0", "0", "0.1"}};
   }
@@ -172,9 +173,10 @@ void measure_mesh(bool is_quick) {
   }
   fmt::print("\n{} triangles, {} segments, a certificate of {:.0f} kB:\n\n| step | processor time, ms |\n|---|---|\n",
              triangles, segments, 1e-3 * static_cast<double>(bytes));
-  const std::array<const char*, 6> names = {"read the file and look for its holes", "make the planner and its models",
-                                            "plan: search, proofs, shortening", "of that, to prove the path once more",
-                                            "find how the checker proves it; its text", "check it"};
+  const std::array<const char*, 6> names = {
+      "read the file and look for its holes",     "make the planner and its models",
+      "plan: search, proofs, shortening",         "of that, to prove the path once more",
+      "find how the checker proves it; its text", "check it"};
   for (std::size_t k = 0; k < names.size(); ++k) fmt::print("| {} | {:.0f} |\n", names[k], 1e3 * median(times[k]));
 }
 
@@ -182,8 +184,9 @@ void measure_mesh(bool is_quick) {
 }  // namespace taut
 
 int main(int argc, char** argv) {
-  const bool is_quick = argc > 1 && std::string_view(argv[1]) == "--quick";
+  const std::string_view option = argc > 1 ? argv[1] : "";
+  const bool is_quick = option == "--quick";
   taut::rounding_self_test();
   taut::compare_proofs(is_quick);
-  taut::measure_mesh(is_quick);
+  if (option != "--proofs") taut::measure_mesh(is_quick);
 }

@@ -64,7 +64,8 @@ class ParameterSpace final : public ompl::base::RealVectorStateSpace {
     }
     return std::sqrt(square);
   }
-  void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t, ompl::base::State* state) const override {
+  void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
+                   ompl::base::State* state) const override {
     double* values = state->as<StateType>()->values;
     for (std::size_t j = 0; j < dimension_; ++j) {
       const double start = point(from)[j];

@@ -149,13 +149,9 @@ SegmentWalk::SegmentWalk(const Prover& prover, const Segment& segment, double cl
       std::numeric_limits<double>::infinity();
   if (prover.bodies() == nullptr) return;
   const PoseSampler& sampler = prover.sampler();
-  const RigidPose middle = sampler.rigid_pose(segment, 0.5);
-  PairDirections rough;
-  for (std::size_t n = 0; n < prover.bodies()->bodies().pairs.size(); ++n) {
-    rough.single.push_back(prover.bodies()->rough_direction(sampler.model(), middle, n));
-    if (prover.bodies()->needs_list(n)) rough.lists[n] = {rough.single.back()};
-  }
-  directions_ = std::make_shared<const PairDirections>(std::move(rough));
+  const std::array<RigidPose, 2> ends{sampler.rigid_pose(segment, 0), sampler.rigid_pose(segment, 1)};
+  directions_ = std::make_shared<const PairDirections>(
+      prover.bodies()->first_directions(sampler.model(), sampler.rigid_pose(segment, 0.5), ends));
 }
 
 SegmentSurvey SegmentWalk::run() {
@@ -323,8 +319,8 @@ SegmentWalk::Step SegmentWalk::examine_bodies(const Task& task, const BoxVerdict
     return {Step::Kind::kGiveUp, verdict, {}, {Undecided::kBodies, " a cable may be shorter than its free ends"}};
   }
   const double s = task.box.mid().approx();
-  if (task.redirections < kMostRedirections && redirect(task.box, verdict, task.redirections)) {
-    return {Step::Kind::kRedirect, verdict};
+  for (std::size_t time = task.redirections; time < kMostRedirections; ++time) {
+    if (redirect(task.box, verdict, time)) return {Step::Kind::kRedirect, verdict};
   }
 
   const auto gap_of = [&](const BoxVerdict::NearPair& near) { return gap(near.pair, s); };

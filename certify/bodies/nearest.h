@@ -45,6 +45,10 @@ class BodySampler {
                                                   int largest, double share, std::span<const RigidPose> around) const;
   /// One along which a pair may well be apart there, from its bodies' axes and middles: much cheaper.
   [[nodiscard]] Direction rough_direction(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
+  /// Of all pairs those to try first on a way from end to end: rough ones where it seems that they will do, else those
+  /// along which pairs are farthest apart in the middle.
+  [[nodiscard]] PairDirections first_directions(const Model<double>& model, const RigidPose& middle,
+                                                const std::array<RigidPose, 2>& ends) const;
   /// Its nearest points there.
   [[nodiscard]] PointPair nearest(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 
@@ -75,6 +79,14 @@ class BodySampler {
                                            const RigidPose& pose, std::span<const RigidPose> around) const;
   [[nodiscard]] std::array<BodyInFrame, 2> in_world(const Model<double>& model, const RigidPose& pose,
                                                     std::size_t pair) const;
+  struct Sketch;
+  [[nodiscard]] Sketch sketch(const Model<double>& model, const RigidPose& pose) const;
+  /// A direction, and how far apart balls around bodies and whole cables are along it, less the clearance; a guess.
+  struct RoughDirection {
+    Direction direction;
+    double gap = 0;
+  };
+  [[nodiscard]] RoughDirection rough_direction(const Sketch& at, std::size_t pair) const;
   struct Found;
   [[nodiscard]] Found find(const Model<double>& model, const RigidPose& pose, std::size_t pair) const;
 
