@@ -23,8 +23,11 @@ namespace {
 
 using testing::at;
 using testing::box_mesh;
+using testing::joined_meshes;
 using testing::mesh_text;
+using testing::one_sided_mesh;
 using testing::sphere_mesh;
+using testing::twice_wound_mesh;
 
 /// The crane of the cases with tolerances. Its bodies are the caller's.
 Problem crane() {
@@ -193,6 +196,20 @@ TEST(MeshBodies, AreSolidIfTheyAreClosed) {
     const Outcome clear = outcome_of(with_sphere_around(sphere_mesh(2, 3), is_on_platform), outside);
     EXPECT_EQ(clear.verdict, Verdict::kProved) << clear.message;
   }
+}
+
+TEST(MeshBodies, AreSolidWhereTheyOverlap) {
+  const Path path = path_through({{-0.2, 0, 6.6, 0, 0, 0}, {0.2, 0, 6.6, 0, 0, 0}});
+  const std::array solids = {joined_meshes(box_mesh({2, 2, 2}), box_mesh({2, 2, 2}), {1, 0.5, 0}),
+                             joined_meshes(sphere_mesh(3, 3), sphere_mesh(2, 3), {0, 0, 0}), twice_wound_mesh()};
+  for (const TriangleMesh& solid : solids) {
+    for (const bool is_on_platform : {false, true}) {
+      const Outcome outcome = outcome_of(with_sphere_around(solid, is_on_platform), path);
+      EXPECT_EQ(outcome.verdict, Verdict::kRefuted) << outcome.message;
+    }
+  }
+  const IndexedMesh one_sided(one_sided_mesh());
+  EXPECT_FALSE(one_sided.is_watertight());
 }
 
 // ---- The checker ----------------------------------------------------------------------------------------------------
