@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "certify/arithmetic/mp_interval.h"
 #include "map/disjoint_sets.h"
@@ -147,30 +149,39 @@ class Neighbourhood {
     }
   }
 
-  /// Those that share a pose where (φ, θ) flip, on θ = 0 and on θ = π.
-  void add_flipped(const MapBox& box) {
+  /// Those that share a pose of θ = 0, where (φ, θ) flip: φ is anything there.
+  void add_at_zero(const MapBox& box) {
     const MapSpace::Flip& flip = *map_.space.flip;
-    if (box.lower[flip.theta] <= 0) {
-      MapBox pole = box;
-      pole.lower[flip.phi] = 0;
-      pole.upper[flip.phi] = 1;
-      pole.lower[flip.theta] = pole.upper[flip.theta] = 0;
-      add_around(pole);
-    }
+    if (box.lower[flip.theta] > 0) return;
+    MapBox pole = box;
+    pole.lower[flip.phi] = 0;
+    pole.upper[flip.phi] = 1;
+    pole.lower[flip.theta] = pole.upper[flip.theta] = 0;
+    add_around(pole);
+  }
+
+  /// Those that share a pose of θ = π where σ is fixed: half a turn of φ away.
+  void add_opposite(const MapBox& box) {
+    const MapSpace::Flip& flip = *map_.space.flip;
     if (box.upper[flip.theta] < 1) return;
     MapBox pole = box;
     pole.lower[flip.theta] = pole.upper[flip.theta] = 1;
-    if (!flip.sigma) {
-      pole.lower[flip.phi] += 0.5;
-      pole.upper[flip.phi] += 0.5;
-      for (const double turn : {0.0, 1.0}) {
-        MapBox part = pole;
-        part.lower[flip.phi] = std::max(0.0, pole.lower[flip.phi] - turn);
-        part.upper[flip.phi] = std::min(1.0, pole.upper[flip.phi] - turn);
-        if (part.lower[flip.phi] <= part.upper[flip.phi]) add_around(part);
-      }
-      return;
+    pole.lower[flip.phi] += 0.5;
+    pole.upper[flip.phi] += 0.5;
+    for (const double turn : {0.0, 1.0}) {
+      MapBox part = pole;
+      part.lower[flip.phi] = std::max(0.0, pole.lower[flip.phi] - turn);
+      part.upper[flip.phi] = std::min(1.0, pole.upper[flip.phi] - turn);
+      if (part.lower[flip.phi] <= part.upper[flip.phi]) add_around(part);
     }
+  }
+
+  /// Those that share a pose of θ = π where σ is free: they share σ − 2φ.
+  void add_of_twist(const MapBox& box) {
+    const MapSpace::Flip& flip = *map_.space.flip;
+    if (box.upper[flip.theta] < 1) return;
+    MapBox pole = box;
+    pole.lower[flip.theta] = pole.upper[flip.theta] = 1;
     const Interval2 sought = twist(pole, flip);
     pole.lower[flip.phi] = pole.lower[*flip.sigma] = 0;
     pole.upper[flip.phi] = pole.upper[*flip.sigma] = 1;
@@ -208,6 +219,70 @@ class Neighbourhood {
   std::vector<std::uint32_t>& found_;
 };
 
+/// Leaves at a pole, each with what tells its poses there: σ − 2φ on θ = π, and on θ = 0 the coordinate besides φ and
+/// θ. There are so many that to look at each pair would take most of the time of a map of three coordinates.
+class Pole {
+ public:
+  explicit Pole(bool is_circle) : is_circle_(is_circle) {}
+
+  void add(std::uint32_t node, Interval2 at) {
+    if (!is_circle_) {
+      leaves_.push_back({node, at});
+      return;
+    }
+    const double turns = std::floor(at[0]);
+    at = at[1] - at[0] < 1 ? Interval2{at[0] - turns, at[1] - turns} : Interval2{0, 1};  // exact for dyadic ends
+    leaves_.push_back({node, at});
+    if (at[1] >= 1) leaves_.push_back({node, {at[0] - 1, at[1] - 1}});
+  }
+
+  /// Joins all that share a pose. In the order in which intervals begin, one that begins no later than some earlier one
+  /// ends shares its begin with that one.
+  void join(DisjointSets& sets) {
+    std::ranges::sort(leaves_, {}, [](const Leaf& leaf) { return leaf.at[0]; });
+    std::uint32_t last = 0;
+    double end = -std::numeric_limits<double>::infinity();
+    for (const Leaf& leaf : leaves_) {
+      if (leaf.at[0] <= end) sets.join(last, leaf.node);
+      last = leaf.node;
+      end = std::max(end, leaf.at[1]);
+    }
+  }
+
+ private:
+  struct Leaf {
+    std::uint32_t node;
+    Interval2 at;
+  };
+  bool is_circle_;
+  std::vector<Leaf> leaves_;
+};
+
+/// Both poles of a space where (φ, θ) flip.
+class Poles {
+ public:
+  explicit Poles(const MapSpace& space)
+      : flip_(*space.flip),
+        other_(kMaxMapAxes - flip_.phi - flip_.theta),
+        zero_(space.size() == kMaxMapAxes && space.axes[other_].kind == MapAxis::Kind::kTurn),
+        pi_(true) {}
+
+  void add(std::uint32_t node, const MapBox& box) {
+    if (box.lower[flip_.theta] <= 0) zero_.add(node, {box.lower[other_], box.upper[other_]});
+    if (flip_.sigma && box.upper[flip_.theta] >= 1) pi_.add(node, twist(box, flip_));
+  }
+  void join(DisjointSets& sets) {
+    zero_.join(sets);
+    pi_.join(sets);
+  }
+
+ private:
+  static_assert(kMaxMapAxes == 3, "besides phi and theta there is one coordinate, of number 3 - phi - theta");
+  MapSpace::Flip flip_;
+  std::size_t other_;  ///< in a space of two coordinates one that all boxes have all of
+  Pole zero_, pi_;
+};
+
 /// Numbers the components of the leaves that `is_member` names, the largest first.
 template <class IsMember>
 std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const IsMember& is_member,
@@ -241,16 +316,33 @@ std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const I
 
 MapTopology::MapTopology(const CellMap& map) : map_(map) {
   DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
+  std::optional<Poles> inside_poles, possible_poles;
+  if (map.space.flip) {
+    inside_poles.emplace(map.space);
+    possible_poles.emplace(map.space);
+  }
+  std::vector<std::uint32_t> found;
+  Neighbourhood around(map, found);
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
     const CellKind kind = map.nodes[node].kind;
     if (is_outside(kind)) return;
-    for (const std::uint32_t other : neighbours(cell)) {
+    const MapBox box = box_of(cell);
+    found.clear();
+    around.add_around(box);
+    if (map.space.flip) {
+      if (!map.space.flip->sigma) around.add_opposite(box);
+      possible_poles->add(node, box);
+      if (kind == CellKind::kInside) inside_poles->add(node, box);
+    }
+    for (const std::uint32_t other : found) {
       const CellKind other_kind = map.nodes[other].kind;
       if (is_outside(other_kind)) continue;
       possible.join(node, other);
       if (kind == CellKind::kInside && other_kind == CellKind::kInside) inside.join(node, other);
     }
   });
+  if (inside_poles) inside_poles->join(inside);
+  if (possible_poles) possible_poles->join(possible);
   inside_ = number(
       map, inside, [](CellKind kind) { return kind == CellKind::kInside; }, inside_of_);
   possible_ = number(
@@ -262,7 +354,10 @@ std::vector<std::uint32_t> neighbours(const CellMap& map, const Cell& cell) {
   Neighbourhood around(map, found);
   const MapBox box = box_of(cell);
   around.add_around(box);
-  if (map.space.flip) around.add_flipped(box);
+  if (map.space.flip) {
+    around.add_at_zero(box);
+    map.space.flip->sigma ? around.add_of_twist(box) : around.add_opposite(box);
+  }
   return found;
 }
 
