@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "certify/arithmetic/mp_interval.h"
 #include "map/disjoint_sets.h"
@@ -219,6 +218,89 @@ class Neighbourhood {
   std::vector<std::uint32_t>& found_;
 };
 
+/// Joins leaves that share a point of the coordinates, where the ends of a turn are one. It goes down the tree in pairs
+/// of nodes that touch, so that leaves need not be sought from the root each by itself.
+template <class Join>
+class Contacts {
+ public:
+  /// Calls join(a, b) for each two leaves, neither of which is outside. Refers to its arguments.
+  Contacts(const CellMap& map, const Join& join) : map_(map), join_(join), is_possible_(map.nodes.size()) {
+    for (std::size_t node = map.nodes.size(); node-- > 0;) {  // a node's halves come after it
+      const MapNode& here = map.nodes[node];
+      is_possible_[node] = here.axis == MapNode::kLeaf ? !is_outside(here.kind)
+                                                       : is_possible_[here.child] || is_possible_[here.child + 1];
+    }
+  }
+
+  void run() const {
+    const Place whole{0, 0, MapBox()};
+    join_within(whole);
+    join_across_turns(whole, whole, 0, false);
+  }
+
+ private:
+  struct Place {
+    std::uint32_t node;
+    int halvings;
+    MapBox box;
+  };
+
+  [[nodiscard]] bool is_leaf(const Place& place) const { return map_.nodes[place.node].axis == MapNode::kLeaf; }
+
+  /// The halves of a node that is no leaf.
+  [[nodiscard]] std::array<Place, 2> halves(const Place& place) const {
+    const MapNode& here = map_.nodes[place.node];
+    const double mid = 0.5 * (place.box.lower[here.axis] + place.box.upper[here.axis]);  // exact
+    std::array<Place, 2> result = {place, place};
+    for (unsigned side = 0; side < 2; ++side) {
+      result[side].node = here.child + side;
+      ++result[side].halvings;
+      (side == 0 ? result[side].box.upper : result[side].box.lower)[here.axis] = mid;
+    }
+    return result;
+  }
+
+  void join_within(const Place& place) const {
+    if (!is_possible_[place.node] || is_leaf(place)) return;
+    const auto [lower, upper] = halves(place);
+    join_within(lower);
+    join_within(upper);
+    join_between(lower, upper);
+  }
+
+  /// @pre the boxes meet
+  void join_between(const Place& a, const Place& b) const {
+    if (!is_possible_[a.node] || !is_possible_[b.node]) return;
+    if (is_leaf(a) && is_leaf(b)) return join_(a.node, b.node);
+    if (is_leaf(a) || (!is_leaf(b) && b.halvings < a.halvings)) return join_between(b, a);
+    const std::size_t axis = map_.nodes[a.node].axis;
+    const auto [lower, upper] = halves(a);
+    if (b.box.lower[axis] <= lower.box.upper[axis]) join_between(lower, b);
+    if (upper.box.lower[axis] <= b.box.upper[axis]) join_between(upper, b);
+  }
+
+  /// Joins what meets `whole`, moved by a turn to either side or by none, along this axis and those after it.
+  void join_across_turns(const Place& whole, const Place& moved, std::size_t axis, bool is_moved) const {
+    if (axis == map_.space.size()) {
+      if (is_moved) join_between(whole, moved);
+      return;
+    }
+    join_across_turns(whole, moved, axis + 1, is_moved);
+    if (map_.space.axes[axis].kind != MapAxis::Kind::kTurn) return;
+    for (const double turn : {1.0, -1.0}) {
+      if (turn < 0 && !is_moved) continue;  // the same pairs, the other way round
+      Place next = moved;
+      next.box.lower[axis] += turn;
+      next.box.upper[axis] += turn;
+      join_across_turns(whole, next, axis + 1, true);
+    }
+  }
+
+  const CellMap& map_;
+  const Join& join_;
+  std::vector<bool> is_possible_;  ///< by node: whether a leaf of it is not outside
+};
+
 /// Leaves at a pole, each with what tells its poses there: σ − 2φ on θ = π, and on θ = 0 the coordinate besides φ and
 /// θ. There are so many that to look at each pair would take most of the time of a map of three coordinates.
 class Pole {
@@ -312,37 +394,40 @@ std::vector<MapComponent> number(const CellMap& map, DisjointSets& sets, const I
   return result;
 }
 
-}  // namespace
-
-MapTopology::MapTopology(const CellMap& map) : map_(map) {
-  DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
-  std::optional<Poles> inside_poles, possible_poles;
-  if (map.space.flip) {
-    inside_poles.emplace(map.space);
-    possible_poles.emplace(map.space);
-  }
+/// Joins leaves that share a pose where (φ, θ) flip.
+template <class Join>
+void join_at_poles(const CellMap& map, DisjointSets& inside, DisjointSets& possible, const Join& join) {
+  Poles inside_poles(map.space), possible_poles(map.space);
   std::vector<std::uint32_t> found;
   Neighbourhood around(map, found);
   map.for_each_leaf([&](const Cell& cell, std::uint32_t node) {
     const CellKind kind = map.nodes[node].kind;
     if (is_outside(kind)) return;
     const MapBox box = box_of(cell);
+    possible_poles.add(node, box);
+    if (kind == CellKind::kInside) inside_poles.add(node, box);
+    if (map.space.flip->sigma) return;
     found.clear();
-    around.add_around(box);
-    if (map.space.flip) {
-      if (!map.space.flip->sigma) around.add_opposite(box);
-      possible_poles->add(node, box);
-      if (kind == CellKind::kInside) inside_poles->add(node, box);
-    }
+    around.add_opposite(box);
     for (const std::uint32_t other : found) {
-      const CellKind other_kind = map.nodes[other].kind;
-      if (is_outside(other_kind)) continue;
-      possible.join(node, other);
-      if (kind == CellKind::kInside && other_kind == CellKind::kInside) inside.join(node, other);
+      if (!is_outside(map.nodes[other].kind)) join(node, other);
     }
   });
-  if (inside_poles) inside_poles->join(inside);
-  if (possible_poles) possible_poles->join(possible);
+  inside_poles.join(inside);
+  possible_poles.join(possible);
+}
+
+}  // namespace
+
+MapTopology::MapTopology(const CellMap& map) : map_(map) {
+  DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
+  const auto is_inside = [&](std::uint32_t node) { return map.nodes[node].kind == CellKind::kInside; };
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    possible.join(a, b);
+    if (is_inside(a) && is_inside(b)) inside.join(a, b);
+  };
+  Contacts(map, join).run();
+  if (map.space.flip) join_at_poles(map, inside, possible, join);
   inside_ = number(
       map, inside, [](CellKind kind) { return kind == CellKind::kInside; }, inside_of_);
   possible_ = number(

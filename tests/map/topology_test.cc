@@ -167,7 +167,7 @@ TEST(MapTopology, ComponentsAreThoseOfAllPairsOfNeighbours) {
   Random random(8);
   for (const MapSpace& space : all_spaces()) {
     std::size_t several = 0;
-    for (int trial = 0; trial < 60; ++trial) {
+    for (int trial = 0; trial < 600; ++trial) {
       const CellMap map = random_map(random, space, 0.15, 0.7);
       DisjointSets inside(map.nodes.size()), possible(map.nodes.size());
       std::vector<std::uint32_t> leaves;
