@@ -11,7 +11,7 @@
 // Rounds are interleaved. Times are of all of the process's threads; one run of taut is the whole of Planner and
 // plan(), of OMPL setup() and solve(). RRTConnect gives up after 20 s.
 //
-// Usage: body_planners [--quick]; Markdown on stdout.
+// Usage: body_planners [--quick] [SCENE]; Markdown on stdout, of the scenes whose names contain SCENE.
 #include <fcl/fcl.h>
 #include <fmt/format.h>
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -317,7 +317,7 @@ void measure(const Scene& scene, int rounds) {
   std::fflush(stdout);
 }
 
-void run(bool is_quick) {
+void run(bool is_quick, std::string_view wanted) {
   const bench::TemporaryFolder folder;
   const auto stored = [](const std::string& file) {
     return load_case(std::string(TAUT_SOURCE_DIR "/cases/") + file + ".yaml");
@@ -334,7 +334,9 @@ void run(bool is_quick) {
       {"portal-20t, heap of 131,072 triangles", load_case(bench::write_heap_case(folder.path()).string())}};
   fmt::print("| scene | n | taut, proved, ms | RRTConnect + FCL, ms | its samples | **ratio** |\n");
   fmt::print("|---|---|---|---|---|---|\n");
-  for (const Scene& scene : scenes) measure(scene, is_quick ? 3 : 11);
+  for (const Scene& scene : scenes) {
+    if (scene.name.find(wanted) != std::string::npos) measure(scene, is_quick ? 3 : 11);
+  }
 }
 
 }  // namespace
@@ -343,5 +345,7 @@ void run(bool is_quick) {
 int main(int argc, char** argv) {
   taut::rounding_self_test();
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  taut::run(argc > 1 && std::string_view(argv[1]) == "--quick");
+  const bool is_quick = argc > 1 && std::string_view(argv[1]) == "--quick";
+  const int next = is_quick ? 2 : 1;
+  taut::run(is_quick, argc > next ? argv[next] : "");
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "problem/expression.h"
 #include "problem/problem.h"
 
 namespace taut {

@@ -185,6 +185,13 @@ BodySampler::BodySampler(const Problem& problem) : bodies_(make_body_model<doubl
     for (const Point& x : body.points) reach_ = std::max(reach_, x.norm());
   }
   for (const Point& b : make_model_without_ellipsoid<double>(problem).p_PB) reach_ = std::max(reach_, b.norm());
+  if (!problem.tolerances || problem.tolerances->cable_length_m) return;
+  const auto number = [](const DecimalText& text) { return ScalarTraits<double>::from_decimal(text); };
+  Tolerances& of = tolerances_.emplace();
+  std::ranges::transform(problem.tolerances->base_anchor_m, of.base.begin(), number);
+  std::ranges::transform(problem.tolerances->platform_anchor_m, of.anchor.begin(), number);
+  of.position = number(problem.tolerances->position_m);
+  of.turn = evaluate_constant<double>(problem.tolerances->orientation_rad);
 }
 
 /// Of a half-space no shares, and `apart` along its normal, whose height it is.
@@ -576,8 +583,56 @@ double gap_of_boxes(const BodyModel<double>& bodies, const Model<double>& model,
 
 }  // namespace
 
+/// How much of a pair's gap deviations take, from where on the bodies their nearest points are: as they
+/// move them in the axes, the world's or the platform's, in which that is less.
+double BodySampler::lost(const Model<double>& model, const RigidPose& pose, std::size_t n, const Found& found) const {
+  if (!tolerances_) return 0;
+  const Tolerances& of = *tolerances_;
+  const CheckedPair<double>& pair = bodies_.pairs[n];
+  if (pair.kind == PairClass::kPlatformObstacles) {
+    const ConvexBody<double>& body = bodies_.platform[pair.first];
+    const bool has_shares = body.mesh == nullptr && found.nearest.first.size() == body.points.size();
+    Point nearest{0, 0, 0};
+    for (std::size_t k = 0; has_shares && k < body.points.size(); ++k) {
+      nearest += found.nearest.first[k] * body.points[k];
+    }
+    // What is nearest to it on the obstacle may be nearer to the platform's origin.
+    return of.position + of.turn * std::max(0.0, nearest.norm() - found.nearest.distance);
+  }
+  std::array<double, 2> moved{0, 0};  // in W, in P
+  const auto add_cable = [&](std::size_t i, const std::vector<double>& shares) {
+    if (shares.size() != 2) return;
+    const double base = pair.shares_base ? 0 : of.base[i], anchor = pair.shares_platform ? 0 : of.anchor[i];
+    const double by_pose = of.position + of.turn * model.p_PB[i].norm();
+    const double by_base_pose = of.position + of.turn * (model.p_WA[i] - pose.p).norm();
+    moved[0] += shares[0] * base + shares[1] * (anchor + by_pose);
+    moved[1] += shares[0] * (base + by_base_pose) + shares[1] * anchor;
+  };
+  add_cable(pair.first, found.nearest.first);
+  if (pair.kind == PairClass::kCablesObstacles) return moved[0];
+  if (pair.kind == PairClass::kCablesPlatform) return moved[1];
+  add_cable(pair.second, found.nearest.second);
+  return std::min(moved[0], moved[1]);
+}
+
+double BodySampler::room(const Model<double>& model, const RigidPose& pose, std::size_t pair) const {
+  const Found found = find(model, pose, pair);
+  return found.nearest.distance - found.needed - lost(model, pose, pair, found);
+}
+
+/// No less than lost() of any pair.
+double BodySampler::most_lost(const Model<double>& model, const RigidPose& pose) const {
+  if (!tolerances_) return 0;
+  double far = reach_;
+  for (const Point& a : model.p_WA) far = std::max(far, (a - pose.p).norm());
+  return 2 * (std::ranges::max(tolerances_->base) + std::ranges::max(tolerances_->anchor) + tolerances_->position +
+              tolerances_->turn * far);
+}
+
 bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Carried& carried) const {
   carried.pairs.resize(bodies_.pairs.size());
+  const Sketch at = sketch(model, pose);
+  const double most = most_lost(model, pose);
   for (std::size_t n = 0; n < bodies_.pairs.size(); ++n) {
     std::optional<Carried::Gap>& last = carried.pairs[n];
     if (last) {
@@ -586,9 +641,10 @@ bool BodySampler::is_clear(const Model<double>& model, const RigidPose& pose, Ca
           bodies_moving * ((pose.p - last->pose.p).norm() + pose.q.angularDistance(last->pose.q) * reach_);
       if (moved < last->gap) continue;
     }
-    // Boxes around meshes may tell at once.
-    const double rough = needs_list(n) ? gap_of_boxes(bodies_, model, pose, n) : 0;
-    last = {rough > 0 ? rough : gap(model, pose, n), pose};
+    // Boxes around meshes, and balls around other bodies, may tell at once.
+    double left = (needs_list(n) ? gap_of_boxes(bodies_, model, pose, n) : rough_direction(at, n).gap) - most;
+    if (!(left > 0)) left = room(model, pose, n);
+    last = {left, pose};
     if (!(last->gap > 0)) return false;
   }
   return true;

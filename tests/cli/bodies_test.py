@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bodies from case to report and taut-check: what a mesh contains, and what people are told of what is not checked."""
+import copy
+import hashlib
 import html
+import json
 import os
 import re
 import struct
@@ -30,7 +33,7 @@ def stated_first(page):
     return html.unescape(re.sub(r"<[^>]*>", "", stated)).replace("\u00a0", " ")
 
 
-class Meshes(InFolder):
+class MeshFolder(InFolder):
     """The slit's tool in the middle of a rock, of which the nearest surface is far away."""
 
     def audit(self, rock, out="out", edit=lambda text: text, code=None):
@@ -44,6 +47,8 @@ class Meshes(InFolder):
             self.assertEqual(said.returncode, code, said.stdout + said.stderr)
         return said
 
+
+class Meshes(MeshFolder):
     def test_a_closed_mesh_is_solid_wherever_a_part_of_it_is(self):
         rocks = {"box": box((9, 9, 9)),
                  "overlapping boxes": box((9, 9, 9)) + box((9, 9, 9), (1, 1, 1)),
@@ -86,6 +91,66 @@ class Meshes(InFolder):
             self.assertIn("case.yaml:", said.stderr)
             self.assertIn("no whole", said.stderr)
             self.assertFalse(os.path.exists(self.path("out")))
+
+
+def sealed(certificate):
+    """With the digest of what it says."""
+    certificate = copy.deepcopy(certificate)
+    footer = certificate.pop("footer")
+    body = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    footer["sha256"] = hashlib.sha256(body.encode()).hexdigest()
+    return json.dumps({**certificate, "footer": footer}, sort_keys=True)
+
+
+def altered(value):
+    """Other values in place of one."""
+    if isinstance(value, str):
+        yield from ("1e-9", "7") if re.fullmatch(r"[-+.e\d]+", value) else (value + "x", "")
+    elif isinstance(value, list):
+        yield value[:-1]
+        yield value + value[-1:]
+        for k, part in enumerate(value):
+            yield from (value[:k] + [other] + value[k + 1:] for other in altered(part))
+    elif isinstance(value, dict):
+        for key, part in value.items():
+            yield {k: v for k, v in value.items() if k != key}
+            yield from ({**value, key: other} for other in altered(part))
+
+
+class Altered(MeshFolder):
+    """Whatever bodies a certificate states in place of the case's, taut-check refuses it with the case: even where what
+    it says of them is true."""
+
+    def expect_refused(self, least):
+        certificate = json.loads(text_of(self.path("out", "certificate.json")))
+        altered_file, case = self.path("out", "altered.json"), self.path("case.yaml")
+
+        def check(bodies):
+            certificate["problem"]["bodies"] = bodies
+            with open(altered_file, "w") as file:
+                file.write(sealed(certificate))
+            return run(CHECK, altered_file, case)
+
+        stated = certificate["problem"]["bodies"]
+        said = check(stated)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        count = 0
+        for bodies in altered(stated):
+            if bodies == stated:
+                continue
+            self.assertNotEqual(check(bodies).returncode, 0, bodies)
+            count += 1
+        self.assertGreater(count, least)
+
+    def test_bodies_are_the_cases(self):
+        case = self.write("case.yaml", text_of(os.path.join(CASES, "bodies", "slit-wider.yaml")))
+        said = run(TAUT, "audit", case, os.path.join(CASES, "bodies", "slit.csv"), "--out", self.path("out"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.expect_refused(100)
+
+    def test_meshes_are_the_cases(self):
+        self.audit(stl(box((9, 9, 9), (0, 0, 40))), code=0)
+        self.expect_refused(40)
 
 
 class Clearances(InFolder):
