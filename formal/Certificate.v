@@ -1,0 +1,23 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
+(** * The certificate: a statement, and the numbers by which it is proved *)
+
+From Coq Require Import QArith List.
+From Taut Require Import Statement.
+
+(** A box is a part of a segment, from where the last box ended (or 0) to [upto]. [inverse] is an approximate inverse of
+    the matrix with the columns (d ; lever x d), of which the columns of J are multiples by the cables' lengths, and
+    [densities] are tensions divided by lengths of a wrench in the middle of the load; both are multiples of 2^-[scale].
+    Nothing is assumed of these numbers. *)
+Record box := Box { upto : Q; scale : positive; inverse : six (six Z); densities : six Z }.
+
+Record certificate := Certificate {
+  subject : machine;
+  path : list waypoint;
+  tension_margin : Q;
+  length_margin : Q;
+  bits : positive;                 (* the precision of the arithmetic, where it can be chosen *)
+  boxes : list (list box)          (* one list a segment *)
+}.
+
+Definition statement (c : certificate) : Prop :=
+  wrench_feasible (subject c) (path c) (tension_margin c) (length_margin c).

@@ -1,0 +1,164 @@
+(* SPDX-License-Identifier: GPL-3.0-or-later *)
+(** * What it means that a path of a cable-driven hexapod is wrench-feasible
+
+    This file is the whole statement: definitions over the real numbers, and no word of how they are proved.
+    Lengths are in metres, angles in radians, forces in newtons, moments in newton metres. *)
+
+From Coq Require Import Reals QArith Qreals List.
+Open Scope R_scope.
+
+(** The data are rational numbers, and stand for themselves. *)
+Coercion Q2R : Q >-> R.
+
+(** ** Vectors and wrenches *)
+
+Record vec (A : Type) := Vec { vx : A; vy : A; vz : A }.
+Arguments Vec {A}. Arguments vx {A}. Arguments vy {A}. Arguments vz {A}.
+
+Definition real_vec (v : vec Q) : vec R := Vec (Q2R (vx v)) (Q2R (vy v)) (Q2R (vz v)).
+Definition plus (u v : vec R) := Vec (vx u + vx v) (vy u + vy v) (vz u + vz v).
+Definition minus (u v : vec R) := Vec (vx u - vx v) (vy u - vy v) (vz u - vz v).
+Definition times (k : R) (v : vec R) := Vec (k * vx v) (k * vy v) (k * vz v).
+Definition dot (u v : vec R) := vx u * vx v + vy u * vy v + vz u * vz v.
+Definition norm (v : vec R) := sqrt (dot v v).
+Definition cross (u v : vec R) :=
+  Vec (vy u * vz v - vz u * vy v) (vz u * vx v - vx u * vz v) (vx u * vy v - vy u * vx v).
+
+(** A wrench is a force and a moment about the load point, both in the axes of the world. *)
+Record wrench := Wrench { force : vec R; moment : vec R }.
+Definition wrench_plus (v w : wrench) := Wrench (plus (force v) (force w)) (plus (moment v) (moment w)).
+Definition wrench_times (k : R) (w : wrench) := Wrench (times k (force w)) (times k (moment w)).
+
+(** ** The machine *)
+
+(** Six of something, one a cable. *)
+Record six (A : Type) := Six { at1 : A; at2 : A; at3 : A; at4 : A; at5 : A; at6 : A }.
+Arguments Six {A}.
+Arguments at1 {A}. Arguments at2 {A}. Arguments at3 {A}. Arguments at4 {A}. Arguments at5 {A}. Arguments at6 {A}.
+
+Definition map6 {A B : Type} (f : A -> B) (a : six A) : six B :=
+  Six (f (at1 a)) (f (at2 a)) (f (at3 a)) (f (at4 a)) (f (at5 a)) (f (at6 a)).
+Definition zip6 {A B C : Type} (f : A -> B -> C) (a : six A) (b : six B) : six C :=
+  Six (f (at1 a) (at1 b)) (f (at2 a) (at2 b)) (f (at3 a) (at3 b))
+      (f (at4 a) (at4 b)) (f (at5 a) (at5 b)) (f (at6 a) (at6 b)).
+Definition fold6 {A : Type} (f : A -> A -> A) (a : six A) : A :=
+  f (f (f (f (f (at1 a) (at2 a)) (at3 a)) (at4 a)) (at5 a)) (at6 a).
+Definition all6 : six Prop -> Prop := fold6 and.
+Definition sum6 : six R -> R := fold6 Rplus.
+
+(** A cable runs from [base], a point of the world, to [platform], a point in the platform's axes. Its tension and its
+    length have to stay strictly between two limits each. *)
+Record cable := Cable { base : vec Q; platform : vec Q; tension : Q * Q; length : Q * Q }.
+
+(** The load is a sum of sets of wrenches. An ellipsoid is the set of all w with (w - center)' shape (w - center) <= 1;
+    its six coordinates are force and moment. *)
+Inductive item := Ellipsoid (center : six Q) (shape : six (six Q)).
+
+(** The pose is given by expressions of the parameters; parameters are counted from 0. *)
+Inductive expr :=
+  | Number (q : Q) | Pi | Param (i : nat)
+  | Minus (e : expr) | Plus (d e : expr) | Sub (d e : expr) | Times (d e : expr) | Over (d e : expr)
+  | Sqrt (e : expr) | Sin (e : expr) | Cos (e : expr).
+
+Inductive angles := TiltTorsion (phi theta sigma : expr) | RollPitchYaw (roll pitch yaw : expr)
+  | Zyz (alpha beta gamma : expr).
+
+Record machine := Machine { cables : six cable; load_point : vec Q; load : list item;
+                            pose_position : vec expr; pose_angles : angles }.
+
+(** ** Poses *)
+
+Definition rot_x (t : R) (v : vec R) := Vec (vx v) (cos t * vy v - sin t * vz v) (sin t * vy v + cos t * vz v).
+Definition rot_y (t : R) (v : vec R) := Vec (cos t * vx v + sin t * vz v) (vy v) (cos t * vz v - sin t * vx v).
+Definition rot_z (t : R) (v : vec R) := Vec (cos t * vx v - sin t * vy v) (sin t * vx v + cos t * vy v) (vz v).
+
+Fixpoint value (p : nat -> R) (e : expr) : R :=
+  match e with
+  | Number q => q
+  | Pi => PI
+  | Param i => p i
+  | Minus e => - value p e
+  | Plus d e => value p d + value p e
+  | Sub d e => value p d - value p e
+  | Times d e => value p d * value p e
+  | Over d e => value p d / value p e
+  | Sqrt e => sqrt (value p e)
+  | Sin e => sin (value p e)
+  | Cos e => cos (value p e)
+  end.
+
+(** The platform's origin is at [position], and [turn] takes the platform's axes to those of the world. *)
+Record pose := Pose { position : vec R; turn : vec R -> vec R }.
+
+Definition pose_at (m : machine) (p : nat -> R) : pose :=
+  let v := value p in
+  Pose (Vec (v (vx (pose_position m))) (v (vy (pose_position m))) (v (vz (pose_position m))))
+       (fun u => match pose_angles m with
+                 | TiltTorsion phi theta sigma => rot_z (v phi) (rot_y (v theta) (rot_z (v sigma - v phi) u))
+                 | RollPitchYaw roll pitch yaw => rot_z (v yaw) (rot_y (v pitch) (rot_x (v roll) u))
+                 | Zyz alpha beta gamma => rot_z (v alpha) (rot_y (v beta) (rot_z (v gamma) u))
+                 end).
+
+(** ** Statics *)
+
+(** The vector from a cable's base anchor to its platform anchor. *)
+Definition cable_vector (P : pose) (c : cable) : vec R :=
+  minus (plus (position P) (turn P (real_vec (platform c)))) (real_vec (base c)).
+
+Definition cable_length (P : pose) (c : cable) : R := norm (cable_vector P c).
+
+(** The wrench that a tension of 1 N of a cable balances: a column of the force Jacobian. *)
+Definition column (m : machine) (P : pose) (c : cable) : wrench :=
+  let u := times (/ cable_length P c) (cable_vector P c) in
+  let lever := turn P (minus (real_vec (platform c)) (real_vec (load_point m))) in
+  Wrench u (cross lever u).
+
+(** The wrench that tensions [f] balance, one number a cable: J f. *)
+Definition balanced (m : machine) (P : pose) (f : six R) : wrench :=
+  fold6 wrench_plus (zip6 (fun c t => wrench_times t (column m P c)) (cables m) f).
+
+(** The wrenches of the load. *)
+Definition six_of (w : wrench) : six R :=
+  Six (vx (force w)) (vy (force w)) (vz (force w)) (vx (moment w)) (vy (moment w)) (vz (moment w)).
+
+Definition in_item (i : item) (w : wrench) : Prop :=
+  match i with
+  | Ellipsoid center shape =>
+      let z := zip6 (fun (x : R) (c : Q) => x - c) (six_of w) center in
+      sum6 (zip6 (fun (row : six Q) zi => zi * sum6 (zip6 (fun (e : Q) zj => e * zj) row z)) shape z) <= 1
+  end.
+
+Fixpoint in_load (l : list item) (w : wrench) : Prop :=
+  match l with
+  | nil => w = Wrench (Vec 0 0 0) (Vec 0 0 0)
+  | i :: l => exists v u, w = wrench_plus v u /\ in_item i v /\ in_load l u
+  end.
+
+Definition inside (limits : Q * Q) (margin : Q) (t : R) : Prop := fst limits + margin < t < snd limits - margin.
+
+(** All cables have lengths inside their limits; and for every wrench of the load there is exactly one list of tensions
+    that balances it, and these are inside their limits. Both by more than a margin, which may be zero. *)
+Definition feasible_at (m : machine) (tension_margin length_margin : Q) (P : pose) : Prop :=
+  all6 (map6 (fun c => inside (length c) length_margin (cable_length P c)) (cables m)) /\
+  forall w, in_load (load m) w ->
+    exists f, balanced m P f = w /\ (forall g, balanced m P g = w -> g = f) /\
+              all6 (zip6 (fun c t => inside (tension c) tension_margin t) (cables m) f).
+
+(** ** Paths *)
+
+(** A waypoint has a coordinate for each parameter: a number, and half turns (multiples of pi) to be added to it. *)
+Definition waypoint := list (Q * Z).
+Definition coordinate (w : waypoint) (i : nat) : R := let (q, h) := nth i w (0%Q, 0%Z) in q + IZR h * PI.
+
+(** The path is straight in the parameters from each waypoint to the next. *)
+Definition on_segment (v w : waypoint) (s : R) (i : nat) : R := coordinate v i + s * (coordinate w i - coordinate v i).
+
+Fixpoint along (P : (nat -> R) -> Prop) (path : list waypoint) : Prop :=
+  match path with
+  | v :: (w :: _) as rest => (forall s, 0 <= s <= 1 -> P (on_segment v w s)) /\ along P rest
+  | _ => True
+  end.
+
+Definition wrench_feasible (m : machine) (path : list waypoint) (tension_margin length_margin : Q) : Prop :=
+  (2 <= List.length path)%nat /\
+  along (fun p => feasible_at m tension_margin length_margin (pose_at m p)) path.
