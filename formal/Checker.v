@@ -44,10 +44,13 @@ Definition f_mul f g := Form (mul (mid f) (mid g)) (mul (over f) (over g))
 Definition f_div f g :=
   let q := div (mid f) (mid g) in
   Form q (div (over f) (over g)) (div (sub (slope f) (mul q (slope g))) (over g)).
+(** Coq's square root of a negative number is 0, which has no slope: nothing is known where it might be one. *)
 Definition f_sqrt f :=
-  let a := I.sqrt prec (mid f) in
-  let b := I.sqrt prec (over f) in
-  Form a b (div (slope f) (add a b)).
+  if above0 (mid f) && above0 (over f) then
+    let a := I.sqrt prec (mid f) in
+    let b := I.sqrt prec (over f) in
+    Form a b (div (slope f) (add a b))
+  else Form I.nai I.nai I.nai.
 Definition f_sin f := Form (I.sin prec (mid f)) (I.sin prec (over f)) (mul (I.cos prec (over f)) (slope f)).
 Definition f_cos f := Form (I.cos prec (mid f)) (I.cos prec (over f)) (I.neg (mul (I.sin prec (over f)) (slope f))).
 
