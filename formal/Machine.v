@@ -17,6 +17,12 @@ Lemma each_of_six (P : nat -> Prop) : P 0%nat -> P 1%nat -> P 2%nat -> P 3%nat -
   forall i, (i < 6)%nat -> P i.
 Proof. intros a b c d e f i l. do 6 (destruct i as [| i]; [assumption|]). lia. Qed.
 
+(** C (w - A x0) is C w - (C A) x0. *)
+Lemma rest_splits (c w x0 : nat -> R) (A : nat -> nat -> R) :
+  total (fun k => c k * w k) - total (fun j => total (fun k => c k * A k j) * x0 j) =
+  total (fun k => c k * (w k - apply6 A x0 k)).
+Proof. unfold SixEquations.apply6, SixEquations.total. ring. Qed.
+
 Section Pose.
 
 Variables (m : machine) (P : pose).
