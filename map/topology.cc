@@ -286,7 +286,7 @@ class Contacts {
       return;
     }
     join_across_turns(whole, moved, axis + 1, is_moved);
-    if (map_.space.axes[axis].kind != MapAxis::Kind::kTurn) return;
+    if (axis >= kMaxMapAxes || map_.space.axes[axis].kind != MapAxis::Kind::kTurn) return;  // for the compiler
     for (const double turn : {1.0, -1.0}) {
       if (turn < 0 && !is_moved) continue;  // the same pairs, the other way round
       Place next = moved;
