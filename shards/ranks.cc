@@ -290,13 +290,16 @@ class Ranks::FirstRank {
     }
   }
 
-  /// Gives tasks to ranks, so that each has one to compute and one to go on with.
+  /// Gives tasks to ranks, so that each has one to compute and one to go on with; more of them while many are left,
+  /// because small tasks take less time than a nap.
   bool hand_out() {
-    constexpr std::size_t kMostTasks = 2;
+    constexpr std::size_t kLeast = 2, kMost = 32, kShare = 8;
+    const std::size_t most_tasks =
+        std::clamp((tasks_->size() - done_count_) / (kShare * others_.size()), kLeast, kMost);
     bool has_dealt = false;
     for (std::size_t rank = 1; rank < others_.size(); ++rank) {
       Other& other = others_[rank];
-      while (other.is_ready && !other.is_lost && other.tasks.size() < kMostTasks) {
+      while (other.is_ready && !other.is_lost && other.tasks.size() < most_tasks) {
         std::size_t task = 0;
         {
           const std::lock_guard lock(mutex_);
