@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: GPL-3.0-or-later *)
 (** * What is computed of a certificate, by the Interval library's operations
 
-    This file only computes. That [check c = true] implies [statement c] is not proved. *)
+    [Soundness.v] proves that what is accepted here is true. *)
 
 From Coq Require Import QArith ZArith List Bool.
 From Flocq Require Import Zaux.
@@ -44,10 +44,13 @@ Definition f_mul f g := Form (mul (mid f) (mid g)) (mul (over f) (over g))
 Definition f_div f g :=
   let q := div (mid f) (mid g) in
   Form q (div (over f) (over g)) (div (sub (slope f) (mul q (slope g))) (over g)).
+(** Coq's square root of a negative number is 0, which has no slope: nothing is known where it might be one. *)
 Definition f_sqrt f :=
-  let a := I.sqrt prec (mid f) in
-  let b := I.sqrt prec (over f) in
-  Form a b (div (slope f) (add a b)).
+  if above0 (mid f) && above0 (over f) then
+    let a := I.sqrt prec (mid f) in
+    let b := I.sqrt prec (over f) in
+    Form a b (div (slope f) (add a b))
+  else Form I.nai I.nai I.nai.
 Definition f_sin f := Form (I.sin prec (mid f)) (I.sin prec (over f)) (mul (I.cos prec (over f)) (slope f)).
 Definition f_cos f := Form (I.cos prec (mid f)) (I.cos prec (over f)) (I.neg (mul (I.sin prec (over f)) (slope f))).
 
@@ -86,6 +89,8 @@ Definition v_cross u v := Vec
   (f_sub (f_mul (vz u) (vx v)) (f_mul (vx u) (vz v)))
   (f_sub (f_mul (vx u) (vy v)) (f_mul (vy u) (vx v))).
 Definition v_rational (v : vec Q) := let k q := constant (fraction q) in Vec (k (vx v)) (k (vy v)) (k (vz v)).
+
+Definition v_rational_difference (u v : vec Q) := v_sub (v_rational u) (v_rational v).
 
 (** The images of the unit vectors. *)
 Definition rotation (a : angles) (p : nat -> form) : vec (vec form) :=
@@ -147,37 +152,50 @@ Definition load_range (l : list item) (c : six interval) : interval :=
 Definition strictly (limits : Q * Q) (margin : Q) (x : interval) : bool :=
   below (fraction (fst limits + margin)) x && below x (fraction (snd limits - margin)).
 
-Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : nat -> form) : bool :=
-  let R := rotation (pose_angles m) p in
-  let at_ e := eval p e in
-  let P := Vec (at_ (vx (pose_position m))) (at_ (vy (pose_position m))) (at_ (vz (pose_position m))) in
-  let lm := v_rational (load_point m) in
-  let columns := map6 (fun c =>
-    let u := v_rational (platform c) in
-    let d := v_tight (v_sub (v_add P (turned R u)) (v_rational (base c))) in
-    let r := v_tight (turned R (v_sub u lm)) in
-    let k := v_cross r d in
-    Six (vx d) (vy d) (vz d) (vx k) (vy k) (vz k)) (cables m) in
-  let lengths := map6 (fun d => I.sqrt prec
-    (add (add (I.sqr prec (over (at1 d))) (I.sqr prec (over (at2 d)))) (I.sqr prec (over (at3 d))))) columns in
-  let number z := fraction (z # Pos.pow 2 (scale b)) in
-  let C := map6 (map6 number) (inverse b) in
-  let x0 := map6 number (densities b) in
-  let CD := map6 (fun c => map6 (fun d => f_sum (zip6 (fun a e => f_mul (constant a) e) c d)) columns) C in
-  let E := zip6 (fun row unit => zip6 (fun e z => over (tight (f_sub (constant (integer z)) e))) row unit) CD units in
-  let W := zip6 (fun c row => sub (load_range (load m) c)
-    (over (tight (f_sum (zip6 (fun e x => f_mul e (constant x)) row x0))))) C CD in
-  let sums := map6 (fun row => sum (map6 I.abs row)) E in
-  let rho := fold6 I.join sums in
-  let M := fold6 I.join (map6 I.abs W) in
-  let y0 := symmetric (div M (sub one rho)) in
-  let refine Y := zip6 (fun w row => add w (sum (zip6 mul row Y))) W E in
-  let Y1 := refine (Six y0 y0 y0 y0 y0 y0) in
-  let Y := refine Y1 in
+(** The columns of D: a vector of force, and of moment about the load point. *)
+Definition column_form (R : vec (vec form)) (P : vec form) (m : machine) (c : cable) : six form :=
+  let u := v_rational (platform c) in
+  let d := v_tight (v_sub (v_add P (turned R u)) (v_rational (base c))) in
+  let r := v_tight (turned R (v_rational_difference (platform c) (load_point m))) in
+  let k := v_cross r d in
+  Six (vx d) (vy d) (vz d) (vx k) (vy k) (vz k).
+Definition length_range (d : six form) : interval :=
+  I.sqrt prec (add (add (I.sqr prec (over (at1 d))) (I.sqr prec (over (at2 d)))) (I.sqr prec (over (at3 d)))).
+
+(** C D, its difference from the unit matrix, and what C makes of what is left of the load. *)
+Definition product (C : six (six interval)) (columns : six (six form)) : six (six form) :=
+  map6 (fun c => map6 (fun d => f_sum (zip6 (fun a e => f_mul (constant a) e) c d)) columns) C.
+Definition error_ranges (CD : six (six form)) : six (six interval) :=
+  zip6 (fun row unit => zip6 (fun e z => over (tight (f_sub (constant (integer z)) e))) row unit) CD units.
+Definition rest_ranges (l : list item) (C : six (six interval)) (CD : six (six form)) (x0 : six interval) : six interval :=
+  zip6 (fun c row => sub (load_range l c)
+    (over (tight (f_sum (zip6 (fun e x => f_mul e (constant x)) row x0))))) C CD.
+
+Definition refine (W : six interval) (E : six (six interval)) (Y : six interval) : six interval :=
+  zip6 (fun w row => add w (sum (zip6 mul row Y))) W E.
+
+(** From ranges of I - C D, of W and of the lengths: whether all limits hold. *)
+Definition decide (m : machine) (tension_margin length_margin : Q) (lengths x0 : six interval)
+    (E : six (six interval)) (W : six interval) : bool :=
+  let rho := fold6 I.join (map6 (fun row => sum (map6 I.abs row)) E) in
+  let y0 := symmetric (div (fold6 I.join (map6 I.abs W)) (sub one rho)) in
+  let Y := refine W E (refine W E (Six y0 y0 y0 y0 y0 y0)) in
   let tensions := zip6 mul lengths (zip6 add x0 Y) in
   below rho one &&
   every (zip6 (fun c t => strictly (tension c) tension_margin t) (cables m) tensions) &&
-  every (zip6 (fun c l => strictly (length c) length_margin l) (cables m) lengths).
+  every (zip6 (fun c l => strictly (length c) length_margin l && above0 l) (cables m) lengths).
+
+Definition number (scale : positive) (z : Z) : interval := fraction (z # Pos.pow 2 scale).
+
+Definition check_pose (m : machine) (tension_margin length_margin : Q) (b : box) (p : nat -> form) : bool :=
+  let R := rotation (pose_angles m) p in
+  let P := Vec (eval p (vx (pose_position m))) (eval p (vy (pose_position m))) (eval p (vz (pose_position m))) in
+  let columns := map6 (column_form R P m) (cables m) in
+  let C := map6 (map6 (number (scale b))) (inverse b) in
+  let x0 := map6 (number (scale b)) (densities b) in
+  let CD := product C columns in
+  decide m tension_margin length_margin (map6 length_range columns) x0 (error_ranges CD)
+    (rest_ranges (load m) C CD x0).
 
 End Precision.
 

@@ -3,8 +3,11 @@
 
 From Coq Require Import ZArith.
 From Interval Require Import Float.Specific_ops Float.Specific_stdz Float.Primitive_ops.
-From Taut Require Import Statement Certificate Checker.
+From Taut Require Import Statement Certificate Soundness.
 
 Module StdZ := SpecificFloat StdZRadix2.
-Module Exact := Checker.Checker StdZ.
-Module Fast := Checker.Checker PrimitiveFloat.
+Module Exact := Soundness.Soundness StdZ.
+Module Fast := Soundness.Soundness PrimitiveFloat.
+
+Print Assumptions Exact.check_sound.
+Print Assumptions Fast.check_sound.
