@@ -2,8 +2,8 @@
 // With how much longer free ends of cables a path is proved, where cables touch what they are made fast to, or each
 // other at a common anchor.
 //
-// A length is stated only after a proof of the whole path, of the problem with exactly this decimal. Which ends may help
-// is floating point's guess.
+// A length is stated only after a proof of the whole path, of the problem with exactly this decimal. Which ends may
+// help is floating point's guess.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ using FreeEnds = std::array<std::optional<DecimalText>, 2>;
 
 /// Free ends with which the whole path was proved.
 struct ProvedFreeEnds {
-  FreeEnds free_ends;        ///< one of them at least
-  bool is_complete = true;   ///< false: time ended the search, and shorter ones may do
+  FreeEnds free_ends;       ///< one of them at least
+  bool is_complete = true;  ///< false: time ended the search, and shorter ones may do
 };
 
 /// Seeks the shortest of two digits, up to a fifth of the shortest cable. Nothing where something else touches than

@@ -35,9 +35,7 @@ Problem robot() {
   return problem;
 }
 
-void check(Problem& problem, PairClass kind) {
-  problem.bodies->clearance_m[static_cast<std::size_t>(kind)] = "0.001";
-}
+void check(Problem& problem, PairClass kind) { problem.bodies->clearance_m[static_cast<std::size_t>(kind)] = "0.001"; }
 
 bool is_proved(const Problem& problem, const Path& path) {
   validate(problem);
