@@ -365,11 +365,16 @@ Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict
   result.shares.resize(kinds.size());
   std::mutex reporting;
   std::size_t done = 0;
-  tbb::parallel_for(std::size_t{0}, kinds.size(), [&](std::size_t i) {
-    result.shares[i] = search.find(kinds[i]);
-    if (i == 0 && result.shares[0].is_complete && result.shares[0].share == "0") search.examine_nominal(path, result);
+  const std::size_t tasks = kinds.size() + (verdict != Verdict::kProved && problem.bodies ? 1 : 0);
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t i) {
+    if (i == kinds.size()) {
+      result.free_ends = find_free_ends(prover, segments, stop);
+    } else {
+      result.shares[i] = search.find(kinds[i]);
+      if (i == 0 && result.shares[0].is_complete && result.shares[0].share == "0") search.examine_nominal(path, result);
+    }
     const std::scoped_lock lock(reporting);
-    if (progress) progress(++done, kinds.size());
+    if (progress) progress(++done, tasks);
   });
   return result;
 }

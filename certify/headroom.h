@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "certify/free_ends.h"
 #include "certify/path_proof.h"
 #include "certify/prover.h"
 #include "kinematics/margin_budget.h"
@@ -44,6 +45,7 @@ struct Headroom {
   std::optional<TightPlace> tightest;    ///< nothing of a path without samples
   std::optional<bool> nominal_provable;  ///< where no share of all is provable: whether the nominal machine alone is
   std::optional<PathWitness> nominal_violation;  ///< what refutes the nominal machine, proved
+  std::optional<ProvedFreeEnds> free_ends = {};  ///< of an unproved path: what lets it be proved
 };
 
 /// Options of a proof that is a trial: one that fails should do so soon.
@@ -61,9 +63,10 @@ using HeadroomProgress = std::function<void(std::size_t done, std::size_t all)>;
 [[nodiscard]] std::optional<TightPlace> tightest_place(const Problem& problem, const Path& path);
 
 /// Seeks the largest provable share of all uncertainties and of each alone, to within some 3 %, by bisection around
-/// what floating point expects. Of a proved path, tolerances that are not stated grow from nothing; that of cable
-/// lengths only where lengths are controlled, and that of the load along w0; with load items, neither that of the load
-/// nor that of its point. A share that has not been proved when `stop` is requested is not stated.
+/// what floating point expects; of an unproved path longer free ends of cables, too (find_free_ends()). Of a proved
+/// path, tolerances that are not stated grow from nothing; that of cable lengths only where lengths are controlled,
+/// and that of the load along w0; with load items, neither that of the load nor that of its point. A share that has not
+/// been proved when `stop` is requested is not stated.
 /// @param verdict       of the path with the problem as it is
 /// @param wrench_scale  its proved margin, if the path is proved: without tolerances, that is the share
 [[nodiscard]] Headroom find_headroom(const Problem& problem, const Path& path, Verdict verdict,

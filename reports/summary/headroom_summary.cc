@@ -128,6 +128,29 @@ json to_json(const PathWitness& witness) {
   return result;
 }
 
+constexpr std::array<const char*, 2> kEnds = {"base", "platform"};
+
+json to_json(const ProvedFreeEnds& found) {
+  json result = {{"complete", found.is_complete}};
+  for (std::size_t end = 0; end < kEnds.size(); ++end) {
+    result[kEnds[end]] = found.free_ends[end] ? json(*found.free_ends[end]) : json();
+  }
+  return result;
+}
+
+ProvedFreeEnds free_ends_from_json(const JsonCursor& object) {
+  ProvedFreeEnds result;
+  object.expect_keys({"base", "platform", "complete"});
+  result.is_complete = boolean(object.at("complete"));
+  for (std::size_t end = 0; end < kEnds.size(); ++end) {
+    const JsonCursor length = object.at(kEnds[end]);
+    if (length.is_null()) continue;
+    (void)decimal_from_json(length);
+    result.free_ends[end] = length.text();
+  }
+  return result;
+}
+
 PathWitness violation_from_json(const JsonCursor& object) {
   PathWitness result;
   result.singular = boolean(object.at("singular"));
@@ -328,6 +351,22 @@ std::string each_sentence(const Headroom& headroom, const Problem& problem, cons
   return fmt::format("Each alone, with all others as stated: {}.", list);
 }
 
+/// "The path is provable with free ends of 120 mm near the platform's anchors. …"; empty where none were found.
+std::string free_ends_sentence(const Headroom& headroom, const DisplayUnits& units) {
+  if (!headroom.free_ends) return "";
+  std::string list;
+  for (std::size_t end = 0; end < kEnds.size(); ++end) {
+    const std::optional<DecimalText>& length = headroom.free_ends->free_ends[end];
+    if (!length) continue;
+    list += fmt::format("{}{} {} near the {}'s anchors", list.empty() ? "" : " and ", units.length.exact(*length),
+                        units.length.name(), kEnds[end]);
+  }
+  return fmt::format(
+      "{} provable where cables have free ends of {}, all else as stated{}. What a cable touches within its free ends "
+      "is not checked.",
+      subject_text(headroom), list, headroom.free_ends->is_complete ? "" : " (time ended the search for shorter ones)");
+}
+
 }  // namespace
 
 std::vector<EachAlone> each_alone(const Headroom& headroom, const Problem& problem, const DisplayUnits& units) {
@@ -374,16 +413,20 @@ nlohmann::json to_json(const Headroom& headroom) {
     nominal = {{"provable", *headroom.nominal_provable},
                {"violation", headroom.nominal_violation ? to_json(*headroom.nominal_violation) : json()}};
   }
-  return {{"subject", kSubjects.at(static_cast<std::size_t>(headroom.subject))},
-          {"waypoint", headroom.subject == Headroom::Subject::kWaypoint ? json(headroom.waypoint) : json()},
-          {"shares", shares},
-          {"tightest", headroom.tightest ? to_json(*headroom.tightest) : json()},
-          {"nominal", nominal}};
+  json result = {{"subject", kSubjects.at(static_cast<std::size_t>(headroom.subject))},
+                 {"waypoint", headroom.subject == Headroom::Subject::kWaypoint ? json(headroom.waypoint) : json()},
+                 {"shares", shares},
+                 {"tightest", headroom.tightest ? to_json(*headroom.tightest) : json()},
+                 {"nominal", nominal}};
+  if (headroom.free_ends) result["free_ends"] = to_json(*headroom.free_ends);
+  return result;
 }
 
 Headroom headroom_from_json(const JsonCursor& object) {
   Headroom result;
-  object.expect_keys({"subject", "waypoint", "shares", "tightest", "nominal"});
+  std::vector<std::string> keys = {"subject", "waypoint", "shares", "tightest", "nominal"};
+  if (object.contains("free_ends")) keys.emplace_back("free_ends");
+  object.expect_keys(keys);
   const auto subject = std::ranges::find(kSubjects, object.at("subject").text());
   if (subject == kSubjects.end()) object.at("subject").fail("\"path\", \"waypoint\" or \"straight way\"");
   result.subject = static_cast<Headroom::Subject>(subject - kSubjects.begin());
@@ -400,6 +443,7 @@ Headroom headroom_from_json(const JsonCursor& object) {
     result.nominal_provable = boolean(nominal.at("provable"));
     if (!nominal.at("violation").is_null()) result.nominal_violation = violation_from_json(nominal.at("violation"));
   }
+  if (object.contains("free_ends")) result.free_ends = free_ends_from_json(object.at("free_ends"));
   return result;
 }
 
@@ -411,6 +455,7 @@ std::vector<std::string> headroom_sentences(const Headroom& headroom, const Prob
   if (headroom.tightest) result.push_back(tightest_sentence(headroom, units, is_proved, problem.bodies.has_value()));
   result.push_back(common_sentence(headroom, problem, units));
   if (std::string each = each_sentence(headroom, problem, units); !each.empty()) result.push_back(std::move(each));
+  if (std::string ends = free_ends_sentence(headroom, units); !ends.empty()) result.push_back(std::move(ends));
   return result;
 }
 

@@ -141,7 +141,11 @@ TEST(ReportData, RefusesAHeadroomThatIsNone) {
        {R"({"shares": []})", R"({"subject": "sky", "waypoint": null, "tightest": null, "nominal": null,
        "shares": []})",
         R"({"subject": "path", "waypoint": null, "tightest": null, "nominal": null, "shares": [
-       {"of": "<b>", "share": "1", "stated": "1", "proved": "1", "unit": "1", "complete": true}]})"}) {
+       {"of": "<b>", "share": "1", "stated": "1", "proved": "1", "unit": "1", "complete": true}]})",
+        R"({"subject": "path", "waypoint": null, "tightest": null, "nominal": null, "shares": [],
+       "free_ends": {"base": null, "platform": "<b>", "complete": true}})",
+        R"({"subject": "path", "waypoint": null, "tightest": null, "nominal": null, "shares": [],
+       "free_ends": {"base": null, "complete": true}})"}) {
     json certificate = sample::proved();
     certificate["illustration"]["headroom"] = json::parse(text);
     EXPECT_THROW(sample::scene(certificate), InputError) << text;
