@@ -236,7 +236,8 @@ class UnderMpi(Parts):
                               env=self.environment) as process:
             os.kill(self.working_rank(process, "2"), signal.SIGKILL)
             stdout, stderr = process.communicate(timeout=300)
-        self.assertRegex(stderr, r"taut: rank 2 on \S+ is lost, because its process ended; \d+ of its parts dealt again")
+        self.assertRegex(stderr,
+                         r"taut: rank 2 on \S+ is lost, because its process ended; \d+ of its parts dealt again")
         self.assertEqual((without_times(stdout), content(os.path.join(out, "map.html"))), (one[0], one[1][0]))
 
     def test_a_minute_of_silence_is_taken_for_death(self):
