@@ -22,27 +22,27 @@ namespace taut::testing {
 namespace {
 
 using case_fields::ellipsoid_around_items;
-using Random = std::mt19937_64;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Engine = std::mt19937_64;
+using Shape6 = Eigen::Matrix<double, 6, 6>;
 using Six = std::array<double, 6>;
 
-double uniform(Random& random, double low, double high) {
+double uniform(Engine& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-Vector6<double> random_direction(Random& random) {
+Vector6<double> random_direction(Engine& random) {
   Vector6<double> u;
   for (int k = 0; k < 6; ++k) u(k) = std::normal_distribution<double>()(random);
   return u.normalized();
 }
 
-RationalVector random_vector(Random& random) {
+RationalVector random_vector(Engine& random) {
   RationalVector v;
   for (RationalText& x : v) x = fmt::format("{:.3f}", uniform(random, -2, 2));
   return v;
 }
 
-VectorSet random_set(Random& random) {
+VectorSet random_set(Engine& random) {
   switch (random() % 3) {
     case 0: return BallOfVectors{"1/3"};
     case 1: return DiscOfVectors{"0.7", random_vector(random)};
@@ -52,7 +52,7 @@ VectorSet random_set(Random& random) {
   return SegmentOfVectors{random_vector(random), fmt::format("{:.6f}", lower), fmt::format("{:.6f}", lower + 0.5)};
 }
 
-LoadCases random_cases(Random& random, Axes axes) {
+LoadCases random_cases(Engine& random, Axes axes) {
   LoadCases cases;
   for (std::size_t j = 0; j < 1 + random() % 4; ++j) {
     auto& w = cases.wrenches.emplace_back();
@@ -64,7 +64,7 @@ LoadCases random_cases(Random& random, Axes axes) {
 }
 
 /// Some of all kinds, in either axes, and a weight.
-LoadText random_load(Random& random) {
+LoadText random_load(Engine& random) {
   LoadText load;
   load.point_m = random_vector(random);
   load.gravity_m_s2 = {"0.5", "-1", "-9.81"};
@@ -94,7 +94,7 @@ LoadText crane_load() {
 
 struct Ellipsoid {
   Vector6<double> centre;
-  Matrix6 e;
+  Shape6 e;
 
   explicit Ellipsoid(const LoadText& load) {
     for (int i = 0; i < 6; ++i) {
@@ -149,15 +149,15 @@ class Items {
   std::vector<campaign::Load<double>> loads_;
 };
 
-Matrix3<double> random_rotation(Random& random) {
+Matrix3<double> random_rotation(Engine& random) {
   return rotation(uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3));
 }
 
 /// The most of the ellipsoid's reach that the items use in some direction and orientation, sought from all over.
-double greatest_share(const LoadText& load, Random& random, int tries) {
+double greatest_share(const LoadText& load, Engine& random, int tries) {
   const LoadText around = ellipsoid_around_items(load, 1.5);
   const Ellipsoid ellipsoid(around);
-  const Matrix6 root = Eigen::LLT<Matrix6>(ellipsoid.e).matrixL();
+  const Shape6 root = Eigen::LLT<Shape6>(ellipsoid.e).matrixL();
   double greatest = 0;
   for (int n = 0; n < tries; ++n) {
     const Items items(load, around.point_m, random_rotation(random));
@@ -175,13 +175,13 @@ double greatest_share(const LoadText& load, Random& random, int tries) {
 constexpr double kRounding = 1e-9;
 
 TEST(AroundItems, ContainsEverySumOfExplicitLoadsInEveryOrientation) {
-  Random random(1);
+  Engine random(1);
   for (int n = 0; n < 100; ++n) ASSERT_LE(greatest_share(random_load(random), random, 30), 1 + kRounding) << n;
   EXPECT_LE(greatest_share(crane_load(), random, 400), 1 + kRounding);
 }
 
 TEST(AroundItems, IsReachedByEachItemAlone) {
-  Random random(2);
+  Engine random(2);
   const RationalVector at = {"0.5", "-1", "2"};
   const std::vector<decltype(LoadItem::what)> items = {
       Weight{"2", "3", at, "0"},
@@ -215,8 +215,8 @@ TEST(AroundItems, OfTheCraneIsNearlyTheSmallestInVolume) {
   const LoadText load = crane_load();
   const LoadText around = ellipsoid_around_items(load, 1.5);
   const Ellipsoid ellipsoid(around);
-  const Matrix6 root = Eigen::LLT<Matrix6>(ellipsoid.e).matrixL();
-  Random random(3);
+  const Shape6 root = Eigen::LLT<Shape6>(ellipsoid.e).matrixL();
+  Engine random(3);
   std::vector<Kernel::Point_d> points;
   for (int n = 0; n < 4000; ++n) {
     const Items items(load, around.point_m, random_rotation(random));
@@ -229,7 +229,7 @@ TEST(AroundItems, OfTheCraneIsNearlyTheSmallestInVolume) {
   const CGAL::Approximate_min_ellipsoid_d<Traits> smallest(kTolerance, points.begin(), points.end());
   ASSERT_TRUE(smallest.is_full_dimensional());
   // {x : x' M x + 2 m x + mu <= (1 + eps) 7}, CGAL's representation of what contains the points.
-  Matrix6 m;
+  Shape6 m;
   Vector6<double> half;
   for (int i = 0; i < 6; ++i) {
     half(i) = 0.5 * smallest.defining_vector(i);
@@ -245,7 +245,7 @@ TEST(AroundItems, OfTheCraneIsNearlyTheSmallestInVolume) {
 }
 
 TEST(AroundItems, ContainsManyLoadCases) {
-  Random random(4);
+  Engine random(4);
   LoadText load = crane_load();
   LoadCases cases;
   for (int j = 0; j < 64; ++j) {

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-const std::string kCases = std::string(TAUT_SOURCE_DIR) + "/cases/";
+const std::string kCaseFolder = std::string(TAUT_SOURCE_DIR) + "/cases/";
 
 /// A good case, each of whose sections a test may replace.
 struct Sections {
@@ -129,7 +129,7 @@ TEST(CaseFile, ShortensWhatItShowsToWholeCharacters) {
 }
 
 TEST(CaseFile, ReadsThePapersSlice) {
-  const Case read = load_case(kCases + "robot1-slice-qs-qg.yaml");
+  const Case read = load_case(kCaseFolder + "robot1-slice-qs-qg.yaml");
   const Problem& problem = read.problem;
   EXPECT_EQ(problem.name, "robot1-slice-qs-qg");
   EXPECT_THAT(problem.robot.base_anchors_m[2], ElementsAre("-0.1905256", "-0.11", "0"));
@@ -289,7 +289,7 @@ TEST(CaseFile, AParameterThatIsNamedLikeAUnitIsAnOperand) {
 }
 
 TEST(CaseFile, ReadsThePapersSphere) {
-  const Case read = load_case(kCases + "robot2-sphere-q1-q2-q3.yaml");
+  const Case read = load_case(kCaseFolder + "robot2-sphere-q1-q2-q3.yaml");
   const Problem& problem = read.problem;
   EXPECT_THAT(problem.load.wrench, ElementsAre("0", "0", "5.886", "0", "0", "0"));
   EXPECT_EQ(problem.space.pose[2], "(zs - rs*sin(alpha2))*0.001");
@@ -304,7 +304,7 @@ TEST(CaseFile, ReadsThePapersSphere) {
 
 TEST(CaseFile, EveryCaseOfTheProjectReadsAndTellsItsStory) {
   int files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kCases)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kCaseFolder)) {
     if (entry.path().extension() != ".yaml") continue;
     ++files;
     const Case read = load_case(entry.path().string());
@@ -642,7 +642,7 @@ TEST(CaseFile, RejectsFilesThatAreNoCases) {
     expect_rejected(text, "expected");
   expect_rejected(std::string(2 << 20, ' '), "got more than");
   EXPECT_THROW((void)load_case("/nonexistent/case.yaml"), InputError);
-  EXPECT_THROW((void)load_case(kCases), InputError);
+  EXPECT_THROW((void)load_case(kCaseFolder), InputError);
 }
 
 TEST(CaseFile, IsNotBroughtDownByHostileYaml) {
@@ -671,7 +671,7 @@ TEST(CaseFile, TakesAliases) {
 }
 
 TEST(CaseFileLaws, MutatedCasesAreReadOrRejectedButNeverCrash) {
-  const std::string good = contents(kCases + "robot2-sphere-q1-q2-q3.yaml");
+  const std::string good = contents(kCaseFolder + "robot2-sphere-q1-q2-q3.yaml");
   EXPECT_TRUE(rc::check([&] {
     std::string text = good;
     for (int i = *rc::gen::inRange(1, 6); i > 0; --i) {

@@ -14,7 +14,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-using Vector = ConstraintFunctions::Vector;
+using Values = ConstraintFunctions::Vector;
 using Jacobian = ConstraintFunctions::Jacobian;
 
 /// A case in mm, with px, py, pz free, these constraints, and this first waypoint.
@@ -39,9 +39,9 @@ const std::string kSphere = "px^2 + py^2 + pz^2 - 130^2";
 
 TEST(ConstraintFunctions, EvaluateValuesAndDerivativesInSi) {
   const ConstraintFunctions c(parse(kSphere).problem);
-  Vector values;
+  Values values;
   Jacobian jacobian;
-  c.evaluate(Vector(Eigen::Vector3d(0.13, 0, 0.1)), values, jacobian);
+  c.evaluate(Values(Eigen::Vector3d(0.13, 0, 0.1)), values, jacobian);
   EXPECT_NEAR(values[0], 1e4, 1e-8);
   EXPECT_NEAR(jacobian(0, 0), 2e6 * 0.13, 1e-6);
   EXPECT_NEAR(jacobian(0, 2), 2e6 * 0.1, 1e-6);
@@ -70,10 +70,10 @@ TEST(ConstraintFunctions, RankDoesNotDependOnUnits) {
 
 TEST(ConstraintFunctions, NearestLiesOnTheConstraintsAlongTheNormals) {
   const ConstraintFunctions c(parse(kSphere).problem);
-  const auto reached = c.nearest(Vector(Eigen::Vector3d(0.03, 0.04, 0.12) * 1.02));
+  const auto reached = c.nearest(Values(Eigen::Vector3d(0.03, 0.04, 0.12) * 1.02));
   ASSERT_TRUE(reached);
-  EXPECT_LT((*reached - Vector(Eigen::Vector3d(0.03, 0.04, 0.12))).norm(), 1e-14);
-  EXPECT_FALSE(c.nearest(Vector(Eigen::Vector3d(0, 0, 0)))) << "the derivative vanishes at the centre";
+  EXPECT_LT((*reached - Values(Eigen::Vector3d(0.03, 0.04, 0.12))).norm(), 1e-14);
+  EXPECT_FALSE(c.nearest(Values(Eigen::Vector3d(0, 0, 0)))) << "the derivative vanishes at the centre";
 }
 
 TEST(QueryOnConstraints, AcceptsWaypointsTypedWithFewDigits) {

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 
 #include "base/input_error.h"
 #include "case/case_file.h"
+#include "tests/support/binary_stl.h"
 
 namespace taut {
 namespace {
@@ -20,21 +20,6 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr const char* kObj = "v 0 0 0\nv 1000 0 0\nv 0 2000 0\nv 0 0 3000\nf 1 2 3\nf 1 2 4\n";
-
-/// A binary STL file that says it holds `count` triangles and holds these corners.
-std::string binary_stl(std::uint32_t count, const std::vector<float>& corners) {
-  std::string text(80, ' ');
-  const auto append = [&](std::uint32_t bits, int bytes) {
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>((bits >> (8 * i)) & 0xff);
-  };
-  append(count, 4);
-  for (std::size_t i = 0; i < corners.size(); i += 9) {
-    for (int k = 0; k < 3; ++k) append(0, 4);  // the normal
-    for (std::size_t k = 0; k < 9; ++k) append(std::bit_cast<std::uint32_t>(corners[i + k]), 4);
-    append(0, 2);
-  }
-  return text;
-}
 
 class DecorationOfACase : public ::testing::Test {
  protected:
@@ -96,7 +81,7 @@ TEST_F(DecorationOfACase, AnglesTurnInTheOrderOfRollPitchYaw) {
 
 TEST_F(DecorationOfACase, MayBeStlOfEitherKindOrPly) {
   const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  write("binary.stl", binary_stl(2, corners));
+  write("binary.stl", testing::binary_stl(2, corners));
   write("text.STL",
         "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
         "endsolid x\n");
@@ -112,9 +97,9 @@ TEST_F(DecorationOfACase, IsRefusedWhereItIsNoMesh) {
   write("frame.obj", kObj);
   write("empty.obj", "");
   write("words.stl", "solid but no more");
-  write("cut.stl", binary_stl(3, std::vector<float>(18, 1.0F)));
-  write("huge.stl", binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)));
-  write("nan.stl", binary_stl(1, std::vector<float>(9, std::numeric_limits<float>::quiet_NaN())));
+  write("cut.stl", testing::binary_stl(3, std::vector<float>(18, 1.0F)));
+  write("huge.stl", testing::binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)));
+  write("nan.stl", testing::binary_stl(1, std::vector<float>(9, std::numeric_limits<float>::quiet_NaN())));
   write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   write("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n");
   std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

@@ -24,7 +24,7 @@ using ::testing::ThrowsMessage;
 constexpr const char* kUnits = "units: {length: m, force: kN, moment: kN*m, mass: t, angle: deg, time: s}\n";
 
 /// A portal crane whose load, from line 7 on, is `load`.
-std::string crane(const std::string& load, const std::string& rest = "") {
+std::string loaded_crane(const std::string& load, const std::string& rest = "") {
   return std::string("taut: 1\nname: crane\n") + kUnits +
          "robot:\n"
          "  {base_anchors: [[15, 10, 15], [15, 10, 15], [-15, 10, 15], [-15, 10, 15], [0, -10, 15], [0, -10, 15]], "
@@ -36,8 +36,10 @@ std::string crane(const std::string& load, const std::string& rest = "") {
 const std::string kGravity = "load:\n  gravity: [0, 0, -9.81 m/s^2]\n  items:\n";
 const std::string kPlatform = "    - {name: platform, mass: 8}\n";
 
-LoadText read(const std::string& items) { return parse_case(crane(kGravity + items), "crane.yaml").problem.load; }
-LoadText read_with_platform(const std::string& item) { return read(kPlatform + "    - " + item + "\n"); }
+LoadText load_of(const std::string& items) {
+  return parse_case(loaded_crane(kGravity + items), "crane.yaml").problem.load;
+}
+LoadText read_with_platform(const std::string& item) { return load_of(kPlatform + "    - " + item + "\n"); }
 
 template <class What>
 const What& get(const LoadText& load, std::size_t k) {
@@ -45,7 +47,7 @@ const What& get(const LoadText& load, std::size_t k) {
 }
 
 TEST(LoadItems, OfTheExampleCraneAreExact) {
-  const LoadText load = read(
+  const LoadText load = load_of(
       "    - {name: platform, mass: 8, at: [0, 0, 0]}\n"
       "    - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}\n"
       "    - {name: wind, force: 6, direction: horizontal, at: [0, 0, -1]}\n");
@@ -59,14 +61,15 @@ TEST(LoadItems, OfTheExampleCraneAreExact) {
 }
 
 TEST(LoadItems, HaveMassesByToleranceOrByRange) {
-  EXPECT_EQ(get<Weight>(read("    - {name: a, mass: 12 t, mass_tolerance: 240 kg}\n"), 0).mass_lower, "11760");
-  EXPECT_EQ(get<Weight>(read("    - {name: a, mass: [0, 1/3]}\n"), 0).mass_upper, "1000/3");
-  EXPECT_EQ(get<Weight>(read("    - {name: a, mass: 1/6^2 t}\n"), 0).mass_lower, "250/9");
+  EXPECT_EQ(get<Weight>(load_of("    - {name: a, mass: 12 t, mass_tolerance: 240 kg}\n"), 0).mass_lower, "11760");
+  EXPECT_EQ(get<Weight>(load_of("    - {name: a, mass: [0, 1/3]}\n"), 0).mass_upper, "1000/3");
+  EXPECT_EQ(get<Weight>(load_of("    - {name: a, mass: 1/6^2 t}\n"), 0).mass_lower, "250/9");
 }
 
 TEST(LoadItems, ActAtTheLoadPointUnlessTheySayWhere) {
   const LoadText load =
-      parse_case(crane("load:\n  point: [0, 0, -0.5]\n  gravity: [0, 0, -9.81]\n  items: [{name: a, mass: 1}]\n"), "c")
+      parse_case(
+          loaded_crane("load:\n  point: [0, 0, -0.5]\n  gravity: [0, 0, -9.81]\n  items: [{name: a, mass: 1}]\n"), "c")
           .problem.load;
   EXPECT_THAT(get<Weight>(load, 0).at, ElementsAre("0", "0", "-0.5"));
 }
@@ -106,7 +109,7 @@ TEST(LoadItems, OfWindAreItsPressureOnTheArea) {
 }
 
 TEST(LoadItems, OfAnAccelerationActOnEveryMassWhereverItStands) {
-  const LoadText load = read(
+  const LoadText load = load_of(
       "    - {name: swing, acceleration: 0.2 m/s^2}\n"
       "    - {name: platform, mass: 8}\n"
       "    - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}\n");
@@ -151,14 +154,15 @@ TEST(LoadItems, MayIncludeOneEllipsoid) {
 
 TEST(LoadItems, AreReadBackFromTheirJson) {
   const Problem problem =
-      parse_case(crane(kGravity +
+      parse_case(
+          loaded_crane(kGravity +
                        "    - {name: platform, mass: [8, 25/3], at_tolerance: 1 cm}\n"
                        "    - {name: wind, force: 6, direction: horizontal}\n"
                        "    - {name: any, moment: 1, direction: any, axes: P}\n"
                        "    - {name: tool, force_box: [[-1, 1], [-1, 1], [0, 2]], axes: P}\n"
                        "    - {name: cases, wrenches: [[0, 0, -1, 0, 0, 0], [1, 0, -1, 0, 0, 2]]}\n"
                        "    - {name: e, wrench: [0, 0, -1, 0, 0, 0], ellipsoid: {semi_axes: [3, 3, 3, 1, 1, 1]}}\n"),
-                 "crane.yaml")
+          "crane.yaml")
           .problem;
   const nlohmann::json written = to_json(problem);
   const Problem again = problem_from_json(written);
@@ -209,7 +213,7 @@ TEST(LoadItems, OfEveryKindMakeOneLoad) {
 
 TEST(LoadItems, LeaveTheJsonOfOtherLoadsAsItWas) {
   const Problem problem =
-      parse_case(crane("load: {wrench: [0, 0, -1, 0, 0, 0], ellipsoid: {diagonal: [4, 4, 4, 4, 4, 4]}}\n"), "c")
+      parse_case(loaded_crane("load: {wrench: [0, 0, -1, 0, 0, 0], ellipsoid: {diagonal: [4, 4, 4, 4, 4, 4]}}\n"), "c")
           .problem;
   const nlohmann::json load = to_json(problem)["load"];
   EXPECT_EQ(load.size(), 3U);
@@ -222,7 +226,7 @@ RC_GTEST_PROP(LoadItems, ConvertExactly, ()) {
   const long below = *rc::gen::inRange<long>(1, 1'000);
   const long percent = *rc::gen::inRange<long>(0, 101);
   const LoadText load =
-      read(fmt::format("    - {{name: a, mass: {}/{} kg, mass_tolerance: {} %}}\n", whole, below, percent));
+      load_of(fmt::format("    - {{name: a, mass: {}/{} kg, mass_tolerance: {} %}}\n", whole, below, percent));
   const Rational mass(whole, below);
   const Rational deviation = mass * Rational(percent, 100);
   RC_ASSERT(parse_rational(get<Weight>(load, 0).mass_lower) == mass - deviation);
@@ -234,7 +238,7 @@ RC_GTEST_PROP(LoadItems, ConvertExactly, ()) {
             Rational(5, 8) * Rational(whole, 10'000) * speed * speed);
 }
 
-void expect_rejected(const std::string& text, const std::string& message) {
+void expect_load_rejected(const std::string& text, const std::string& message) {
   EXPECT_THAT([&] { (void)parse_case(text, "crane.yaml"); },
               ThrowsMessage<InputError>(AllOf(StartsWith("crane.yaml"), HasSubstr(message))))
       << text;
@@ -296,55 +300,63 @@ TEST(LoadItems, AreRefusedWithPlaceNameAndValue) {
       {"{name: " + std::string(101, 'a') + ", mass: 3}", "expected a name of 1 to 100 characters"},
   };
   for (const auto& [item, message] : mistakes) {
-    expect_rejected(crane(kGravity + kPlatform + "    - " + item + "\n"), message);
+    expect_load_rejected(loaded_crane(kGravity + kPlatform + "    - " + item + "\n"), message);
   }
 }
 
 TEST(LoadItems, AreRefusedWhereTheWholeIsNoLoad) {
-  expect_rejected(crane("load: {items: [{name: a, mass: 3}]}\n"), "expected gravity, such as");
-  expect_rejected(crane("load: {items: [{name: wind, force: 6, direction: horizontal}]}\n"),
-                  "got a load whose nominal force is zero, expected a weight");
-  expect_rejected(crane("load: {gravity: [0, 0, -9.81], items: [{name: wind, force: 6, direction: horizontal}]}\n"),
-                  "got a load whose nominal force is zero");
-  expect_rejected(crane("load: {gravity: [0, 0, -9.81], items: [{name: s, acceleration: 1}]}\n"),
-                  "no item with a mass");
-  expect_rejected(crane("load: {gravity: [0, 0, -9.81], mass: 3, items: [{name: a, mass: 3}]}\n"), "beside 'items'");
+  expect_load_rejected(loaded_crane("load: {items: [{name: a, mass: 3}]}\n"), "expected gravity, such as");
+  expect_load_rejected(loaded_crane("load: {items: [{name: wind, force: 6, direction: horizontal}]}\n"),
+                       "got a load whose nominal force is zero, expected a weight");
+  expect_load_rejected(
+      loaded_crane("load: {gravity: [0, 0, -9.81], items: [{name: wind, force: 6, direction: horizontal}]}\n"),
+      "got a load whose nominal force is zero");
+  expect_load_rejected(loaded_crane("load: {gravity: [0, 0, -9.81], items: [{name: s, acceleration: 1}]}\n"),
+                       "no item with a mass");
+  expect_load_rejected(loaded_crane("load: {gravity: [0, 0, -9.81], mass: 3, items: [{name: a, mass: 3}]}\n"),
+                       "beside 'items'");
   const std::string sphere = "ellipsoid: {semi_axes: [1, 1, 1, 1, 1, 1]}";
-  expect_rejected(crane("load: {wrench: [0, 0, 0, 0, 0, 0], " + sphere + "}\n"),
-                  "load.wrench: got [0, 0, 0, 0, 0, 0], expected a load that keeps the cables taut");
-  expect_rejected(crane("load: {mass: 3, gravity: [0, 0, 0], " + sphere + "}\n"),
-                  "load.gravity: got [0, 0, 0], expected a load that keeps the cables taut");
-  expect_rejected(crane("load: {mass: -3, gravity: [0, 0, -9.81], " + sphere + "}\n"),
-                  "load.mass: got '-3', expected a mass above zero");
-  expect_rejected(crane("load: {gravity: [0, 0, 9.81], items: [{name: a, mass: 3}, {name: b, force: [50, 60], "
-                        "direction: [0, 0, -1]}]}\n"),
-                  "got a nominal force of -2.557e+04 N along gravity, expected a downward load");
-  expect_rejected(crane("load: {gravity: [0, 0, -9.81], mass: 3, ellipsoid: around_items}\n"),
-                  "load.ellipsoid: got 'around_items' without 'items', expected items, or E itself");
+  expect_load_rejected(loaded_crane("load: {wrench: [0, 0, 0, 0, 0, 0], " + sphere + "}\n"),
+                       "load.wrench: got [0, 0, 0, 0, 0, 0], expected a load that keeps the cables taut");
+  expect_load_rejected(loaded_crane("load: {mass: 3, gravity: [0, 0, 0], " + sphere + "}\n"),
+                       "load.gravity: got [0, 0, 0], expected a load that keeps the cables taut");
+  expect_load_rejected(loaded_crane("load: {mass: -3, gravity: [0, 0, -9.81], " + sphere + "}\n"),
+                       "load.mass: got '-3', expected a mass above zero");
+  expect_load_rejected(
+      loaded_crane("load: {gravity: [0, 0, 9.81], items: [{name: a, mass: 3}, {name: b, force: [50, 60], "
+                   "direction: [0, 0, -1]}]}\n"),
+      "got a nominal force of -2.557e+04 N along gravity, expected a downward load");
+  expect_load_rejected(loaded_crane("load: {gravity: [0, 0, -9.81], mass: 3, ellipsoid: around_items}\n"),
+                       "load.ellipsoid: got 'around_items' without 'items', expected items, or E itself");
   const std::string around = "load:\n  gravity: [0, 0, -9.81]\n  ellipsoid: around_items\n";
-  expect_rejected(crane(around), "got neither of 'wrench' and 'mass', expected one of them, or 'items'");
-  expect_rejected(crane(around + "  wrench: [0, 0, 1, 0, 0, 0]\n  items:\n" + kPlatform),
-                  "load.wrench: got a wrench beside 'ellipsoid: around_items', expected it as one of the items");
-  expect_rejected(
-      crane(around + "  items:\n" + kPlatform + "    - {name: e, wrench: [0, 0, -1, 0, 0, 0], " + sphere + "}\n"),
+  expect_load_rejected(loaded_crane(around), "got neither of 'wrench' and 'mass', expected one of them, or 'items'");
+  expect_load_rejected(loaded_crane(around + "  wrench: [0, 0, 1, 0, 0, 0]\n  items:\n" + kPlatform),
+                       "load.wrench: got a wrench beside 'ellipsoid: around_items', expected it as one of the items");
+  expect_load_rejected(
+      loaded_crane(around + "  items:\n" + kPlatform + "    - {name: e, wrench: [0, 0, -1, 0, 0, 0], " + sphere +
+                   "}\n"),
       "load.ellipsoid: got 'around_items' and an item that is an ellipsoid, expected one or the other");
-  expect_rejected(crane(around + "  items:\n    - {name: a, mass: 3, mass_tolerance: 4}\n"), "load.items[a]");
-  expect_rejected(crane(around + "  items:\n    - {name: wind, force: 6, direction: horizontal}\n"),
-                  "got a load whose nominal force is zero");
-  expect_rejected(crane("load: {gravity: [0, 0, -9.81], ellipsoid: arround_items, items: [{name: a, mass: 3}]}\n"),
-                  "load.ellipsoid: got 'arround_items', expected");
-  expect_rejected(crane("load: {items: []}\n"), "load.items: got [], expected a list of items");
-  expect_rejected(crane(kGravity + kPlatform, "tolerances: {mass: 1}\n"), "got a tolerance of a load that has items");
-  expect_rejected(crane(kGravity + kPlatform, "tolerances: {load_point: 1}\n"), "'mass_tolerance' or 'at_tolerance'");
+  expect_load_rejected(loaded_crane(around + "  items:\n    - {name: a, mass: 3, mass_tolerance: 4}\n"),
+                       "load.items[a]");
+  expect_load_rejected(loaded_crane(around + "  items:\n    - {name: wind, force: 6, direction: horizontal}\n"),
+                       "got a load whose nominal force is zero");
+  expect_load_rejected(
+      loaded_crane("load: {gravity: [0, 0, -9.81], ellipsoid: arround_items, items: [{name: a, mass: 3}]}\n"),
+      "load.ellipsoid: got 'arround_items', expected");
+  expect_load_rejected(loaded_crane("load: {items: []}\n"), "load.items: got [], expected a list of items");
+  expect_load_rejected(loaded_crane(kGravity + kPlatform, "tolerances: {mass: 1}\n"),
+                       "got a tolerance of a load that has items");
+  expect_load_rejected(loaded_crane(kGravity + kPlatform, "tolerances: {load_point: 1}\n"),
+                       "'mass_tolerance' or 'at_tolerance'");
 }
 
 TEST(LoadItems, MayBeReplacedByAnEllipsoidAroundThem) {
   const std::string items =
       kPlatform + "    - {name: payload, mass: 12, mass_tolerance: 2 %, at: [0, 0, -1.2], at_tolerance: 50 mm}\n";
-  const Case plain = parse_case(crane(kGravity + items), "crane.yaml");
+  const Case plain = parse_case(loaded_crane(kGravity + items), "crane.yaml");
   EXPECT_FALSE(plain.items_in_ellipsoid);
-  const Case around =
-      parse_case(crane("load:\n  gravity: [0, 0, -9.81]\n  ellipsoid: around_items\n  items:\n" + items), "crane.yaml");
+  const Case around = parse_case(
+      loaded_crane("load:\n  gravity: [0, 0, -9.81]\n  ellipsoid: around_items\n  items:\n" + items), "crane.yaml");
   ASSERT_TRUE(around.items_in_ellipsoid);
   EXPECT_EQ(to_json(*around.items_in_ellipsoid), to_json(plain.problem.load));
   EXPECT_TRUE(around.problem.load.items.empty());
@@ -355,17 +367,18 @@ TEST(LoadItems, MayBeReplacedByAnEllipsoidAroundThem) {
 
 TEST(LoadItems, StateTolerancesInTheSingularToo) {
   const Problem problem =
-      parse_case(crane(kGravity + kPlatform, "tolerances: {base_anchor: 10 mm, platform_anchors: 5 mm}\n"), "c")
+      parse_case(loaded_crane(kGravity + kPlatform, "tolerances: {base_anchor: 10 mm, platform_anchors: 5 mm}\n"), "c")
           .problem;
   EXPECT_EQ(problem.tolerances->base_anchor_m[5], "0.01");
   EXPECT_EQ(problem.tolerances->platform_anchor_m[0], "0.005");
-  expect_rejected(crane(kGravity + kPlatform, "tolerances: {base_anchor: 10 mm, base_anchors: 5 mm}\n"), "got both of");
-  expect_rejected(crane(kGravity + kPlatform, "tolerances: {base_anchor: [0, 0, 0, 0, 0, -1]}\n"),
-                  "crane.yaml:11:43: tolerances.base_anchors[5]: got '-1', expected a tolerance >= 0");
+  expect_load_rejected(loaded_crane(kGravity + kPlatform, "tolerances: {base_anchor: 10 mm, base_anchors: 5 mm}\n"),
+                       "got both of");
+  expect_load_rejected(loaded_crane(kGravity + kPlatform, "tolerances: {base_anchor: [0, 0, 0, 0, 0, -1]}\n"),
+                       "crane.yaml:11:43: tolerances.base_anchors[5]: got '-1', expected a tolerance >= 0");
 }
 
 TEST(Case, WarnsOfADiagonalThatLooksLikeSemiAxes) {
-  const auto warnings = [](const std::string& load) { return parse_case(crane(load), "crane.yaml").warnings; };
+  const auto warnings = [](const std::string& load) { return parse_case(loaded_crane(load), "crane.yaml").warnings; };
   const std::string w0 = "wrench: [0, 0, -200, 0, 0, 0], ";
   EXPECT_THAT(warnings("load: {" + w0 + "ellipsoid: {diagonal: [6, 6, 1, 3, 3, 1]}}\n"),
               ElementsAre(AllOf(HasSubstr("crane.yaml:7:61: load.ellipsoid.diagonal"), HasSubstr("by only 0.408"),

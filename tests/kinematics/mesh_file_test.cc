@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "base/input_error.h"
+#include "tests/support/binary_stl.h"
 
 namespace taut {
 namespace {
@@ -144,21 +144,6 @@ class MeshFiles : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A binary STL file that says it holds `count` triangles and holds these corners.
-std::string binary_stl(std::uint32_t count, const std::vector<float>& corners) {
-  std::string text(80, ' ');
-  const auto append = [&](std::uint32_t bits, int bytes) {
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>((bits >> (8 * i)) & 0xff);
-  };
-  append(count, 4);
-  for (std::size_t i = 0; i < corners.size(); i += 9) {
-    for (int k = 0; k < 3; ++k) append(0, 4);  // the normal
-    for (std::size_t k = 0; k < 9; ++k) append(std::bit_cast<std::uint32_t>(corners[i + k]), 4);
-    append(0, 2);
-  }
-  return text;
-}
-
 std::string stl_of_tetrahedron() {
   std::vector<float> corners;
   for (const auto& face : kTetrahedron.faces) {
@@ -166,7 +151,7 @@ std::string stl_of_tetrahedron() {
       for (const double x : kTetrahedron.points[i]) corners.push_back(static_cast<float>(x) * 0.1F);
     }
   }
-  return binary_stl(4, corners);
+  return testing::binary_stl(4, corners);
 }
 
 TEST_F(MeshFiles, OfAllKindsHoldTheSameTetrahedron) {
@@ -226,11 +211,12 @@ TEST_F(MeshFiles, ThatAreNoMeshesAreRejected) {
   expect_rejected("empty.stl", "", "which is no whole stl file");
   expect_rejected("empty.obj", "", "expected a mesh");
   expect_rejected("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "which is no whole obj file");
-  expect_rejected("cut.stl", binary_stl(3, std::vector<float>(18, 1.0F)), "which is no whole stl file");
-  expect_rejected("lie.stl", binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)), "which is no whole stl file");
-  expect_rejected("nan.stl", binary_stl(1, std::vector<float>(9, kNan)), "is no number");
+  expect_rejected("cut.stl", testing::binary_stl(3, std::vector<float>(18, 1.0F)), "which is no whole stl file");
+  expect_rejected("lie.stl", testing::binary_stl(4'000'000'000U, std::vector<float>(9, 1.0F)),
+                  "which is no whole stl file");
+  expect_rejected("nan.stl", testing::binary_stl(1, std::vector<float>(9, kNan)), "is no number");
   expect_rejected("negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "expected a mesh");
-  expect_rejected("inf.stl", binary_stl(1, std::vector<float>(9, 1 / 0.0F)), "is no number");
+  expect_rejected("inf.stl", testing::binary_stl(1, std::vector<float>(9, 1 / 0.0F)), "is no number");
   expect_rejected("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "expected a mesh");
   expect_rejected("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "expected a mesh");
   expect_rejected("far.obj", "v 0 0 0\nv 2e9 0 0\nv 0 1 0\nf 1 2 3\n", "point 2 is farther away than 1e+09");
@@ -251,9 +237,9 @@ TEST_F(MeshFiles, OfWhichCgalWouldLoseAPartAreRejected) {
   expect_rejected("curved.obj", points + "f 1 2 3\nsurf 0 1 0 1 1 2 3 4\n", "a curved surface in line 6");
   // One corner of the second triangle is no number.
   std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0};
-  EXPECT_EQ(load("good.stl", binary_stl(2, corners)).mesh.triangles.size(), 2U);
+  EXPECT_EQ(load("good.stl", testing::binary_stl(2, corners)).mesh.triangles.size(), 2U);
   corners[10] = std::numeric_limits<float>::quiet_NaN();
-  expect_rejected("nan.stl", binary_stl(2, corners), "a coordinate of triangle 2 is no number");
+  expect_rejected("nan.stl", testing::binary_stl(2, corners), "a coordinate of triangle 2 is no number");
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
   std::string other = facet;

@@ -21,7 +21,7 @@ Matrix3<double> rotation_of(const TiltAndTorsion& angles) {
   return rotation<double>(angles.value(0), angles.value(1), angles.value(2));
 }
 
-class Random {
+class RandomPoses {
  public:
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   TiltedPose pose() {
@@ -34,7 +34,7 @@ class Random {
 };
 
 TEST(PoseConversion, QuaternionsAreTheRotationOfTheAngles) {
-  Random random;
+  RandomPoses random;
   for (int trial = 0; trial < 1000; ++trial) {
     const TiltedPose pose = random.pose();
     const Matrix3<double> expected = rotation(pose.phi, pose.theta, pose.sigma);
@@ -43,7 +43,7 @@ TEST(PoseConversion, QuaternionsAreTheRotationOfTheAngles) {
 }
 
 TEST(PoseConversion, AnglesAreThoseOfTheQuaternionNextToThePrevious) {
-  Random random;
+  RandomPoses random;
   for (int trial = 0; trial < 1000; ++trial) {
     const TiltedPose pose = random.pose();
     const Eigen::Quaterniond q = rigid_pose(pose).q;
